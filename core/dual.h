@@ -1,0 +1,184 @@
+// DualNumber<T, N>: a value with N directional derivatives, nesting over itself and over multiprecision.
+//
+// One type serves Jacobians (N = 8), time derivatives of constraints (N = 1) and both nested. Eigen's
+// AutoDiffScalar cannot: nested over a multiprecision number it rejects `double` operands, and its
+// abs() mixes int with the scalar. No expression templates: `auto` is safe in a user's residual.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace irk {
+
+template <class T, int N>
+struct DualNumber {
+  T value;
+  std::array<T, N> d;  ///< directional derivatives
+
+  DualNumber() : value(0), d{} {}
+  DualNumber(const T& v) : value(v), d{} {}  // NOLINT: a number is a constant
+  template <class S>
+    requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>)
+  DualNumber(S s) : value(static_cast<double>(s)), d{} {}  // NOLINT
+  DualNumber(T v, T rate)
+    requires(N == 1)
+      : value(std::move(v)), d{std::move(rate)} {}
+
+  /// f(x) with f' = slope.
+  DualNumber chain(const T& f, const T& slope) const {
+    DualNumber r(f);
+    for (int i = 0; i < N; ++i) r.d[i] = slope * d[i];
+    return r;
+  }
+  template <class S>
+  DualNumber scaled(const S& s) const {
+    DualNumber r(T(value * s));
+    for (int i = 0; i < N; ++i) r.d[i] = d[i] * s;
+    return r;
+  }
+
+  DualNumber& operator+=(const DualNumber& b) { return *this = *this + b; }
+  DualNumber& operator-=(const DualNumber& b) { return *this = *this - b; }
+  DualNumber& operator*=(const DualNumber& b) { return *this = *this * b; }
+  DualNumber& operator/=(const DualNumber& b) { return *this = *this / b; }
+
+  friend DualNumber operator+(const DualNumber& a, const DualNumber& b) {
+    DualNumber r(T(a.value + b.value));
+    for (int i = 0; i < N; ++i) r.d[i] = a.d[i] + b.d[i];
+    return r;
+  }
+  friend DualNumber operator-(const DualNumber& a, const DualNumber& b) {
+    DualNumber r(T(a.value - b.value));
+    for (int i = 0; i < N; ++i) r.d[i] = a.d[i] - b.d[i];
+    return r;
+  }
+  friend DualNumber operator-(const DualNumber& a) {
+    DualNumber r(T(-a.value));
+    for (int i = 0; i < N; ++i) r.d[i] = -a.d[i];
+    return r;
+  }
+  friend DualNumber operator*(const DualNumber& a, const DualNumber& b) {
+    DualNumber r(T(a.value * b.value));
+    for (int i = 0; i < N; ++i) r.d[i] = a.d[i] * b.value + a.value * b.d[i];
+    return r;
+  }
+  friend DualNumber operator/(const DualNumber& a, const DualNumber& b) {
+    const T inverse = T(1) / b.value;
+    DualNumber r(T(a.value * inverse));
+    for (int i = 0; i < N; ++i) r.d[i] = (a.d[i] - r.value * b.d[i]) * inverse;
+    return r;
+  }
+
+  // A constant operand costs no derivative arithmetic. Ints and doubles mix with any T.
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator*(S s, const DualNumber& a) {
+    return a.scaled(static_cast<double>(s));
+  }
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator*(const DualNumber& a, S s) {
+    return a.scaled(static_cast<double>(s));
+  }
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator/(const DualNumber& a, S s) {
+    return a.chain(T(a.value / static_cast<double>(s)), T(T(1) / static_cast<double>(s)));
+  }
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator+(const DualNumber& a, S s) {
+    DualNumber r(a);
+    r.value += static_cast<double>(s);
+    return r;
+  }
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator+(S s, const DualNumber& a) {
+    return a + s;
+  }
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator-(const DualNumber& a, S s) {
+    return a + (-static_cast<double>(s));
+  }
+  template <class S>
+    requires std::is_arithmetic_v<S>
+  friend DualNumber operator-(S s, const DualNumber& a) {
+    return -a + s;
+  }
+
+  // Comparisons are those of the values: derivatives follow the branch that the value takes.
+  friend bool operator<(const DualNumber& a, const DualNumber& b) { return a.value < b.value; }
+  friend bool operator>(const DualNumber& a, const DualNumber& b) { return b.value < a.value; }
+  friend bool operator<=(const DualNumber& a, const DualNumber& b) { return a.value <= b.value; }
+  friend bool operator>=(const DualNumber& a, const DualNumber& b) { return b.value <= a.value; }
+  friend bool operator==(const DualNumber& a, const DualNumber& b) { return a.value == b.value; }
+
+  friend DualNumber abs(const DualNumber& a) { return a.value < T(0) ? -a : a; }
+  friend DualNumber sqrt(const DualNumber& a) {
+    using std::sqrt;
+    const T s = sqrt(a.value);
+    return a.chain(s, T(T(0.5) / s));
+  }
+  friend DualNumber sin(const DualNumber& a) {
+    using std::cos;
+    using std::sin;
+    return a.chain(T(sin(a.value)), T(cos(a.value)));
+  }
+  friend DualNumber cos(const DualNumber& a) {
+    using std::cos;
+    using std::sin;
+    return a.chain(T(cos(a.value)), T(-sin(a.value)));
+  }
+  friend DualNumber exp(const DualNumber& a) {
+    using std::exp;
+    const T e = exp(a.value);
+    return a.chain(e, e);
+  }
+  friend DualNumber log(const DualNumber& a) {
+    using std::log;
+    return a.chain(T(log(a.value)), T(T(1) / a.value));
+  }
+  friend DualNumber tanh(const DualNumber& a) {
+    using std::tanh;
+    const T y = tanh(a.value);
+    return a.chain(y, T(T(1) - y * y));
+  }
+};
+
+/// Directions that one dual evaluation carries; a Jacobian with more columns takes several chunks.
+inline constexpr int kChunk = 8;
+
+/// First-order dual number with kChunk directions: exact derivatives of a templated function.
+template <class Real>
+using Dual = DualNumber<Real, kChunk>;
+
+/// A value and its time derivative.
+template <class T>
+using Rate = DualNumber<T, 1>;
+
+/// The number below all derivatives, as a double: for branches and messages.
+inline double valueOf(double x) { return x; }
+template <class T, int N>
+double valueOf(const DualNumber<T, N>& x) {
+  return valueOf(x.value);
+}
+template <class T>
+  requires(!std::is_arithmetic_v<T>)
+double valueOf(const T& x) {
+  return static_cast<double>(x);
+}
+
+}  // namespace irk
+
+namespace Eigen {
+template <class T, int N>
+struct NumTraits<irk::DualNumber<T, N>> : GenericNumTraits<irk::DualNumber<T, N>> {
+  enum { RequireInitialization = 1, ReadCost = N + 1, AddCost = N + 1, MulCost = 2 * N + 1 };
+};
+}  // namespace Eigen

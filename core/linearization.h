@@ -1,0 +1,85 @@
+// D0 = dr/d(a,k,z), D1 = dr/d(v,x,.), D2 = dr/d(u,.,.) and where they come from.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/system.h"
+
+namespace irk {
+
+/// Compressed columns shared by D0, D1 and D2 (the union of their patterns), so that
+/// D0 + mu D1 + mu^2 D2 is one combination of three value arrays. A full pattern is the dense case:
+/// its value array is the column-major n x n matrix itself.
+struct Pattern {
+  Index n = 0;
+  bool full = true;
+  std::vector<int> column_start;  ///< n + 1
+  std::vector<int> row;           ///< column_start[n]
+
+  static std::shared_ptr<const Pattern> dense(Index n);
+  Index nonzeros() const { return static_cast<Index>(row.size()); }
+};
+
+/// The three matrices at one point, values in the order of the pattern.
+template <class Real>
+struct Linearization {
+  std::shared_ptr<const Pattern> pattern;
+  Vec<Real> d0, d1, d2;
+
+  explicit Linearization(std::shared_ptr<const Pattern> p)
+      : pattern(std::move(p)),
+        d0(Vec<Real>::Zero(pattern->nonzeros())),
+        d1(d0),
+        d2(d0) {}
+  using DenseView = Eigen::Map<const Mat<Real>>;
+  /// n x n views; the pattern must be full.
+  DenseView dense0() const { return {d0.data(), pattern->n, pattern->n}; }
+  DenseView dense1() const { return {d1.data(), pattern->n, pattern->n}; }
+  DenseView dense2() const { return {d2.data(), pattern->n, pattern->n}; }
+};
+
+enum class DerivativeSource { kAutomatic, kCentral, kForward };
+
+/// Evaluates a Linearization. Owns scratch: one per thread. Allocates only in its constructor.
+template <class Real>
+class Differentiator {
+ public:
+  /// `scales` (u, v, x, z as in State; may be empty): typical magnitudes for difference increments
+  /// delta = eps^(1/2 or 1/3) max(|y|, scale); 1 where empty.
+  Differentiator(const System<Real>& system, DerivativeSource source);
+
+  /// All three matrices at p; the pattern of `out` must be full (dense) here.
+  void evaluate(Level level, const Point<Real>& p, Linearization<Real>& out);
+
+  /// Residual evaluations and dual evaluations that one call costs.
+  Index evaluations() const { return evaluations_; }
+
+ private:
+  struct Direction {
+    int matrix;    // 0, 1, 2: which D the column belongs to
+    Index column;  // in 0..n-1
+  };
+  template <class T>
+  struct Buffers {  // v, x, u, a, k, z of one evaluation
+    Vec<T> u, v, x, w, r;
+    explicit Buffers(const Sizes& n);
+    Point<T> point(const Sizes& n, const T& t) const;
+    /// The component that a direction perturbs.
+    T& component(const Direction& d, const Sizes& n);
+  };
+  void evaluateDual(Level level, const Point<Real>& p, Linearization<Real>& out);
+  void evaluateDifferences(Level level, const Point<Real>& p, Linearization<Real>& out);
+  void store(const Direction& d, Index row, const Real& value, Linearization<Real>& out) const;
+
+  const System<Real>& system_;
+  DerivativeSource source_;
+  Sizes sizes_;
+  std::vector<Direction> directions_;
+  Buffers<Dual<Real>> dual_;
+  Buffers<Real> real_;
+  Vec<Real> base_;
+  Index evaluations_ = 0;
+};
+
+}  // namespace irk

@@ -1,0 +1,87 @@
+// The one equation: r(t; u, v, x; a, k, z) = 0 with v = u', a = u'', k = x'.
+#pragma once
+
+#include <vector>
+
+#include "core/scalar.h"
+
+namespace irk {
+
+/// Numbers of unknowns: nu second-order, nx first-order, nz algebraic. The residual has n rows,
+/// ordered like the stage unknown w = (a, k, z).
+struct Sizes {
+  Index nu = 0;
+  Index nx = 0;
+  Index nz = 0;
+  /// How many of the nz algebraic unknowns are multipliers of position constraints g(t, u) = 0.
+  /// They come first in z.
+  Index constraints = 0;
+
+  Index n() const { return nu + nx + nz; }
+  /// Components of the state (u, v, x, z).
+  Index components() const { return 2 * nu + nx + nz; }
+};
+
+/// Where the residual is evaluated. Views: the caller owns the numbers, nothing is copied.
+template <class T>
+struct Point {
+  T t;
+  ConstVec<T> u, v, x;
+  ConstVec<T> a, k, z;
+};
+
+/// The state between two steps, with the last known w = (a, k, z) as start values of the next step.
+template <class Real>
+struct State {
+  Real t{};
+  Vec<Real> u, v, x;
+  Vec<Real> w;
+
+  explicit State(const Sizes& n = {})
+      : u(Vec<Real>::Zero(n.nu)),
+        v(Vec<Real>::Zero(n.nu)),
+        x(Vec<Real>::Zero(n.nx)),
+        w(Vec<Real>::Zero(n.n())) {}
+  auto a() { return w.head(u.size()); }
+  auto a() const { return w.head(u.size()); }
+  auto k() { return w.segment(u.size(), x.size()); }
+  auto k() const { return w.segment(u.size(), x.size()); }
+  auto z() { return w.tail(w.size() - u.size() - x.size()); }
+  auto z() const { return w.tail(w.size() - u.size() - x.size()); }
+};
+
+/// Which residual: the one that is integrated, or the one whose constraint rows are differentiated
+/// until they determine (a, k, z): it gives consistent initial accelerations and multipliers.
+enum class Level { kFormulated, kAcceleration };
+
+/// Per-component exponents of h. The error of a variable of index i is O(h^-(i-1)) times larger,
+/// HW II (VII.7): weights are multiplied by h^power. Sizes: nu, nu, nx, nz.
+struct ErrorPowers {
+  std::vector<int> u, v, x, z;
+};
+
+/// A system in residual form. Immutable and shared by threads: evaluation has no side effects.
+template <class Real>
+class System {
+ public:
+  virtual ~System() = default;
+
+  virtual Sizes sizes() const = 0;
+
+  /// r (n rows) at p. No aliasing between p and r. Writes every row; never throws; what cannot be
+  /// computed is NaN.
+  virtual void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const = 0;
+  virtual void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const = 0;
+
+  /// Row i of the formulated residual is multiplied by h^-power[i] (paper, section 4: 1/h for
+  /// velocity constraints; 1/h^2 for position constraints). Size n.
+  virtual const std::vector<int>& rowPowers() const = 0;
+  virtual const ErrorPowers& errorPowers() const = 0;
+
+  /// Translate between the scene's unknowns (u, v, x, z as the problem names them) and the
+  /// formulation's. Identity for all but GGL.
+  virtual State<Real> fromScene(const State<Real>& scene) const = 0;
+  virtual State<Real> toScene(const State<Real>& state) const = 0;
+};
+
+}  // namespace irk

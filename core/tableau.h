@@ -1,0 +1,31 @@
+// A method is data: the Butcher tableau of an implicit Runge-Kutta scheme.
+#pragma once
+
+#include <string>
+
+#include "core/scalar.h"
+
+namespace irk {
+
+/// A (s x s), b, c (s) with the orders that its family or file declares.
+template <class Real>
+struct Tableau {
+  std::string id;      ///< e.g. `radau_iia_5`, or the file it came from
+  std::string family;  ///< e.g. `radau_iia`; `user` for a file without one
+  Mat<Real> A;
+  Vec<Real> b, c;
+  int order = 0;        ///< classical order p
+  int stage_order = 0;  ///< q of C(q)
+
+  Index stages() const { return b.size(); }
+
+  /// Rounds every coefficient once.
+  template <class To>
+  Tableau<To> cast() const {
+    const auto round = [](const Real& x) { return static_cast<To>(x); };
+    return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round),
+            order, stage_order};
+  }
+};
+
+}  // namespace irk

@@ -1,0 +1,35 @@
+// Families of implicit Runge-Kutta schemes, any number of stages, in any precision.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/tableau.h"
+
+namespace irk {
+
+/// One family: `id` + "_" + s names its s-stage member.
+struct FamilyEntry {
+  std::string id;      ///< gauss, radau_ia, radau_iia, lobatto_iiia, ...
+  std::string title;   ///< "Radau IIA"
+  Index min_stages;    ///< 1 or 2
+  std::string order;   ///< "2s-1", for lists
+};
+
+/// All families, sorted as theory.md lists them.
+const std::vector<FamilyEntry>& familyCatalogue();
+
+/// Largest s that ids accept.
+inline constexpr Index kMaxStages = 100;
+
+/// `radau_iia_5` or the path of a tableau file. Constructed in multiprecision, rounded once to Real
+/// (double, mp50). Throws Misuse: unknown family (names the nearest), s out of range, bad file.
+template <class Real>
+Tableau<Real> makeTableau(std::string_view id_or_file);
+
+/// Classical order p and stage order q of a family's s-stage member.
+int classicalOrder(std::string_view family, Index s);
+int stageOrder(std::string_view family, Index s);
+
+}  // namespace irk
