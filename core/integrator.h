@@ -1,0 +1,64 @@
+// From a start to an end: accepted steps, their record, and how it ended.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/options.h"
+#include "core/outcome.h"
+#include "core/statistics.h"
+#include "core/system.h"
+#include "core/tableau.h"
+
+namespace irk {
+
+/// One accepted step, as an observer sees it. `state` is in the scene's unknowns (u, v, x, z).
+template <class Real>
+struct StepRecord {
+  Real t;                       ///< at the end of the step
+  double h;
+  double error;                 ///< estimate in the error norm, NaN without one
+  int newton_iterations;        ///< of the whole attempt
+  const State<Real>& state;
+};
+
+/// What the caller wants to know and to say while an integration runs. All optional.
+template <class Real>
+struct Monitor {
+  std::function<void(const StepRecord<Real>&)> accepted;
+  /// Asked before each step: kSuccess goes on; kTimeout or kInterrupted ends the run.
+  std::function<Outcome()> interrupt;
+};
+
+template <class Real>
+struct Solution {
+  Outcome outcome = Outcome::kSuccess;
+  std::string detail;  ///< for a failure: where and what, in one line
+  State<Real> state;   ///< the last accepted state, in the scene's unknowns
+  Counters counters;
+};
+
+/// One integration at a time; reusable. Allocates in its constructor, not in its steps. One per
+/// thread; the system and the tableau are shared.
+template <class Real>
+class Integrator {
+ public:
+  /// `scale`: typical magnitudes of u, v, x, z (2 nu + nx + nz); empty = 1.
+  /// Throws Misuse for illegal combinations, naming both ids and the reason: a family that cannot
+  /// treat algebraic unknowns, `eigen` with a defective A, `full` with a decoupled solver, ...
+  Integrator(std::shared_ptr<const System<Real>> system, const Tableau<Real>& tableau,
+             const IntegratorOptions& options, const Vec<double>& scale = {});
+  ~Integrator();
+  Integrator(Integrator&&) noexcept;
+
+  /// From `start` (the scene's u, v, x, z) to t_end. Returns every numerical failure as an outcome.
+  [[nodiscard]] Solution<Real> integrate(const State<Real>& start, const Real& t_end,
+                                         const Monitor<Real>& monitor = {});
+
+ private:
+  class Run;
+  std::unique_ptr<Run> run_;
+};
+
+}  // namespace irk

@@ -1,0 +1,127 @@
+#include "core/options.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/text.h"
+
+namespace irk {
+namespace {
+
+constexpr Named<Formulation> kFormulations[] = {
+    {Formulation::kIndex2, "index2", "constraints differentiated once, rows scaled by 1/h (paper)"},
+    {Formulation::kIndex3, "index3", "position constraints as they are, rows scaled by 1/h^2"}};
+constexpr Named<ConstraintScaling> kScalings[] = {
+    {ConstraintScaling::kOn, "on", "constraint rows multiplied by 1/h or 1/h^2 (paper)"},
+    {ConstraintScaling::kOff, "off", "constraint rows as they are"}};
+constexpr Named<DerivativeSource> kSources[] = {
+    {DerivativeSource::kAutomatic, "automatic", "dual numbers, exact"},
+    {DerivativeSource::kCentral, "difference_central", "central differences"},
+    {DerivativeSource::kForward, "difference_forward", "forward differences (paper)"}};
+constexpr Named<NewtonKind> kNewtons[] = {
+    {NewtonKind::kSimplified, "simplified", "increment test in the error norm, HW II (IV.8)"},
+    {NewtonKind::kModified, "modified", "the paper's, with its restart and fallback rules"},
+    {NewtonKind::kFull, "full", "a new stage-wise Jacobian in every iteration"}};
+constexpr Named<StageSolverKind> kSolvers[] = {
+    {StageSolverKind::kSchur, "schur", "real Schur form of A: s/2 complex n x n systems"},
+    {StageSolverKind::kEigen, "eigen", "eigenvectors of A: s/2 complex n x n systems, cheapest"},
+    {StageSolverKind::kCoupledDense, "coupled_dense", "one LU of the s n x s n matrix (paper)"}};
+constexpr Named<Predictor> kPredictors[] = {
+    {Predictor::kExtrapolated, "extrapolated", "collocation polynomial of the step before"},
+    {Predictor::kPrevious, "previous", "stages of the step before (paper)"},
+    {Predictor::kAcceleration, "acceleration", "(a, k, z) at the step's start"}};
+constexpr Named<ErrorEstimate> kEstimates[] = {
+    {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
+    {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
+constexpr Named<StepControl> kControls[] = {
+    {StepControl::kPaper, "paper", "section 6 of the paper"},
+    {StepControl::kFixed, "fixed", "constant steps"}};
+constexpr Named<JacobianPoint> kPoints[] = {
+    {JacobianPoint::kStart, "start", "at the step's start (paper)"},
+    {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"}};
+constexpr Named<ErrorNorm> kNorms[] = {
+    {ErrorNorm::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
+    {ErrorNorm::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
+
+std::string text(double x) {
+  std::ostringstream s;
+  s << x;
+  return s.str();
+}
+
+void require(bool legal, std::string_view field, double value, std::string_view range) {
+  if (!legal) {
+    throw Misuse(std::string(field) + " = " + text(value) + " is out of range: " +
+                 std::string(range));
+  }
+}
+
+}  // namespace
+
+#define IRK_AXIS(E, table, axis)                 \
+  template <>                                    \
+  std::span<const Named<E>> named<E>() {         \
+    return table;                                \
+  }                                              \
+  template <>                                    \
+  std::string_view axisName<E>() {               \
+    return axis;                                 \
+  }                                              \
+  template <>                                    \
+  E parseId<E>(std::string_view id) {            \
+    std::vector<std::string> known;              \
+    for (const auto& entry : table) {            \
+      if (entry.id == id) return entry.value;    \
+      known.emplace_back(entry.id);              \
+    }                                            \
+    throw Misuse(unknownName(axis, id, known));  \
+  }
+
+IRK_AXIS(Formulation, kFormulations, "formulation")
+IRK_AXIS(ConstraintScaling, kScalings, "scaling")
+IRK_AXIS(DerivativeSource, kSources, "derivatives")
+IRK_AXIS(NewtonKind, kNewtons, "newton")
+IRK_AXIS(StageSolverKind, kSolvers, "solver")
+IRK_AXIS(Predictor, kPredictors, "predictor")
+IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
+IRK_AXIS(StepControl, kControls, "control")
+IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
+IRK_AXIS(ErrorNorm, kNorms, "norm")
+#undef IRK_AXIS
+
+void validate(const IntegratorOptions& o) {
+  const auto& tol = o.tolerances;
+  require(tol.rtol >= 0 && tol.rtol < 1, "rtol", tol.rtol, "0 <= rtol < 1");
+  require(tol.atol > 0 && std::isfinite(tol.atol), "atol", tol.atol, "atol > 0");
+  const auto& newton = o.newton;
+  require(newton.residual_tolerance > 0 && newton.residual_tolerance < 1,
+          "newton.residual_tolerance", newton.residual_tolerance, "0 < tol < 1");
+  require(newton.contractivity_limit > 0 && newton.contractivity_limit <= 1,
+          "newton.contractivity_limit", newton.contractivity_limit, "0 < limit <= 1");
+  require(newton.contractivity_after >= 0, "newton.contractivity_after",
+          newton.contractivity_after, "an integer >= 0");
+  require(newton.max_iterations >= 1, "newton.max_iterations", newton.max_iterations,
+          "an integer >= 1");
+  require(newton.kappa >= 0 && std::isfinite(newton.kappa), "newton.kappa", newton.kappa,
+          "kappa >= 0");
+  require(newton.keep_jacobian_below >= 0 && newton.keep_jacobian_below < 1,
+          "newton.keep_jacobian_below", newton.keep_jacobian_below, "0 <= theta < 1");
+  const auto& step = o.step;
+  const bool fixed = step.control == StepControl::kFixed;
+  require(fixed ? step.h > 0 && std::isfinite(step.h) : step.h >= 0 && std::isfinite(step.h),
+          "step", step.h, fixed ? "step > 0" : "step >= 0 (0 = automatic)");
+  require(step.h_min >= 0 && std::isfinite(step.h_min), "h_min", step.h_min, "h_min >= 0");
+  require(step.h_max > 0, "h_max", step.h_max, "h_max > 0");
+  require(step.max_steps > 0, "max_steps", static_cast<double>(step.max_steps), "an integer > 0");
+  require(step.s_min > 1, "s_min", step.s_min, "s_min > 1");
+  require(step.change_at_least > 1, "change_at_least", step.change_at_least, "> 1");
+  require(step.growth_at_most > 1, "growth_at_most", step.growth_at_most, "> 1");
+  if (!fixed && step.estimate == ErrorEstimate::kNone) {
+    throw Misuse("illegal combination: control '" + std::string(idOf(step.control)) +
+                 "' with estimate 'none': a step controller needs an error estimate");
+  }
+}
+
+}  // namespace irk

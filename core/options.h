@@ -1,0 +1,117 @@
+// The axes: interchangeable strategies with stable ids, and the options of an integration.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/linearization.h"
+#include "core/misuse.h"
+#include "core/problem.h"
+
+namespace irk {
+
+enum class NewtonKind {
+  kSimplified,  ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
+  kModified,    ///< the paper's: stop on the residual, its restart and fallback rules, section 3
+  kFull,        ///< a new stage-wise Jacobian in every iteration, stop on the residual
+};
+enum class StageSolverKind { kCoupledDense, kSchur, kEigen };
+enum class Predictor {
+  kExtrapolated,  ///< collocation polynomial of the step before
+  kPrevious,      ///< the stages of the step before, stage by stage (paper)
+  kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
+};
+enum class ErrorEstimate { kDoubling, kNone };
+enum class StepControl { kPaper, kFixed };
+enum class JacobianPoint { kStart, kMiddle };
+enum class ErrorNorm {
+  kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
+  kAbsolute,  ///< the paper's: 2-norm of e / atol over all components
+};
+
+/// One id of an axis, as the command line, study files and tables write it.
+template <class E>
+struct Named {
+  E value;
+  std::string_view id;
+  std::string_view meaning;
+};
+
+/// All ids of an axis, the default first.
+template <class E>
+std::span<const Named<E>> named();
+
+/// The value behind an id. Throws Misuse with the axis, the nearest id and all ids.
+template <class E>
+E parseId(std::string_view id);
+
+template <class E>
+std::string_view idOf(E value) {
+  for (const auto& entry : named<E>()) {
+    if (entry.value == value) return entry.id;
+  }
+  return "?";
+}
+
+/// The axis' name in options, files and messages: `newton`, `solver`, ...
+template <class E>
+std::string_view axisName();
+
+struct NewtonOptions {
+  NewtonKind kind = NewtonKind::kSimplified;
+  /// (0, 1). Paper (3.2): done when eps(i) <= tol eps(0). `modified` and `full`.
+  double residual_tolerance = 1e-10;
+  /// (0, 1]. Paper (3.4): contractivity above which the Jacobian is recomputed, ...
+  double contractivity_limit = 0.7;
+  /// >= 0. ... after more than this many iterations.
+  int contractivity_after = 3;
+  /// >= 1. Paper, section 3: 25 iterations without convergence are a failure.
+  int max_iterations = 25;
+  /// >= 0; 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
+  /// that shrinks with s. `simplified`: done when eta |dw| <= kappa in the error norm.
+  double kappa = 0;
+  /// [0, 1). `simplified`: the Jacobian is kept for the next step while theta stays below this.
+  double keep_jacobian_below = 1e-3;
+};
+
+struct StepOptions {
+  StepControl control = StepControl::kPaper;
+  ErrorEstimate estimate = ErrorEstimate::kDoubling;
+  /// > 0. Fixed control: the step (the last one is shortened to end at t_end). Else the first step;
+  /// 0 = chosen from the scale of the solution.
+  double h = 0;
+  /// >= 0; 0 = 16 eps |t| or the smallest number.
+  double h_min = 0;
+  /// > 0.
+  double h_max = 1e300;
+  /// > 0. Attempted steps.
+  std::int64_t max_steps = 1'000'000;
+  /// Paper (6.1)-(6.3): s_min = 4, s_max = s_min^2; a step is kept unless it would change by
+  /// `change_at_least`; growth at most `growth_at_most`.
+  double s_min = 4;
+  double change_at_least = 2;
+  double growth_at_most = 5;
+};
+
+struct Tolerances {
+  double rtol = 1e-6;  ///< [0, 1)
+  double atol = 1e-6;  ///< > 0, times the component's scale
+  ErrorNorm norm = ErrorNorm::kMixed;
+};
+
+/// Everything an integration can be told. Validated once by `validate`.
+struct IntegratorOptions {
+  Tolerances tolerances;
+  DerivativeSource derivatives = DerivativeSource::kAutomatic;
+  JacobianPoint jacobian_point = JacobianPoint::kStart;
+  NewtonOptions newton;
+  StageSolverKind solver = StageSolverKind::kSchur;
+  Predictor predictor = Predictor::kExtrapolated;
+  StepOptions step;
+};
+
+/// Throws Misuse naming field, value and range.
+void validate(const IntegratorOptions& options);
+
+}  // namespace irk

@@ -1,0 +1,36 @@
+// How a numerical operation ended. Misuse is an exception; these are results.
+#pragma once
+
+#include <string_view>
+
+namespace irk {
+
+enum class Outcome {
+  kSuccess,
+  kNewtonFailed,       ///< no convergence, and the step may not be (or was already) reduced
+  kStepTooSmall,       ///< the controller asked for a step below the minimum
+  kMaxSteps,           ///< the limit of attempted steps is used up
+  kTimeout,            ///< the caller's clock said stop
+  kInterrupted,        ///< the caller said stop
+  kNotFinite,          ///< the residual or its derivatives are NaN or infinite at the step's start
+  kSingular,           ///< the Newton matrix is singular
+  kInconsistentStart,  ///< constraints are violated, or accelerations cannot be determined
+};
+
+/// The name in tables: `success`, `newton_failed`, ...
+constexpr std::string_view name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kSuccess: return "success";
+    case Outcome::kNewtonFailed: return "newton_failed";
+    case Outcome::kStepTooSmall: return "step_too_small";
+    case Outcome::kMaxSteps: return "max_steps";
+    case Outcome::kTimeout: return "timeout";
+    case Outcome::kInterrupted: return "interrupted";
+    case Outcome::kNotFinite: return "not_finite";
+    case Outcome::kSingular: return "singular";
+    case Outcome::kInconsistentStart: return "inconsistent_start";
+  }
+  return "?";
+}
+
+}  // namespace irk

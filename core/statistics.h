@@ -1,0 +1,36 @@
+// What a run cost, in operations: deterministic, so a noisy machine cannot spoil it.
+#pragma once
+
+#include <cstdint>
+
+namespace irk {
+
+struct Counters {
+  std::int64_t residuals = 0;          ///< evaluations of r over the plain scalar
+  std::int64_t dual_residuals = 0;     ///< evaluations of r over dual numbers (8 directions each)
+  std::int64_t jacobians = 0;          ///< evaluations of (D0, D1, D2) at one point
+  std::int64_t factorizations = 0;     ///< of the Newton matrix (all its blocks count once)
+  std::int64_t solves = 0;             ///< with a factorization (all its blocks count once)
+  std::int64_t newton_iterations = 0;
+  std::int64_t newton_restarts = 0;    ///< paper: new Jacobian, or full Newton, from the start value
+  std::int64_t steps_accepted = 0;
+  std::int64_t steps_rejected_error = 0;
+  std::int64_t steps_rejected_newton = 0;
+
+  /// f(name, value) for each, in this order: the columns of every table.
+  template <class F>
+  void forEach(F&& f) const {
+    f("residuals", residuals);
+    f("dual_residuals", dual_residuals);
+    f("jacobians", jacobians);
+    f("factorizations", factorizations);
+    f("solves", solves);
+    f("newton_iterations", newton_iterations);
+    f("newton_restarts", newton_restarts);
+    f("steps_accepted", steps_accepted);
+    f("steps_rejected_error", steps_rejected_error);
+    f("steps_rejected_newton", steps_rejected_newton);
+  }
+};
+
+}  // namespace irk
