@@ -1,20 +1,51 @@
-// DualNumber<T, N>: a value with N directional derivatives, nesting over itself and over multiprecision.
+// DualNumber<T, N>: a value with N directional derivatives, nesting over itself and over
+// multiprecision.
 //
-// One type serves Jacobians (N = 8), time derivatives of constraints (N = 1) and both nested. Eigen's
-// AutoDiffScalar cannot: nested over a multiprecision number it rejects `double` operands, and its
-// abs() mixes int with the scalar. No expression templates: `auto` is safe in a user's residual.
+// One type serves Jacobians (N = 8), time derivatives of constraints (N = 1) and both nested.
+// Eigen's AutoDiffScalar cannot: nested over a multiprecision number it rejects `double` operands,
+// and its abs() mixes int with the scalar. No expression templates: `auto` is safe in a user's
+// residual.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
-#include <Eigen/Core>
-
 namespace irk {
 
-template <class T, int N>
+template <class T, std::size_t N>
+struct DualNumber;
+
+namespace detail {
+
+template <class T>
+struct Innermost {
+  using type = T;
+};
+template <class T, std::size_t N>
+struct Innermost<DualNumber<T, N>> {
+  using type = typename Innermost<T>::type;
+};
+
+/// Operands without derivatives: built-in numbers, and the scalar below all levels of duals.
+template <class S, class T>
+concept ConstantFor = std::is_arithmetic_v<S> || std::is_same_v<S, typename Innermost<T>::type>;
+
+template <class S>
+auto constant(const S& s) {
+  if constexpr (std::is_arithmetic_v<S>) {
+    return static_cast<double>(s);
+  } else {
+    return s;
+  }
+}
+
+}  // namespace detail
+
+template <class T, std::size_t N>
 struct DualNumber {
   T value;
   std::array<T, N> d;  ///< directional derivatives
@@ -22,22 +53,20 @@ struct DualNumber {
   DualNumber() : value(0), d{} {}
   DualNumber(const T& v) : value(v), d{} {}  // NOLINT: a number is a constant
   template <class S>
-    requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>)
-  DualNumber(S s) : value(static_cast<double>(s)), d{} {}  // NOLINT
-  DualNumber(T v, T rate)
-    requires(N == 1)
-      : value(std::move(v)), d{std::move(rate)} {}
+  requires(detail::ConstantFor<S, T> && !std::is_same_v<S, T>) DualNumber(const S& s)
+      : value(detail::constant(s)), d{} {}  // NOLINT
+  DualNumber(T v, T rate) requires(N == 1) : value(std::move(v)), d{std::move(rate)} {}
 
   /// f(x) with f' = slope.
   DualNumber chain(const T& f, const T& slope) const {
     DualNumber r(f);
-    for (int i = 0; i < N; ++i) r.d[i] = slope * d[i];
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = slope * d[i];
     return r;
   }
   template <class S>
   DualNumber scaled(const S& s) const {
     DualNumber r(T(value * s));
-    for (int i = 0; i < N; ++i) r.d[i] = d[i] * s;
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = d[i] * s;
     return r;
   }
 
@@ -48,69 +77,66 @@ struct DualNumber {
 
   friend DualNumber operator+(const DualNumber& a, const DualNumber& b) {
     DualNumber r(T(a.value + b.value));
-    for (int i = 0; i < N; ++i) r.d[i] = a.d[i] + b.d[i];
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = a.d[i] + b.d[i];
     return r;
   }
   friend DualNumber operator-(const DualNumber& a, const DualNumber& b) {
     DualNumber r(T(a.value - b.value));
-    for (int i = 0; i < N; ++i) r.d[i] = a.d[i] - b.d[i];
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = a.d[i] - b.d[i];
     return r;
   }
   friend DualNumber operator-(const DualNumber& a) {
     DualNumber r(T(-a.value));
-    for (int i = 0; i < N; ++i) r.d[i] = -a.d[i];
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = -a.d[i];
     return r;
   }
   friend DualNumber operator*(const DualNumber& a, const DualNumber& b) {
     DualNumber r(T(a.value * b.value));
-    for (int i = 0; i < N; ++i) r.d[i] = a.d[i] * b.value + a.value * b.d[i];
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = a.d[i] * b.value + a.value * b.d[i];
     return r;
   }
   friend DualNumber operator/(const DualNumber& a, const DualNumber& b) {
     const T inverse = T(1) / b.value;
     DualNumber r(T(a.value * inverse));
-    for (int i = 0; i < N; ++i) r.d[i] = (a.d[i] - r.value * b.d[i]) * inverse;
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = (a.d[i] - r.value * b.d[i]) * inverse;
     return r;
   }
 
-  // A constant operand costs no derivative arithmetic. Ints and doubles mix with any T.
+  // A constant operand costs no derivative arithmetic. Built-in numbers and the innermost
+  // scalar mix with any T.
   template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator*(S s, const DualNumber& a) {
-    return a.scaled(static_cast<double>(s));
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator*(const S& s, const DualNumber& a) {
+    return a.scaled(detail::constant(s));
   }
   template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator*(const DualNumber& a, S s) {
-    return a.scaled(static_cast<double>(s));
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator*(const DualNumber& a, const S& s) {
+    return a.scaled(detail::constant(s));
   }
   template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator/(const DualNumber& a, S s) {
-    return a.chain(T(a.value / static_cast<double>(s)), T(T(1) / static_cast<double>(s)));
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator/(const DualNumber& a, const S& s) {
+    return a.chain(T(a.value / detail::constant(s)), T(T(1) / detail::constant(s)));
   }
   template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator+(const DualNumber& a, S s) {
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator+(const DualNumber& a, const S& s) {
     DualNumber r(a);
-    r.value += static_cast<double>(s);
+    r.value += detail::constant(s);
     return r;
   }
   template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator+(S s, const DualNumber& a) {
-    return a + s;
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator+(const S& s, const DualNumber& a) { return a + s; }
+  template <class S>
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator-(const DualNumber& a, const S& s) {
+    return a + (-detail::constant(s));
   }
   template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator-(const DualNumber& a, S s) {
-    return a + (-static_cast<double>(s));
-  }
-  template <class S>
-    requires std::is_arithmetic_v<S>
-  friend DualNumber operator-(S s, const DualNumber& a) {
-    return -a + s;
-  }
+  requires detail::ConstantFor<S, T>
+  friend DualNumber operator-(const S& s, const DualNumber& a) { return -a + s; }
 
   // Comparisons are those of the values: derivatives follow the branch that the value takes.
   friend bool operator<(const DualNumber& a, const DualNumber& b) { return a.value < b.value; }
@@ -152,7 +178,7 @@ struct DualNumber {
 };
 
 /// Directions that one dual evaluation carries; a Jacobian with more columns takes several chunks.
-inline constexpr int kChunk = 8;
+inline constexpr std::size_t kChunk = 8;
 
 /// First-order dual number with kChunk directions: exact derivatives of a templated function.
 template <class Real>
@@ -164,21 +190,18 @@ using Rate = DualNumber<T, 1>;
 
 /// The number below all derivatives, as a double: for branches and messages.
 inline double valueOf(double x) { return x; }
-template <class T, int N>
+template <class T, std::size_t N>
 double valueOf(const DualNumber<T, N>& x) {
   return valueOf(x.value);
 }
 template <class T>
-  requires(!std::is_arithmetic_v<T>)
-double valueOf(const T& x) {
-  return static_cast<double>(x);
-}
+requires(!std::is_arithmetic_v<T>) double valueOf(const T& x) { return static_cast<double>(x); }
 
 }  // namespace irk
 
 namespace Eigen {
-template <class T, int N>
+template <class T, std::size_t N>
 struct NumTraits<irk::DualNumber<T, N>> : GenericNumTraits<irk::DualNumber<T, N>> {
-  enum { RequireInitialization = 1, ReadCost = N + 1, AddCost = N + 1, MulCost = 2 * N + 1 };
+  enum { RequireInitialization = 1, ReadCost = int(N) + 1, AddCost = int(N) + 1, MulCost = 2 * int(N) + 1 };
 };
 }  // namespace Eigen

@@ -45,15 +45,11 @@ enum class DerivativeSource { kAutomatic, kCentral, kForward };
 template <class Real>
 class Differentiator {
  public:
-  /// `scales` (u, v, x, z as in State; may be empty): typical magnitudes for difference increments
-  /// delta = eps^(1/2 or 1/3) max(|y|, scale); 1 where empty.
+  /// Keeps a reference to the system.
   Differentiator(const System<Real>& system, DerivativeSource source);
 
   /// All three matrices at p; the pattern of `out` must be full (dense) here.
   void evaluate(Level level, const Point<Real>& p, Linearization<Real>& out);
-
-  /// Residual evaluations and dual evaluations that one call costs.
-  Index evaluations() const { return evaluations_; }
 
  private:
   struct Direction {
@@ -61,7 +57,7 @@ class Differentiator {
     Index column;  // in 0..n-1
   };
   template <class T>
-  struct Buffers {  // v, x, u, a, k, z of one evaluation
+  struct Buffers {  // the numbers below a Point, and the residual
     Vec<T> u, v, x, w, r;
     explicit Buffers(const Sizes& n);
     Point<T> point(const Sizes& n, const T& t) const;
@@ -79,7 +75,6 @@ class Differentiator {
   Buffers<Dual<Real>> dual_;
   Buffers<Real> real_;
   Vec<Real> base_;
-  Index evaluations_ = 0;
 };
 
 }  // namespace irk

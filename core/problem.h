@@ -120,24 +120,34 @@ class ProblemSystem final : public System<Real> {
                                  VecView<T>(g + nc, sizes_.nz - nc)});
     if constexpr (requires(T* out) { problem_.constraints(p.t, p.u, out); }) {
       if (nc == 0) return;
-      if (level == Level::kAcceleration) {
-        const Rate<Rate<T>> t{{p.t, T(1.0)}, {T(1.0), T(0.0)}};
-        problem_.constraints(t, detail::AccelerationView<T>{p.u, p.v, p.a},
-                             detail::SinkRow<detail::SecondRateSink<T>, T>{g});
-        return;
-      }
-      switch (formulation_) {
-        case Formulation::kIndex3:
+      switch (constraintLevel(level)) {
+        case Level::kFormulated:
+        case Level::kPosition:
           problem_.constraints(p.t, p.u, g);
           return;
-        case Formulation::kIndex2: {
+        case Level::kVelocity: {
           const Rate<T> t{p.t, T(1.0)};
           problem_.constraints(t, detail::VelocityView<T>{p.u, p.v},
                                detail::SinkRow<detail::RateSink<T>, T>{g});
           return;
         }
+        case Level::kAcceleration: {
+          const Rate<Rate<T>> t{{p.t, T(1.0)}, {T(1.0), T(0.0)}};
+          problem_.constraints(t, detail::AccelerationView<T>{p.u, p.v, p.a},
+                               detail::SinkRow<detail::SecondRateSink<T>, T>{g});
+          return;
+        }
       }
     }
+  }
+
+  Level constraintLevel(Level level) const {
+    if (level != Level::kFormulated) return level;
+    switch (formulation_) {
+      case Formulation::kIndex3: return Level::kPosition;
+      case Formulation::kIndex2: return Level::kVelocity;
+    }
+    return level;
   }
 
   P problem_;

@@ -50,9 +50,10 @@ struct State {
   auto z() const { return w.tail(w.size() - u.size() - x.size()); }
 };
 
-/// Which residual: the one that is integrated, or the one whose constraint rows are differentiated
-/// until they determine (a, k, z): it gives consistent initial accelerations and multipliers.
-enum class Level { kFormulated, kAcceleration };
+/// Which residual. `kFormulated` is the one that is integrated; the others replace its rows of
+/// position constraints g(t, u) = 0 by g, dg/dt or d2g/dt2, whatever the formulation: to check a
+/// start, to measure drift, and (`kAcceleration`) to determine (a, k, z) from (u, v, x).
+enum class Level { kFormulated, kPosition, kVelocity, kAcceleration };
 
 /// Per-component exponents of h. The error of a variable of index i is O(h^-(i-1)) times larger,
 /// HW II (VII.7): weights are multiplied by h^power. Sizes: nu, nu, nx, nz.

@@ -1,0 +1,25 @@
+// The paper's stage solver: one LU of the s n x s n Newton matrix.
+#pragma once
+
+#include "core/dense_lu.h"
+#include "core/stage_solver.h"
+
+namespace irk {
+
+template <class Real>
+class CoupledDense final : public StageSolver<Real> {
+ public:
+  explicit CoupledDense(const StageSolverSetup<Real>& setup);
+  Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
+  void solve(Eigen::Ref<Mat<Real>> rhs) override;
+  bool stagewise() const override { return true; }
+
+ private:
+  StageSolverSetup<Real> setup_;
+  Mat<Real> A2_;
+  Vec<Real> scales_;
+  Vec<Real> flat_;
+  DenseLu<Real> lu_;
+};
+
+}  // namespace irk

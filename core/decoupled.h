@@ -1,0 +1,61 @@
+// Stage solvers in a basis in which A is (block) triangular or (block) diagonal: about s/2 complex
+// systems D0 + h mu D1 + h^2 mu^2 D2 of size n, mu an eigenvalue of A. HW II (IV.8).
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "core/dense_lu.h"
+#include "core/stage_solver.h"
+
+namespace irk {
+
+/// A = Q T Q^-1 with 1 x 1 and 2 x 2 blocks on the diagonal of T, and its blocks.
+template <class Real>
+struct BlockForm {
+  Mat<Real> Q, Q_inverse, T;
+  bool diagonal = false;  ///< T is block diagonal (eigenvectors), else block upper triangular
+  struct Block {
+    Index start;
+    Index size;              ///< 1 real, 2 a complex pair
+    std::complex<Real> mu;   ///< eigenvalue of A
+    Real sigma;              ///< y1 + i sigma y2 diagonalizes a 2 x 2 block
+  };
+  std::vector<Block> blocks;
+};
+
+/// Real Schur form: Q orthogonal.
+template <class Real>
+BlockForm<Real> schurForm(const Mat<Real>& A);
+/// Real eigenbasis [Re v, Im v]. Throws Misuse for a defective A.
+template <class Real>
+BlockForm<Real> eigenForm(const Mat<Real>& A);
+
+template <class Real>
+class Decoupled final : public StageSolver<Real> {
+ public:
+  Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form);
+  Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
+  void solve(Eigen::Ref<Mat<Real>> rhs) override;
+  bool stagewise() const override { return false; }
+
+ private:
+  using Complex = std::complex<Real>;
+  void coupleRows(const typename BlockForm<Real>::Block& block);
+  void solveBlock(std::size_t index);
+
+  StageSolverSetup<Real> setup_;
+  BlockForm<Real> form_;
+  Mat<Real> T2_;
+  std::vector<DenseLu<Real>> real_lu_;        // by block, in order of the real ones
+  std::vector<DenseLu<Complex>> complex_lu_;  // by block, in order of the pairs
+  std::vector<std::size_t> lu_index_;
+  const Linearization<Real>* at_ = nullptr;
+  Real h_{};
+  Vec<Real> scales_;
+  Mat<Real> Y_;           // transformed right-hand side and solution, n x s
+  Mat<Real> D1Y_, D2Y_;   // D1 and D2 times the solved columns of Y (Schur only)
+  Vec<Complex> eta_;
+};
+
+}  // namespace irk

@@ -1,0 +1,56 @@
+#include "core/scheme.h"
+
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/multiprecision.h"
+
+namespace irk {
+
+// With X = 2x - 1: (k + 1) p_{k+1} = (2k + 1) X p_k - k p_{k-1}, P_k = sqrt(2k + 1) p_k.
+template <class Real>
+Vec<Real> legendre(Index count, const Real& x) {
+  using std::sqrt;
+  Vec<Real> p(count);
+  const Real X = Real(2) * x - Real(1);
+  for (Index k = 0; k < count; ++k) {
+    const Real j = Real(static_cast<double>(k));
+    if (k == 0) {
+      p[0] = Real(1);
+    } else if (k == 1) {
+      p[1] = X;
+    } else {
+      p[k] = ((Real(2) * j - Real(1)) * X * p[k - 1] - (j - Real(1)) * p[k - 2]) / j;
+    }
+  }
+  for (Index k = 0; k < count; ++k) p[k] *= sqrt(Real(static_cast<double>(2 * k + 1)));
+  return p;
+}
+
+template <class Real>
+Scheme<Real>::Scheme(Tableau<Real> t)
+    : tableau(std::move(t)), s(tableau.stages()), A(tableau.A), b(tableau.b), c(tableau.c) {
+  A2.noalias() = A * A;
+  bA.noalias() = A.transpose() * b;
+  // Round-off of a sum of s coefficients of size <= 1.
+  const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();
+  const auto small = [&](const auto& x) { return x.cwiseAbs().maxCoeff() <= tiny; };
+  stiffly_accurate = small(A.row(s - 1).transpose() - b);
+  first = s > 1 && stiffly_accurate && small(A.row(0)) ? 1 : 0;
+  const Eigen::FullPivLU<Mat<Real>> lu(implicitA());
+  regular = lu.isInvertible();
+  if (regular && first == 0) d = Mat<Real>(A.transpose()).fullPivLu().solve(b);
+
+  Mat<Real> V(s, s);
+  for (Index i = 0; i < s; ++i) V.row(i) = legendre<Real>(s, c[i]).transpose();
+  legendre_inverse = V.fullPivLu().inverse();
+  end = legendre_inverse.transpose() * legendre<Real>(s, Real(1));
+}
+
+template struct Scheme<double>;
+template struct Scheme<mp50>;
+template Vec<double> legendre<double>(Index, const double&);
+template Vec<mp50> legendre<mp50>(Index, const mp50&);
+
+}  // namespace irk

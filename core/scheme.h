@@ -1,0 +1,41 @@
+// A tableau prepared for the K-form: A^2, end weights, what its structure allows.
+#pragma once
+
+#include "core/tableau.h"
+
+namespace irk {
+
+template <class Real>
+struct Scheme {
+  Tableau<Real> tableau;
+  Index s;
+  Mat<Real> A, A2;  ///< A and A^2, s x s
+  Vec<Real> b, c;
+  Vec<Real> bA;  ///< A^T b: weights of a in u1 = u0 + h v0 + h^2 sum (b^T A)_j a_j
+  /// Stages that need no solve because they repeat the step's start: 1 for Lobatto IIIA (first row
+  /// of A zero, last row b: the last stage is the next step's first), else 0.
+  Index first = 0;
+  bool stiffly_accurate = false;  ///< last row of A is b and c_s = 1: z1 = z_s
+  bool regular = false;           ///< A (without the explicit first stage) is invertible
+  /// z1 = (1 - sum d) z0 + sum d_i z_i with d = A^-T b, paper (2.11) corrected. If regular.
+  Vec<Real> d;
+  /// Weights of the stage polynomial of (a, k) at the step's end: start values, not results.
+  Vec<Real> end;
+  /// V^-1 with V_ik = P_k(c_i), orthonormal shifted Legendre polynomials: coefficients of the
+  /// polynomial through the stages. Stable for any s. HW II (IV.5).
+  Mat<Real> legendre_inverse;
+
+  explicit Scheme(Tableau<Real> t);
+
+  Index implicitStages() const { return s - first; }
+  /// A without the explicit first stage; its square is the same block of A^2.
+  Mat<Real> implicitA() const { return A.bottomRightCorner(s - first, s - first); }
+  /// Algebraic unknowns need z at the end of a step, and stage values that determine them.
+  bool allowsAlgebraic() const { return regular; }
+};
+
+/// P_0..P_{count-1} at x in [0, 1], orthonormal on it, by the three-term recurrence.
+template <class Real>
+Vec<Real> legendre(Index count, const Real& x);
+
+}  // namespace irk
