@@ -41,9 +41,9 @@ constexpr Named<StepControl> kControls[] = {
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"}};
-constexpr Named<ErrorNorm> kNorms[] = {
-    {ErrorNorm::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
-    {ErrorNorm::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
+constexpr Named<NormKind> kNorms[] = {
+    {NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
+    {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
 
 std::string text(double x) {
   std::ostringstream s;
@@ -88,7 +88,7 @@ IRK_AXIS(Predictor, kPredictors, "predictor")
 IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
 IRK_AXIS(StepControl, kControls, "control")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
-IRK_AXIS(ErrorNorm, kNorms, "norm")
+IRK_AXIS(NormKind, kNorms, "norm")
 #undef IRK_AXIS
 
 void validate(const IntegratorOptions& o) {

@@ -25,7 +25,7 @@ enum class Predictor {
 enum class ErrorEstimate { kDoubling, kNone };
 enum class StepControl { kPaper, kFixed };
 enum class JacobianPoint { kStart, kMiddle };
-enum class ErrorNorm {
+enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
   kAbsolute,  ///< the paper's: 2-norm of e / atol over all components
 };
@@ -97,7 +97,7 @@ struct StepOptions {
 struct Tolerances {
   double rtol = 1e-6;  ///< [0, 1)
   double atol = 1e-6;  ///< > 0, times the component's scale
-  ErrorNorm norm = ErrorNorm::kMixed;
+  NormKind norm = NormKind::kMixed;
 };
 
 /// Everything an integration can be told. Validated once by `validate`.

@@ -1,0 +1,62 @@
+#include "core/controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace irk {
+namespace {
+
+/// Paper, section 6, with the error in units of the tolerance:
+///   f = gamma (1 / (s_min eps))^(1/(p+1))                                        (6.1)
+///   gamma = (eps_i / eps_{i-1}) (h_{i-1} / h_i)^p, after every change of step     (6.3)
+/// The step is repeated if eps > 1; kept unless f changes it by at least `change_at_least`; grown
+/// only if eps < 1 / s_max, s_max = s_min^2, and at most by `growth_at_most`.
+class PaperController final : public StepController {
+ public:
+  PaperController(const StepOptions& o, int order)
+      : o_(o), p_(order), s_max_(o.s_min * o.s_min) {}
+
+  StepDecision decide(double error, double h) override {
+    // An estimate of exactly zero would divide by zero; it asks for the largest growth.
+    const double eps = std::max(error, kTinyError);
+    if (last_h_ > 0 && last_h_ != h) {
+      const double gamma = eps / last_error_ * std::pow(last_h_ / h, p_);
+      // The paper's text breaks off at "restrict gamma <": above 1 it would enlarge the step because
+      // the error grew faster than expected.
+      gamma_ = std::clamp(gamma, kGammaMin, 1.0);
+    }
+    last_error_ = eps;
+    last_h_ = h;
+    const double f = gamma_ * std::pow(1 / (o_.s_min * eps), 1.0 / (p_ + 1));
+    if (error > 1) return {false, h * std::clamp(f, kShrinkAtMost, 1 / o_.change_at_least)};
+    if (f >= o_.change_at_least && eps < 1 / s_max_) {
+      return {true, h * std::min(f, o_.growth_at_most)};
+    }
+    if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kShrinkAtMost)};
+    return {true, h};
+  }
+  double afterFailure(double h) override { return h / o_.change_at_least; }
+
+ private:
+  static constexpr double kTinyError = 1e-300;
+  static constexpr double kGammaMin = 0.5;
+  static constexpr double kShrinkAtMost = 0.05;
+
+  StepOptions o_;
+  int p_;
+  double s_max_;
+  double gamma_ = 1;
+  double last_error_ = 0, last_h_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
+  switch (options.control) {
+    case StepControl::kPaper: return std::make_unique<PaperController>(options, order);
+    case StepControl::kFixed: return nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace irk

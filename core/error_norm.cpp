@@ -1,0 +1,88 @@
+#include "core/error_norm.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/multiprecision.h"
+
+namespace irk {
+
+template <class Real>
+ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances,
+                           const Vec<double>& scale)
+    : sizes_(system.sizes()),
+      powers_(system.errorPowers()),
+      tolerances_(tolerances),
+      scale_(scale.size() == 0 ? Vec<double>::Ones(sizes_.components()) : scale),
+      weight_(Vec<double>::Ones(sizes_.components())) {
+  if (scale_.size() != sizes_.components()) {
+    throw Misuse("scale has " + std::to_string(scale_.size()) + " entries, the system has " +
+                 std::to_string(sizes_.components()) + " components (u, v, x, z)");
+  }
+}
+
+template <class Real>
+void ErrorNorm<Real>::update(const State<Real>& y) {
+  if (tolerances_.norm == NormKind::kAbsolute) {
+    weight_.setConstant(tolerances_.atol);
+    return;
+  }
+  const auto weigh = [&](Index offset, const auto& part) {
+    for (Index i = 0; i < part.size(); ++i) {
+      weight_[offset + i] = tolerances_.atol * scale_[offset + i] +
+                            tolerances_.rtol * std::abs(static_cast<double>(part[i]));
+    }
+  };
+  weigh(0, y.u);
+  weigh(sizes_.nu, y.v);
+  weigh(2 * sizes_.nu, y.x);
+  weigh(2 * sizes_.nu + sizes_.nx, y.z());
+}
+
+namespace {
+double square(double x) { return x * x; }
+}  // namespace
+
+template <class Real>
+double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, double h) const {
+  double sum = 0;
+  const auto add = [&](Index offset, const auto& a, const auto& b, const std::vector<int>& power) {
+    for (Index i = 0; i < a.size(); ++i) {
+      const double e = static_cast<double>(Real(a[i] - b[i]));
+      const double f = std::pow(h, power[static_cast<std::size_t>(i)]);
+      sum += square(f * e / weight_[offset + i]);
+    }
+  };
+  add(0, p.u, q.u, powers_.u);
+  add(sizes_.nu, p.v, q.v, powers_.v);
+  add(2 * sizes_.nu, p.x, q.x, powers_.x);
+  add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), powers_.z);
+  if (tolerances_.norm == NormKind::kAbsolute) return std::sqrt(sum);
+  return std::sqrt(sum / static_cast<double>(sizes_.components()));
+}
+
+template <class Real>
+double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, double h) const {
+  const Index nu = sizes_.nu, nx = sizes_.nx, nz = sizes_.nz;
+  const double* const wu = weight_.data();
+  const double* const wv = wu + nu;
+  const double* const wx = wv + nu;
+  const double* const wz = wx + nx;
+  double sum = 0;
+  for (Index j = first; j < dW.cols(); ++j) {
+    for (Index i = 0; i < nu; ++i) {
+      const double dv = h * static_cast<double>(dW(i, j));
+      sum += square(dv / wv[i]) + square(h * dv / wu[i]);
+    }
+    for (Index i = 0; i < nx; ++i) sum += square(h * static_cast<double>(dW(nu + i, j)) / wx[i]);
+    for (Index i = 0; i < nz; ++i) {
+      const double f = std::pow(h, powers_.z[static_cast<std::size_t>(i)]);
+      sum += square(f * static_cast<double>(dW(nu + nx + i, j)) / wz[i]);
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));
+}
+
+IRK_INSTANTIATE_CLASS(ErrorNorm)
+
+}  // namespace irk

@@ -1,0 +1,36 @@
+// The error norm: weights of the state's components, and the norms built on them.
+#pragma once
+
+#include "core/options.h"
+#include "core/system.h"
+
+namespace irk {
+
+/// Weights sc_i = atol scale_i + rtol |y_i|, so that a norm of 1 is the tolerance. HW I (II.4.10-11).
+/// Components of index i carry h^(i-1), HW II (VII.7). Norms are doubles for every scalar: they
+/// decide, they are not results.
+template <class Real>
+class ErrorNorm {
+ public:
+  /// `scale`: magnitudes of u, v, x, z; empty = 1. Keeps a reference to the system.
+  ErrorNorm(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale);
+
+  /// Weights from the magnitudes of `y`, before a step. Absolute norm: weights atol.
+  void update(const State<Real>& y);
+
+  /// Norm of the difference of two states after a step of size h.
+  double difference(const State<Real>& p, const State<Real>& q, double h) const;
+
+  /// Norm of a Newton increment dW (columns from `first`) by its effect on (u, v, x, z):
+  /// h^2 da, h da, h dk, dz. RMS whatever the error norm is.
+  double increment(const Mat<Real>& dW, Index first, double h) const;
+
+ private:
+  Sizes sizes_;
+  const ErrorPowers& powers_;
+  Tolerances tolerances_;
+  Vec<double> scale_;   // u, v, x, z
+  Vec<double> weight_;  // the same
+};
+
+}  // namespace irk

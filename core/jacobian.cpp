@@ -1,0 +1,55 @@
+#include "core/jacobian.h"
+
+#include "core/multiprecision.h"
+
+namespace irk {
+
+template <class Real>
+SharedJacobian<Real>::SharedJacobian(const System<Real>& system, DerivativeSource source,
+                                     JacobianPoint point, Counters& counters)
+    : differentiator_(system, source),
+      at_(Pattern::dense(system.sizes().n())),
+      point_(point),
+      counters_(counters) {}
+
+template <class Real>
+void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq) {
+  ++counters_.jacobians;
+  const bool middle = point_ == JacobianPoint::kMiddle;
+  differentiator_.evaluate(Level::kFormulated, middle ? eq.middle() : eq.start(), at_);
+  t_ = eq.from().t;
+  ++version_;
+  stale_ = false;
+}
+
+template <class Real>
+Outcome NewtonMatrix<Real>::prepare(const Real& h) {
+  if (version_ == shared_.version() && h_ == h) return Outcome::kSuccess;
+  const Outcome outcome = solver_->factorize({&shared_.at(), 1}, h);
+  version_ = outcome == Outcome::kSuccess ? shared_.version() : 0;
+  h_ = h;
+  return outcome;
+}
+
+template <class Real>
+Outcome StagewiseMatrix<Real>::prepare(const StageEquations<Real>& eq, const Mat<Real>& W) {
+  const Index first = eq.scheme().first;
+  const Index count = eq.scheme().implicitStages();
+  if (!solver_) {
+    at_.assign(static_cast<std::size_t>(count), Linearization<Real>(setup_.pattern));
+    solver_ = std::make_unique<CountingStageSolver<Real>>(
+        makeStageSolver(StageSolverKind::kCoupledDense, setup_), counters_);
+  }
+  for (Index i = 0; i < count; ++i) {
+    ++counters_.jacobians;
+    shared_.differentiator().evaluate(Level::kFormulated, eq.stage(W, first + i),
+                                      at_[static_cast<std::size_t>(i)]);
+  }
+  return solver_->factorize(at_, eq.h());
+}
+
+IRK_INSTANTIATE_CLASS(SharedJacobian)
+IRK_INSTANTIATE_CLASS(NewtonMatrix)
+IRK_INSTANTIATE_CLASS(StagewiseMatrix)
+
+}  // namespace irk

@@ -1,0 +1,80 @@
+// D0, D1, D2 at one point, kept over steps; and Newton matrices built on them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/stage_equations.h"
+#include "core/stage_solver.h"
+
+namespace irk {
+
+/// The linearization that the step's solves share, with its age. One per integrator.
+template <class Real>
+class SharedJacobian {
+ public:
+  SharedJacobian(const System<Real>& system, DerivativeSource source, JacobianPoint point,
+                 Counters& counters);
+
+  /// Evaluates at the start (or middle) of the step that `eq` has begun.
+  void evaluate(StageEquations<Real>& eq);
+  /// Ask for a new evaluation at the next step's start.
+  void markStale() { stale_ = true; }
+  bool stale() const { return stale_; }
+  /// Whether it was evaluated for a step that began at t.
+  bool evaluatedAt(const Real& t) const { return version_ > 0 && t_ == t; }
+
+  const Linearization<Real>& at() const { return at_; }
+  int version() const { return version_; }
+  Differentiator<Real>& differentiator() { return differentiator_; }
+
+ private:
+  Differentiator<Real> differentiator_;
+  Linearization<Real> at_;
+  JacobianPoint point_;
+  Counters& counters_;
+  Real t_{};
+  int version_ = 0;
+  bool stale_ = true;
+};
+
+/// A factorization for one step size; refactorized when the shared Jacobian or h has changed.
+template <class Real>
+class NewtonMatrix {
+ public:
+  NewtonMatrix(SharedJacobian<Real>& shared, std::unique_ptr<StageSolver<Real>> solver)
+      : shared_(shared), solver_(std::move(solver)) {}
+
+  /// Factors of the shared Jacobian for step h.
+  [[nodiscard]] Outcome prepare(const Real& h);
+  void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
+  SharedJacobian<Real>& shared() { return shared_; }
+
+ private:
+  SharedJacobian<Real>& shared_;
+  std::unique_ptr<StageSolver<Real>> solver_;
+  int version_ = 0;
+  Real h_{};
+};
+
+/// A Newton matrix with the derivatives of each stage: full Newton. The coupled solver's s n x s n
+/// matrix is allocated when it is first needed: as a fallback it usually never is.
+template <class Real>
+class StagewiseMatrix {
+ public:
+  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, Counters& counters)
+      : shared_(shared), setup_(std::move(setup)), counters_(counters) {}
+
+  /// Evaluates and factorizes at the stages of the last residual of `eq`.
+  [[nodiscard]] Outcome prepare(const StageEquations<Real>& eq, const Mat<Real>& W);
+  void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
+
+ private:
+  SharedJacobian<Real>& shared_;
+  StageSolverSetup<Real> setup_;
+  Counters& counters_;
+  std::vector<Linearization<Real>> at_;
+  std::unique_ptr<StageSolver<Real>> solver_;
+};
+
+}  // namespace irk

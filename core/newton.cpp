@@ -1,0 +1,238 @@
+#include "core/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/multiprecision.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+double epsilon() {
+  return static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
+}
+
+// Increments below this many units of round-off cannot be reduced further.
+constexpr double kRoundOffUnits = 10;
+// Increments that stop contracting below this many units of round-off are round-off of the residual.
+constexpr double kStagnationUnits = 1e4;
+
+// Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
+template <class Real>
+double unitRoundOff(const IntegratorOptions& options) {
+  return epsilon<Real>() / std::max(options.tolerances.rtol, options.tolerances.atol);
+}
+
+/// Iterations that share their pieces: residual, solve, update.
+template <class Real>
+class NewtonBase : public Newton<Real> {
+ protected:
+  NewtonBase(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : options_(options),
+        round_off_(unitRoundOff<Real>(options)),
+        first_(scheme.first),
+        R_(sizes.n(), scheme.s),
+        W0_(sizes.n(), scheme.s) {}
+
+  /// R(W); false if not finite.
+  bool residual(NewtonContext<Real>& c, const Mat<Real>& W) { return c.eq.residual(W, R_); }
+
+  /// Solves for the increment, applies it, and returns its norm; NaN if not finite.
+  template <class Matrix>
+  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W) {
+    auto implicit = R_.rightCols(R_.cols() - first_);
+    matrix.solve(implicit);
+    W.rightCols(W.cols() - first_) -= implicit;
+    return c.norm.increment(R_, first_, static_cast<double>(c.eq.h()));
+  }
+
+  const IntegratorOptions& options_;
+  double round_off_;
+  Index first_;
+  Mat<Real> R_;   // residual, then increment
+  Mat<Real> W0_;  // start values, for restarts
+};
+
+/// HW II (IV.8): simplified Newton with the increment test
+///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
+/// The last step's eta, raised to 0.8, stands in for the first iteration, where theta is unknown.
+template <class Real>
+class SimplifiedNewton final : public NewtonBase<Real> {
+  using Base = NewtonBase<Real>;
+
+ public:
+  SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes,
+                   const Scheme<Real>& scheme)
+      : Base(options, sizes, scheme) {
+    // kappa shrinks with s: at high order a loose stage equation spoils the step. theory.md.
+    const double floor = kRoundOffUnits * this->round_off_;
+    const double s = static_cast<double>(scheme.s);
+    const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
+    const double kappa = options.newton.kappa;
+    kappa_ = std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1))));
+  }
+
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    auto& shared = c.matrix.shared();
+    const bool had_old = !shared.stale() && !shared.evaluatedAt(c.eq.from().t);
+    if (shared.stale()) shared.evaluate(c.eq);
+    this->W0_ = W;
+    NewtonResult result = iterate(c, W);
+    if (result.outcome != Outcome::kSuccess && had_old) {
+      ++c.counters.newton_restarts;
+      shared.evaluate(c.eq);
+      W = this->W0_;
+      const int before = result.iterations;
+      result = iterate(c, W);
+      result.iterations += before;
+    }
+    if (result.outcome != Outcome::kSuccess || result.theta > this->options_.newton.keep_jacobian_below) {
+      shared.markStale();
+    }
+    return result;
+  }
+
+ private:
+  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W) {
+    NewtonResult result;
+    result.outcome = c.matrix.prepare(c.eq.h());
+    if (result.outcome != Outcome::kSuccess) return result;
+    const int limit = this->options_.newton.max_iterations;
+    double eta = std::pow(std::max(eta_, epsilon<Real>()), 0.8);
+    double previous = 0;
+    for (int m = 0; m < limit; ++m) {
+      ++result.iterations;
+      ++c.counters.newton_iterations;
+      if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+      const double norm = this->update(c, c.matrix, W);
+      if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
+      if (m > 0) {
+        result.theta = previous > 0 ? norm / previous : 0;
+        if (result.theta >= 0.99) {
+          // At round-off increments no longer contract; above it this is divergence.
+          if (norm <= kStagnationUnits * this->round_off_) return result;
+          return fail(result, Outcome::kNewtonFailed);
+        }
+        eta = result.theta / (1 - result.theta);
+        const double left = limit - 1 - m;
+        if (std::pow(result.theta, left) * eta * norm > kappa_) {
+          return fail(result, Outcome::kNewtonFailed);
+        }
+      }
+      if (eta * norm <= kappa_ || norm <= kRoundOffUnits * this->round_off_) {
+        eta_ = eta;
+        return result;
+      }
+      previous = norm;
+    }
+    return fail(result, Outcome::kNewtonFailed);
+  }
+  NewtonResult fail(NewtonResult result, Outcome outcome) {
+    eta_ = 1;
+    result.outcome = outcome;
+    return result;
+  }
+
+  double kappa_;
+  double eta_ = 1;
+};
+
+/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
+/// the iteration as well: then the residual cannot shrink by the asked factor.
+template <class Real>
+class ResidualNewton final : public NewtonBase<Real> {
+  using Base = NewtonBase<Real>;
+
+ public:
+  ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : Base(options, sizes, scheme) {}
+
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    this->W0_ = W;
+    if (this->options_.newton.kind == NewtonKind::kFull) {
+      return iterate(c, W, kStagewise);
+    }
+    auto& shared = c.matrix.shared();
+    const bool had_old = !shared.stale() && !shared.evaluatedAt(c.eq.from().t);
+    if (shared.stale()) shared.evaluate(c.eq);
+    NewtonResult result = iterate(c, W, kKept);
+    int before = result.iterations;
+    if (result.outcome != Outcome::kSuccess && had_old) {
+      ++c.counters.newton_restarts;
+      shared.evaluate(c.eq);
+      W = this->W0_;
+      result = iterate(c, W, kKept);
+      result.iterations += before;
+      before = result.iterations;
+    }
+    if (result.outcome != Outcome::kSuccess) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      result = iterate(c, W, kStagewise);
+      result.iterations += before;
+    }
+    if (result.outcome != Outcome::kSuccess) shared.markStale();
+    return result;
+  }
+
+ private:
+  enum Jacobian { kKept, kStagewise };
+
+  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W, Jacobian jacobian) {
+    const NewtonOptions& o = this->options_.newton;
+    NewtonResult result;
+    if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+    const double eps0 = residualNorm();
+    double eps = eps0;
+    if (eps0 == 0) return result;
+    for (int i = 1; i <= o.max_iterations; ++i) {
+      ++result.iterations;
+      ++c.counters.newton_iterations;
+      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W)
+                                              : c.matrix.prepare(c.eq.h());
+      if (result.outcome != Outcome::kSuccess) return result;
+      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W)
+                                                 : this->update(c, c.matrix, W);
+      if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+      const double previous = eps;
+      eps = residualNorm();
+      result.theta = eps / previous;
+      if (eps <= o.residual_tolerance * eps0) return result;
+      if (norm <= kRoundOffUnits * this->round_off_) return result;
+      if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+      // (3.4). Full Newton is the last resort and uses all its iterations.
+      if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
+        return fail(result, Outcome::kNewtonFailed);
+      }
+    }
+    return fail(result, Outcome::kNewtonFailed);
+  }
+  double residualNorm() const { return static_cast<double>(Real(this->R_.norm())); }
+  static NewtonResult fail(NewtonResult result, Outcome outcome) {
+    result.outcome = outcome;
+    return result;
+  }
+};
+
+}  // namespace
+
+template <class Real>
+std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
+                                         const Scheme<Real>& scheme) {
+  switch (options.newton.kind) {
+    case NewtonKind::kSimplified:
+      return std::make_unique<SimplifiedNewton<Real>>(options, sizes, scheme);
+    case NewtonKind::kModified:
+    case NewtonKind::kFull:
+      return std::make_unique<ResidualNewton<Real>>(options, sizes, scheme);
+  }
+  return nullptr;
+}
+
+template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&,
+                                                    const Scheme<double>&);
+template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&,
+                                                  const Scheme<mp50>&);
+
+}  // namespace irk

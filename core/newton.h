@@ -1,0 +1,43 @@
+// Newton's method for the stage equations: three strategies behind one interface.
+#pragma once
+
+#include <memory>
+
+#include "core/error_norm.h"
+#include "core/jacobian.h"
+
+namespace irk {
+
+struct NewtonResult {
+  Outcome outcome = Outcome::kSuccess;
+  int iterations = 0;
+  double theta = 0;  ///< last contraction: of increments (simplified) or residuals
+};
+
+/// What a Newton strategy works with. All references outlive it; the step has been begun in `eq`.
+template <class Real>
+struct NewtonContext {
+  StageEquations<Real>& eq;
+  NewtonMatrix<Real>& matrix;
+  StagewiseMatrix<Real>& stagewise;
+  const ErrorNorm<Real>& norm;
+  Counters& counters;
+};
+
+/// Owns scratch; one per stepper.
+template <class Real>
+class Newton {
+ public:
+  virtual ~Newton() = default;
+  /// W (n x s): start values in, solution out (unspecified after a failure). The columns of explicit
+  /// stages are not touched.
+  [[nodiscard]] virtual NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) = 0;
+};
+
+/// `tolerance_level`: max(rtol, atol), for the round-off floor of increments; `fixed_steps`: no
+/// tolerance is known, iterate to round-off.
+template <class Real>
+std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
+                                         const Scheme<Real>& scheme);
+
+}  // namespace irk

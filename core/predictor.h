@@ -1,0 +1,40 @@
+// Start values of Newton's iteration.
+#pragma once
+
+#include "core/options.h"
+#include "core/scheme.h"
+#include "core/system.h"
+
+namespace irk {
+
+/// The stages of a solved step: the polynomial through (c_i, w_i) on [t, t + h].
+template <class Real>
+struct StagePolynomial {
+  Real t{}, h{};
+  Mat<Real> W;  ///< n x s; n columns of zero length until the first step
+  bool valid = false;
+};
+
+/// Fills W for a step from a solved one. Owns the weights of the last ratio of step sizes.
+template <class Real>
+class StartValues {
+ public:
+  /// Keeps a reference to the scheme.
+  StartValues(Predictor kind, const Scheme<Real>& scheme);
+
+  /// W (n x s) for the step [from.t, from.t + h], from the polynomial `past` where it is valid, else
+  /// from (a, k, z) of `from`. The explicit first stage is always that of `from`.
+  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+            Mat<Real>& W);
+
+ private:
+  void updateWeights(const Real& offset, const Real& ratio);
+
+  Predictor kind_;
+  const Scheme<Real>& scheme_;
+  Real offset_{-1}, ratio_{-1};
+  Mat<Real> weights_;    // s x s: W_new = W_past weights
+  Mat<Real> basis_;      // P_k at the new stages, s x s
+};
+
+}  // namespace irk

@@ -1,0 +1,124 @@
+#include "core/stage_equations.h"
+
+#include "core/multiprecision.h"
+#include "core/stage_solver.h"
+
+namespace irk {
+
+template <class Real>
+StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Real>& scheme)
+    : system_(system),
+      scheme_(scheme),
+      sizes_(system.sizes()),
+      U_(sizes_.nu, scheme.s),
+      V_(sizes_.nu, scheme.s),
+      X_(sizes_.nx, scheme.s),
+      hA_(scheme.s, scheme.s),
+      hhA2_(scheme.s, scheme.s),
+      scales_(sizes_.n()),
+      middle_(sizes_) {}
+
+template <class Real>
+void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
+  from_ = &from;
+  h_ = h;
+  hA_ = h * scheme_.A.transpose();
+  hhA2_ = (h * h) * scheme_.A2.transpose();
+  rowScales(system_.rowPowers(), h, scales_);
+}
+
+// (2.5), (2.6): V = v0 + h A a, U = u0 + h c v0 + h^2 A^2 a, X = x0 + h A k.
+template <class Real>
+void StageEquations<Real>::stages(const Mat<Real>& W) {
+  const auto a = W.topRows(sizes_.nu);
+  const auto k = W.middleRows(sizes_.nu, sizes_.nx);
+  if (sizes_.nu > 0) {
+    V_.noalias() = a * hA_;
+    U_.noalias() = a * hhA2_;
+    for (Index i = 0; i < scheme_.s; ++i) {
+      V_.col(i) += from_->v;
+      U_.col(i) += from_->u + (h_ * scheme_.c[i]) * from_->v;
+    }
+  }
+  if (sizes_.nx > 0) {
+    X_.noalias() = k * hA_;
+    for (Index i = 0; i < scheme_.s; ++i) X_.col(i) += from_->x;
+  }
+}
+
+template <class Real>
+bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
+  stages(W);
+  for (Index i = 0; i < scheme_.first; ++i) R.col(i).setZero();
+  for (Index i = scheme_.first; i < scheme_.s; ++i) {
+    system_.evaluate(Level::kFormulated, stage(W, i), VecView<Real>(R.col(i).data(), R.rows()));
+    R.col(i).array() *= scales_.array();
+  }
+  return R.allFinite();
+}
+
+template <class Real>
+Point<Real> StageEquations<Real>::stage(const Mat<Real>& W, Index i) const {
+  const Real* const w = W.data() + i * W.rows();
+  return {Real(from_->t + scheme_.c[i] * h_),
+          {U_.data() + i * sizes_.nu, sizes_.nu},
+          {V_.data() + i * sizes_.nu, sizes_.nu},
+          {X_.data() + i * sizes_.nx, sizes_.nx},
+          {w, sizes_.nu},
+          {w + sizes_.nu, sizes_.nx},
+          {w + sizes_.nu + sizes_.nx, sizes_.nz}};
+}
+
+namespace {
+template <class Real>
+Point<Real> pointOf(const State<Real>& s) {
+  const Real* const w = s.w.data();
+  const Index nu = s.u.size(), nx = s.x.size();
+  return {s.t,        {s.u.data(), nu}, {s.v.data(), nu},
+          {s.x.data(), nx}, {w, nu},    {w + nu, nx},
+          {w + nu + nx, s.w.size() - nu - nx}};
+}
+}  // namespace
+
+template <class Real>
+Point<Real> StageEquations<Real>::start() const {
+  return pointOf(*from_);
+}
+
+template <class Real>
+Point<Real> StageEquations<Real>::middle() {
+  const Real half = h_ / Real(2);
+  middle_ = *from_;
+  middle_.t += half;
+  middle_.u += half * from_->v + (half * half / Real(2)) * from_->a();
+  middle_.v += half * from_->a();
+  middle_.x += half * from_->k();
+  return pointOf(middle_);
+}
+
+template <class Real>
+void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
+  const auto a = W.topRows(sizes_.nu);
+  const auto k = W.middleRows(sizes_.nu, sizes_.nx);
+  const auto z = W.bottomRows(sizes_.nz);
+  to.t = from_->t + h_;
+  to.u = from_->u + h_ * from_->v;
+  to.u.noalias() += (h_ * h_) * (a * scheme_.bA);
+  to.v = from_->v;
+  to.v.noalias() += h_ * (a * scheme_.b);
+  to.x = from_->x;
+  to.x.noalias() += h_ * (k * scheme_.b);
+  if (scheme_.stiffly_accurate) {
+    to.w = W.col(scheme_.s - 1);
+    return;
+  }
+  to.w.head(sizes_.nu + sizes_.nx).noalias() = W.topRows(sizes_.nu + sizes_.nx) * scheme_.end;
+  if (sizes_.nz > 0) {
+    to.z() = (Real(1) - scheme_.d.sum()) * from_->z();
+    to.z().noalias() += z * scheme_.d;
+  }
+}
+
+IRK_INSTANTIATE_CLASS(StageEquations)
+
+}  // namespace irk
