@@ -190,12 +190,12 @@ using Rate = DualNumber<T, 1>;
 
 /// The number below all derivatives, as a double: for branches and messages.
 inline double valueOf(double x) { return x; }
+template <class T>
+requires(!std::is_arithmetic_v<T>) double valueOf(const T& x) { return static_cast<double>(x); }
 template <class T, std::size_t N>
 double valueOf(const DualNumber<T, N>& x) {
   return valueOf(x.value);
 }
-template <class T>
-requires(!std::is_arithmetic_v<T>) double valueOf(const T& x) { return static_cast<double>(x); }
 
 }  // namespace irk
 
