@@ -1,0 +1,42 @@
+#include <type_traits>
+
+#include "core/misuse.h"
+#include "core/text.h"
+#include "problems/build.h"
+#include "problems/entries.h"
+
+namespace irk {
+
+const std::vector<SceneEntry>& sceneCatalogue() {
+  static const std::vector<SceneEntry> entries = {
+      dahlquistEntry(),        hiresEntry(),           keplerEntry(),    pendulumEntry(),
+      protheroRobinsonEntry(), riccatiTrackingEntry(), robertsonEntry(), sliderCrankEntry(),
+      vanDerPolEntry(),
+  };
+  return entries;
+}
+
+const SceneEntry& findScene(std::string_view id) {
+  std::vector<std::string> known;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    if (entry.id == id) return entry;
+    known.push_back(entry.id);
+  }
+  throw Misuse(unknownName("scene", id, known));
+}
+
+template <class Real>
+Scene<Real> makeScene(std::string_view id, const Settings& settings) {
+  const SceneEntry& entry = findScene(id);
+  const Settings completed = completedSettings(id, entry.parameters, settings);
+  if constexpr (std::is_same_v<Real, double>) {
+    return entry.make(completed);
+  } else {
+    return entry.make_mp50(completed);
+  }
+}
+
+template Scene<double> makeScene<double>(std::string_view, const Settings&);
+template Scene<mp50> makeScene<mp50>(std::string_view, const Settings&);
+
+}  // namespace irk

@@ -1,0 +1,10 @@
+// The text of problems/reference/*.csv, put into the library at build time. Internal.
+#pragma once
+
+#include <string_view>
+
+namespace irk {
+
+extern const std::string_view kEmbeddedReferences;
+
+}  // namespace irk
