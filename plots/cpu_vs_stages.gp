@@ -1,0 +1,73 @@
+# CPU time at a fixed error against the number of stages: one line per error, one panel per case.
+# A number of stages that did not reach an error stands above the lines.
+#   gnuplot -e "data='results/cpu_time'; out='cpu'; cases='slider_crank slider_crank:torque_off_at=0.5'" cpu_vs_stages.gp
+# Reads cpu_at_error.csv. Options: cases (scene or scene:settings, one panel each), family,
+# cost (a column: cpu_s, residuals, newton_iterations), titles (quoted words, one per case).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("cases")) cases = 'slider_crank'
+if (!exists("family")) family = 'radau_iia'
+if (!exists("cost")) cost = 'cpu_s'
+if (!exists("titles")) titles = ''
+file = data.'/cpu_at_error.csv'
+n = words(cases)
+colon(case) = strstrt(case, ':')
+sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
+settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
+caseTitle(i) = (words(titles) >= i ? word(titles, i).': ' : '') \
+  .sceneTitle(sceneOf(word(cases, i)), settingsOf(word(cases, i)))
+
+row(case) = is("scene", sceneOf(case)) && is("settings", settingsOf(case)) && is("family", family)
+at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
+reached(case, error) = at(case, error) ? positive(column(cost)) : NaN
+missed(case, error) = at(case, error) && absent(cost) ? column("stages") : outside
+
+rows = 0; most = 0; least = 1e300; s_max = 1
+do for [i = 1 : n] {
+  undefine C_*
+  stats file using (row(word(cases, i)) ? (collect(sprintf("%.2f", log10(column("target_error")))), \
+    s_max = column("stages") > s_max ? column("stages") : s_max, positive(column(cost))) : NaN) name "C" nooutput
+  if (exists("C_records")) {
+    rows = rows + C_records
+    if (C_records > 0) { most = C_max > most ? C_max : most; least = C_min < least ? C_min : least }
+  }
+}
+exponents = sorted(collected)
+count = words(exponents)
+target(k) = 10 ** real(word(exponents, count + 1 - k))   # the coarsest first
+errorColour(k) = stageColour(1 + (k - 1) * 19.0 / (count > 1 ? count - 1 : 1))
+errorPoint(k) = int(word("6 4 9 7 5 11 13 15", (k - 1) % 8 + 1))
+errorDash(k) = k <= 3 ? 5 - k : 1
+
+margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.24 : 0.14
+margin_bottom = 0.14; gap_x = 0.03
+do for [format in formats] {
+  eval open(format, n == 1 ? 640 : 1080, 400)
+  if (rows == 0) { eval nothing(cases." in ".file) } else {
+    set multiplot
+    eval decades("y")
+    set logscale x
+    set xtics (1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 50, 100) nomirror
+    unset mxtics
+    level(k) = most * (most / least) ** (0.05 + 0.03 * k)
+    set xrange [0.9 : s_max * 1.12]; set yrange [least / 1.5 : level(count + 1)]
+    do for [i = 1 : n] {
+      case = word(cases, i)
+      eval panel(i, n, 1)
+      set title caseTitle(i) noenhanced offset 0,-0.5
+      set xlabel 'stages s'
+      if (i > 1) { set format y '' }
+      set ylabel when(i == 1, cost eq 'cpu_s' ? 'CPU time in s' : cost) offset 1,0 noenhanced
+      unset key
+      if (i == n) { set key at graph 1.03, graph 1 left top Left reverse enhanced title 'error' }
+      plot for [k = 1 : count] file using "stages":(reached(case, target(k))) smooth unique \
+             with linespoints lw 1.2 dt errorDash(k) pt errorPoint(k) ps 0.8 lc rgb errorColour(k) \
+             title sprintf("10^{%.0f}", log10(target(k))), \
+           for [k = 1 : count] file using (missed(case, target(k))):(level(k)) \
+             with points pt failure_point ps 0.7 lw 1.5 lc rgb errorColour(k) notitle, \
+           keyentry with points pt failure_point ps 0.7 lw 1.5 lc rgb ink title 'not reached'
+    }
+    unset multiplot
+  }
+  unset output
+  unset logscale; set xrange [*:*]; set yrange [*:*]
+}

@@ -1,0 +1,82 @@
+# Error against step size at fixed steps, one panel per family, with the slopes that theory predicts.
+#   gnuplot -e "data='results/order'; out='error'; scene='riccati_tracking'; families='radau_iia gauss'" error_vs_step.gp
+# Reads runs.csv, and orders.csv for the window of the fit. Options: scene, settings, formulation, scalar,
+# component ('x': column error_x; '': column error), families (one panel each), stages_shown.
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("scene")) scene = 'riccati_tracking'
+if (!exists("settings")) settings = ''
+if (!exists("formulation")) formulation = ''
+if (!exists("scalar")) scalar = ''
+if (!exists("component")) component = 'x'
+if (!exists("families")) families = 'radau_iia gauss'
+if (!exists("stages_shown")) stages_shown = '1 2 3 4 5 6 7 8 10 15 20'
+file = data.'/runs.csv'
+fits = data.'/orders.csv'
+quantity = component eq '' ? 'error' : 'error_'.component
+n = words(families)
+
+chosen(d) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+            && has("scalar", scalar) && position(families, strcol("family")) \
+            && position(stages_shown, sprintf("%d", column("stages")))
+row(family, s) = chosen(0) && is("family", family) && column("stages") == s
+failed(family) = chosen(0) && is("family", family) && !succeeded(0) ? column("h") : outside
+error(d) = succeeded(0) ? positive(column(quantity)) : NaN
+
+stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), column("h")) : NaN) name "H" nooutput
+stats file using (chosen(0) ? error(0) : NaN) name "E" nooutput
+rows = exists("E_records") ? E_records : 0
+stages = sorted(collected)
+stage(k) = int(word(stages, k))
+if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
+
+# The predicted slope through the middle of the points that the fit used.
+fit_row(family, s) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+                     && has("component", component) && is("family", family) && column("stages") == s
+array Lower[200]; array Upper[200]; array Level[200]; array Slope[200]; array Fitted[200]
+slot(i, k) = (i - 1) * words(stages) + k
+do for [i = 1 : n] { do for [k = 1 : words(stages)] {
+  f = word(families, i); s = stage(k); m = slot(i, k)
+  Slope[m] = NaN; Fitted[m] = NaN
+  stats fits using (fit_row(f, s) ? (Fitted[m] = column("order"), Slope[m] = column("theory"), \
+    Lower[m] = column("h_min"), Upper[m] = column("h_max"), 0) : 0) nooutput
+  if (Fitted[m] == Fitted[m]) {
+    undefine L_*
+    stats file using (row(f, s) && column("h") >= 0.999 * Lower[m] && column("h") <= 1.001 * Upper[m] \
+      ? log10(error(0)) - Slope[m] * log10(column("h")) : NaN) name "L" nooutput
+    Level[m] = exists("L_median") ? 10 ** L_median : NaN
+  }
+} }
+fitted(m) = Slope[m] == Slope[m] && Fitted[m] == Fitted[m]
+fittedIn(i, k) = k == 0 ? "" : fittedIn(i, k - 1).when(fitted(slot(i, k)), sprintf("%d ", k))
+predicted(m, family, s) = fitted(m) && row(family, s) && column("h") >= 0.999 * Lower[m] \
+  && column("h") <= 1.001 * Upper[m] ? Level[m] * column("h") ** Slope[m] : NaN
+seriesTitle(i, k) = sprintf("%s%s", word(stages, k), \
+  Fitted[slot(i, k)] == Fitted[slot(i, k)] ? sprintf(": %.2f", Fitted[slot(i, k)]) : "")
+
+margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.2 : 0.115; margin_bottom = 0.14; gap_x = n == 1 ? 0 : 0.165
+do for [format in formats] {
+  eval open(format, n == 1 ? 640 : 540 * n, 420)
+  if (rows == 0) { eval nothing(scene." in ".file) } else {
+    set multiplot
+    eval decades("x"); eval decades("y")
+    set xrange [H_min / 1.4 : H_max * 1.4]; set yrange [y_min : y_max]
+    do for [i = 1 : n] {
+      f = word(families, i)
+      eval panel(i, n, 1)
+      set title familyTitle(f) offset 0,-0.5
+      set xlabel 'step h'
+      set ylabel when(i == 1, 'error') offset 1,0
+      set key at graph 1.02, graph 1 left top Left reverse title 's: order'
+      plot for [k in fittedIn(i, words(stages))] file using "h":(predicted(slot(i, int(k)), f, stage(int(k)))) \
+             smooth unique with lines lw 4 lc rgb 0xD0D0D0 notitle, \
+           for [k = 1 : words(stages)] file using "h":(row(f, stage(k)) ? error(0) : NaN) \
+             smooth unique with linespoints lw 1 dt stageDash(stage(k)) \
+             pt stagePoint(stage(k)) ps 0.6 lc rgb stageColour(stage(k)) \
+             title seriesTitle(i, k), \
+           file using (failed(f)):(fail_at) with points pt failure_point ps 0.9 lw 1.5 lc rgb failure_colour notitle
+    }
+    unset multiplot
+  }
+  unset output
+  unset logscale
+}

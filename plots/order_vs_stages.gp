@@ -1,0 +1,81 @@
+# Observed order of convergence against the number of stages, one panel per family.
+#   gnuplot -e "data='results/order'; out='order_ode'; scene='riccati_tracking'; components='x'" order_vs_stages.gp
+# Reads orders.csv. Options: scene, settings, formulation, components ('u v z': several in one panel).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("scene")) scene = 'riccati_tracking'
+if (!exists("settings")) settings = ''
+if (!exists("formulation")) formulation = ''
+if (!exists("components")) components = 'x'
+file = data.'/orders.csv'
+parts = words(components)
+part(k) = word(components, k)
+partPoint(k) = word("7 5 9 13", k) + 0
+partDash(k) = k == 1 ? 1 : k + 1
+partTitle(c) = c eq 'u' ? 'position u' : c eq 'v' ? 'velocity v' : c eq 'z' ? 'multiplier z' : 'state x'
+
+chosen(d) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+            && position(components, strcol("component"))
+row(family, k) = chosen(0) && is("family", family) && is("component", part(k))
+is_measured(d) = strcol("verdict") ne 'not_measurable'
+measured(family, k) = row(family, k) && is_measured(0) ? column("order") : outside
+theory(family, k) = row(family, k) ? column("theory") : NaN
+differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
+unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
+place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, not on top of each other
+
+stats file using (chosen(0) ? (collect(strcol("family")), column("stages")) : NaN) name "S" nooutput
+rows = exists("S_records") ? S_records : 0
+present = ""
+do for [f in families_known.collected] { present = present.(position(collected, f) && !position(present, f) ? " ".f : "") }
+n = words(present)
+columns = n <= 4 ? n : (n + 1) / 2
+lines = n == 0 ? 1 : (n + columns - 1) / columns
+if (rows > 0) {
+  stats file using (chosen(0) && is_measured(0) ? column("order") : NaN) name "O" nooutput
+  stats file using (chosen(0) ? column("theory") : NaN) name "T" nooutput
+  most = exists("O_max") ? O_max : T_max
+  least = exists("O_min") ? O_min : 0
+  y_max = ceil(1.12 * most + 1)
+  y_min = (least < 0 ? floor(least) : 0) - 0.07 * y_max
+  y_step = y_max > 24 ? 8 : y_max > 12 ? 4 : y_max > 6 ? 2 : 1
+}
+margin_left = n <= 2 ? 0.11 : 0.065
+margin_bottom = lines == 1 ? 0.26 : 0.17
+gap_y = 0.13; gap_x = 0.02; margin_right = 0.01
+width = n <= 2 ? 640 : n <= 3 ? 860 : 1080
+height = lines == 1 ? 340 : 560
+
+do for [format in formats] {
+  eval open(format, width, height)
+  if (rows == 0) { eval nothing(scene." in ".file) } else {
+    unset key
+    set multiplot
+    set xrange [S_min - 0.7 : S_max + 0.7]; set yrange [y_min : y_max]
+    x_step = S_max > 12 ? 5 : S_max > 8 ? 2 : 1
+    set xtics x_step; set ytics 0, y_step
+    do for [i = 1 : n] {
+      f = word(present, i)
+      eval panel(i, columns, lines)
+      set title familyTitle(f) offset 0,-0.5
+      set format y when((i - 1) % columns == 0, '%g')
+      set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 1,0
+      set xlabel when(i > n - columns, 'stages s') offset 0,0.5
+      plot for [k = 1 : parts] file using (place(k)):(theory(f, k)) smooth unique \
+             with lines lw 1.3 dt partDash(k) lc rgb familyColour(f) notitle, \
+           for [k = 1 : parts] file using (place(k)):(measured(f, k)):(column("confidence")) \
+             with yerrorbars pt partPoint(k) ps 0.75 lw 1.2 lc rgb familyColour(f) notitle, \
+           for [k = 1 : parts] file using (place(k)):(differing(f, k)) \
+             with points pt failure_point ps 1.6 lw 2 lc rgb failure_colour notitle, \
+           for [k = 1 : parts] file using (place(k)):(unmeasured(f, k)) \
+             with points pt 10 ps 0.8 lc rgb 0x777777 notitle
+    }
+    eval legend(0.07)
+    plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 \
+           lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line) and observed (mark)'), \
+         keyentry with points pt failure_point ps 1.4 lw 2 lc rgb failure_colour title 'differs', \
+         keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable'
+    unset multiplot
+  }
+  unset output
+  eval framed
+}

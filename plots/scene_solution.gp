@@ -1,0 +1,86 @@
+# A scene's solution over time, one panel per kind of quantity.
+#   gnuplot -e "data='results/scenes'; out='slider_crank'; scene='slider_crank'" scene_solution.gp
+# Reads <scene>.csv: t and the components by name. Options: scene, file_name, panels.
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("scene")) scene = 'slider_crank'
+if (!exists("file_name")) file_name = scene
+file = data.'/'.file_name.'.csv'
+
+# A panel is "label|columns", or "label|columns|factor" for values in another unit; a column a:b is b over
+# a at equal scales (an orbit). Columns that a table does not have are left out, panels without any too.
+known_scenes = "slider_crank slider_crank_flexible hydraulic_arm stick_slip ancf_pendulum ancf_cantilever " \
+  ."van_der_pol kepler pendulum"
+array Layout[9]
+Layout[1] = '"angles in rad|theta phi" "angular velocities in rad/s|theta'' phi''" "slider in m|x3" "multiplier|lambda"'
+Layout[2] = '"angles in rad|phi1 phi2" "bending modes in mm|q1 q2|1e3" "longitudinal modes in µm|q3 q4|1e6" "multipliers|lambda1 lambda2 lambda3"'
+Layout[3] = '"angle in rad|angle" "angular velocity in rad/s|angle''" "pressures in MPa|p0 p1|1e-6"'
+Layout[4] = '"position|x" "velocity|x''"'
+Layout[5] = '"tip in m|tip_x tip_y" "path of the tip in m|tip_x:tip_y"'
+Layout[6] = Layout[5]
+Layout[7] = '"y1|y1" "y2|y2"'
+Layout[8] = '"orbit|q1:q2" "positions|q1 q2" "velocities|q1'' q2''"'
+Layout[9] = '"positions in m|x y" "velocities in m/s|x'' y''" "multiplier|lambda"'
+
+# The table's own column names.
+unset datafile columnheaders
+stats file using 1 name "W" nooutput
+header = ""
+stats file using ($0 == 0 ? sum [c = 1 : W_columns] strlen(header = header.' '.strcol(c)) : 0) nooutput
+set datafile columnheaders
+rows = W_records
+
+if (!exists("panels")) {
+  if (position(known_scenes, scene)) { panels = Layout[position(known_scenes, scene)] } else {
+    panels = ""
+    do for [c in header] { if (c ne 't' && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
+  }
+}
+over(c) = strstrt(c, ':') ? c[1 : strstrt(c, ':') - 1] : 't'
+of(c) = strstrt(c, ':') ? c[strstrt(c, ':') + 1 : strlen(c)] : c
+there(c) = position(header, over(c)) && position(header, of(c))
+label(p) = p[1 : strstrt(p, '|') - 1]
+behind(p) = p[strstrt(p, '|') + 1 : strlen(p)]
+content(p) = strstrt(behind(p), '|') ? label(behind(p)) : behind(p)
+factor(p) = strstrt(behind(p), '|') ? behind(behind(p)) : '1'
+only(list, k) = k == 0 ? "" : only(list, k - 1).when(there(word(list, k)), ' '.word(list, k))
+shown(p) = only(content(p), words(content(p)))
+kept = ""
+do for [i = 1 : words(panels)] {
+  p = word(panels, i)
+  if (words(shown(p)) > 0) { kept = kept.sprintf(' "%s|%s|%s"', label(p), shown(p), factor(p)) }
+}
+n = words(kept)
+seriesColour(k) = int(word(family_colours, (k == 2 ? 3 : k == 3 ? 4 : k == 1 ? 1 : k) % 8 + (k % 8 == 0 ? 8 : 0)))
+seriesDash(k) = (k - 1) % 4 + 1
+
+columns = n <= 3 ? n : 2
+lines = n == 0 ? 1 : (n + columns - 1) / columns
+width = n <= 1 ? 560 : n == 3 ? 1080 : 820
+margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : 0.1
+margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = lines == 1 ? 0.1 : 0.06
+gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
+do for [format in formats] {
+  eval open(format, width, 60 + 270 * lines)
+  if (n == 0) { eval nothing(scene." in ".file) } else {
+    set multiplot
+    do for [i = 1 : n] {
+      p = word(kept, i)
+      list = content(p)
+      eval 'scale = '.factor(p)
+      eval panel(i, columns, lines)
+      set ylabel label(p) offset 1,0 noenhanced
+      orbit = strstrt(list, ':') > 0
+      set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : 't in s') offset 0,0.3 noenhanced
+      unset key
+      if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.6 maxrows 1 }
+      set xrange [*:*] noextend
+      set yrange [*:*]
+      set size noratio; set xtics autofreq
+      if (orbit) { set xrange [*:*] extend; set size ratio -1; set xtics 0.5 }
+      plot for [k = 1 : words(list)] file using (column(over(word(list, k)))):(scale * column(of(word(list, k)))) \
+        with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
+    }
+    unset multiplot
+  }
+  unset output
+}

@@ -1,0 +1,111 @@
+# The style of every figure: fonts, colours, marks, panels, and the choice of rows by column name.
+# Each script starts with  load here."/style.gp"  and draws everything once per output format.
+
+set encoding utf8
+set datafile separator ','
+set datafile commentschars '#'
+set datafile columnheaders
+set datafile missing NaN        # a row that a filter turns into NaN does not break a line
+
+# --- Output: out.svg and out.png of the same size in points, the PNG with twice the pixels.
+if (!exists("data")) data = 'results'
+if (!exists("out")) out = 'figure'
+formats = "svg png"
+open(format, width, height) = sprintf( \
+  format eq "svg" ? "set terminal svg size %d,%d font 'sans-serif,12' enhanced background 'white'" \
+                  : "set terminal pngcairo size 2*%d,2*%d font 'sans-serif,12' fontscale 2 " \
+                    ."linewidth 2 pointscale 2 enhanced background 'white'", width, height) \
+  . sprintf("; set output '%s.%s'", out, format)
+
+# --- Axes, grid. `eval bare` leaves only the key, for a legend below several panels.
+ink = 0x333333
+framed = "set border 3 lw 1 lc rgb 0x666666; set tics scale 0.6 textcolor rgb ink; " \
+         ."set xtics nomirror; set ytics nomirror; " \
+         ."set grid lw 1 lc rgb 0xd8d8d8 dt 1"
+bare = "unset border; unset tics; unset grid; set title ''; set xlabel ''; set ylabel ''"
+eval framed
+set xlabel textcolor rgb ink
+set ylabel textcolor rgb ink
+set title textcolor rgb ink font ',12'
+set key samplen 2.2 spacing 1.05 textcolor rgb ink font ',11' noenhanced
+set errorbars small
+set style textbox opaque border lc rgb 0xcccccc
+
+decades(axis) = sprintf("set logscale %s; set format %s '10^{%%L}'; set m%stics 1", axis, axis, axis)
+
+# --- Families: one colour (Okabe and Ito, distinct to colour-blind eyes), mark and dash each.
+families_known = "gauss radau_ia radau_iia lobatto_iiia lobatto_iiib lobatto_iiic lobatto_iiics lobatto_iiid"
+family_titles  = "'Gauss' 'Radau IA' 'Radau IIA' 'Lobatto IIIA' 'Lobatto IIIB' 'Lobatto IIIC' 'Lobatto IIIC*' 'Lobatto IIID'"
+family_colours = "0x0072B2 0xE69F00 0xD55E00 0x009E73 0x56B4E9 0xCC79A7 0x8C6D1F 0x555555"
+family_points  = "7 4 5 9 8 11 10 13"
+position(list, item) = sum [i = 1:words(list)] (word(list, i) eq item ? i : 0)
+known(f) = position(families_known, f)
+familyTitle(f) = known(f) ? word(family_titles, known(f)) : f
+familyColour(f) = known(f) ? int(word(family_colours, known(f))) : 0x000000
+familyPoint(f) = known(f) ? int(word(family_points, known(f))) : 6
+familyDash(f) = known(f) % 2 + 1
+
+# --- Stages: the more, the darker (plasma without its yellow end); hollow marks turn into filled ones.
+stage_shades = "0xF89441 0xE56B5D 0xCB4679 0xA82296 0x7D03A8 0x4B03A1 0x0D0887 0x0D0887"
+shadeAt(s) = 6.0 * (s > 20 ? 1 : log(s) / log(20))
+channel(a, b, w, shift) = int((1 - w) * ((a >> shift) & 255) + w * ((b >> shift) & 255)) << shift
+blend(a, b, w) = channel(a, b, w, 16) + channel(a, b, w, 8) + channel(a, b, w, 0)
+shadeNumber(i) = int(word(stage_shades, i))
+stageColour(s) = blend(shadeNumber(1 + int(shadeAt(s))), shadeNumber(2 + int(shadeAt(s))), \
+                       shadeAt(s) - int(shadeAt(s)))
+stages_marked = "1 2 3 4 5 6 7 8 9 10 15 20"
+stage_points  = "6 4 8 10 12 14 7 13 15 5 9 11"
+marked(s) = position(stages_marked, sprintf("%d", s))
+stagePoint(s) = marked(s) ? int(word(stage_points, marked(s))) : 2
+stageDash(s) = s <= 3 ? 5 - s : 1   # 1, 2, 3: dash-dot, dots, dashes; more: solid
+
+# --- What did not work is red and crossed, everywhere.
+failure_colour = 0xB00020
+failure_point = 2
+
+# --- Rows. In `using`:  has("scene", scene) ? column("h") : NaN ; an empty wish accepts every row.
+has(name, wish) = wish eq "" || strcol(name) eq wish
+is(name, value) = strcol(name) eq value
+absent(name) = strcol(name) eq "" || strcol(name) eq 'nan'   # column() cannot ask: missing NaN
+positive(x) = x > 0 ? x : NaN      # logarithmic axes
+succeeded(dummy) = strcol("outcome") eq "success"
+
+# Distinct values, in order of appearance (words) or ascending (numbers;
+# their words without exponents, which gnuplot cannot read).
+collected = ""
+collect(item) = (position(collected, item) ? 0 : strlen(collected = collected." ".item))
+smallest(list, above) = (low = 1e300, sum [i = 1:words(list)] \
+  (real(word(list, i)) > above && real(word(list, i)) < low ? (low = real(word(list, i)), 0) : 0), low)
+ascending(list, above, n) = n == 0 ? "" : \
+  sprintf("%.10g ", smallest(list, above)).ascending(list, smallest(list, above), n - 1)
+sorted(list) = ascending(list, -1e300, words(list))
+
+# Titles for scenes with their settings: "hydraulic_arm (reference=smooth)".
+sceneTitle(scene, settings) = settings eq "" ? scene : scene." (".settings.")"
+
+when(condition, text) = condition ? text : ''
+
+# For marks that only some rows have, with fixed ranges: the other rows fall outside the panel.
+outside = -1e9
+
+# --- Panels: panel k = 1, 2, ... of a grid; margins as fractions of the figure.
+margin_left = 0.08; margin_right = 0.02; margin_top = 0.07; margin_bottom = 0.13
+gap_x = 0.03; gap_y = 0.12
+cellWidth(columns) = (1.0 - margin_left - margin_right - (columns - 1) * gap_x) / columns
+cellHeight(rows) = (1.0 - margin_top - margin_bottom - (rows - 1) * gap_y) / rows
+panelLeft(k, columns) = margin_left + ((k - 1) % columns) * (cellWidth(columns) + gap_x)
+panelTop(k, columns, rows) = 1 - margin_top - ((k - 1) / columns) * (cellHeight(rows) + gap_y)
+panel(k, columns, rows) = sprintf( \
+  "set lmargin at screen %.4f; set rmargin at screen %.4f; set tmargin at screen %.4f; set bmargin at screen %.4f", \
+  panelLeft(k, columns), panelLeft(k, columns) + cellWidth(columns), \
+  panelTop(k, columns, rows), panelTop(k, columns, rows) - cellHeight(rows))
+
+# A legend of one or more rows below the panels, `height` of the figure high; a plot of keyentries follows.
+legend(height) = sprintf("unset logscale; set format '%%g'; set lmargin at screen 0; set rmargin at screen 1; " \
+  ."set bmargin at screen 0; set tmargin at screen %.3f; set xrange [0:1]; set yrange [0:1]; " \
+  ."set key at screen 0.5, screen %.3f center center horizontal samplen 2.2 width 1; ", height, 0.5 * height) \
+  .bare
+
+# A figure without rows says so instead of staying white.
+nothing(what) = sprintf("unset border; unset tics; unset key; unset grid; set xrange [0:1]; " \
+  ."set yrange [0:1]; unset logscale; set label 1 'no rows for %s' at 0.5,0.5 center noenhanced; plot NaN notitle", what)

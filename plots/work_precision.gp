@@ -1,0 +1,70 @@
+# Work against accuracy: CPU time or counters over the error reached, one line per number of stages.
+# The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
+#   gnuplot -e "data='results/cpu_time'; out='work'; scene='slider_crank'; family='radau_iia'" work_precision.gp
+# Reads runs.csv. Options: scene, settings, family, formulation, stages_shown,
+# quantity ('error_z' ...), costs ('cpu_s', or several counters: one panel each).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("scene")) scene = 'slider_crank'
+if (!exists("settings")) settings = ''
+if (!exists("family")) family = 'radau_iia'
+if (!exists("formulation")) formulation = ''
+if (!exists("stages_shown")) stages_shown = '1 2 3 5 7 10 15 20'
+if (!exists("quantity")) quantity = 'error'
+if (!exists("costs")) costs = 'cpu_s'
+file = data.'/runs.csv'
+n = words(costs)
+cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
+  : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c
+
+chosen(d) = is("scene", scene) && is("settings", settings) && is("family", family) \
+            && has("formulation", formulation) && position(stages_shown, sprintf("%d", column("stages")))
+row(s) = chosen(0) && column("stages") == s
+error(d) = succeeded(0) ? positive(column(quantity)) : NaN
+reached(s) = row(s) ? error(0) : NaN
+asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
+failed(s) = row(s) && !succeeded(0) ? asked(0) : outside
+
+stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), asked(0)) : NaN) name "T" nooutput
+stats file using (chosen(0) && column(word(costs, 1)) > 0 ? error(0) : NaN) name "E" nooutput
+stats file using (chosen(0) && !succeeded(0) ? 1 : 0) name "F" nooutput
+rows = exists("E_records") ? E_records : 0
+stages = sorted(collected)
+count = words(stages)
+stage(k) = int(word(stages, k))
+failures = F_sum
+
+columns = n == 1 ? 1 : 2
+lines = (n + columns - 1) / columns
+margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.17 : 0.1
+margin_bottom = lines == 1 ? 0.14 : 0.09; gap_x = 0.1
+do for [format in formats] {
+  eval open(format, n == 1 ? 640 : 1080, lines == 1 ? 420 : 640)
+  if (rows == 0) { eval nothing(sceneTitle(scene, settings)." in ".file) } else {
+    set multiplot
+    eval decades("x"); eval decades("y")
+    do for [i = 1 : n] {
+      c = word(costs, i)
+      set xrange [*:*]; set yrange [*:*]   # stats counts what the ranges let through
+      stats file using (chosen(0) && error(0) > 0 ? positive(column(c)) : NaN) name "C" nooutput
+      # Failures: a strip above all lines, the fewest stages lowest.
+      strip = C_max * (C_max / C_min) ** 0.06
+      level(k) = strip * (C_max / C_min) ** (0.02 * k)
+      set xrange [2 * (E_max > T_max ? E_max : T_max) : E_min / 2]
+      set yrange [C_min / 1.5 : failures > 0 ? level(count + 1) : 1.5 * C_max]
+      eval panel(i, columns, lines)
+      set xlabel when(i > n - columns, 'error')
+      set ylabel cost_title(c) offset 1,0
+      unset key
+      if (i == columns || n == 1) { set key at graph 1.03, graph 1 left top Left reverse title 'stages' }
+      plot for [k = 1 : count] file using (reached(stage(k))):(positive(column(c))) \
+             with linespoints lw 1.2 dt stageDash(stage(k)) pt stagePoint(stage(k)) ps 0.7 \
+             lc rgb stageColour(stage(k)) title word(stages, k), \
+           for [k = 1 : count] file using (failed(stage(k))):(level(k)) \
+             with points pt failure_point ps 0.6 lw 1.5 lc rgb stageColour(stage(k)) notitle, \
+           keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
+    }
+    unset multiplot
+  }
+  unset output
+  unset logscale; set xrange [*:*]; set yrange [*:*]
+}
