@@ -11,10 +11,10 @@ namespace irk {
 
 /// One family: `id` + "_" + s names its s-stage member.
 struct FamilyEntry {
-  std::string id;      ///< gauss, radau_ia, radau_iia, lobatto_iiia, ...
-  std::string title;   ///< "Radau IIA"
-  Index min_stages;    ///< 1 or 2
-  std::string order;   ///< "2s-1", for lists
+  std::string id;     ///< gauss, radau_ia, radau_iia, lobatto_iiia, ...
+  std::string title;  ///< "Radau IIA"
+  Index min_stages;   ///< 1 or 2
+  std::string order;  ///< "2s-1", for lists
 };
 
 /// All families, sorted as theory.md lists them.

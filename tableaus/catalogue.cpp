@@ -1,0 +1,112 @@
+#include "tableaus/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include "core/misuse.h"
+#include "core/text.h"
+#include "tableaus/families.h"
+#include "tableaus/file.h"
+#include "tableaus/source.h"
+
+namespace irk {
+namespace {
+
+struct MemberId {
+  std::string_view family, stages;  ///< `radau_iia`, `5`
+};
+
+std::optional<MemberId> splitId(std::string_view id) {
+  const std::size_t underscore = id.rfind('_');
+  if (underscore == std::string_view::npos) return std::nullopt;
+  return MemberId{id.substr(0, underscore), id.substr(underscore + 1)};
+}
+
+bool isWholeNumber(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+[[noreturn]] void refuseId(std::string_view id) {
+  if (const Family* family = findFamily(id)) {
+    throw Misuse(fmt::format("tableau '{0}' lacks its number of stages: {0}_{1} to {0}_{2}", id,
+                             family->minStages(), kMaxStages));
+  }
+  const auto member = splitId(id);
+  const bool numbered = member && isWholeNumber(member->stages);
+  std::vector<std::string> known;
+  for (const Family& family : families()) {
+    known.push_back(fmt::format("{}_{}", family.id, numbered ? member->stages : "S"));
+  }
+  throw Misuse(unknownName("tableau", id, known));
+}
+
+TableauFile constructMember(std::string_view id, const MemberId& member) {
+  const Family& family = familyOf(member.family);
+  int s = 0;
+  const char* const end = member.stages.data() + member.stages.size();
+  const auto [stop, error] = std::from_chars(member.stages.data(), end, s);
+  const bool canonical = error == std::errc() && stop == end && std::to_string(s) == member.stages;
+  if (!canonical || s < family.minStages() || s > kMaxStages) {
+    throw Misuse(fmt::format("tableau '{}': '{}' stages, but {} has {} to {}", id, member.stages,
+                             family.id, family.minStages(), kMaxStages));
+  }
+  return constructedFile(family.id, s);
+}
+
+bool looksLikeFile(std::string_view text) {
+  return text.find('/') != std::string_view::npos || text.ends_with(".txt");
+}
+
+TableauFile locate(std::string_view id_or_file, TableauFile (*read)(const std::string&)) {
+  const std::string path(id_or_file);
+  if (looksLikeFile(id_or_file)) return read(path);
+  const auto member = splitId(id_or_file);
+  if (member && findFamily(member->family)) return constructMember(id_or_file, *member);
+  if (std::filesystem::is_regular_file(path)) return read(path);
+  refuseId(id_or_file);
+}
+
+}  // namespace
+
+const std::vector<FamilyEntry>& familyCatalogue() {
+  static const std::vector<FamilyEntry> catalogue = [] {
+    std::vector<FamilyEntry> entries;
+    for (const Family& family : families()) {
+      const std::string order = family.p_gap == 0 ? "2s" : fmt::format("2s-{}", family.p_gap);
+      entries.push_back({family.id, family.title, family.minStages(), order});
+    }
+    return entries;
+  }();
+  return catalogue;
+}
+
+TableauFile findTableau(std::string_view id_or_file) { return locate(id_or_file, readTableau); }
+
+TableauFile findUncheckedTableau(std::string_view id_or_file) {
+  return locate(id_or_file, openTableau);
+}
+
+template <class Real>
+Tableau<Real> makeTableau(std::string_view id_or_file) {
+  const TableauFile file = findTableau(id_or_file);
+  constexpr int kWanted = std::numeric_limits<Real>::digits10;
+  if (file.digits < kWanted) {
+    throw Misuse(fmt::format(
+        "{}: right to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
+        id_or_file, file.digits, kWanted, kWanted));
+  }
+  return file.tableau.cast<Real>();
+}
+
+int classicalOrder(std::string_view family, Index s) { return familyOf(family).orders(s).p; }
+
+int stageOrder(std::string_view family, Index s) { return familyOf(family).orders(s).q; }
+
+template Tableau<double> makeTableau(std::string_view);
+template Tableau<mp50> makeTableau(std::string_view);
+
+}  // namespace irk

@@ -1,0 +1,14 @@
+// Nodes: zeros of Jacobi polynomials.
+#pragma once
+
+#include "core/scalar.h"
+#include "tableaus/precise.h"
+
+namespace irk {
+
+/// The n >= 0 zeros, ascending in (0, 1), of the polynomial of degree n that is orthogonal with
+/// weight (1 - c)^alpha c^beta on [0, 1]; alpha, beta >= 0. Accurate to about 75 digits for n <=
+/// 100.
+Vec<mp80> jacobiZeros(Index n, int alpha, int beta);
+
+}  // namespace irk

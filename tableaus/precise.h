@@ -1,0 +1,12 @@
+// The precision that coefficients are constructed, read and analysed in.
+#pragma once
+
+#include "core/multiprecision.h"
+
+namespace irk {
+
+/// 30 digits more than mp50: the construction loses at most 8 of them up to s = 100.
+using mp80 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>,
+                                           boost::multiprecision::et_off>;
+
+}  // namespace irk

@@ -1,0 +1,41 @@
+// Shared by the tests of tableaus/.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/misuse.h"
+#include "tableaus/catalogue.h"
+#include "tableaus/families.h"
+
+namespace irk {
+
+inline std::string memberId(const std::string& family, Index s) {
+  return fmt::format("{}_{}", family, s);
+}
+
+/// The message that `action` refuses with; empty if it does not.
+template <class Action>
+std::string refusal(const Action& action) {
+  try {
+    action();
+  } catch (const Misuse& misuse) {
+    return misuse.what();
+  }
+  return "";
+}
+
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
+}
+
+/// Largest |x - y|.
+template <class Real>
+double largestDifference(const Mat<Real>& x, const Mat<Real>& y) {
+  return static_cast<double>((x - y).cwiseAbs().maxCoeff());
+}
+
+}  // namespace irk
