@@ -25,9 +25,10 @@ Layout[9] = '"positions in m|x y" "velocities in m/s|x'' y''" "multiplier|lambda
 unset datafile columnheaders
 stats file using 1 name "W" nooutput
 header = ""
-stats file using ($0 == 0 ? sum [c = 1 : W_columns] strlen(header = header.' '.strcol(c)) : 0) nooutput
+if (exists("W_columns")) {
+  stats file using ($0 == 0 ? sum [c = 1 : W_columns] strlen(header = header.' '.strcol(c)) : 0) nooutput
+}
 set datafile columnheaders
-rows = W_records
 
 if (!exists("panels")) {
   if (position(known_scenes, scene)) { panels = Layout[position(known_scenes, scene)] } else {
