@@ -15,6 +15,7 @@ namespace irk {
 namespace {
 
 constexpr double kLargestQuantity = 1e15;
+constexpr double kMostElements = 10000;
 
 void check(std::string_view scene, const Parameter& p, const std::string& text) {
   if (text == p.default_value) return;
@@ -28,9 +29,11 @@ void check(std::string_view scene, const Parameter& p, const std::string& text) 
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
-  if (!is_number || value < p.min || value > p.max) {
-    throw Misuse(fmt::format("scene {}: parameter {} = '{}' must be a number in [{}, {}]{}{}",
-                             scene, p.name, text, p.min, p.max, p.unit.empty() ? "" : " ", p.unit));
+  const bool fits = !p.whole || value == std::floor(value);
+  if (!is_number || !fits || value < p.min || value > p.max) {
+    throw Misuse(fmt::format("scene {}: parameter {} = '{}' must be a {}number in [{}, {}]{}{}",
+                             scene, p.name, text, p.whole ? "whole " : "", p.min, p.max,
+                             p.unit.empty() ? "" : " ", p.unit));
   }
 }
 
@@ -52,6 +55,13 @@ Parameter positiveParameter(std::string name, std::string unit, std::string mean
                             std::string default_value) {
   return numberParameter(std::move(name), std::move(unit), std::move(meaning),
                          std::move(default_value), 1 / kLargestQuantity, kLargestQuantity);
+}
+
+Parameter elementsParameter(std::string default_value) {
+  Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1,
+                                kMostElements);
+  p.whole = true;
+  return p;
 }
 
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices) {

@@ -21,6 +21,9 @@ Parameter numberParameter(std::string name, std::string unit, std::string meanin
 Parameter positiveParameter(std::string name, std::string unit, std::string meaning,
                             std::string default_value);
 
+/// A whole number of finite elements.
+Parameter elementsParameter(std::string default_value);
+
 /// A choice among words, the default first.
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices);
 

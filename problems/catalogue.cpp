@@ -9,9 +9,10 @@ namespace irk {
 
 const std::vector<SceneEntry>& sceneCatalogue() {
   static const std::vector<SceneEntry> entries = {
-      dahlquistEntry(),        hiresEntry(),           keplerEntry(),    pendulumEntry(),
-      protheroRobinsonEntry(), riccatiTrackingEntry(), robertsonEntry(), sliderCrankEntry(),
-      vanDerPolEntry(),
+      ancfCantileverEntry(),  ancfPendulumEntry(), dahlquistEntry(),   hiresEntry(),
+      hydraulicArmEntry(),    keplerEntry(),       pendulumEntry(),    protheroRobinsonEntry(),
+      riccatiTrackingEntry(), robertsonEntry(),    sliderCrankEntry(), sliderCrankFlexibleEntry(),
+      stickSlipEntry(),       vanDerPolEntry(),
   };
   return entries;
 }

@@ -25,6 +25,7 @@ struct Parameter {
   double min = 0, max = 0;           ///< numbers: allowed range
   std::vector<std::string> choices;  ///< words: allowed values; empty for numbers
   bool changes_solution = true;      ///< false: another description of the same physics
+  bool whole = false;                ///< numbers: integers only
 };
 
 /// A scene over one scalar, its parameters fixed. Value type; its systems are immutable.
