@@ -21,8 +21,9 @@ class PaperController final : public StepController {
     const double eps = std::max(error, kTinyError);
     if (last_h_ > 0 && last_h_ != h) {
       const double gamma = eps / last_error_ * std::pow(last_h_ / h, p_);
-      // The paper's text breaks off at "restrict gamma <": above 1 it would enlarge the step because
-      // the error grew faster than expected.
+      // The paper's text breaks off at "restrict gamma <". Above 1 it would enlarge the step because
+      // the error grew faster than expected; far below 1 it would freeze it at round-off, where the
+      // error no longer follows h^p.
       gamma_ = std::clamp(gamma, kGammaMin, 1.0);
     }
     last_error_ = eps;
@@ -39,7 +40,7 @@ class PaperController final : public StepController {
 
  private:
   static constexpr double kTinyError = 1e-300;
-  static constexpr double kGammaMin = 0.5;
+  static constexpr double kGammaMin = 0.9;
   static constexpr double kShrinkAtMost = 0.05;
 
   StepOptions o_;

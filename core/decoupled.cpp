@@ -45,14 +45,14 @@ BlockForm<Real> schurForm(const Mat<Real>& A) {
   form.Q = schur.matrixU();
   form.Q_inverse = form.Q.transpose();
   form.T = schur.matrixT();
-  // Eigen splits real pairs and leaves complex pairs with unequal diagonals by round-off only.
+  // Eigen splits real pairs but leaves the diagonal entries of complex pairs unequal.
   for (Index i = 0; i + 1 < A.rows(); ++i) {
     if (form.T(i + 1, i) != Real(0)) {
-      // Rotate to equal diagonal entries (LAPACK dlanv2): tan 2 phi = (d - a) / (b + c).
+      // Rotate [[a, b], [c, d]] to equal diagonal entries: tan 2 phi = (a - d) / (b + c).
       using std::atan2;
       using std::cos;
       using std::sin;
-      const Real phi = atan2(Real(form.T(i + 1, i + 1) - form.T(i, i)),
+      const Real phi = atan2(Real(form.T(i, i) - form.T(i + 1, i + 1)),
                              Real(form.T(i, i + 1) + form.T(i + 1, i))) / Real(2);
       const Eigen::JacobiRotation<Real> rotation(Real(cos(phi)), Real(sin(phi)));
       form.T.applyOnTheLeft(i, i + 1, rotation.adjoint());

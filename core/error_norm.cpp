@@ -72,7 +72,8 @@ double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, double h) co
   for (Index j = first; j < dW.cols(); ++j) {
     for (Index i = 0; i < nu; ++i) {
       const double dv = h * static_cast<double>(dW(i, j));
-      sum += square(dv / wv[i]) + square(h * dv / wu[i]);
+      const double f = std::pow(h, powers_.v[static_cast<std::size_t>(i)]);
+      sum += square(f * dv / wv[i]) + square(h * dv / wu[i]);
     }
     for (Index i = 0; i < nx; ++i) sum += square(h * static_cast<double>(dW(nu + i, j)) / wx[i]);
     for (Index i = 0; i < nz; ++i) {

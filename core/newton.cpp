@@ -18,6 +18,9 @@ constexpr double kRoundOffUnits = 10;
 // Increments that stop contracting below this many units of round-off are round-off of the residual.
 constexpr double kStagnationUnits = 1e4;
 
+// Fixed steps iterate to round-off and cannot be shortened: slow convergence is waited for.
+constexpr int kFixedStepFactor = 4;
+
 // Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
 template <class Real>
 double unitRoundOff(const IntegratorOptions& options) {
@@ -34,6 +37,13 @@ class NewtonBase : public Newton<Real> {
         first_(scheme.first),
         R_(sizes.n(), scheme.s),
         W0_(sizes.n(), scheme.s) {}
+
+  /// A new Jacobian where one is asked for, and where there is none.
+  void refresh(NewtonContext<Real>& c) {
+    auto& shared = c.matrix.shared();
+    const bool wanted = shared.stale() && c.use == JacobianUse::kRefreshIfStale;
+    if (shared.version() == 0 || wanted) shared.evaluate(c.eq);
+  }
 
   /// R(W); false if not finite.
   bool residual(NewtonContext<Real>& c, const Mat<Real>& W) { return c.eq.residual(W, R_); }
@@ -71,12 +81,13 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
     const double kappa = options.newton.kappa;
     kappa_ = std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1))));
+    adaptive_ = options.step.control != StepControl::kFixed;
   }
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     auto& shared = c.matrix.shared();
-    const bool had_old = !shared.stale() && !shared.evaluatedAt(c.eq.from().t);
-    if (shared.stale()) shared.evaluate(c.eq);
+    this->refresh(c);
+    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     this->W0_ = W;
     NewtonResult result = iterate(c, W);
     if (result.outcome != Outcome::kSuccess && had_old) {
@@ -98,7 +109,7 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     NewtonResult result;
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
-    const int limit = this->options_.newton.max_iterations;
+    const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
     double eta = std::pow(std::max(eta_, epsilon<Real>()), 0.8);
     double previous = 0;
     for (int m = 0; m < limit; ++m) {
@@ -109,14 +120,11 @@ class SimplifiedNewton final : public NewtonBase<Real> {
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
         result.theta = previous > 0 ? norm / previous : 0;
-        if (result.theta >= 0.99) {
-          // At round-off increments no longer contract; above it this is divergence.
-          if (norm <= kStagnationUnits * this->round_off_) return result;
-          return fail(result, Outcome::kNewtonFailed);
-        }
+        // At round-off increments no longer contract; above it this is divergence.
+        if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+        if (result.theta >= 0.99) return fail(result, Outcome::kNewtonFailed);
         eta = result.theta / (1 - result.theta);
-        const double left = limit - 1 - m;
-        if (std::pow(result.theta, left) * eta * norm > kappa_) {
+        if (adaptive_ && std::pow(result.theta, limit - 1 - m) * eta * norm > kappa_) {
           return fail(result, Outcome::kNewtonFailed);
         }
       }
@@ -135,6 +143,7 @@ class SimplifiedNewton final : public NewtonBase<Real> {
   }
 
   double kappa_;
+  bool adaptive_;
   double eta_ = 1;
 };
 
@@ -154,8 +163,8 @@ class ResidualNewton final : public NewtonBase<Real> {
       return iterate(c, W, kStagewise);
     }
     auto& shared = c.matrix.shared();
-    const bool had_old = !shared.stale() && !shared.evaluatedAt(c.eq.from().t);
-    if (shared.stale()) shared.evaluate(c.eq);
+    this->refresh(c);
+    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     NewtonResult result = iterate(c, W, kKept);
     int before = result.iterations;
     if (result.outcome != Outcome::kSuccess && had_old) {

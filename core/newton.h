@@ -8,6 +8,10 @@
 
 namespace irk {
 
+/// Whether a solve may replace the shared Jacobian when that is stale: the half steps of an attempt
+/// keep the one of its start, unless they fail with it.
+enum class JacobianUse { kRefreshIfStale, kKeep };
+
 struct NewtonResult {
   Outcome outcome = Outcome::kSuccess;
   int iterations = 0;
@@ -22,6 +26,7 @@ struct NewtonContext {
   StagewiseMatrix<Real>& stagewise;
   const ErrorNorm<Real>& norm;
   Counters& counters;
+  JacobianUse use;
 };
 
 /// Owns scratch; one per stepper.
@@ -34,8 +39,7 @@ class Newton {
   [[nodiscard]] virtual NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) = 0;
 };
 
-/// `tolerance_level`: max(rtol, atol), for the round-off floor of increments; `fixed_steps`: no
-/// tolerance is known, iterate to round-off.
+/// With fixed steps no tolerance is known: iterates to round-off.
 template <class Real>
 std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
                                          const Scheme<Real>& scheme);

@@ -16,29 +16,41 @@ constexpr double kAmplificationLimit = 1e4;
 
 template <class Real>
 StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
-    : kind_(kind), scheme_(scheme), weights_(scheme.s, scheme.s), basis_(scheme.s, scheme.s) {}
+    : kind_(kind), scheme_(scheme), basis_(scheme.s, scheme.s) {
+  for (Weights& w : weights_) w.matrix.setZero(scheme.s, scheme.s);
+}
+
+template <class Real>
+const Mat<Real>& StartValues<Real>::weights(const Real& offset, const Real& ratio) {
+  for (const Weights& w : weights_) {
+    if (w.offset == offset && w.ratio == ratio) return w.matrix;
+  }
+  newest_ = 1 - newest_;
+  Weights& w = weights_[newest_];
+  w.offset = offset;
+  w.ratio = ratio;
+  compute(w);
+  return w.matrix;
+}
 
 // w(t_past + tau h_past) = sum_k P_k(tau) (V^-1 W^T)_k at tau_i = offset + ratio c_i, truncated after
-// the largest degree whose amplification stays below the limit. Column i of the weights: stage i.
+// the largest degree whose amplification stays below the limit.
 template <class Real>
-void StartValues<Real>::updateWeights(const Real& offset, const Real& ratio) {
-  if (offset == offset_ && ratio == ratio_) return;
-  offset_ = offset;
-  ratio_ = ratio;
+void StartValues<Real>::compute(Weights& w) {
   const Index s = scheme_.s;
   for (Index i = 0; i < s; ++i) {
-    basis_.row(i) = legendre<Real>(s, Real(offset + ratio * scheme_.c[i])).transpose();
+    basis_.row(i) = legendre<Real>(s, Real(w.offset + w.ratio * scheme_.c[i])).transpose();
   }
-  weights_.setZero();
+  w.matrix.setZero();
   for (Index k = 0; k < s; ++k) {
     for (Index i = 0; i < s; ++i) {
-      weights_.col(i) += basis_(i, k) * scheme_.legendre_inverse.row(k).transpose();
+      w.matrix.col(i) += basis_(i, k) * scheme_.legendre_inverse.row(k).transpose();
     }
     const double amplification =
-        static_cast<double>(Real(weights_.cwiseAbs().colwise().sum().maxCoeff()));
+        static_cast<double>(Real(w.matrix.cwiseAbs().colwise().sum().maxCoeff()));
     if (amplification > kAmplificationLimit && k > 0) {
       for (Index i = 0; i < s; ++i) {
-        weights_.col(i) -= basis_(i, k) * scheme_.legendre_inverse.row(k).transpose();
+        w.matrix.col(i) -= basis_(i, k) * scheme_.legendre_inverse.row(k).transpose();
       }
       return;
     }
@@ -54,8 +66,8 @@ void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real
   } else if (kind_ == Predictor::kPrevious) {
     W = past.W;
   } else {
-    updateWeights(Real((from.t - past.t) / past.h), Real(h / past.h));
-    W.noalias() = past.W * weights_;
+    const Mat<Real>& E = weights(Real((from.t - past.t) / past.h), Real(h / past.h));
+    W.noalias() = past.W * E;
   }
   for (Index i = 0; i < scheme_.first; ++i) W.col(i) = from.w;
 }

@@ -15,7 +15,7 @@ struct StagePolynomial {
   bool valid = false;
 };
 
-/// Fills W for a step from a solved one. Owns the weights of the last ratio of step sizes.
+/// Fills W for a step from a solved one. Owns its weights.
 template <class Real>
 class StartValues {
  public:
@@ -28,13 +28,20 @@ class StartValues {
             Mat<Real>& W);
 
  private:
-  void updateWeights(const Real& offset, const Real& ratio);
+  // Start values of stage i are W_past times column i. Kept for two places: doubling alternates
+  // between the two halves of a step.
+  struct Weights {
+    Real offset{-1}, ratio{-1};
+    Mat<Real> matrix;  // s x s
+  };
+  const Mat<Real>& weights(const Real& offset, const Real& ratio);
+  void compute(Weights& weights);
 
   Predictor kind_;
   const Scheme<Real>& scheme_;
-  Real offset_{-1}, ratio_{-1};
-  Mat<Real> weights_;    // s x s: W_new = W_past weights
-  Mat<Real> basis_;      // P_k at the new stages, s x s
+  Weights weights_[2];
+  int newest_ = 0;
+  Mat<Real> basis_;  // P_k at the new stages, s x s
 };
 
 }  // namespace irk

@@ -36,8 +36,7 @@ class Doubling final : public StepAttempt<Real> {
            const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
            const ErrorNorm<Real>& norm, Counters& counters)
       : whole_(system, scheme, options, jacobian, norm, counters),
-        first_half_(system, scheme, options, jacobian, norm, counters),
-        second_half_(system, scheme, options, jacobian, norm, counters),
+        half_(system, scheme, options, jacobian, norm, counters),
         norm_(norm),
         divisor_(std::pow(2.0, scheme.tableau.order) - 1),
         interpolate_(options.predictor == Predictor::kExtrapolated),
@@ -53,21 +52,20 @@ class Doubling final : public StepAttempt<Real> {
       return newton.outcome == Outcome::kSuccess;
     };
     if (!done(whole_.attempt(whole_.stages(), from, h, coarse_))) return result;
-    const auto& past = interpolate_ ? whole_.stages() : second_half_.stages();
-    if (!done(first_half_.attempt(past, from, half, middle_))) return result;
-    const auto& next = interpolate_ ? whole_.stages() : first_half_.stages();
-    if (!done(second_half_.attempt(next, middle_, half, to))) return result;
+    const auto& past = interpolate_ ? whole_.stages() : half_.stages();
+    if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
+    if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
     result.error = norm_.difference(coarse_, to, static_cast<double>(h)) / divisor_;
     if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
     return result;
   }
   void rejected() override {
     whole_.forget();
-    second_half_.forget();
+    half_.forget();
   }
 
  private:
-  Stepper<Real> whole_, first_half_, second_half_;
+  Stepper<Real> whole_, half_;
   const ErrorNorm<Real>& norm_;
   double divisor_;
   bool interpolate_;

@@ -32,10 +32,10 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
 
 template <class Real>
 NewtonResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State<Real>& from,
-                                    const Real& h, State<Real>& to) {
+                                    const Real& h, State<Real>& to, JacobianUse use) {
   eq_.begin(from, h);
   start_values_.fill(past, from, h, W_);
-  NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_};
+  NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
   const NewtonResult result = newton_->solve(context, W_);
   stages_.valid = result.outcome == Outcome::kSuccess;
   if (!stages_.valid) return result;

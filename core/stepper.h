@@ -19,7 +19,8 @@ class Stepper {
 
   /// One step [from.t, from.t + h] with start values from `past` (may be this stepper's own).
   [[nodiscard]] NewtonResult attempt(const StagePolynomial<Real>& past, const State<Real>& from,
-                                     const Real& h, State<Real>& to);
+                                     const Real& h, State<Real>& to,
+                                     JacobianUse use = JacobianUse::kRefreshIfStale);
 
   const StagePolynomial<Real>& stages() const { return stages_; }
   /// Forget the solved step: after a rejection or a discontinuity it predicts badly.
