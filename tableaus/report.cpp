@@ -15,7 +15,8 @@ constexpr int kMaxShownDigits = 75;  // five less than the arithmetic's
 std::string numbersText(const Vec<mp80>& row, int digits, std::size_t width) {
   std::string text;
   for (const mp80& x : row) text += fmt::format("  {:>{}}", x.str(digits), width);
-  return text + "\n";
+  text += '\n';
+  return text;
 }
 
 std::size_t widest(const Mat<mp80>& block, int digits) {
