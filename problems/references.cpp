@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 #include "problems/build.h"
 #include "problems/embedded.h"
@@ -80,7 +81,10 @@ std::vector<Reference> references(std::string_view id, const Settings& settings)
         std::all_of(entry.parameters.begin(), entry.parameters.end(), [&](const Parameter& p) {
           return !p.changes_solution || sameValue(wanted.at(p.name), given.at(p.name));
         });
-    if (match) found.push_back(row.reference);
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Reference& r) {
+      return r.t == row.reference.t && r.component == row.reference.component;
+    });
+    if (match && !known) found.push_back(row.reference);
   }
   return found;
 }

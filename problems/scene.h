@@ -80,7 +80,8 @@ struct Reference {
 };
 
 /// The references of a scene with these settings (those that change the solution must match; a
-/// parameter at its default need not be given). Sorted by t.
+/// parameter at its default need not be given). Sorted by t; where the files hold several values of
+/// one component, only the most accurate.
 std::vector<Reference> references(std::string_view id, const Settings& settings = {});
 
 }  // namespace irk
