@@ -18,17 +18,24 @@ caseTitle(i) = (words(titles) >= i ? word(titles, i).': ' : '') \
 
 row(case) = is("scene", sceneOf(case)) && is("settings", settingsOf(case)) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
-reached(case, error) = at(case, error) ? positive(column(cost)) : NaN
+reached(case, error) = at(case, error) && !absent(cost) ? column(cost) : outside
+# A line joins neighbours that both reach the error: a vector from the row before to this one.
+from(case, error) = ($0 == 0 ? (this_y = 0) : 0, !at(case, error) ? outside : \
+  (last_x = this_x, last_y = this_y, this_x = column("stages"), this_y = absent(cost) ? 0 : column(cost), \
+   last_y > 0 && this_y > 0 ? last_x : outside))
+last_x = 1; last_y = 0; this_x = 1; this_y = 0
 missed(case, error) = at(case, error) && absent(cost) ? column("stages") : outside
 
 rows = 0; most = 0; least = 1e300; s_max = 1
 do for [i = 1 : n] {
-  undefine C_*
-  stats file using (row(word(cases, i)) ? (collect(sprintf("%.2f", log10(column("target_error")))), \
-    s_max = column("stages") > s_max ? column("stages") : s_max, positive(column(cost))) : NaN) name "C" nooutput
-  if (exists("C_records")) {
-    rows = rows + C_records
-    if (C_records > 0) { most = C_max > most ? C_max : most; least = C_min < least ? C_min : least }
+  undefine C_* N_*
+  stats file using (row(word(cases, i)) && !absent(cost) ? 1 : 0) name "N" nooutput
+  if (exists("N_sum") && N_sum > 0) {
+    stats file using (row(word(cases, i)) ? (collect(sprintf("%.2f", log10(column("target_error")))), \
+      s_max = column("stages") > s_max ? column("stages") : s_max, positive(column(cost))) : NaN) name "C" nooutput
+    rows = rows + N_sum
+    most = C_max > most ? C_max : most
+    least = C_min < least ? C_min : least
   }
 }
 exponents = sorted(collected)
@@ -46,6 +53,7 @@ do for [format in formats] {
     set multiplot
     eval decades("y")
     set logscale x
+    set mytics (most / least < 1e3 ? 10 : 1)
     set xtics (1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 50, 100) nomirror
     unset mxtics
     level(k) = most * (most / least) ** (0.05 + 0.03 * k)
@@ -59,11 +67,15 @@ do for [format in formats] {
       set ylabel when(i == 1, cost eq 'cpu_s' ? 'CPU time in s' : cost) offset 1,0 noenhanced
       unset key
       if (i == n) { set key at graph 1.03, graph 1 left top Left reverse enhanced title 'error' }
-      plot for [k = 1 : count] file using "stages":(reached(case, target(k))) smooth unique \
-             with linespoints lw 1.2 dt errorDash(k) pt errorPoint(k) ps 0.8 lc rgb errorColour(k) \
-             title sprintf("10^{%.0f}", log10(target(k))), \
+      plot for [k = 1 : count] file using "stages":(reached(case, target(k))) \
+             with points pt errorPoint(k) ps 0.8 lc rgb errorColour(k) notitle, \
+           for [k = 1 : count] file \
+             using (from(case, target(k))):(last_y):(this_x - last_x):(this_y - last_y) \
+             with vectors nohead lw 1.2 dt errorDash(k) lc rgb errorColour(k) notitle, \
            for [k = 1 : count] file using (missed(case, target(k))):(level(k)) \
              with points pt failure_point ps 0.7 lw 1.5 lc rgb errorColour(k) notitle, \
+           for [k = 1 : count] keyentry with linespoints lw 1.2 dt errorDash(k) pt errorPoint(k) ps 0.8 \
+             lc rgb errorColour(k) title sprintf("10^{%.0f}", log10(target(k))), \
            keyentry with points pt failure_point ps 0.7 lw 1.5 lc rgb ink title 'not reached'
     }
     unset multiplot

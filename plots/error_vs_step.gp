@@ -32,11 +32,14 @@ if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
 # The predicted slope through the middle of the points that the fit used.
 fit_row(family, s) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
                      && has("component", component) && is("family", family) && column("stages") == s
-array Lower[200]; array Upper[200]; array Level[200]; array Slope[200]; array Fitted[200]
+slots = n * words(stages) + 1
+array Lower[slots]; array Upper[slots]; array Level[slots]; array Slope[slots]; array Fitted[slots]; array Count[slots]
 slot(i, k) = (i - 1) * words(stages) + k
 do for [i = 1 : n] { do for [k = 1 : words(stages)] {
   f = word(families, i); s = stage(k); m = slot(i, k)
   Slope[m] = NaN; Fitted[m] = NaN
+  stats file using (row(f, s) && succeeded(0) && !absent(quantity) && column(quantity) > 0 ? 1 : 0) name "N" nooutput
+  Count[m] = N_sum
   stats fits using (fit_row(f, s) ? (Fitted[m] = column("order"), Slope[m] = column("theory"), \
     Lower[m] = column("h_min"), Upper[m] = column("h_max"), 0) : 0) nooutput
   if (Fitted[m] == Fitted[m]) {
@@ -48,6 +51,7 @@ do for [i = 1 : n] { do for [k = 1 : words(stages)] {
 } }
 fitted(m) = Slope[m] == Slope[m] && Fitted[m] == Fitted[m]
 fittedIn(i, k) = k == 0 ? "" : fittedIn(i, k - 1).when(fitted(slot(i, k)), sprintf("%d ", k))
+linesIn(i, k) = k == 0 ? "" : linesIn(i, k - 1).when(Count[slot(i, k)] > 0, sprintf("%d ", k))
 predicted(m, family, s) = fitted(m) && row(family, s) && column("h") >= 0.999 * Lower[m] \
   && column("h") <= 1.001 * Upper[m] ? Level[m] * column("h") ** Slope[m] : NaN
 seriesTitle(i, k) = sprintf("%s%s", word(stages, k), \
@@ -67,12 +71,11 @@ do for [format in formats] {
       set xlabel 'step h'
       set ylabel when(i == 1, 'error') offset 1,0
       set key at graph 1.02, graph 1 left top Left reverse title 's: order'
-      plot for [k in fittedIn(i, words(stages))] file using "h":(predicted(slot(i, int(k)), f, stage(int(k)))) \
+      plot for [k in fittedIn(i, words(stages))] file using "h":(predicted(slot(i, number(k)), f, stage(number(k)))) \
              smooth unique with lines lw 4 lc rgb 0xD0D0D0 notitle, \
-           for [k = 1 : words(stages)] file using "h":(row(f, stage(k)) ? error(0) : NaN) \
-             smooth unique with linespoints lw 1 dt stageDash(stage(k)) \
-             pt stagePoint(stage(k)) ps 0.6 lc rgb stageColour(stage(k)) \
-             title seriesTitle(i, k), \
+           for [k in linesIn(i, words(stages))] file using "h":(row(f, stage(number(k))) ? error(0) : NaN) \
+             smooth unique with linespoints lw 1 dt stageDash(stage(number(k))) pt stagePoint(stage(number(k))) \
+             ps 0.6 lc rgb stageColour(stage(number(k))) title seriesTitle(i, number(k)), \
            file using (failed(f)):(fail_at) with points pt failure_point ps 0.9 lw 1.5 lc rgb failure_colour notitle
     }
     unset multiplot

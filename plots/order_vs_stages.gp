@@ -18,15 +18,21 @@ chosen(d) = is("scene", scene) && is("settings", settings) && has("formulation",
 row(family, k) = chosen(0) && is("family", family) && is("component", part(k))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
 measured(family, k) = row(family, k) && is_measured(0) ? column("order") : outside
-theory(family, k) = row(family, k) ? column("theory") : NaN
+theory(family, k) = !row(family, k) ? NaN : !absent("theory") ? column("theory") \
+                    : position(with_theory, family.':'.part(k)) ? NaN : outside
+remember(d) = absent("theory") ? 0 : collect(strcol("family").':'.strcol("component"))
 differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
 unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, not on top of each other
 
 stats file using (chosen(0) ? (collect(strcol("family")), column("stages")) : NaN) name "S" nooutput
 rows = exists("S_records") ? S_records : 0
+found = collected
+collected = ""
+stats file using (chosen(0) ? remember(0) : 0) nooutput
+with_theory = collected
 present = ""
-do for [f in families_known.collected] { present = present.(position(collected, f) && !position(present, f) ? " ".f : "") }
+do for [f in families_known.found] { present = present.(position(found, f) && !position(present, f) ? " ".f : "") }
 n = words(present)
 columns = n <= 4 ? n : (n + 1) / 2
 lines = n == 0 ? 1 : (n + columns - 1) / columns
@@ -71,7 +77,7 @@ do for [format in formats] {
     }
     eval legend(0.07)
     plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 \
-           lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line) and observed (mark)'), \
+           lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line), observed (mark)'), \
          keyentry with points pt failure_point ps 1.4 lw 2 lc rgb failure_colour title 'differs', \
          keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable'
     unset multiplot

@@ -16,8 +16,8 @@ Layout[2] = '"angles in rad|phi1 phi2" "bending modes in mm|q1 q2|1e3" "longitud
 Layout[3] = '"angle in rad|angle" "angular velocity in rad/s|angle''" "pressures in MPa|p0 p1|1e-6"'
 Layout[4] = '"position|x" "velocity|x''"'
 Layout[5] = '"tip in m|tip_x tip_y" "path of the tip in m|tip_x:tip_y"'
-Layout[6] = Layout[5]
-Layout[7] = '"y1|y1" "y2|y2"'
+Layout[6] = '"tip displacement in m|u_x u_y" "path of the tip in m|tip_x:tip_y"'
+Layout[7] = '"y1|y1" "y2 in 1e6|y2|1e-6"'
 Layout[8] = '"orbit|q1:q2" "positions|q1 q2" "velocities|q1'' q2''"'
 Layout[9] = '"positions in m|x y" "velocities in m/s|x'' y''" "multiplier|lambda"'
 
@@ -73,7 +73,7 @@ do for [format in formats] {
       orbit = strstrt(list, ':') > 0
       set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : 't in s') offset 0,0.3 noenhanced
       unset key
-      if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.6 maxrows 1 }
+      if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.2 maxrows 1 font ',10' }
       set xrange [*:*] noextend
       set yrange [*:*]
       set size noratio; set xtics autofreq

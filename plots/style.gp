@@ -45,8 +45,8 @@ familyColour(f) = known(f) ? int(word(family_colours, known(f))) : 0x000000
 familyPoint(f) = known(f) ? int(word(family_points, known(f))) : 6
 familyDash(f) = known(f) % 2 + 1
 
-# --- Stages: the more, the darker (plasma without its yellow end); hollow marks turn into filled ones.
-stage_shades = "0xF89441 0xE56B5D 0xCB4679 0xA82296 0x7D03A8 0x4B03A1 0x0D0887 0x0D0887"
+# --- Stages: the more, the darker, from orange over violet and blue to black; hollow marks turn into filled ones.
+stage_shades = "0xF59E2A 0xE2553D 0xBE2A78 0x7B2FBE 0x2F4BCB 0x14307A 0x101018 0x101018"
 shadeAt(s) = 6.0 * (s > 20 ? 1 : log(s) / log(20))
 channel(a, b, w, shift) = int((1 - w) * ((a >> shift) & 255) + w * ((b >> shift) & 255)) << shift
 blend(a, b, w) = channel(a, b, w, 16) + channel(a, b, w, 8) + channel(a, b, w, 0)
@@ -63,10 +63,11 @@ stageDash(s) = s <= 3 ? 5 - s : 1   # 1, 2, 3: dash-dot, dots, dashes; more: sol
 failure_colour = 0xB00020
 failure_point = 2
 
-# --- Rows. In `using`:  has("scene", scene) ? column("h") : NaN ; an empty wish accepts every row.
+# --- Rows. In `using`:  has("scene", scene) ? column("h") : NaN ; an empty wish accepts every row. A cell
+# without a value is empty or nan; column() cannot ask for it, because missing NaN drops the row first.
+absent(name) = strcol(name) eq "" || strcol(name) eq 'nan'
+is(name, value) = value eq "" ? absent(name) : strcol(name) eq value
 has(name, wish) = wish eq "" || strcol(name) eq wish
-is(name, value) = strcol(name) eq value
-absent(name) = strcol(name) eq "" || strcol(name) eq 'nan'   # column() cannot ask: missing NaN
 positive(x) = x > 0 ? x : NaN      # logarithmic axes
 succeeded(dummy) = strcol("outcome") eq "success"
 
@@ -79,6 +80,8 @@ smallest(list, above) = (low = 1e300, sum [i = 1:words(list)] \
 ascending(list, above, n) = n == 0 ? "" : \
   sprintf("%.10g ", smallest(list, above)).ascending(list, smallest(list, above), n - 1)
 sorted(list) = ascending(list, -1e300, words(list))
+
+number(word) = strlen(word) ? int(word) : 1   # gnuplot reads the body of an empty iteration, too
 
 # Titles for scenes with their settings: "hydraulic_arm (reference=smooth)".
 sceneTitle(scene, settings) = settings eq "" ? scene : scene." (".settings.")"

@@ -2,7 +2,7 @@
 # The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
 #   gnuplot -e "data='results/cpu_time'; out='work'; scene='slider_crank'; family='radau_iia'" work_precision.gp
 # Reads runs.csv. Options: scene, settings, family, formulation, stages_shown,
-# quantity ('error_z' ...), costs ('cpu_s', or several counters: one panel each).
+# quantity (error, error_u, error_v, error_x, error_z), costs ('cpu_s', or several counters: one panel each).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("scene")) scene = 'slider_crank'
 if (!exists("settings")) settings = ''
@@ -11,6 +11,8 @@ if (!exists("formulation")) formulation = ''
 if (!exists("stages_shown")) stages_shown = '1 2 3 5 7 10 15 20'
 if (!exists("quantity")) quantity = 'error'
 if (!exists("costs")) costs = 'cpu_s'
+what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the positions' : quantity eq 'error_v' \
+  ? 'error of the velocities' : quantity eq 'error_z' ? 'error of the multipliers' : 'error of the states'
 file = data.'/runs.csv'
 n = words(costs)
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
@@ -31,7 +33,12 @@ rows = exists("E_records") ? E_records : 0
 stages = sorted(collected)
 count = words(stages)
 stage(k) = int(word(stages, k))
-failures = F_sum
+failures = exists("F_sum") ? F_sum : 0
+finest = rows > 0 ? E_min : 0
+if (failures > 0) {
+  stats file using (chosen(0) && !succeeded(0) ? asked(0) : NaN) name "F" nooutput
+  finest = F_min < finest ? F_min : finest
+}
 
 columns = n == 1 ? 1 : 2
 lines = (n + columns - 1) / columns
@@ -46,13 +53,14 @@ do for [format in formats] {
       c = word(costs, i)
       set xrange [*:*]; set yrange [*:*]   # stats counts what the ranges let through
       stats file using (chosen(0) && error(0) > 0 ? positive(column(c)) : NaN) name "C" nooutput
+      set mytics (C_max / C_min < 1e3 ? 10 : 1)
       # Failures: a strip above all lines, the fewest stages lowest.
       strip = C_max * (C_max / C_min) ** 0.06
       level(k) = strip * (C_max / C_min) ** (0.02 * k)
-      set xrange [2 * (E_max > T_max ? E_max : T_max) : E_min / 2]
+      set xrange [2 * (E_max > T_max ? E_max : T_max) : finest / 2]
       set yrange [C_min / 1.5 : failures > 0 ? level(count + 1) : 1.5 * C_max]
       eval panel(i, columns, lines)
-      set xlabel when(i > n - columns, 'error')
+      set xlabel when(i > n - columns, what)
       set ylabel cost_title(c) offset 1,0
       unset key
       if (i == columns || n == 1) { set key at graph 1.03, graph 1 left top Left reverse title 'stages' }
