@@ -11,8 +11,8 @@
 namespace irk {
 namespace {
 
-// The condition of the unit eigenvectors grows by 3.7 per stage for Gauss; twice that per stage with
-// a margin tells a defective A (condition 1e8 and more at small s) from a merely high order.
+// The condition of the unit eigenvectors grows by 3.7 per stage for Gauss (theory.md); 5 with a margin
+// tells a defective A (condition 1e8 and more at small s) from a merely high order.
 constexpr double kEigenConditionGrowth = 5;
 constexpr double kEigenConditionPerStage = 1e3;
 
@@ -102,7 +102,7 @@ BlockForm<Real> eigenForm(const Mat<Real>& A) {
   const double condition =
       static_cast<double>(form.Q.cwiseAbs().maxCoeff() * form.Q_inverse.cwiseAbs().maxCoeff());
   const double limit = kEigenConditionPerStage * std::pow(kEigenConditionGrowth, double(s));
-  if (!(condition < limit)) {
+  if (!lu.isInvertible() || !(condition < limit)) {
     throw Misuse("illegal combination: solver 'eigen' with a defective A (condition of its "
                  "eigenvectors " + std::to_string(condition) + ", allowed below " +
                  std::to_string(limit) + "); use solver 'schur' or 'coupled_dense'");

@@ -31,16 +31,30 @@ Outcome NewtonMatrix<Real>::prepare(const Real& h) {
   return outcome;
 }
 
+namespace {
+constexpr Index kEagerSize = 300;
+}  // namespace
+
+template <class Real>
+StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup,
+                                       NewtonKind newton, Counters& counters)
+    : shared_(shared), setup_(std::move(setup)), counters_(counters) {
+  const bool used = newton != NewtonKind::kSimplified;
+  if (used && setup_.A.rows() * setup_.pattern->n <= kEagerSize) allocate();
+}
+
+template <class Real>
+void StagewiseMatrix<Real>::allocate() {
+  at_.assign(static_cast<std::size_t>(setup_.A.rows()), Linearization<Real>(setup_.pattern));
+  solver_ = std::make_unique<CountingStageSolver<Real>>(
+      makeStageSolver(StageSolverKind::kCoupledDense, setup_), counters_);
+}
+
 template <class Real>
 Outcome StagewiseMatrix<Real>::prepare(const StageEquations<Real>& eq, const Mat<Real>& W) {
   const Index first = eq.scheme().first;
-  const Index count = eq.scheme().implicitStages();
-  if (!solver_) {
-    at_.assign(static_cast<std::size_t>(count), Linearization<Real>(setup_.pattern));
-    solver_ = std::make_unique<CountingStageSolver<Real>>(
-        makeStageSolver(StageSolverKind::kCoupledDense, setup_), counters_);
-  }
-  for (Index i = 0; i < count; ++i) {
+  if (!solver_) allocate();
+  for (Index i = 0; i < eq.scheme().implicitStages(); ++i) {
     ++counters_.jacobians;
     shared_.differentiator().evaluate(Level::kFormulated, eq.stage(W, first + i),
                                       at_[static_cast<std::size_t>(i)]);

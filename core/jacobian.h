@@ -57,19 +57,21 @@ class NewtonMatrix {
   Real h_{};
 };
 
-/// A Newton matrix with the derivatives of each stage: full Newton. The coupled solver's s n x s n
-/// matrix is allocated when it is first needed: as a fallback it usually never is.
+/// A Newton matrix with the derivatives of each stage: full Newton. A large one (s n above 300) is
+/// allocated when it is first needed: as the fallback of `modified` it usually never is.
 template <class Real>
 class StagewiseMatrix {
  public:
-  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, Counters& counters)
-      : shared_(shared), setup_(std::move(setup)), counters_(counters) {}
+  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, NewtonKind newton,
+                  Counters& counters);
 
   /// Evaluates and factorizes at the stages of the last residual of `eq`.
   [[nodiscard]] Outcome prepare(const StageEquations<Real>& eq, const Mat<Real>& W);
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
 
  private:
+  void allocate();
+
   SharedJacobian<Real>& shared_;
   StageSolverSetup<Real> setup_;
   Counters& counters_;

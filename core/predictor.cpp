@@ -39,18 +39,18 @@ template <class Real>
 void StartValues<Real>::compute(Weights& w) {
   const Index s = scheme_.s;
   for (Index i = 0; i < s; ++i) {
-    basis_.row(i) = legendre<Real>(s, Real(w.offset + w.ratio * scheme_.c[i])).transpose();
+    legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis_.col(i));
   }
   w.matrix.setZero();
   for (Index k = 0; k < s; ++k) {
     for (Index i = 0; i < s; ++i) {
-      w.matrix.col(i) += basis_(i, k) * scheme_.legendre_inverse.row(k).transpose();
+      w.matrix.col(i) += basis_(k, i) * scheme_.legendre_inverse.row(k).transpose();
     }
     const double amplification =
         static_cast<double>(Real(w.matrix.cwiseAbs().colwise().sum().maxCoeff()));
     if (amplification > kAmplificationLimit && k > 0) {
       for (Index i = 0; i < s; ++i) {
-        w.matrix.col(i) -= basis_(i, k) * scheme_.legendre_inverse.row(k).transpose();
+        w.matrix.col(i) -= basis_(k, i) * scheme_.legendre_inverse.row(k).transpose();
       }
       return;
     }

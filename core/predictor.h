@@ -41,7 +41,7 @@ class StartValues {
   const Scheme<Real>& scheme_;
   Weights weights_[2];
   int newest_ = 0;
-  Mat<Real> basis_;  // P_k at the new stages, s x s
+  Mat<Real> basis_;  // column i: P_0, P_1, ... at the new stage i
 };
 
 }  // namespace irk

@@ -10,9 +10,9 @@ namespace irk {
 
 // With X = 2x - 1: (k + 1) p_{k+1} = (2k + 1) X p_k - k p_{k-1}, P_k = sqrt(2k + 1) p_k.
 template <class Real>
-Vec<Real> legendre(Index count, const Real& x) {
+void legendre(const Real& x, Eigen::Ref<Vec<Real>> p) {
   using std::sqrt;
-  Vec<Real> p(count);
+  const Index count = p.size();
   const Real X = Real(2) * x - Real(1);
   for (Index k = 0; k < count; ++k) {
     const Real j = Real(static_cast<double>(k));
@@ -25,7 +25,6 @@ Vec<Real> legendre(Index count, const Real& x) {
     }
   }
   for (Index k = 0; k < count; ++k) p[k] *= sqrt(Real(static_cast<double>(2 * k + 1)));
-  return p;
 }
 
 template <class Real>
@@ -42,15 +41,17 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   regular = lu.isInvertible();
   if (regular && first == 0) d = Mat<Real>(A.transpose()).fullPivLu().solve(b);
 
-  Mat<Real> V(s, s);
-  for (Index i = 0; i < s; ++i) V.row(i) = legendre<Real>(s, c[i]).transpose();
-  legendre_inverse = V.fullPivLu().inverse();
-  end = legendre_inverse.transpose() * legendre<Real>(s, Real(1));
+  Mat<Real> V(s, s);  // transposed: column i = stage i
+  for (Index i = 0; i < s; ++i) legendre<Real>(c[i], V.col(i));
+  legendre_inverse = V.transpose().fullPivLu().inverse();
+  Vec<Real> at_end(s);
+  legendre<Real>(Real(1), at_end);
+  end = legendre_inverse.transpose() * at_end;
 }
 
 template struct Scheme<double>;
 template struct Scheme<mp50>;
-template Vec<double> legendre<double>(Index, const double&);
-template Vec<mp50> legendre<mp50>(Index, const mp50&);
+template void legendre<double>(const double&, Eigen::Ref<Vec<double>>);
+template void legendre<mp50>(const mp50&, Eigen::Ref<Vec<mp50>>);
 
 }  // namespace irk

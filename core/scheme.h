@@ -34,8 +34,8 @@ struct Scheme {
   bool allowsAlgebraic() const { return regular; }
 };
 
-/// P_0..P_{count-1} at x in [0, 1], orthonormal on it, by the three-term recurrence.
+/// P_0, P_1, ... at x, orthonormal on [0, 1], by the three-term recurrence.
 template <class Real>
-Vec<Real> legendre(Index count, const Real& x);
+void legendre(const Real& x, Eigen::Ref<Vec<Real>> p);
 
 }  // namespace irk

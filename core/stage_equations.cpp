@@ -103,11 +103,11 @@ void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
   const auto z = W.bottomRows(sizes_.nz);
   to.t = from_->t + h_;
   to.u = from_->u + h_ * from_->v;
-  to.u.noalias() += (h_ * h_) * (a * scheme_.bA);
+  to.u.noalias() += ((h_ * h_) * a) * scheme_.bA;
   to.v = from_->v;
-  to.v.noalias() += h_ * (a * scheme_.b);
+  to.v.noalias() += (h_ * a) * scheme_.b;
   to.x = from_->x;
-  to.x.noalias() += h_ * (k * scheme_.b);
+  to.x.noalias() += (h_ * k) * scheme_.b;
   if (scheme_.stiffly_accurate) {
     to.w = W.col(scheme_.s - 1);
     return;

@@ -22,7 +22,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       matrix_(jacobian,
               std::make_unique<CountingStageSolver<Real>>(
                   makeStageSolver(options.solver, setupOf(system, scheme)), counters)),
-      stagewise_(jacobian, setupOf(system, scheme), counters),
+      stagewise_(jacobian, setupOf(system, scheme), options.newton.kind, counters),
       newton_(makeNewton(options, system.sizes(), scheme)),
       norm_(norm),
       start_values_(options.predictor, scheme),

@@ -1,0 +1,46 @@
+// Short forms that the core's tests share.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/integrator.h"
+#include "tableaus/catalogue.h"
+#include "tests/core/problems.h"
+
+namespace irk::test {
+
+inline IntegratorOptions fixedSteps(double h) {
+  IntegratorOptions o;
+  o.step.control = StepControl::kFixed;
+  o.step.h = h;
+  return o;
+}
+
+inline IntegratorOptions adaptive(double tol) {
+  IntegratorOptions o;
+  o.tolerances.rtol = o.tolerances.atol = tol;
+  return o;
+}
+
+template <class Real, class P>
+Solution<Real> integrate(P problem, const State<Real>& start, double t_end,
+                         const Tableau<Real>& tableau, const IntegratorOptions& options,
+                         Formulation formulation = Formulation::kIndex2) {
+  Integrator<Real> integrator(makeSystem<Real>(problem, formulation), tableau, options);
+  return integrator.integrate(start, Real(t_end));
+}
+
+/// Least-squares slope of log(error) over log(h).
+inline double slope(const std::vector<double>& h, const std::vector<double>& error) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const double n = static_cast<double>(h.size());
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    const double x = std::log(h[i]), y = std::log(error[i]);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace irk::test
