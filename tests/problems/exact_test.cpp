@@ -1,0 +1,119 @@
+// Exact solutions solve their equations and give the checked values.
+#include <gsl/gsl_sf_elljac.h>
+#include <gtest/gtest.h>
+
+#include "problems/elliptic.h"
+#include "tests/problems/scene_cases.h"
+
+namespace irk::test {
+namespace {
+
+// Times that hit no event of any scene.
+const std::vector<double> kTimes = {0.13, 0.49, 0.97, 1.9};
+
+TEST(Exact, SolvesTheEquations) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<mp50>(c.id, c.settings);
+    if (!scene.exact) continue;
+    const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+    for (const double fraction : kTimes) {
+      const mp50 t = mp50(fraction) * scene.t_end / 2;
+      const auto s = scene.exact(t);
+      EXPECT_EQ(s.t, t);
+      const Vec<mp50> r = residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s));
+      // 1e8: the stiffest lambda multiplies the round-off of y - phi.
+      EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-49 * 1e8 * 100)) << t;
+      // Central differences: truncation delta^2 / 6 times the third derivative (below 1e6).
+      const mp50 delta = 1e-16;
+      const auto above = scene.exact(t + delta), below = scene.exact(t - delta);
+      const mp50 tolerance = delta * delta * 1e6;
+      const auto rate = [&](const Vec<mp50>& up, const Vec<mp50>& down, const Vec<mp50>& value) {
+        for (Index i = 0; i < up.size(); ++i) {
+          const mp50 error = (up[i] - down[i]) / (2 * delta) - value[i];
+          EXPECT_LT(abs(error), tolerance) << "component " << i << " at " << t;
+        }
+      };
+      rate(above.u, below.u, s.v);
+      rate(above.v, below.v, s.a());
+      rate(above.x, below.x, s.k());
+    }
+  }
+}
+
+TEST(Exact, StartsAtTheStart) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    if (!scene.exact) continue;
+    const Vec<double> given = pointVector(scene.start), exact = pointVector(scene.exact(0));
+    const double size = 1 + given.lpNorm<Eigen::Infinity>();
+    EXPECT_LE((given - exact).lpNorm<Eigen::Infinity>(), 50 * kEps * size);
+  }
+}
+
+TEST(Exact, DoubleIsTheRoundedFiftyDigits) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const auto precise = makeScene<mp50>(c.id, c.settings);
+    if (!scene.exact) continue;
+    for (const double fraction : kTimes) {
+      const double t = fraction * scene.t_end / 2;
+      const auto s = scene.exact(t);
+      const auto exact = precise.exact(mp50(t));
+      // An argument omega t of some hundreds carries as many eps.
+      const double tolerance = 1e4 * kEps;
+      for (Index i = 0; i < s.u.size(); ++i) {
+        EXPECT_NEAR(s.u[i], static_cast<double>(exact.u[i]), tolerance);
+        EXPECT_NEAR(s.v[i], static_cast<double>(exact.v[i]), 10 * tolerance);
+      }
+      for (Index i = 0; i < s.x.size(); ++i) {
+        EXPECT_NEAR(s.x[i], static_cast<double>(exact.x[i]), tolerance);
+      }
+    }
+  }
+}
+
+TEST(Exact, StickSlipSwitchesWhereItShould) {
+  const auto scene = makeScene<mp50>("stick_slip");
+  const auto stuck = [&](const char* t) { return scene.exact(mp50(t)).v[0] == mp50("0.1"); };
+  EXPECT_TRUE(stuck("14.999999999999"));
+  EXPECT_FALSE(stuck("15.000000000001"));
+  EXPECT_FALSE(stuck("18.536383773289"));
+  EXPECT_TRUE(stuck("18.536383773290"));
+  EXPECT_TRUE(stuck("28.536383773289"));
+  EXPECT_FALSE(stuck("28.536383773290"));
+  EXPECT_FALSE(stuck("45.609151319868"));
+  EXPECT_TRUE(stuck("45.609151319869"));
+}
+
+TEST(Exact, CoulombDecayComesToRest) {
+  const SceneCase c = sceneCases().back();
+  ASSERT_EQ(c.settings.at("x0"), "0.105");
+  const auto scene = makeScene<double>(c.id, c.settings);
+  for (const double t : {1.5708, 2.0, 50.0}) {
+    EXPECT_NEAR(scene.exact(t).u[0], -0.005, 100 * kEps);
+    EXPECT_EQ(scene.exact(t).v[0], 0);
+    EXPECT_EQ(scene.exact(t).w[0], 0);
+  }
+}
+
+TEST(Exact, EllipticFunctionsAgreeWithGsl) {
+  for (const double m : {0.0, 0.1, 0.5, 0.9, 0.999}) {
+    for (const double u : {-3.0, 0.0, 0.2, 1.7, 10.0, 31.3}) {
+      double sn, cn, dn;
+      ASSERT_EQ(gsl_sf_elljac_e(u, m, &sn, &cn, &dn), 0);
+      const auto f = jacobiFunctions<double>(u, m);
+      const double tolerance = 50 * kEps * (1 + std::abs(u));
+      EXPECT_NEAR(f.sn, sn, tolerance) << u << " " << m;
+      EXPECT_NEAR(f.cn, cn, tolerance) << u << " " << m;
+      EXPECT_NEAR(f.dn, dn, tolerance) << u << " " << m;
+      const auto precise = jacobiFunctions<mp50>(u, m);
+      EXPECT_NEAR(f.sn, static_cast<double>(precise.sn), tolerance) << u << " " << m;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

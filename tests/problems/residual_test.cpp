@@ -1,0 +1,129 @@
+// The residual of every scene against itself: derivatives, multipliers, precision.
+#include <gtest/gtest.h>
+
+#include "tests/problems/scene_cases.h"
+
+namespace irk::test {
+namespace {
+
+// Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off
+// both stay below 1e-25, relative to the terms of the row.
+Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t,
+                               const Vec<double>& y, const Vec<double>& scale) {
+  const Vec<mp50> at = y.cast<mp50>();
+  Mat<double> J(system.sizes().n(), y.size());
+  for (Index j = 0; j < y.size(); ++j) {
+    const mp50 delta = mp50(1e-15) * scale[j];
+    Vec<mp50> above = at, below = at;
+    above[j] += delta;
+    below[j] -= delta;
+    const Vec<mp50> difference = residualAt<mp50, mp50>(system, level, t, above) -
+                                 residualAt<mp50, mp50>(system, level, t, below);
+    J.col(j) = (difference / mp50(2 * delta)).cast<double>();
+  }
+  return J;
+}
+
+// The automatic derivative sums the same terms as the residual, each with a few operations.
+constexpr double kDerivativeTolerance = 1e4 * kEps;
+
+void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& scale,
+                            Formulation formulation, Level level) {
+  const auto scene = makeScene<double>(c.id, c.settings);
+  const auto precise = makeScene<mp50>(c.id, c.settings);
+  const auto system = scene.system(formulation, ConstraintScaling::kOn);
+  const auto precise_system = precise.system(formulation, ConstraintScaling::kOn);
+  const Mat<double> J = automaticJacobian<double>(*system, level, 0.0, y);
+  const Mat<double> D = differenceJacobian(*precise_system, level, 0, y, scale);
+  const Vec<double> magnitude = y.cwiseAbs().cwiseMax(scale);
+  const Vec<double> rows = J.cwiseAbs() * magnitude;
+  for (Index i = 0; i < J.rows(); ++i) {
+    for (Index j = 0; j < J.cols(); ++j) {
+      EXPECT_NEAR(J(i, j) * magnitude[j], D(i, j) * magnitude[j], kDerivativeTolerance * rows[i])
+          << "row " << i << " column " << j;
+    }
+  }
+}
+
+TEST(Residual, AutomaticDerivativeIsTheDifferenceQuotient) {
+  for (const SceneCase& c : sceneCases()) {
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const Vec<double> scale = pointScale(scene, n);
+    for (const Formulation formulation : kFormulations) {
+      for (const Level level : {Level::kFormulated, Level::kAcceleration}) {
+        SCOPED_TRACE(c.name());
+        if (isSmoothAtStart(c)) {
+          expectDerivativesAgree(c, pointVector(scene.start), scale, formulation, level);
+        }
+        expectDerivativesAgree(c, perturbedPoint(scene, n), scale, formulation, level);
+      }
+    }
+  }
+}
+
+// The struct writes G^T lambda by hand: dr_u/dlambda = -(dg/du)^T.
+TEST(Residual, MultipliersActThroughTheConstraintJacobian) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+    const Mat<double> J =
+        automaticJacobian<double>(*system, Level::kPosition, 0.0, perturbedPoint(scene, n));
+    const Index first = n.nu + n.nx;
+    const Index lambda = 2 * n.nu + n.nx + first;  // column in (u, v, x, a, k, z)
+    const Mat<double> by_lambda = J.block(0, lambda, n.nu, n.constraints);
+    const Mat<double> G = J.block(first, 0, n.constraints, n.nu);
+    const double size = 1 + (G.size() > 0 ? G.cwiseAbs().maxCoeff() : 0);
+    for (Index i = 0; i < n.nu; ++i) {
+      for (Index j = 0; j < n.constraints; ++j) {
+        EXPECT_NEAR(by_lambda(i, j), -G(j, i), 10 * kEps * size) << i << " " << j;
+      }
+    }
+  }
+}
+
+TEST(Residual, FiftyDigitsAgreeWithDouble) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const auto precise = makeScene<mp50>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const Vec<double> y = perturbedPoint(scene, n);
+    for (const Formulation formulation : kFormulations) {
+      const auto system = scene.system(formulation, ConstraintScaling::kOn);
+      const auto precise_system = precise.system(formulation, ConstraintScaling::kOn);
+      const double t = 0.25;
+      const Vec<double> r = residualAt<double, double>(*system, Level::kFormulated, t, y);
+      const Vec<mp50> exact =
+          residualAt<mp50, mp50>(*precise_system, Level::kFormulated, t, y.cast<mp50>());
+      const Mat<double> J = automaticJacobian<double>(*system, Level::kFormulated, t, y);
+      const Vec<double> rows = rowSizes(J, y, pointScale(scene, n));
+      for (Index i = 0; i < r.size(); ++i) {
+        EXPECT_NEAR(r[i], static_cast<double>(exact[i]), 1e-13 * (rows[i] + std::abs(r[i])))
+            << "row " << i;
+      }
+    }
+  }
+}
+
+// Formulations describe one system: all rows but those of the constraints agree.
+TEST(Residual, FormulationsDifferInConstraintRowsOnly) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const Vec<double> y = perturbedPoint(scene, n);
+    const auto index3 = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+    const auto index2 = scene.system(Formulation::kIndex2, ConstraintScaling::kOff);
+    const Vec<double> r3 = residualAt<double, double>(*index3, Level::kFormulated, 0, y);
+    const Vec<double> r2 = residualAt<double, double>(*index2, Level::kFormulated, 0, y);
+    EXPECT_EQ(r3.head(n.nu + n.nx), r2.head(n.nu + n.nx));
+    const Index rest = n.nz - n.constraints;
+    EXPECT_EQ(r3.tail(rest), r2.tail(rest));
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

@@ -1,0 +1,117 @@
+// What the scene tests share: every scene with the settings that change its equations, a point as
+// one vector, the residual of that vector.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "problems/scene.h"
+
+namespace irk::test {
+
+struct SceneCase {
+  std::string id;
+  Settings settings;
+
+  std::string name() const {
+    std::string text = id;
+    for (const auto& [key, value] : settings) text += " " + key + "=" + value;
+    return text;
+  }
+};
+
+/// The catalogue with its defaults, each word of each word parameter, and some numbers.
+inline std::vector<SceneCase> sceneCases() {
+  std::vector<SceneCase> cases;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    cases.push_back({entry.id, {}});
+    for (const Parameter& p : entry.parameters) {
+      for (const std::string& choice : p.choices) {
+        if (choice != p.default_value) cases.push_back({entry.id, {{p.name, choice}}});
+      }
+      if (p.name == "elements") {
+        cases.push_back({entry.id, {{p.name, "1"}}});
+        cases.push_back({entry.id, {{p.name, "4"}}});
+      }
+    }
+  }
+  cases.push_back({"slider_crank", {{"torque_off_at", "0.5"}}});
+  cases.push_back(
+      {"stick_slip",
+       {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}});
+  return cases;
+}
+
+/// Whether the residual is differentiable at the start: sticking and a closed valve are not.
+inline bool isSmoothAtStart(const SceneCase& c) {
+  return c.id != "stick_slip" && c.id != "hydraulic_arm";
+}
+
+/// (u, v, x, a, k, z) of a start.
+template <class Real>
+Vec<Real> pointVector(const State<Real>& s) {
+  Vec<Real> y(2 * s.u.size() + s.x.size() + s.w.size());
+  y << s.u, s.v, s.x, s.w;
+  return y;
+}
+
+/// Typical magnitudes of (u, v, x, a, k, z): scene.scale, 1 for a and k.
+inline Vec<double> pointScale(const Scene<double>& scene, const Sizes& n) {
+  Vec<double> s(2 * n.nu + n.nx + n.n());
+  s << scene.scale.head(2 * n.nu + n.nx), Vec<double>::Ones(n.nu + n.nx), scene.scale.tail(n.nz);
+  return s;
+}
+
+/// The start, moved by a tenth of the scale in each component, no two alike.
+inline Vec<double> perturbedPoint(const Scene<double>& scene, const Sizes& n) {
+  Vec<double> y = pointVector(scene.start);
+  const Vec<double> scale = pointScale(scene, n);
+  for (Index j = 0; j < y.size(); ++j) {
+    y[j] += 0.1 * scale[j] * std::sin(1.0 + 2.0 * static_cast<double>(j));
+  }
+  return y;
+}
+
+template <class T, class Real>
+Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y) {
+  const Sizes n = system.sizes();
+  const T* p = y.data();
+  const T* const w = p + 2 * n.nu + n.nx;
+  Vec<T> r(n.n());
+  const Point<T> point{T(t),      {p, n.nu},        {p + n.nu, n.nu},       {p + 2 * n.nu, n.nx},
+                       {w, n.nu}, {w + n.nu, n.nx}, {w + n.nu + n.nx, n.nz}};
+  system.evaluate(level, point, VecView<T>(r.data(), n.n()));
+  return r;
+}
+
+/// dr/d(u, v, x, a, k, z), seeded by hand: independent of core's Differentiator.
+template <class Real>
+Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real& t,
+                            const Vec<Real>& y) {
+  Mat<Real> J(system.sizes().n(), y.size());
+  for (Index first = 0; first < y.size(); first += static_cast<Index>(kChunk)) {
+    Vec<Dual<Real>> dual(y.size());
+    for (Index j = 0; j < y.size(); ++j) dual[j] = Dual<Real>(y[j]);
+    const Index last = std::min(y.size(), first + static_cast<Index>(kChunk));
+    for (Index j = first; j < last; ++j) dual[j].d[static_cast<std::size_t>(j - first)] = Real(1);
+    const Vec<Dual<Real>> r = residualAt<Dual<Real>, Real>(system, level, t, dual);
+    for (Index j = first; j < last; ++j) {
+      for (Index i = 0; i < r.size(); ++i) J(i, j) = r[i].d[static_cast<std::size_t>(j - first)];
+    }
+  }
+  return J;
+}
+
+/// Size of the terms that a residual row adds up: what its round-off is measured by.
+inline Vec<double> rowSizes(const Mat<double>& J, const Vec<double>& y, const Vec<double>& scale) {
+  return J.cwiseAbs() * y.cwiseAbs().cwiseMax(scale);
+}
+
+inline constexpr double kEps = std::numeric_limits<double>::epsilon();
+inline constexpr Formulation kFormulations[] = {Formulation::kIndex3, Formulation::kIndex2};
+
+}  // namespace irk::test
