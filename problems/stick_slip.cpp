@@ -17,16 +17,17 @@ struct StickSlip {
 
   Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0}; }
 
-  // The law as it stands. At relative velocity 0, where Coulomb's force is a set, the mass sticks
-  // as far as Fs allows; that is met only exactly, so that a plain integrator rarely sees it.
+  // The law as it stands: slip force Fd sign(vb - x'); at relative velocity 0, where Coulomb's
+  // force is a set, the mass sticks as far as Fs allows, and else has begun to slip. Velocity 0 is
+  // met only exactly, so that a plain integrator rarely sees it.
   template <class T>
   T friction(const T& x, const T& v) const {
     const T slip = vb - v;
+    const T spring = k * x;
     if (slip > T(0.0)) return T(Fd);
     if (slip < T(0.0)) return T(-Fd);
-    const T spring = k * x;
-    if (spring > T(Fs)) return T(Fs);
-    if (spring < T(-Fs)) return T(-Fs);
+    if (spring > T(Fs)) return T(Fd);
+    if (spring < T(-Fs)) return T(-Fd);
     return spring;
   }
   template <class T>
