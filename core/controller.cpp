@@ -31,23 +31,33 @@ class PaperController final : public StepController {
     const double f = gamma_ * std::pow(1 / (o_.s_min * eps), 1.0 / (p_ + 1));
     if (error > 1) return {false, h * std::clamp(f, kShrinkAtMost, 1 / o_.change_at_least)};
     if (f >= o_.change_at_least && eps < 1 / s_max_) {
-      return {true, h * std::min(f, o_.growth_at_most)};
+      const double grown = h * std::min(f, o_.growth_at_most);
+      return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
     }
     if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kShrinkAtMost)};
     return {true, h};
   }
-  double afterFailure(double h) override { return h / o_.change_at_least; }
+  // The paper does not say what follows a Newton failure. The failed size is not tried again for some
+  // steps: the error estimate, which knows nothing of Newton, would ask for it at once.
+  double afterFailure(double h) override {
+    failed_h_ = h;
+    barred_ = kBarredSteps;
+    return h / o_.change_at_least;
+  }
 
  private:
   static constexpr double kTinyError = 1e-300;
   static constexpr double kGammaMin = 0.9;
   static constexpr double kShrinkAtMost = 0.05;
+  static constexpr int kBarredSteps = 10;
 
   StepOptions o_;
   int p_;
   double s_max_;
   double gamma_ = 1;
   double last_error_ = 0, last_h_ = 0;
+  double failed_h_ = 0;
+  int barred_ = 0;
 };
 
 }  // namespace

@@ -57,5 +57,13 @@ TEST(PaperController, HalvesAfterAFailedNewton) {
   EXPECT_NEAR(makeController({}, 3)->afterFailure(0.1), 0.05, 1e-15);
 }
 
+TEST(PaperController, DoesNotReturnAtOnceToAStepThatNewtonFailed) {
+  const auto controller = makeController({}, 3);
+  EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
+  int kept = 0;
+  while (controller->decide(1e-9, 0.05).h == 0.05) ++kept;
+  EXPECT_EQ(kept, 9);
+}
+
 }  // namespace
 }  // namespace irk
