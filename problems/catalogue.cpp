@@ -9,10 +9,25 @@ namespace irk {
 
 const std::vector<SceneEntry>& sceneCatalogue() {
   static const std::vector<SceneEntry> entries = {
-      ancfCantileverEntry(),  ancfPendulumEntry(), dahlquistEntry(),   hiresEntry(),
-      hydraulicArmEntry(),    keplerEntry(),       pendulumEntry(),    protheroRobinsonEntry(),
-      riccatiTrackingEntry(), robertsonEntry(),    sliderCrankEntry(), sliderCrankFlexibleEntry(),
-      stickSlipEntry(),       vanDerPolEntry(),
+      ancfCantileverEntry(),
+      ancfPendulumEntry(),
+      beamChainEntry(),
+      dahlquistEntry(),
+      hiresEntry(),
+      hydraulicArmEntry(),
+      index1NonlinearEntry(),
+      index2NonlinearEntry(),
+      kapsEntry(),
+      keplerEntry(),
+      mechanicalDaeEntry(),
+      pendulumEntry(),
+      protheroRobinsonEntry(),
+      riccatiTrackingEntry(),
+      robertsonEntry(),
+      sliderCrankEntry(),
+      sliderCrankFlexibleEntry(),
+      stickSlipEntry(),
+      vanDerPolEntry(),
   };
   return entries;
 }

@@ -7,10 +7,15 @@ namespace irk {
 
 SceneEntry ancfCantileverEntry();
 SceneEntry ancfPendulumEntry();
+SceneEntry beamChainEntry();
 SceneEntry dahlquistEntry();
 SceneEntry hiresEntry();
 SceneEntry hydraulicArmEntry();
+SceneEntry index1NonlinearEntry();
+SceneEntry index2NonlinearEntry();
+SceneEntry kapsEntry();
 SceneEntry keplerEntry();
+SceneEntry mechanicalDaeEntry();
 SceneEntry pendulumEntry();
 SceneEntry protheroRobinsonEntry();
 SceneEntry riccatiTrackingEntry();
