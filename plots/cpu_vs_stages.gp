@@ -1,7 +1,8 @@
 # CPU time at a fixed error against the number of stages: one line per error, one panel per case.
 # A number of stages that did not reach an error stands above the lines.
 #   gnuplot -e "data='results/cpu_time'; out='cpu'; cases='slider_crank slider_crank:torque_off_at=0.5'" cpu_vs_stages.gp
-# Reads cpu_at_error.csv. Options: cases (scene or scene:settings, one panel each), family,
+# Reads cpu_at_error.csv. Options: cases (scene or scene:settings, quoted if with blanks,
+# one panel each), family,
 # cost (a column: cpu_s, residuals, newton_iterations), titles (quoted words, one per case).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("cases")) cases = 'slider_crank'
@@ -13,8 +14,9 @@ n = words(cases)
 colon(case) = strstrt(case, ':')
 sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
 settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
+shortSettings(case) = strlen(settingsOf(case)) > 24 ? '' : settingsOf(case)
 caseTitle(i) = (words(titles) >= i ? word(titles, i).': ' : '') \
-  .sceneTitle(sceneOf(word(cases, i)), settingsOf(word(cases, i)))
+  .sceneTitle(sceneOf(word(cases, i)), shortSettings(word(cases, i)))
 
 row(case) = is("scene", sceneOf(case)) && is("settings", settingsOf(case)) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
@@ -26,9 +28,11 @@ from(case, error) = ($0 == 0 ? (this_y = 0) : 0, !at(case, error) ? outside : \
 last_x = 1; last_y = 0; this_x = 1; this_y = 0
 missed(case, error) = at(case, error) && absent(cost) ? column("stages") : outside
 
-rows = 0; most = 0; least = 1e300; s_max = 1
+rows = 0; tried = 0; most = 0; least = 1e300; s_max = 1
 do for [i = 1 : n] {
-  undefine C_* N_*
+  undefine N_*
+  stats file using (row(word(cases, i)) ? 1 : 0) name "N" nooutput
+  tried = tried + (exists("N_sum") ? N_sum : 0)
   stats file using (row(word(cases, i)) && !absent(cost) ? 1 : 0) name "N" nooutput
   if (exists("N_sum") && N_sum > 0) {
     stats file using (row(word(cases, i)) ? (collect(sprintf("%.2f", log10(column("target_error")))), \
@@ -38,6 +42,7 @@ do for [i = 1 : n] {
     least = C_min < least ? C_min : least
   }
 }
+if (tried == 0) { eval absence(cases." in ".file) }
 exponents = sorted(collected)
 count = words(exponents)
 target(k) = 10 ** real(word(exponents, count + 1 - k))   # the coarsest first
@@ -49,7 +54,7 @@ margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.24 : 0.14
 margin_bottom = 0.14; gap_x = 0.03
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, 400)
-  if (rows == 0) { eval nothing(cases." in ".file) } else {
+  if (rows == 0) { eval nothing(cases) } else {
     set multiplot
     eval decades("y")
     set logscale x

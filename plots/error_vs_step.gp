@@ -22,9 +22,12 @@ row(family, s) = chosen(0) && is("family", family) && column("stages") == s
 failed(family) = chosen(0) && is("family", family) && !succeeded(0) ? column("h") : outside
 error(d) = succeeded(0) ? positive(column(quantity)) : NaN
 
+stats file using (chosen(0) ? 1 : 0) name "N" nooutput
+if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
 stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), column("h")) : NaN) name "H" nooutput
-stats file using (chosen(0) ? error(0) : NaN) name "E" nooutput
-rows = exists("E_records") ? E_records : 0
+stats file using (chosen(0) && succeeded(0) && !absent(quantity) ? 1 : 0) name "N" nooutput
+rows = N_sum
+if (rows > 0) { stats file using (chosen(0) ? error(0) : NaN) name "E" nooutput }
 stages = sorted(collected)
 stage(k) = int(word(stages, k))
 if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
@@ -54,13 +57,14 @@ fittedIn(i, k) = k == 0 ? "" : fittedIn(i, k - 1).when(fitted(slot(i, k)), sprin
 linesIn(i, k) = k == 0 ? "" : linesIn(i, k - 1).when(Count[slot(i, k)] > 0, sprintf("%d ", k))
 predicted(m, family, s) = fitted(m) && row(family, s) && column("h") >= 0.999 * Lower[m] \
   && column("h") <= 1.001 * Upper[m] ? Level[m] * column("h") ** Slope[m] : NaN
+interval(i, k) = 1 + Count[slot(i, k)] / 24   # marks, of many points
 seriesTitle(i, k) = sprintf("%s%s", word(stages, k), \
   Fitted[slot(i, k)] == Fitted[slot(i, k)] ? sprintf(": %.2f", Fitted[slot(i, k)]) : "")
 
-margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.2 : 0.115; margin_bottom = 0.14; gap_x = n == 1 ? 0 : 0.165
+margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.2 : 0.125; margin_bottom = 0.14; gap_x = n == 1 ? 0 : 0.17
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 540 * n, 420)
-  if (rows == 0) { eval nothing(scene." in ".file) } else {
+  if (rows == 0) { eval nothing(scene) } else {
     set multiplot
     eval decades("x"); eval decades("y")
     set xrange [H_min / 1.4 : H_max * 1.4]; set yrange [y_min : y_max]
@@ -75,7 +79,8 @@ do for [format in formats] {
              smooth unique with lines lw 4 lc rgb 0xD0D0D0 notitle, \
            for [k in linesIn(i, words(stages))] file using "h":(row(f, stage(number(k))) ? error(0) : NaN) \
              smooth unique with linespoints lw 1 dt stageDash(stage(number(k))) pt stagePoint(stage(number(k))) \
-             ps 0.6 lc rgb stageColour(stage(number(k))) title seriesTitle(i, number(k)), \
+             ps 0.6 pi interval(i, number(k)) lc rgb stageColour(stage(number(k))) \
+             title seriesTitle(i, number(k)), \
            file using (failed(f)):(fail_at) with points pt failure_point ps 0.9 lw 1.5 lc rgb failure_colour notitle
     }
     unset multiplot

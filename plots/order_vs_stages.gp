@@ -25,8 +25,9 @@ differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("orde
 unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, not on top of each other
 
+stats file using (chosen(0) ? 1 : 0) name "N" nooutput
+if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
 stats file using (chosen(0) ? (collect(strcol("family")), column("stages")) : NaN) name "S" nooutput
-rows = exists("S_records") ? S_records : 0
 found = collected
 collected = ""
 stats file using (chosen(0) ? remember(0) : 0) nooutput
@@ -35,53 +36,46 @@ present = ""
 do for [f in families_known.found] { present = present.(position(found, f) && !position(present, f) ? " ".f : "") }
 n = words(present)
 columns = n <= 4 ? n : (n + 1) / 2
-lines = n == 0 ? 1 : (n + columns - 1) / columns
-if (rows > 0) {
-  stats file using (chosen(0) && is_measured(0) ? column("order") : NaN) name "O" nooutput
-  stats file using (chosen(0) ? column("theory") : NaN) name "T" nooutput
-  most = exists("O_max") ? O_max : T_max
-  least = exists("O_min") ? O_min : 0
-  y_max = ceil(1.12 * most + 1)
-  y_min = (least < 0 ? floor(least) : 0) - 0.07 * y_max
-  y_step = y_max > 24 ? 8 : y_max > 12 ? 4 : y_max > 6 ? 2 : 1
-}
-margin_left = n <= 2 ? 0.11 : 0.065
-margin_bottom = lines == 1 ? 0.26 : 0.17
+lines = (n + columns - 1) / columns
+stats file using (chosen(0) && is_measured(0) ? column("order") : 0) name "O" nooutput
+y_max = ceil(1.12 * O_max + 1)
+y_min = floor(O_min) - 0.07 * y_max
+y_step = y_max > 24 ? 8 : y_max > 12 ? 4 : y_max > 6 ? 2 : 1
+margin_left = n <= 2 ? 0.1 : 0.07
+margin_bottom = lines == 1 ? 0.28 : 0.17
 gap_y = 0.13; gap_x = 0.02; margin_right = 0.01
-width = n <= 2 ? 640 : n <= 3 ? 860 : 1080
+width = n <= 2 ? 820 : n <= 3 ? 860 : 1080
 height = lines == 1 ? 340 : 560
 
 do for [format in formats] {
   eval open(format, width, height)
-  if (rows == 0) { eval nothing(scene." in ".file) } else {
-    unset key
-    set multiplot
-    set xrange [S_min - 0.7 : S_max + 0.7]; set yrange [y_min : y_max]
-    x_step = S_max > 12 ? 5 : S_max > 8 ? 2 : 1
-    set xtics x_step; set ytics 0, y_step
-    do for [i = 1 : n] {
-      f = word(present, i)
-      eval panel(i, columns, lines)
-      set title familyTitle(f) offset 0,-0.5
-      set format y when((i - 1) % columns == 0, '%g')
-      set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 1,0
-      set xlabel when(i > n - columns, 'stages s') offset 0,0.5
-      plot for [k = 1 : parts] file using (place(k)):(theory(f, k)) smooth unique \
-             with lines lw 1.3 dt partDash(k) lc rgb familyColour(f) notitle, \
-           for [k = 1 : parts] file using (place(k)):(measured(f, k)):(column("confidence")) \
-             with yerrorbars pt partPoint(k) ps 0.75 lw 1.2 lc rgb familyColour(f) notitle, \
-           for [k = 1 : parts] file using (place(k)):(differing(f, k)) \
-             with points pt failure_point ps 1.6 lw 2 lc rgb failure_colour notitle, \
-           for [k = 1 : parts] file using (place(k)):(unmeasured(f, k)) \
-             with points pt 10 ps 0.8 lc rgb 0x777777 notitle
-    }
-    eval legend(0.07)
-    plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 \
-           lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line), observed (mark)'), \
-         keyentry with points pt failure_point ps 1.4 lw 2 lc rgb failure_colour title 'differs', \
-         keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable'
-    unset multiplot
+  unset key
+  set multiplot
+  set xrange [S_min - 0.7 : S_max + 0.7]; set yrange [y_min : y_max]
+  x_step = S_max > 12 ? 5 : S_max > 8 ? 2 : 1
+  set xtics x_step; set ytics 0, y_step
+  do for [i = 1 : n] {
+    f = word(present, i)
+    eval panel(i, columns, lines)
+    set title familyTitle(f) offset 0,-0.5
+    set format y when((i - 1) % columns == 0, '%g')
+    set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 0.3,0
+    set xlabel when(i > n - columns, 'stages s') offset 0,0.5
+    plot for [k = 1 : parts] file using (place(k)):(theory(f, k)) smooth unique \
+           with lines lw 1.3 dt partDash(k) lc rgb familyColour(f) notitle, \
+         for [k = 1 : parts] file using (place(k)):(measured(f, k)):(column("confidence")) \
+           with yerrorbars pt partPoint(k) ps 0.75 lw 1.2 lc rgb familyColour(f) notitle, \
+         for [k = 1 : parts] file using (place(k)):(differing(f, k)) \
+           with points pt failure_point ps 1.6 lw 2 lc rgb failure_colour notitle, \
+         for [k = 1 : parts] file using (place(k)):(unmeasured(f, k)) \
+           with points pt 10 ps 0.8 lc rgb 0x777777 notitle
   }
+  eval legend(lines == 1 ? 0.13 : 0.07)
+  plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 \
+         lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line), observed (mark)'), \
+       keyentry with points pt failure_point ps 1.4 lw 2 lc rgb failure_colour title 'differs', \
+       keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable'
+  unset multiplot
   unset output
   eval framed
 }

@@ -54,34 +54,34 @@ n = words(kept)
 seriesColour(k) = int(word(family_colours, (k == 2 ? 3 : k == 3 ? 4 : k == 1 ? 1 : k) % 8 + (k % 8 == 0 ? 8 : 0)))
 seriesDash(k) = (k - 1) % 4 + 1
 
+if (n == 0) { eval absence(scene." in ".file) }
+
 columns = n <= 3 ? n : 2
-lines = n == 0 ? 1 : (n + columns - 1) / columns
+lines = (n + columns - 1) / columns
 width = n <= 1 ? 560 : n == 3 ? 1080 : 820
 margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : 0.1
 margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = lines == 1 ? 0.1 : 0.06
 gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
-  if (n == 0) { eval nothing(scene." in ".file) } else {
-    set multiplot
-    do for [i = 1 : n] {
-      p = word(kept, i)
-      list = content(p)
-      eval 'scale = '.factor(p)
-      eval panel(i, columns, lines)
-      set ylabel label(p) offset 1,0 noenhanced
-      orbit = strstrt(list, ':') > 0
-      set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : 't in s') offset 0,0.3 noenhanced
-      unset key
-      if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.2 maxrows 1 font ',10' }
-      set xrange [*:*] noextend
-      set yrange [*:*]
-      set size noratio; set xtics autofreq
-      if (orbit) { set xrange [*:*] extend; set size ratio -1; set xtics 0.5 }
-      plot for [k = 1 : words(list)] file using (column(over(word(list, k)))):(scale * column(of(word(list, k)))) \
-        with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
-    }
-    unset multiplot
+  set multiplot
+  do for [i = 1 : n] {
+    p = word(kept, i)
+    list = content(p)
+    eval 'scale = '.factor(p)
+    eval panel(i, columns, lines)
+    set ylabel label(p) offset 1,0 noenhanced
+    orbit = strstrt(list, ':') > 0
+    set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : 't in s') offset 0,0.3 noenhanced
+    unset key
+    if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.2 maxrows 1 font ',10' }
+    set xrange [*:*] noextend
+    set yrange [*:*]
+    set size noratio; set xtics autofreq
+    if (orbit) { set xrange [*:*] extend; set size ratio -1; set xtics 0.5 }
+    plot for [k = 1 : words(list)] file using (column(over(word(list, k)))):(scale * column(of(word(list, k)))) \
+      with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
   }
+  unset multiplot
   unset output
 }

@@ -109,6 +109,8 @@ legend(height) = sprintf("unset logscale; set format '%%g'; set lmargin at scree
   ."set key at screen 0.5, screen %.3f center center horizontal samplen 2.2 width 1; ", height, 0.5 * height) \
   .bare
 
-# A figure without rows says so instead of staying white.
-nothing(what) = sprintf("unset border; unset tics; unset key; unset grid; set xrange [0:1]; " \
-  ."set yrange [0:1]; unset logscale; set label 1 'no rows for %s' at 0.5,0.5 center noenhanced; plot NaN notitle", what)
+# Rows of which none can be drawn give a figure that says so; no rows at all give none.
+nothing(what) = sprintf("unset border; unset tics; unset key; unset grid; unset logscale; set xrange [0:1]; " \
+  ."set yrange [0:1]; set label 1 'no run succeeded: %s' at 0.5,0.5 center noenhanced; plot 2 notitle; " \
+  ."unset label 1; set border; set tics", what)
+absence(what) = sprintf("system \"rm -f '%s.svg' '%s.png'\"; print 'no rows for %s'; exit", out, out, what)

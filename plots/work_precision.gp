@@ -26,14 +26,18 @@ reached(s) = row(s) ? error(0) : NaN
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
 failed(s) = row(s) && !succeeded(0) ? asked(0) : outside
 
+stats file using (chosen(0) ? 1 : 0) name "N" nooutput
+if (!exists("N_sum") || N_sum == 0) { eval absence(sceneTitle(scene, settings)." in ".file) }
 stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), asked(0)) : NaN) name "T" nooutput
-stats file using (chosen(0) && column(word(costs, 1)) > 0 ? error(0) : NaN) name "E" nooutput
+drawable(d) = succeeded(0) && !absent(quantity) && !absent(word(costs, 1))
+stats file using (chosen(0) && drawable(0) ? 1 : 0) name "N" nooutput
+rows = N_sum
+if (rows > 0) { stats file using (chosen(0) && drawable(0) ? error(0) : NaN) name "E" nooutput }
 stats file using (chosen(0) && !succeeded(0) ? 1 : 0) name "F" nooutput
-rows = exists("E_records") ? E_records : 0
 stages = sorted(collected)
 count = words(stages)
 stage(k) = int(word(stages, k))
-failures = exists("F_sum") ? F_sum : 0
+failures = F_sum
 finest = rows > 0 ? E_min : 0
 if (failures > 0) {
   stats file using (chosen(0) && !succeeded(0) ? asked(0) : NaN) name "F" nooutput
@@ -46,7 +50,7 @@ margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.17 : 0.1
 margin_bottom = lines == 1 ? 0.14 : 0.09; gap_x = 0.1
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, lines == 1 ? 420 : 640)
-  if (rows == 0) { eval nothing(sceneTitle(scene, settings)." in ".file) } else {
+  if (rows == 0) { eval nothing(sceneTitle(scene, settings)) } else {
     set multiplot
     eval decades("x"); eval decades("y")
     do for [i = 1 : n] {
