@@ -53,10 +53,10 @@ blend(a, b, w) = channel(a, b, w, 16) + channel(a, b, w, 8) + channel(a, b, w, 0
 shadeNumber(i) = int(word(stage_shades, i))
 stageColour(s) = blend(shadeNumber(1 + int(shadeAt(s))), shadeNumber(2 + int(shadeAt(s))), \
                        shadeAt(s) - int(shadeAt(s)))
-stages_marked = "1 2 3 4 5 6 7 8 9 10 15 20"
-stage_points  = "6 4 8 10 12 14 7 13 15 5 9 11"
+stages_marked = "1 2 3 4 5 6 7 8 9 10 12 15 20"
+stage_points  = "6 4 8 10 12 14 7 13 15 5 3 9 11"
 marked(s) = position(stages_marked, sprintf("%d", s))
-stagePoint(s) = marked(s) ? int(word(stage_points, marked(s))) : 2
+stagePoint(s) = marked(s) ? int(word(stage_points, marked(s))) : 1
 stageDash(s) = s <= 3 ? 5 - s : 1   # 1, 2, 3: dash-dot, dots, dashes; more: solid
 
 # --- What did not work is red and crossed, everywhere.
