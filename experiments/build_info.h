@@ -1,0 +1,18 @@
+// What this program was built from: generated at build time by build_info.cmake.
+#pragma once
+
+#include <string_view>
+
+namespace irk {
+
+struct BuildInfo {
+  std::string_view version;   ///< of the project
+  std::string_view commit;    ///< git describe --always --dirty; `unknown` outside a repository
+  std::string_view compiler;  ///< id and version
+  std::string_view flags;
+  std::string_view source_dir;  ///< where plots/ is looked for when IRK_HOME is not set
+};
+
+const BuildInfo& buildInfo();
+
+}  // namespace irk

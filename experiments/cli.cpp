@@ -1,0 +1,210 @@
+#include "experiments/cli.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <ostream>
+
+#include "core/text.h"
+#include "experiments/build_info.h"
+#include "experiments/commands/commands.h"
+
+namespace irk {
+namespace {
+
+using Action = std::function<int(Streams)>;
+
+std::string optionName(std::string_view field) {
+  std::string name = "--" + std::string(field);
+  std::replace(name.begin() + 2, name.end(), '_', '-');
+  return name;
+}
+
+// Axes of which this version knows one strategy only.
+constexpr std::pair<std::string_view, std::string_view> kSingleStrategies[] = {
+    {"jacobian", "full"}, {"order", "fixed"}, {"discontinuity", "ignore"}};
+
+void requireKnown(std::string_view axis, std::string_view only, const std::string& given) {
+  if (given != only) throw Misuse(unknownName(axis, given, {std::string(only)}));
+}
+
+/// The verbs, their options and what each one does when it is chosen.
+class Program {
+ public:
+  Program() : app_("Benchmark suite for implicit Runge-Kutta schemes of any order", "irk") {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version",
+                          std::string(buildInfo().version) + " " + std::string(buildInfo().commit));
+    addPaper();
+    addRun();
+    addSolve();
+    addList();
+    addTableau();
+    addPlots();
+    addMerging();
+  }
+
+  int run(std::vector<std::string> arguments, Streams streams) {
+    requireKnownVerb(arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    try {
+      app_.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+      return app_.exit(error, streams.out, streams.err) == 0 ? 0 : kMisuseStatus;
+    }
+    return action_(streams);
+  }
+
+ private:
+  void requireKnownVerb(const std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments.front().starts_with('-')) return;
+    std::vector<std::string> known;
+    for (const auto* sub : app_.get_subcommands({})) known.push_back(sub->get_name());
+    if (std::find(known.begin(), known.end(), arguments.front()) == known.end()) {
+      throw Misuse(unknownName("verb", arguments.front(), known));
+    }
+  }
+
+  CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning,
+                 Action action) {
+    auto* sub = parent.add_subcommand(name, meaning);
+    sub->final_callback([this, action = std::move(action)] { action_ = action; });
+    return sub;
+  }
+
+  void addRunnerOptions(CLI::App& sub) {
+    sub.add_flag("--quick", quick_, "the small variant of each study");
+    sub.add_flag("--fresh", fresh_, "make finished runs again");
+    sub.add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    addResults(sub);
+  }
+  void addResults(CLI::App& sub) {
+    sub.add_option("--results", results_, "folder of the results")->capture_default_str();
+  }
+
+  RunOptions runOptions() {
+    constexpr int kMostJobs = 1024;
+    RunOptions options;
+    options.study = study_;
+    options.variant = quick_ ? StudyVariant::kQuick : StudyVariant::kFull;
+    options.runner.results = results_;
+    options.runner.jobs = static_cast<int>(parseInteger("jobs", jobs_, 0, kMostJobs));
+    options.runner.finished = fresh_ ? FinishedRuns::kRunAgain : FinishedRuns::kKeep;
+    if (!shard_.empty()) parseShard(shard_, options.runner);
+    return options;
+  }
+
+  void addPaper() {
+    auto* sub = verb(app_, "paper", "every study of the paper, figures and the report page",
+                     [this](Streams s) { return paperCommand(runOptions(), s); });
+    addRunnerOptions(*sub);
+  }
+
+  void addRun() {
+    auto* sub =
+        verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
+    sub->add_option("study", study_, "id or TOML file")->required();
+    sub->add_option("--shard", shard_, "i/n: this part of n, for array jobs; see merge");
+    addRunnerOptions(*sub);
+  }
+
+  void addSolve() {
+    auto* sub = verb(app_, "solve", "one integration", [this](Streams s) { return solve(s); });
+    sub->add_option("scene", solve_.scene, "see: irk list scenes")->required();
+    sub->add_option("--set", solve_.settings, "name=value, a parameter of the scene")
+        ->take_all()
+        ->expected(1);
+    sub->add_option("--step", solve_.step, "fixed steps (first step with --control paper)");
+    sub->add_option("--tol", solve_.tol, "rtol and atol");
+    sub->add_flag("--json", solve_.json, "print one JSON object");
+    sub->add_option("--plot", solve_.plot, "draw the solution to FILE.svg and FILE.png");
+    for (const auto& field : specFields()) {
+      const bool special = field.name == "scene" || field.name == "settings" || field.name == "h";
+      if (special) continue;
+      sub->add_option(optionName(field.name), fields_[std::string(field.name)], field.allowed());
+    }
+    for (const auto& [axis, only] : kSingleStrategies) {
+      sub->add_option(optionName(axis), single_[std::string(axis)], "only: " + std::string(only));
+    }
+  }
+
+  int solve(Streams streams) {
+    for (const auto& [axis, only] : kSingleStrategies) {
+      const auto& given = single_[std::string(axis)];
+      if (!given.empty()) requireKnown(axis, only, given);
+    }
+    for (const auto& [field, value] : fields_) {
+      if (!value.empty()) solve_.fields.emplace_back(field, value);
+    }
+    return solveCommand(solve_, streams);
+  }
+
+  void addList() {
+    auto* sub =
+        verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
+    sub->add_option("what", what_, "scenes, methods, studies or strategies");
+  }
+
+  void addTableau() {
+    auto* tableau = app_.add_subcommand("tableau", "coefficients of a method");
+    tableau->require_subcommand(1);
+    auto* show = verb(*tableau, "show", "print it", [this](Streams s) {
+      constexpr int kMostDigits = 75;
+      const auto digits = parseInteger("digits", digits_, 1, kMostDigits);
+      return tableauShow(method_, static_cast<int>(digits), s);
+    });
+    show->add_option("--digits", digits_, "significant digits")->capture_default_str();
+    auto* check = verb(*tableau, "check", "does it keep what it declares?",
+                       [this](Streams s) { return tableauCheck(method_, s); });
+    auto* write = verb(*tableau, "export", "as a tableau file",
+                       [this](Streams s) { return tableauExport(method_, s); });
+    for (auto* sub : {show, check, write}) {
+      sub->add_option("method", method_, "id or file")->required();
+    }
+  }
+
+  void addPlots() {
+    auto* plot = verb(app_, "plot", "the figures of a study",
+                      [this](Streams s) { return plotCommand(study_, results_, s); });
+    plot->add_option("study", study_, "id")->required();
+    addResults(*plot);
+    auto* report = verb(app_, "report", "all figures and the report page",
+                        [this](Streams s) { return reportCommand(results_, s); });
+    addResults(*report);
+  }
+
+  void addMerging() {
+    auto* merge = verb(app_, "merge", "join the results of shards", [this](Streams s) {
+      return mergeCommand({folders_, study_, results_}, s);
+    });
+    merge->add_option("folders", folders_, "folders with a runs.csv each")->required();
+    merge->add_option("--study", study_, "id or TOML file, if the tables' own is not built in");
+    addResults(*merge);
+    auto* compare = verb(app_, "compare", "two folders of results, times aside",
+                         [this](Streams s) { return compareCommand(folders_[0], folders_[1], s); });
+    compare->add_option("folders", folders_, "two folders")->required()->expected(2);
+  }
+
+  CLI::App app_;
+  Action action_;
+  bool quick_ = false, fresh_ = false;
+  std::string study_, shard_, what_, method_;
+  std::string jobs_ = "0", digits_ = "17", results_ = "results";
+  std::vector<std::string> folders_;
+  std::map<std::string, std::string> fields_, single_;
+  SolveOptions solve_;
+};
+
+}  // namespace
+
+int runProgram(const std::vector<std::string>& arguments, Streams streams) {
+  try {
+    return Program().run(arguments, streams);
+  } catch (const Misuse& misuse) {
+    streams.err << "irk: " << misuse.what() << '\n';
+    return kMisuseStatus;
+  }
+}
+
+}  // namespace irk

@@ -1,0 +1,62 @@
+// The verbs of the program. Each returns the exit status: 0 done, 1 failed, 130 interrupted; misuse
+// is thrown.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/cli.h"
+#include "experiments/numbers.h"
+#include "experiments/run.h"
+#include "experiments/runner.h"
+
+namespace irk {
+
+struct SolveOptions {
+  std::string scene;
+  /// Spec fields by name, as given.
+  std::vector<std::pair<std::string, std::string>> fields;
+  std::vector<std::string> settings;  ///< name=value
+  std::string step, tol;              ///< empty: not given
+  std::string plot;                   ///< a file for the figure, without its ending
+  bool json = false;
+};
+int solveCommand(const SolveOptions& options, Streams streams);
+
+/// The spec behind the options. Throws Misuse.
+RunSpec solveSpec(const SolveOptions& options);
+
+/// The one JSON object of `irk solve --json`.
+std::string solveJson(const RunRecord& record);
+
+struct RunOptions {
+  std::string study;  ///< id or file
+  StudyVariant variant = StudyVariant::kFull;
+  RunnerOptions runner;
+};
+int runCommand(const RunOptions& options, Streams streams);
+
+/// `run` for every study of the paper, then figures and report. `options.study` is not used.
+int paperCommand(const RunOptions& options, Streams streams);
+
+/// `what`: scenes, methods, studies, strategies, or empty for all. Throws Misuse.
+int listCommand(const std::string& what, Streams streams);
+
+int tableauShow(const std::string& id_or_file, int digits, Streams streams);
+int tableauCheck(const std::string& id_or_file, Streams streams);
+int tableauExport(const std::string& id_or_file, Streams streams);
+
+int plotCommand(const std::string& study, const std::string& results, Streams streams);
+int reportCommand(const std::string& results, Streams streams);
+
+struct MergeOptions {
+  std::vector<std::string> folders;
+  std::string study;  ///< id or file; empty: the study that the tables name
+  std::string results = "results";
+};
+int mergeCommand(const MergeOptions& options, Streams streams);
+/// 0: the same numbers, times aside; 1: they differ.
+int compareCommand(const std::string& folder, const std::string& other, Streams streams);
+
+}  // namespace irk

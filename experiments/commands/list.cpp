@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "core/text.h"
+#include "experiments/builtin_studies.h"
+#include "experiments/commands/commands.h"
+#include "tableaus/catalogue.h"
+
+namespace irk {
+namespace {
+
+std::string rangeText(const Parameter& p) {
+  std::string text;
+  for (const auto& choice : p.choices) text += (text.empty() ? "" : " | ") + choice;
+  return p.choices.empty() ? fmt::format("{:g} .. {:g}", p.min, p.max) : text;
+}
+
+void listScenes(std::ostream& out) {
+  for (const auto& scene : sceneCatalogue()) {
+    fmt::print(out, "{}\n    {}\n    shows: {}\n", scene.id, scene.title, scene.shows);
+    for (const auto& p : scene.parameters) {
+      fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit,
+                 rangeText(p));
+    }
+  }
+}
+
+void listMethods(std::ostream& out) {
+  for (const auto& family : familyCatalogue()) {
+    fmt::print(out, "{}_S  {}, order {}, S = {} .. {}\n", family.id, family.title, family.order,
+               family.min_stages, kMaxStages);
+  }
+  out << "or the path of a tableau file\n";
+}
+
+void listStudies(std::ostream& out) {
+  for (const auto& study : builtinStudies()) {
+    const Study full = loadStudy(study.id, StudyVariant::kFull);
+    std::size_t runs = 0;
+    for (const auto& series : full.series) runs += series.runs.size();
+    fmt::print(out, "{:<12} {} (at most {} runs)\n", study.id, full.title, runs);
+  }
+}
+
+template <class E>
+void listAxis(std::ostream& out) {
+  fmt::print(out, "{}\n", axisName<E>());
+  for (const auto& entry : named<E>()) {
+    fmt::print(out, "    {:<20} {}\n", entry.id, entry.meaning);
+  }
+}
+
+void listStrategies(std::ostream& out) {
+  listAxis<Formulation>(out);
+  listAxis<ConstraintScaling>(out);
+  listAxis<ScalarKind>(out);
+  listAxis<DerivativeSource>(out);
+  listAxis<NewtonKind>(out);
+  listAxis<StageSolverKind>(out);
+  listAxis<Predictor>(out);
+  listAxis<ErrorEstimate>(out);
+  listAxis<StepControl>(out);
+  listAxis<NormKind>(out);
+  listAxis<JacobianPoint>(out);
+}
+
+struct List {
+  const char* id;
+  void (*print)(std::ostream&);
+};
+constexpr List kLists[] = {{"scenes", listScenes},
+                           {"methods", listMethods},
+                           {"studies", listStudies},
+                           {"strategies", listStrategies}};
+
+}  // namespace
+
+int listCommand(const std::string& what, Streams streams) {
+  std::vector<std::string> known;
+  bool printed = false;
+  for (const auto& list : kLists) {
+    known.emplace_back(list.id);
+    if (!what.empty() && what != list.id) continue;
+    if (what.empty()) fmt::print(streams.out, "{}== {}\n", printed ? "\n" : "", list.id);
+    list.print(streams.out);
+    printed = true;
+  }
+  if (!printed) throw Misuse(unknownName("list", what, known));
+  return 0;
+}
+
+}  // namespace irk

@@ -1,0 +1,43 @@
+#include "experiments/results.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+
+#include "experiments/commands/commands.h"
+
+namespace irk {
+namespace {
+
+std::string studyNamed(const Table& runs, const MergeOptions& options) {
+  if (!options.study.empty()) return options.study;
+  const auto named = std::find_if(runs.head.begin(), runs.head.end(),
+                                  [](const auto& entry) { return entry.first == "study"; });
+  if (named == runs.head.end()) throw Misuse("the tables name no study: give --study ID|FILE");
+  return named->second;
+}
+
+}  // namespace
+
+int mergeCommand(const MergeOptions& options, Streams streams) {
+  const Table merged = mergedRuns(options.folders);
+  const Study study = loadStudy(studyNamed(merged, options), StudyVariant::kFull);
+  const Table runs = sortedRuns(merged, study);
+  const auto folder = std::filesystem::path(options.results) / study.id;
+  writeTable(folder / "runs.csv", runs);
+  writeSummaries(study, runs, folder);
+  fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(),
+             options.folders.size(), folder.string());
+  return 0;
+}
+
+int compareCommand(const std::string& folder, const std::string& other, Streams streams) {
+  const auto read = [](const std::string& from) {
+    return readTable(std::filesystem::path(from) / "runs.csv");
+  };
+  const Table runs = read(folder);
+  return compareRuns(runs, read(other), streams.out) == 0 ? 0 : 1;
+}
+
+}  // namespace irk

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <map>
+
+#include "experiments/commands/commands.h"
+#include "experiments/environment.h"
+#include "experiments/interrupt.h"
+#include "experiments/report.h"
+#include "experiments/results.h"
+#include "experiments/run_table.h"
+#include "experiments/timing.h"
+
+namespace irk {
+namespace {
+
+// In the order in which a reader wants them: what is computed, whether it is right, what it costs.
+constexpr std::string_view kPaperStudies[] = {"scenes", "order", "cpu_time"};
+
+void printSummary(const Study& study, const Table& runs, const std::filesystem::path& folder,
+                  std::ostream& out) {
+  std::map<std::string, int> outcomes;
+  for (const auto& row : runs.rows) ++outcomes[textAt(runs, row, "outcome")];
+  fmt::print(out, "{}: {} runs in {}", study.id, runs.rows.size(), folder.string());
+  for (const auto& [outcome, count] : outcomes) fmt::print(out, ", {} {}", count, outcome);
+  out << '\n';
+}
+
+int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
+  Table runs = runStudy(study, options, streams.err);
+  const auto folder = studyFolder(study, options);
+  const bool whole = options.shards == 1;
+  if (!interruptFlag() && whole && study.timing.wanted) {
+    timeStudy(study, folder / "runs.csv", runs, streams.err);
+  }
+  if (whole) writeSummaries(study, runs, folder);
+  printSummary(study, runs, folder, streams.out);
+  if (!interruptFlag()) return 0;
+  streams.err << "interrupted; finished runs are kept, the same command continues\n";
+  return kInterruptedStatus;
+}
+
+}  // namespace
+
+int runCommand(const RunOptions& options, Streams streams) {
+  const Study study = loadStudy(options.study, options.variant);
+  const InterruptScope interrupts;
+  return runOne(study, options.runner, streams);
+}
+
+int paperCommand(const RunOptions& options, Streams streams) {
+  const InterruptScope interrupts;
+  for (const auto id : kPaperStudies) {
+    const int status = runOne(loadStudy(id, options.variant), options.runner, streams);
+    if (status != 0) return status;
+  }
+  return reportCommand(options.runner.results.string(), streams);
+}
+
+int plotCommand(const std::string& study, const std::string& results, Streams streams) {
+  const ReportOptions options{results, homeFolder()};
+  return drawFigures(study, options, streams.err) == 0 ? 0 : 1;
+}
+
+int reportCommand(const std::string& results, Streams streams) {
+  const ReportOptions options{results, homeFolder()};
+  const int failures = drawFigures("", options, streams.err);
+  streams.out << "report: " << writeReport(options).string() << '\n';
+  return failures == 0 ? 0 : 1;
+}
+
+}  // namespace irk

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/text.h"
+#include "experiments/commands/commands.h"
+#include "experiments/environment.h"
+#include "experiments/interrupt.h"
+#include "experiments/report.h"
+#include "experiments/trajectory.h"
+
+namespace irk {
+namespace {
+
+bool given(const SolveOptions& options, std::string_view field) {
+  return std::any_of(options.fields.begin(), options.fields.end(),
+                     [field](const auto& entry) { return entry.first == field; });
+}
+
+void applyStep(const SolveOptions& options, RunSpec& spec) {
+  if (options.step.empty()) return;
+  auto& step = spec.options.step;
+  constexpr NumberRange kStep{[](double h) { return h > 0; }, "step > 0"};
+  step.h = parseNumber("step", options.step, kStep);
+  if (!given(options, "control")) step.control = StepControl::kFixed;
+  if (step.control != StepControl::kFixed) return;
+  if (!given(options, "estimate")) step.estimate = ErrorEstimate::kNone;
+  if (!options.tol.empty()) {
+    throw Misuse(
+        "illegal combination: step and tol: fixed steps have no tolerance; "
+        "give --control paper to start with this step");
+  }
+}
+
+void applyTolerance(const SolveOptions& options, RunSpec& spec) {
+  if (options.tol.empty()) return;
+  constexpr NumberRange kTol{[](double x) { return x > 0 && x < 1; }, "0 < tol < 1"};
+  auto& tolerances = spec.options.tolerances;
+  tolerances.rtol = tolerances.atol = parseNumber("tol", options.tol, kTol);
+}
+
+void printComponents(std::ostream& out, const RunRecord& record,
+                     const std::vector<std::string>& names) {
+  std::size_t i = 0;
+  const auto print = [&](const char* group, const Vec<double>& y) {
+    for (const double value : y) {
+      const auto text = record.digits.empty() ? fmt::format("{:.15g}", value) : record.digits[i];
+      fmt::print(out, "  {}  {:<12} {}\n", group, i < names.size() ? names[i] : "", text);
+      ++i;
+    }
+  };
+  print("u", record.u);
+  print("v", record.v);
+  print("x", record.x);
+  print("z", record.z);
+}
+
+void printRecord(std::ostream& out, const RunRecord& record,
+                 const std::vector<std::string>& names) {
+  const auto& spec = record.spec;
+  fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method,
+             idOf(spec.formulation));
+  fmt::print(out, "{}{}{}, t = {:.15g}\n", record.outcome, record.detail.empty() ? "" : ": ",
+             record.detail, record.t);
+  printComponents(out, record, names);
+  if (!std::isnan(record.errors.all)) fmt::print(out, "error {:.3e}\n", record.errors.all);
+  record.counters.forEach([&out](const char* name, std::int64_t count) {
+    if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
+  });
+  fmt::print(out, "{:<22} {:.3g}\n", "cpu_s", record.cpu_s);
+}
+
+// Runs with the solution recorded in a temporary folder, and draws it.
+RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot,
+                       std::ostream& err) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / fmt::format("irk_solve_{}", specKey(spec));
+  std::filesystem::create_directories(folder);
+  const auto file = folder / (spec.scene + ".csv");
+  const RunRecord record = executeWithTrajectory(spec, watch, file);
+  const auto out = std::filesystem::path(plot).replace_extension();
+  drawFigure(
+      "scene_solution.gp",
+      fmt::format("data='{}'; out='{}'; scene='{}'", folder.string(), out.string(), spec.scene),
+      homeFolder(), err);
+  std::filesystem::remove_all(folder);
+  return record;
+}
+
+}  // namespace
+
+RunSpec solveSpec(const SolveOptions& options) {
+  RunSpec spec;
+  findField("scene").set(spec, options.scene);
+  for (const auto& setting : options.settings) addSetting(spec.settings, setting);
+  applyTolerance(options, spec);
+  for (const auto& [field, value] : options.fields) findField(field).set(spec, value);
+  applyStep(options, spec);
+  return resolved(spec);
+}
+
+int solveCommand(const SolveOptions& options, Streams streams) {
+  const RunSpec spec = solveSpec(options);
+  const InterruptScope interrupts;
+  const Watch watch{&interruptFlag(), {}};
+  const RunRecord record = options.plot.empty()
+                               ? execute(spec, watch)
+                               : solveAndPlot(spec, watch, options.plot, streams.err);
+  if (options.json) {
+    streams.out << solveJson(record) << '\n';
+  } else {
+    printRecord(streams.out, record, makeScene<double>(spec.scene, spec.settings).names);
+  }
+  if (interruptFlag()) return kInterruptedStatus;
+  return record.succeeded() ? 0 : 1;
+}
+
+}  // namespace irk

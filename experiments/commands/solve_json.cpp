@@ -1,0 +1,69 @@
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands/commands.h"
+#include "experiments/numbers.h"
+
+namespace irk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers as numbers (NaN becomes null), of multiprecision runs as text with all digits.
+Json numbers(const RunRecord& record, const Vec<double>& values, std::size_t& place) {
+  Json list = Json::array();
+  for (const double value : values) {
+    if (record.digits.empty()) {
+      list.push_back(value);
+    } else {
+      list.push_back(record.digits[place]);
+    }
+    ++place;
+  }
+  return list;
+}
+
+Json specObject(const RunSpec& spec) {
+  Json object = Json::object();
+  for (const auto& field : specFields()) object[std::string(field.name)] = field.get(spec);
+  object["settings"] = Json::object();
+  for (const auto& [name, value] : spec.settings) object["settings"][name] = value;
+  object["residual_tolerance"] = spec.options.newton.residual_tolerance;
+  object["kappa"] = spec.options.newton.kappa;
+  object["h"] = spec.options.step.h;
+  object["h_max"] = spec.options.step.h_max;
+  object["rtol"] = spec.options.tolerances.rtol;
+  object["atol"] = spec.options.tolerances.atol;
+  object["t_end"] = spec.t_end;
+  object["max_steps"] = spec.options.step.max_steps;
+  object["time_limit"] = spec.time_limit;
+  return object;
+}
+
+}  // namespace
+
+std::string solveJson(const RunRecord& record) {
+  const Counters& c = record.counters;
+  std::size_t place = 0;
+  Json json;
+  json["status"] = record.outcome;
+  json["t"] = record.t;
+  json["u"] = numbers(record, record.u, place);
+  json["v"] = numbers(record, record.v, place);
+  json["x"] = numbers(record, record.x, place);
+  json["z"] = numbers(record, record.z, place);
+  json["error"] = record.errors.all;
+  json["steps"] = {{"accepted", c.steps_accepted},
+                   {"rejected_error", c.steps_rejected_error},
+                   {"rejected_newton", c.steps_rejected_newton}};
+  json["counters"] = {{"residuals", c.residuals},
+                      {"jacobians", c.jacobians},
+                      {"factorizations", c.factorizations},
+                      {"solves", c.solves},
+                      {"newton_iterations", c.newton_iterations}};
+  json["cpu_s"] = record.cpu_s;
+  json["spec"] = specObject(record.spec);
+  return json.dump(2);
+}
+
+}  // namespace irk

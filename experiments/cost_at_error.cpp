@@ -1,0 +1,87 @@
+#include "experiments/cost_at_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "experiments/numbers.h"
+#include "experiments/run_table.h"
+
+namespace irk {
+namespace {
+
+constexpr std::string_view kGroupColumns[] = {"scene", "settings", "family", "stages"};
+constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations"};
+
+// From cheap to dear, each point more accurate than all cheaper ones.
+std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
+  std::erase_if(points, [](const CostPoint& p) { return !(p.error > 0) || !(p.cost > 0); });
+  std::sort(points.begin(), points.end(),
+            [](auto& a, auto& b) { return std::tie(a.cost, a.error) < std::tie(b.cost, b.error); });
+  std::vector<CostPoint> best;
+  for (const auto& p : points) {
+    if (best.empty() || p.error < best.back().error) best.push_back(p);
+  }
+  return best;
+}
+
+struct Group {
+  TableRow name;
+  std::vector<const TableRow*> rows;
+};
+
+std::vector<Group> groupsOf(const Table& runs) {
+  std::map<TableRow, std::size_t> place;
+  std::vector<Group> groups;
+  for (const auto& row : runs.rows) {
+    TableRow name;
+    for (const auto column : kGroupColumns) name.push_back(textAt(runs, row, column));
+    const auto [at, added] = place.try_emplace(name, groups.size());
+    if (added) groups.push_back({name, {}});
+    if (succeededAt(runs, row)) groups[at->second].rows.push_back(&row);
+  }
+  return groups;
+}
+
+}  // namespace
+
+double costAtError(std::vector<CostPoint> points, double target) {
+  const auto best = envelope(std::move(points));
+  const auto at = std::find_if(best.begin(), best.end(),
+                               [target](const CostPoint& p) { return p.error <= target; });
+  if (at == best.end()) return std::numeric_limits<double>::quiet_NaN();
+  if (at == best.begin()) return at->cost;
+  const auto& before = *(at - 1);
+  const double part = std::log(before.error / target) / std::log(before.error / at->error);
+  return before.cost * std::pow(at->cost / before.cost, part);
+}
+
+Table costTable(const Table& runs, const std::vector<double>& targets) {
+  Table costs;
+  costs.head = runs.head;
+  costs.columns = {"scene",     "settings",          "family", "stages", "target_error", "cpu_s",
+                   "residuals", "newton_iterations", "reached"};
+  for (const auto& group : groupsOf(runs)) {
+    for (const double target : targets) {
+      TableRow row = group.name;
+      row.push_back(numberText(target));
+      bool reached = false;
+      for (const auto cost : kCosts) {
+        std::vector<CostPoint> points;
+        for (const auto* run : group.rows) {
+          points.push_back({numberAt(runs, *run, "error"), numberAt(runs, *run, cost)});
+        }
+        const double value = costAtError(points, target);
+        reached = reached || !std::isnan(value);
+        row.push_back(numberText(value));
+      }
+      row.emplace_back(reached ? "1" : "0");
+      costs.rows.push_back(row);
+    }
+  }
+  return costs;
+}
+
+}  // namespace irk

@@ -1,0 +1,41 @@
+# The library behind the program, the program `irk`, and the stand-alone kernels.
+irk_library(experiments)
+file(GLOB command_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp)
+target_sources(irk_experiments PRIVATE ${command_sources})
+target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
+                      PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark
+                              tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json CLI11::CLI11)
+
+# The study files travel inside the program.
+set(generated ${CMAKE_BINARY_DIR}/experiments)
+file(GLOB study_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/studies/*.toml)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${study_files})
+set(STUDIES "")
+foreach(study_file ${study_files})
+  get_filename_component(study_id ${study_file} NAME_WE)
+  file(READ ${study_file} study_text)
+  string(APPEND STUDIES "    {\"${study_id}\", R\"irk_toml(${study_text})irk_toml\"},\n")
+endforeach()
+configure_file(experiments/builtin_studies.cpp.in ${generated}/builtin_studies.cpp @ONLY)
+
+string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}" flags)
+if(IRK_NATIVE)
+  string(APPEND flags " -march=native")
+endif()
+add_custom_target(irk_build_info BYPRODUCTS ${generated}/build_info.cpp
+  COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${CMAKE_SOURCE_DIR} -DOUT=${generated}/build_info.cpp
+          -DVERSION=${PROJECT_VERSION} "-DFLAGS=${flags}"
+          "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
+          -P ${CMAKE_SOURCE_DIR}/experiments/build_info.cmake
+  VERBATIM)
+target_sources(irk_experiments PRIVATE ${generated}/builtin_studies.cpp
+                                       ${generated}/build_info.cpp)
+add_dependencies(irk_experiments irk_build_info)
+
+add_executable(irk experiments/main.cpp)
+target_link_libraries(irk PRIVATE irk::experiments irk_options)
+
+add_executable(irk_kernels experiments/kernels/stage_solvers.cpp)
+target_link_libraries(irk_kernels PRIVATE irk::problems irk::tableaus irk_options
+                                          benchmark::benchmark)

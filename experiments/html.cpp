@@ -1,0 +1,95 @@
+#include "experiments/html.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "experiments/run_table.h"
+
+namespace irk {
+namespace {
+
+std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", escapeHtml(text)); }
+
+std::string numberCell(const Table& table, const TableRow& row, std::string_view column,
+                       int digits) {
+  const double x = numberAt(table, row, column);
+  return std::isnan(x) ? "<td>–</td>" : fmt::format("<td>{:.{}g}</td>", x, digits);
+}
+
+}  // namespace
+
+std::string escapeHtml(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html.append("&amp;");
+        break;
+      case '<':
+        html.append("&lt;");
+        break;
+      case '>':
+        html.append("&gt;");
+        break;
+      case '"':
+        html.append("&quot;");
+        break;
+      default:
+        html.push_back(c);
+    }
+  }
+  return html;
+}
+
+void replacePlaceholder(std::string& page, std::string_view placeholder, std::string_view text) {
+  for (auto at = page.find(placeholder); at != std::string::npos;
+       at = page.find(placeholder, at + text.size())) {
+    page.replace(at, placeholder.size(), text);
+  }
+}
+
+std::string ordersHtml(const std::string& study, const Table& orders) {
+  std::string html = fmt::format("<table><caption>Study {}</caption><thead><tr>", study);
+  for (const auto* title : {"scene", "formulation", "family", "stages", "component", "order",
+                            "± (95 %)", "theory", "verdict", "window", "points", "reason"}) {
+    html += fmt::format("<th>{}</th>", title);
+  }
+  html += "</tr></thead><tbody>\n";
+  for (const auto& row : orders.rows) {
+    const auto text = [&](std::string_view name) { return textAt(orders, row, name); };
+    html += fmt::format("<tr class=\"{}\">", text("verdict"));
+    const auto settings = text("settings");
+    html += cell(text("scene") + (settings.empty() ? "" : " " + settings));
+    for (const auto* name : {"formulation", "family", "stages", "component"}) {
+      html += cell(text(name));
+    }
+    html += numberCell(orders, row, "order", 4) + numberCell(orders, row, "confidence", 1);
+    html += numberCell(orders, row, "theory", 4) + cell(text("verdict"));
+    const bool measured = !std::isnan(numberAt(orders, row, "order"));
+    html += measured ? cell(fmt::format("{:.3g} … {:.3g}", numberAt(orders, row, "h_min"),
+                                        numberAt(orders, row, "h_max")))
+                     : cell("–");
+    html += cell(text("points")) + cell(text("reason"));
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string environmentHtml(const std::string& study, const Table& runs) {
+  std::map<std::string, int> outcomes;
+  for (const auto& row : runs.rows) ++outcomes[textAt(runs, row, "outcome")];
+  std::string ended;
+  for (const auto& [outcome, count] : outcomes) {
+    if (!ended.empty()) ended += ", ";
+    ended += fmt::format("{} {}", count, outcome);
+  }
+  std::string html = fmt::format("<table><caption>Study {}</caption><tbody>\n", study);
+  for (const auto& [key, value] : runs.head) {
+    html += fmt::format("<tr><th>{}</th>{}</tr>\n", escapeHtml(key), cell(value));
+  }
+  return html + fmt::format("<tr><th>runs</th>{}</tr>\n</tbody></table>\n", cell(ended));
+}
+
+}  // namespace irk

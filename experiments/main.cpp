@@ -1,0 +1,10 @@
+// The program `irk`.
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "experiments/cli.h"
+
+int main(int argc, char** argv) {
+  return irk::runProgram({argv + 1, argv + argc}, {std::cout, std::cerr});
+}

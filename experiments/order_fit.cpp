@@ -1,0 +1,126 @@
+#include "experiments/order_fit.h"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace irk {
+namespace {
+
+struct Slope {
+  double value;
+  double deviation;   // standard error; 0 for two points
+  double confidence;  // 95 %
+};
+
+Slope fitSlope(std::span<const ErrorPoint> window) {
+  std::vector<double> x, y;
+  for (const auto& p : window) {
+    x.push_back(std::log(p.h));
+    y.push_back(std::log(p.error));
+  }
+  const std::size_t n = x.size();
+  double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
+  gsl_fit_linear(x.data(), 1, y.data(), 1, n, &c0, &slope, &cov00, &cov01, &variance,
+                 &sum_of_squares);
+  if (n == 2) return {slope, 0, INFINITY};
+  const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 2));
+  return {slope, std::sqrt(variance), t * std::sqrt(variance)};
+}
+
+double centre(std::span<const ErrorPoint> window) {
+  return std::sqrt(window.front().h * window.back().h);
+}
+
+// With error = C h^p (1 + c h) local slopes are p + c h: the difference of the slopes of the coarse
+// and the fine half, extrapolated to h = 0, is what the fit still misses. Slopes of halves are
+// about 2^(3/2) times as uncertain as that of the whole, their difference four times.
+double drift(std::span<const ErrorPoint> window, const Slope& whole) {
+  constexpr double kHalves = 4;
+  const std::size_t half = window.size() / 2;
+  const auto coarse = window.first(half + 1);
+  const auto fine = window.last(window.size() - half);
+  const double change = std::abs(fitSlope(coarse).value - fitSlope(fine).value);
+  const double extrapolation = centre(window) / (centre(coarse) - centre(fine));
+  return (change + kHalves * whole.deviation) * extrapolation;
+}
+
+// From coarse to fine, errors that are numbers only.
+std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
+  std::erase_if(points, [](const ErrorPoint& p) {
+    return !(p.h > 0) || !(p.error > 0) || !std::isfinite(p.error);
+  });
+  std::sort(points.begin(), points.end(), [](auto& a, auto& b) { return a.h > b.h; });
+  return points;
+}
+
+// Behind the smallest error the errors are noise: their median is its level.
+double noiseFloor(const std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
+  const auto least = std::min_element(points.begin(), points.end(),
+                                      [](auto& a, auto& b) { return a.error < b.error; });
+  if (least == points.end() || points.end() - least < 3) return options.floor;
+  std::vector<double> tail;
+  for (auto p = least; p != points.end(); ++p) tail.push_back(p->error);
+  const auto middle = tail.begin() + static_cast<std::ptrdiff_t>(tail.size() / 2);
+  std::nth_element(tail.begin(), middle, tail.end());
+  return std::max(options.floor, options.above_noise * *middle);
+}
+
+OrderFit notMeasurable(std::string reason) {
+  OrderFit fit;
+  fit.reason = std::move(reason);
+  return fit;
+}
+
+}  // namespace
+
+OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options) {
+  std::vector<ErrorPoint> points = usable(std::move(given));
+  const double floor = noiseFloor(points, options);
+  std::erase_if(points, [floor](const ErrorPoint& p) { return p.error < floor; });
+  const auto enough = static_cast<std::size_t>(options.min_points);
+  if (points.size() < enough) {
+    return notMeasurable(fmt::format("{} points above the floor {:.1e}, {} are needed",
+                                     points.size(), floor, enough));
+  }
+  const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [](auto& a, auto& b) { return a.error < b.error; });
+  if (most->error < options.min_ratio * least->error) {
+    return notMeasurable(fmt::format("errors only from {:.1e} to {:.1e}: less than a factor {:g}",
+                                     most->error, least->error, options.min_ratio));
+  }
+  // Asymptotic is the fine end: a window must reach into the lowest quarter of the range of errors.
+  // Slopes can be stationary before that, at a wrong value.
+  const double reach = least->error * std::pow(most->error / least->error, 0.25);
+  OrderFit best = notMeasurable("");
+  double best_uncertainty = INFINITY;
+  for (std::size_t end = enough; end <= points.size(); ++end) {
+    if (points[end - 1].error > reach) continue;
+    for (std::size_t begin = 0; begin + enough <= end; ++begin) {
+      const auto window = std::span(points).subspan(begin, end - begin);
+      if (window.front().error < options.min_ratio * window.back().error) continue;
+      const Slope slope = fitSlope(window);
+      const double uncertainty = slope.confidence + drift(window, slope);
+      if (uncertainty >= best_uncertainty) continue;
+      best_uncertainty = uncertainty;
+      best = {true,
+              slope.value,
+              slope.confidence,
+              window.back().h,
+              window.front().h,
+              static_cast<int>(window.size()),
+              ""};
+    }
+  }
+  if (best_uncertainty <= options.max_uncertainty) return best;
+  if (!best.measurable) return notMeasurable("errors do not shrink with the step");
+  return notMeasurable(
+      fmt::format("no stable slope above the floor {:.1e}: at best {:.2f}, uncertain by {:.2f}",
+                  floor, best.order, best_uncertainty));
+}
+
+}  // namespace irk

@@ -1,0 +1,40 @@
+// The observed order: a least-squares slope in a window above round-off and below the
+// pre-asymptotic range, with its confidence; or the reason why there is none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace irk {
+
+struct ErrorPoint {
+  double h;
+  double error;
+};
+
+struct OrderFitOptions {
+  /// > 0. Errors below this are round-off whatever they look like: 50 eps of a relative error.
+  double floor = 50 * 2.220446049250313e-16;
+  /// > 1. Where errors stop shrinking, the floor is this much above their level: noise of 1/10
+  /// bends a slope over one decade by less than a tenth of itself.
+  double above_noise = 10;
+  /// >= 3 points, and at least this ratio between the largest and the smallest error.
+  int min_points = 3;
+  double min_ratio = 10;
+  /// > 0. Largest sum of confidence and drift that still is a measurement.
+  double max_uncertainty = 0.2;
+};
+
+struct OrderFit {
+  bool measurable = false;
+  double order = 0;
+  double confidence = 0;  ///< half width of the 95 % interval of the slope
+  double h_min = 0, h_max = 0;
+  int points = 0;
+  std::string reason;  ///< why it is not measurable
+};
+
+/// Points in any order; errors that are not positive and finite are left out.
+OrderFit fitOrder(std::vector<ErrorPoint> points, const OrderFitOptions& options = {});
+
+}  // namespace irk

@@ -1,0 +1,175 @@
+#include "experiments/report.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <string_view>
+
+#include "core/misuse.h"
+#include "experiments/environment.h"
+#include "experiments/html.h"
+#include "experiments/table.h"
+
+namespace irk {
+namespace {
+
+std::filesystem::path figureFolder(const ReportOptions& options) {
+  return options.results / "report" / "figures";
+}
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : line) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+// The exit status of `gnuplot -e commands script`, or -1 with errno if it cannot be started.
+int runGnuplot(const std::string& commands, const std::string& script) {
+  std::string words[] = {"gnuplot", "-e", commands, script};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ);
+  if (error != 0) {
+    errno = error;
+    return -1;
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) {
+  return fmt::format("data='{}'; out='{}'; {}", (options.results / figure.study).string(),
+                     (figureFolder(options) / figure.name).string(), figure.assignments);
+}
+
+bool hasResults(const Figure& figure, const ReportOptions& options) {
+  return std::filesystem::is_directory(options.results / figure.study);
+}
+
+std::string readText(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Misuse(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions& options) {
+  std::string html;
+  for (const auto& figure : figures) {
+    if (!std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"))) continue;
+    const auto command =
+        fmt::format("gnuplot -e \"{}\" plots/{}", gnuplotCommands(figure, options), figure.script);
+    html += fmt::format(
+        "<figure id=\"{0}\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\">"
+        "</a>\n<figcaption><b>{1}.</b> {2} <a href=\"figures/{0}.png\">PNG</a>"
+        "<code>{3}</code></figcaption></figure>\n",
+        figure.name, escapeHtml(figure.title), escapeHtml(figure.caption), escapeHtml(command));
+  }
+  return html;
+}
+
+std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
+  std::vector<std::string> studies;
+  for (const auto& figure : figures) {
+    if (std::find(studies.begin(), studies.end(), figure.study) == studies.end()) {
+      studies.push_back(figure.study);
+    }
+  }
+  return studies;
+}
+
+}  // namespace
+
+std::vector<Figure> readFigures(const std::filesystem::path& file) {
+  constexpr std::size_t kFields = 6;
+  std::ifstream in(file);
+  if (!in) throw Misuse(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  std::vector<Figure> figures;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    const auto parts = split(line, '|');
+    if (parts.size() != kFields) {
+      throw Misuse(
+          fmt::format("{}:{}: {} fields, expected study|script|name|title|caption|assignments",
+                      file.string(), number, parts.size()));
+    }
+    figures.push_back({parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]});
+  }
+  return figures;
+}
+
+bool drawFigure(const std::string& script, const std::string& commands,
+                const std::filesystem::path& home, std::ostream& err) {
+  const auto path = (home / "plots" / script).string();
+  const int status = runGnuplot(commands, path);
+  if (status < 0) {
+    fmt::print(err, "cannot start gnuplot ({}): install the package gnuplot-nox\n",
+               std::strerror(errno));
+  } else if (status > 0) {
+    fmt::print(err, "gnuplot ended with status {}: gnuplot -e \"{}\" {}\n", status, commands, path);
+  }
+  return status == 0;
+}
+
+int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
+  std::filesystem::create_directories(figureFolder(options));
+  int failures = 0;
+  for (const auto& figure : readFigures(options.home / "plots" / "figures.txt")) {
+    if (!study.empty() && figure.study != study) continue;
+    if (!hasResults(figure, options)) {
+      if (!study.empty()) ++failures;
+      fmt::print(err, "figure {}: no results of study '{}' yet: irk run {}\n", figure.name,
+                 figure.study, figure.study);
+      continue;
+    }
+    if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) {
+      ++failures;
+    }
+  }
+  return failures;
+}
+
+std::filesystem::path writeReport(const ReportOptions& options) {
+  const auto figures = readFigures(options.home / "plots" / "figures.txt");
+  std::string page = readText(options.home / "plots" / "report.html");
+  std::string orders, environment;
+  for (const auto& study : studiesOf(figures)) {
+    const auto folder = options.results / study;
+    if (std::filesystem::exists(folder / "orders.csv")) {
+      orders += ordersHtml(study, readTable(folder / "orders.csv"));
+    }
+    if (std::filesystem::exists(folder / "runs.csv")) {
+      environment += environmentHtml(study, readTable(folder / "runs.csv"));
+    }
+  }
+  replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
+  replacePlaceholder(page, "@TABLES@", orders);
+  replacePlaceholder(page, "@ENVIRONMENT@", environment);
+  replacePlaceholder(page, "@DATE@", dateText());
+  const auto path = options.results / "report" / "index.html";
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream out(path, std::ios::binary);
+  if (!(out << page).flush()) {
+    throw Misuse(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+  return path;
+}
+
+}  // namespace irk

@@ -1,0 +1,23 @@
+// Folders of results: what is computed from runs.csv, merging, comparing.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <vector>
+
+#include "experiments/study.h"
+#include "experiments/table.h"
+
+namespace irk {
+
+/// orders.csv and cpu_at_error.csv, as the study asks.
+void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder);
+
+/// All rows of the folders' runs.csv; of rows with one key a timed one wins. Throws Misuse for
+/// tables of different studies or columns.
+Table mergedRuns(const std::vector<std::string>& folders);
+
+/// Rows of two runs.csv by key; times and details aside. Prints differences; returns their number.
+int compareRuns(const Table& runs, const Table& other, std::ostream& out);
+
+}  // namespace irk

@@ -1,0 +1,62 @@
+// RunSpec -> RunRecord: a pure function but for the times.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/outcome.h"
+#include "core/statistics.h"
+#include "experiments/run_errors.h"
+#include "experiments/run_spec.h"
+
+namespace irk {
+
+struct RunRecord {
+  RunSpec spec;
+  std::string family;
+  Index stages = 0;
+  std::string outcome;  ///< as irk::name(Outcome), or `refused` for a misuse inside a sweep
+  std::string detail;   ///< of a failure, in one line
+  double t = std::numeric_limits<double>::quiet_NaN();
+  Vec<double> u, v, x, z;           ///< the last accepted state
+  std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
+  RunErrors errors;
+  Counters counters;
+  double cpu_s = std::numeric_limits<double>::quiet_NaN();
+
+  bool succeeded() const { return outcome == name(Outcome::kSuccess); }
+};
+
+/// What the caller says and wants to hear while a run goes on. All optional.
+struct Watch {
+  const std::atomic<bool>* stop = nullptr;
+  /// The start and every accepted step: t, then the components and outputs of PreparedRun::columns.
+  std::function<void(double t, std::span<const double> values)> accepted;
+};
+
+/// Scene, tableau and integrator of a spec, built once and run as often as wanted. One per thread.
+class PreparedRun {
+ public:
+  virtual ~PreparedRun() = default;
+  virtual RunRecord execute(const Watch& watch) = 0;
+  /// Nothing but the integration, for timing.
+  virtual void integrate() = 0;
+  /// Names of the components u, v, x, z and of the scene's outputs.
+  virtual std::vector<std::string> columns() const = 0;
+};
+
+/// Throws Misuse for everything that can never work.
+std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
+
+/// Throws Misuse as `prepare`.
+RunRecord execute(const RunSpec& spec, const Watch& watch = {});
+
+/// For sweeps: `make()`, or a record with outcome `refused` if it throws Misuse.
+RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make);
+
+}  // namespace irk

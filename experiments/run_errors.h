@@ -1,0 +1,24 @@
+// Errors of a final state against what is known about it.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "problems/scene.h"
+
+namespace irk {
+
+/// Largest relative error |y - ref| / max(|ref|, scale) per group of components, and over all
+/// components and outputs with a reference. NaN where nothing is known.
+struct RunErrors {
+  double all = std::numeric_limits<double>::quiet_NaN();
+  double u = all, v = all, x = all, z = all;
+};
+
+/// Against Scene::exact if it knows anything at the state's time, else against references at that
+/// time. The references must be those of the scene's settings.
+template <class Real>
+RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references,
+                   const State<Real>& state);
+
+}  // namespace irk

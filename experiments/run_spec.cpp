@@ -1,0 +1,228 @@
+#include "experiments/run_spec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <type_traits>
+#include <vector>
+
+#include "core/text.h"
+#include "experiments/build_info.h"
+#include "experiments/numbers.h"
+
+namespace irk {
+namespace {
+
+constexpr Named<ScalarKind> kScalars[] = {
+    {ScalarKind::kDouble, "double", "53 bits"},
+    {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"}};
+
+// Text that would break the canonical form apart.
+void requirePlain(std::string_view field, std::string_view value, std::string_view forbidden) {
+  const auto at = value.find_first_of(forbidden);
+  if (at != std::string_view::npos) {
+    throw Misuse(fmt::format("{} = '{}': '{}' is not allowed here", field, value, value[at]));
+  }
+}
+
+template <auto Member>
+constexpr SpecField axisField(std::string_view name) {
+  return {name, [](const RunSpec& s) { return std::string(idOf(Member(s))); },
+          [](RunSpec& s, std::string_view value) {
+            auto& member = Member(s);
+            member = parseId<std::remove_cvref_t<decltype(member)>>(value);
+          },
+          [] {
+            RunSpec defaults;
+            std::string ids;
+            for (const auto& entry : named<std::remove_cvref_t<decltype(Member(defaults))>>()) {
+              ids += fmt::format("{}{}", ids.empty() ? "" : " | ", entry.id);
+            }
+            return ids;
+          }};
+}
+
+template <auto Member, auto Name, const NumberRange& Range>
+constexpr SpecField numberField() {
+  return {Name(), [](const RunSpec& s) { return numberText(Member(s)); },
+          [](RunSpec& s, std::string_view value) { Member(s) = parseNumber(Name(), value, Range); },
+          [] { return std::string(Range.text); }};
+}
+
+constexpr NumberRange kRelativeTolerance{[](double x) { return x >= 0 && x < 1; }, "0 <= rtol < 1"};
+constexpr NumberRange kResidualTolerance{[](double x) { return x > 0 && x < 1; }, "0 < x < 1"};
+constexpr std::int64_t kMostSteps = 1'000'000'000'000;
+
+#define IRK_MEMBER(path) \
+  [](auto& s) -> auto& { return s.path; }
+#define IRK_NUMBER(name, path, range) \
+  numberField<IRK_MEMBER(path), [] { return std::string_view(name); }, range>()
+
+constexpr SpecField kFields[] = {
+    {"scene", [](const RunSpec& s) { return s.scene; },
+     [](RunSpec& s, std::string_view value) { s.scene = findScene(value).id; },
+     [] { return std::string("irk list scenes"); }},
+    {"settings", [](const RunSpec& s) { return settingsText(s.settings); },
+     [](RunSpec& s, std::string_view value) {
+       s.settings.clear();
+       while (!value.empty()) {
+         const auto end = std::min(value.find(' '), value.size());
+         if (end > 0) addSetting(s.settings, value.substr(0, end));
+         value.remove_prefix(std::min(end + 1, value.size()));
+       }
+     },
+     [] { return std::string("name=value name=value"); }},
+    {"method", [](const RunSpec& s) { return s.method; },
+     [](RunSpec& s, std::string_view value) {
+       requirePlain("method", value, ";\n");
+       s.method = value;
+     },
+     [] { return std::string("family_stages (irk list methods) or a tableau file"); }},
+    axisField<IRK_MEMBER(formulation)>("formulation"),
+    axisField<IRK_MEMBER(scaling)>("scaling"),
+    axisField<IRK_MEMBER(scalar)>("scalar"),
+    axisField<IRK_MEMBER(options.derivatives)>("derivatives"),
+    axisField<IRK_MEMBER(options.newton.kind)>("newton"),
+    axisField<IRK_MEMBER(options.solver)>("solver"),
+    axisField<IRK_MEMBER(options.predictor)>("predictor"),
+    axisField<IRK_MEMBER(options.step.estimate)>("estimate"),
+    axisField<IRK_MEMBER(options.step.control)>("control"),
+    axisField<IRK_MEMBER(options.tolerances.norm)>("norm"),
+    axisField<IRK_MEMBER(options.jacobian_point)>("jacobian_point"),
+    IRK_NUMBER("residual_tolerance", options.newton.residual_tolerance, kResidualTolerance),
+    IRK_NUMBER("kappa", options.newton.kappa, kNotNegative),
+    IRK_NUMBER("h", options.step.h, kNotNegative),
+    IRK_NUMBER("h_max", options.step.h_max, kPositive),
+    IRK_NUMBER("rtol", options.tolerances.rtol, kRelativeTolerance),
+    IRK_NUMBER("atol", options.tolerances.atol, kPositive),
+    {"t_end", [](const RunSpec& s) { return std::isnan(s.t_end) ? "scene" : numberText(s.t_end); },
+     [](RunSpec& s, std::string_view value) {
+       s.t_end = value == "scene" ? std::numeric_limits<double>::quiet_NaN()
+                                  : parseNumber("t_end", value, kAnyNumber);
+     },
+     [] { return std::string("a number; the scene's own if left out"); }},
+    {"max_steps", [](const RunSpec& s) { return std::to_string(s.options.step.max_steps); },
+     [](RunSpec& s, std::string_view value) {
+       s.options.step.max_steps = parseInteger("max_steps", value, 1, kMostSteps);
+     },
+     [] { return std::string("attempted steps, an integer > 0"); }},
+    IRK_NUMBER("time_limit", time_limit, kNotNegative),
+};
+#undef IRK_NUMBER
+#undef IRK_MEMBER
+
+std::string fileContents(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+template <>
+std::span<const Named<ScalarKind>> named<ScalarKind>() {
+  return kScalars;
+}
+template <>
+std::string_view axisName<ScalarKind>() {
+  return "scalar";
+}
+template <>
+ScalarKind parseId<ScalarKind>(std::string_view id) {
+  std::vector<std::string> known;
+  for (const auto& entry : kScalars) {
+    if (entry.id == id) return entry.value;
+    known.emplace_back(entry.id);
+  }
+  throw Misuse(unknownName("scalar", id, known));
+}
+
+std::span<const SpecField> specFields() { return kFields; }
+
+const SpecField& findField(std::string_view name) {
+  std::vector<std::string> known;
+  for (const auto& field : kFields) {
+    if (field.name == name) return field;
+    known.emplace_back(field.name);
+  }
+  throw Misuse(unknownName("field", name, known));
+}
+
+RunSpec resolved(RunSpec spec) {
+  const auto& parameters = findScene(spec.scene).parameters;
+  std::vector<std::string> known;
+  for (const auto& parameter : parameters) {
+    known.push_back(parameter.name);
+    const auto given = spec.settings.find(parameter.name);
+    if (given != spec.settings.end() && given->second == parameter.default_value) {
+      spec.settings.erase(given);
+    }
+  }
+  for (const auto& [name, value] : spec.settings) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw Misuse(unknownName("parameter of " + spec.scene, name, known));
+    }
+  }
+  if (std::isnan(spec.t_end)) spec.t_end = makeScene<double>(spec.scene, spec.settings).t_end;
+  return spec;
+}
+
+std::string canonicalText(const RunSpec& spec) {
+  std::string text;
+  for (const auto& field : kFields) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : ";", field.name, field.get(spec));
+  }
+  return text;
+}
+
+RunSpec parseSpec(std::string_view text) {
+  RunSpec spec;
+  while (!text.empty()) {
+    const auto item = text.substr(0, text.find(';'));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    const auto equals = item.find('=');
+    if (equals == std::string_view::npos) {
+      throw Misuse(fmt::format("'{}' in a run's text is not of the form field=value", item));
+    }
+    findField(item.substr(0, equals)).set(spec, item.substr(equals + 1));
+  }
+  if (spec.scene.empty()) throw Misuse("a run's text names no scene");
+  return spec;
+}
+
+std::string specKey(const RunSpec& spec) {
+  const RunSpec full = resolved(spec);
+  auto text = fmt::format("irk {};{}", buildInfo().version, canonicalText(full));
+  if (std::filesystem::is_regular_file(full.method)) text += fileContents(full.method);
+  return hexText(fnv1a(text));
+}
+
+Index stagesInId(std::string_view method) {
+  Index stages = 0;
+  const char* digits = method.data() + method.rfind('_') + 1;
+  std::from_chars(digits, method.data() + method.size(), stages);
+  return stages;
+}
+
+std::string settingsText(const Settings& settings) {
+  std::string text;
+  for (const auto& [name, value] : settings) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
+  }
+  return text;
+}
+
+void addSetting(Settings& settings, std::string_view text) {
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0 || equals + 1 == text.size()) {
+    throw Misuse(fmt::format("setting '{}' is not of the form name=value", text));
+  }
+  requirePlain("setting", text, "; \n");
+  settings[std::string(text.substr(0, equals))] = text.substr(equals + 1);
+}
+
+}  // namespace irk

@@ -1,0 +1,70 @@
+// A run is a value: everything that decides its numbers, as a struct, as text and as a key.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/options.h"
+#include "problems/scene.h"
+
+namespace irk {
+
+enum class ScalarKind { kDouble, kMp50 };
+template <>
+std::span<const Named<ScalarKind>> named<ScalarKind>();
+template <>
+ScalarKind parseId<ScalarKind>(std::string_view id);
+template <>
+std::string_view axisName<ScalarKind>();
+
+struct RunSpec {
+  std::string scene;
+  Settings settings;
+  std::string method = "radau_iia_5";  ///< an id or the path of a tableau file
+  Formulation formulation = Formulation::kIndex2;
+  ConstraintScaling scaling = ConstraintScaling::kOn;
+  ScalarKind scalar = ScalarKind::kDouble;
+  IntegratorOptions options;
+  /// NaN: the scene's own.
+  double t_end = std::numeric_limits<double>::quiet_NaN();
+  /// >= 0, seconds of the thread's CPU clock; 0 = no limit.
+  double time_limit = 0;
+};
+
+/// One field as text. The same names in canonical forms, study files, options and tables.
+struct SpecField {
+  std::string_view name;
+  std::string (*get)(const RunSpec&);
+  /// Throws Misuse naming field, value and range or nearest id.
+  void (*set)(RunSpec&, std::string_view value);
+  /// For help texts: the ids or the range, the default.
+  std::string (*allowed)();
+};
+
+/// All fields in the order of the canonical form.
+std::span<const SpecField> specFields();
+/// Throws Misuse naming the nearest field.
+const SpecField& findField(std::string_view name);
+
+/// The scene's t_end filled in, settings at their defaults left out, so that equal runs are equal
+/// specs. Throws Misuse for an unknown scene or setting.
+RunSpec resolved(RunSpec spec);
+
+/// `field=value;field=value;...`, all fields. parseSpec(canonicalText(s)) equals s.
+std::string canonicalText(const RunSpec& spec);
+RunSpec parseSpec(std::string_view text);
+
+/// 16 hexadecimal digits from the resolved spec, the version and the contents of a method file.
+std::string specKey(const RunSpec& spec);
+
+/// The number of stages that a method's id ends with; 0 for a file.
+Index stagesInId(std::string_view method);
+
+/// `name=value name=value`.
+std::string settingsText(const Settings& settings);
+/// `name=value`. Throws Misuse for text without name or '='.
+void addSetting(Settings& settings, std::string_view text);
+
+}  // namespace irk

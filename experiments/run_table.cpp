@@ -1,0 +1,68 @@
+#include "experiments/run_table.h"
+
+#include "experiments/numbers.h"
+
+namespace irk {
+namespace {
+
+// Spec fields that stand in columns, in groups around the derived ones.
+constexpr std::string_view kSpecBefore[] = {"scene", "settings", "method"};
+constexpr std::string_view kSpecAfter[] = {
+    "formulation", "scaling", "scalar", "derivatives", "newton", "solver", "predictor",
+    "estimate",    "control", "norm",   "h",           "rtol",   "atol",   "t_end"};
+constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z"};
+constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs"};
+
+void append(std::vector<std::string>& to, std::span<const std::string_view> names) {
+  to.insert(to.end(), names.begin(), names.end());
+}
+
+}  // namespace
+
+std::vector<std::string> runColumns() {
+  std::vector<std::string> columns{"key", "study"};
+  append(columns, kSpecBefore);
+  columns.insert(columns.end(), {"family", "stages"});
+  append(columns, kSpecAfter);
+  columns.emplace_back("outcome");
+  append(columns, kErrors);
+  Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
+  append(columns, kTimes);
+  columns.emplace_back("detail");
+  return columns;
+}
+
+TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record) {
+  TableRow row{key, study};
+  for (const auto name : kSpecBefore) row.push_back(findField(name).get(record.spec));
+  row.insert(row.end(), {record.family, std::to_string(record.stages)});
+  for (const auto name : kSpecAfter) row.push_back(findField(name).get(record.spec));
+  row.push_back(record.outcome);
+  const RunErrors& e = record.errors;
+  for (const double error : {e.all, e.u, e.v, e.x, e.z}) row.push_back(numberText(error));
+  record.counters.forEach(
+      [&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
+  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", record.detail});
+  return row;
+}
+
+void setTiming(const Table& table, TableRow& row, const Timing& timing) {
+  row[table.column("cpu_s")] = numberText(timing.minimum_s);
+  row[table.column("cpu_median_s")] = numberText(timing.median_s);
+  row[table.column("cpu_spread")] = numberText(timing.spread);
+  row[table.column("cpu_runs")] = std::to_string(timing.runs);
+}
+
+double numberAt(const Table& table, const TableRow& row, std::string_view column) {
+  return cellNumber(row[table.column(column)]);
+}
+
+const std::string& textAt(const Table& table, const TableRow& row, std::string_view column) {
+  return row[table.column(column)];
+}
+
+bool succeededAt(const Table& table, const TableRow& row) {
+  return textAt(table, row, "outcome") == name(Outcome::kSuccess);
+}
+
+}  // namespace irk

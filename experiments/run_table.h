@@ -1,0 +1,29 @@
+// runs.csv: one row per run, failures included.
+#pragma once
+
+#include "experiments/run.h"
+#include "experiments/table.h"
+
+namespace irk {
+
+/// The columns of results/<study>/runs.csv. Units: times in s; errors are relative.
+std::vector<std::string> runColumns();
+
+/// `key`: specKey of the record's spec. Timing columns are empty until the timing pass.
+TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record);
+
+/// The spread columns of the timing pass: cpu_s is their minimum.
+struct Timing {
+  double minimum_s;
+  double median_s;
+  double spread;  ///< (max - min) / min
+  int runs;
+};
+void setTiming(const Table& table, TableRow& row, const Timing& timing);
+
+/// Cells by name.
+double numberAt(const Table& table, const TableRow& row, std::string_view column);
+const std::string& textAt(const Table& table, const TableRow& row, std::string_view column);
+bool succeededAt(const Table& table, const TableRow& row);
+
+}  // namespace irk

@@ -1,0 +1,198 @@
+#include "experiments/runner.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <ostream>
+
+#include "core/misuse.h"
+#include "experiments/environment.h"
+#include "experiments/interrupt.h"
+#include "experiments/numbers.h"
+#include "experiments/progress.h"
+#include "experiments/run_table.h"
+#include "experiments/series_rules.h"
+#include "experiments/trajectory.h"
+
+namespace irk {
+namespace {
+
+// The rows that a former run of the study left behind.
+Table finishedRuns(const std::filesystem::path& file, const Study& study,
+                   const RunnerOptions& options, std::ostream& out) {
+  Table fresh{environmentHead(study.id, threadCount(options.jobs)), runColumns(), {}};
+  if (options.finished == FinishedRuns::kRunAgain || !std::filesystem::exists(file)) return fresh;
+  const Table found = readTable(file);
+  if (found.columns != fresh.columns) {
+    out << fmt::format("{}: written by another version, its runs are made again\n", file.string());
+    return fresh;
+  }
+  const auto commit = [](const Table& t) {
+    const auto at = std::find_if(t.head.begin(), t.head.end(),
+                                 [](const auto& entry) { return entry.first == "commit"; });
+    return at == t.head.end() ? std::string() : at->second;
+  };
+  fresh.rows = sortedRuns(found, study).rows;
+  if (commit(found) != commit(fresh) && !fresh.rows.empty()) {
+    out << fmt::format("{}: {} runs of commit {} are kept; --fresh makes them again\n",
+                       file.string(), fresh.rows.size(), commit(found));
+  }
+  return fresh;
+}
+
+/// What the threads of one sweep share.
+class Sweep {
+ public:
+  Sweep(const Study& study, const RunnerOptions& options, std::ostream& out)
+      : study_(study),
+        folder_(studyFolder(study, options)),
+        table_(finishedRuns(folder_ / "runs.csv", study, options, out)),
+        writer_(folder_ / "runs.csv", table_) {
+    for (std::size_t i = 0; i < study.series.size(); ++i) {
+      const auto turn = static_cast<int>(i % static_cast<std::size_t>(options.shards));
+      if (turn + 1 == options.shard) work_.push_back(&study.series[i]);
+    }
+    std::size_t total = 0;
+    for (const auto* series : work_) total += series->runs.size();
+    progress_.emplace(out, study.id, total);
+    for (const auto& row : table_.rows) finished_[row.front()] = row;
+  }
+
+  /// Throws the first exception of any thread.
+  void run(int threads) {
+    // Long ones first, so that no thread is left alone at the end: more stages cost more.
+    std::stable_sort(work_.begin(), work_.end(), [](const Series* a, const Series* b) {
+      return stagesInId(a->runs.front().method) > stagesInId(b->runs.front().method);
+    });
+    std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (std::size_t i = 0; i < work_.size(); ++i) {
+      try {
+        runSeries(*work_[i]);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure) failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  Table result() {
+    progress_.reset();
+    for (const auto& [key, row] : finished_) table_.rows.push_back(row);
+    table_ = sortedRuns(table_, study_);
+    writeTable(folder_ / "runs.csv", table_);
+    return table_;
+  }
+
+ private:
+  void runSeries(const Series& series) {
+    RoundOffRule round_off(series.runs.front().scalar);
+    const TableRow* timeout = nullptr;
+    for (std::size_t i = 0; i < series.runs.size(); ++i) {
+      const TableRow* row = finishedOrMade(series.runs[i], timeout);
+      if (!row) return;
+      const auto& outcome = textAt(table_, *row, "outcome");
+      if (series.end == SeriesEnd::kTimeout && outcome == name(Outcome::kTimeout)) timeout = row;
+      const bool done = series.end == SeriesEnd::kRoundOff &&
+                        (outcome == "refused" || round_off.reached(table_, *row));
+      if (done) {
+        const std::lock_guard lock(mutex_);
+        progress_->skipped(series.runs.size() - i - 1);
+        return;
+      }
+    }
+  }
+
+  // Null after an interrupt.
+  const TableRow* finishedOrMade(const RunSpec& spec, const TableRow* timeout) {
+    if (interruptFlag()) return nullptr;
+    const std::string key = specKey(spec);
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = finished_.find(key);
+      if (found != finished_.end() && hasTrajectory(spec)) {
+        progress_->skipped(1);
+        return &found->second;
+      }
+    }
+    const RunRecord record = timeout ? notMade(spec, *timeout, table_) : make(spec);
+    if (record.outcome == name(Outcome::kInterrupted)) return nullptr;
+    const std::lock_guard lock(mutex_);
+    TableRow& row = finished_[key] = runRow(key, study_.id, record);
+    writer_.append(row);
+    progress_->finished();
+    return &row;
+  }
+
+  bool hasTrajectory(const RunSpec& spec) const {
+    return !study_.trajectories || std::filesystem::exists(trajectoryPath(folder_, spec));
+  }
+
+  RunRecord make(const RunSpec& spec) const {
+    const Watch watch{&interruptFlag(), {}};
+    return orRefused(spec, [&] {
+      return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(folder_, spec))
+                                 : execute(spec, watch);
+    });
+  }
+
+  const Study& study_;
+  std::filesystem::path folder_;
+  Table table_;
+  RowWriter writer_;
+  std::vector<const Series*> work_;
+  std::mutex mutex_;
+  std::optional<Progress> progress_;
+  std::map<std::string, TableRow> finished_;  // by key; rows stay where they are
+};
+
+}  // namespace
+
+void parseShard(std::string_view text, RunnerOptions& options) {
+  const auto slash = text.find('/');
+  if (slash == std::string_view::npos) {
+    throw Misuse(fmt::format("shard = '{}' is not of the form i/n", text));
+  }
+  constexpr int kMostShards = 1'000'000;
+  options.shards = static_cast<int>(parseInteger("shard", text.substr(slash + 1), 1, kMostShards));
+  options.shard = static_cast<int>(parseInteger("shard", text.substr(0, slash), 1, options.shards));
+}
+
+std::filesystem::path studyFolder(const Study& study, const RunnerOptions& options) {
+  const auto folder = options.results / study.id;
+  if (options.shards == 1) return folder;
+  return folder / fmt::format("shard_{}_of_{}", options.shard, options.shards);
+}
+
+int threadCount(int jobs) { return jobs > 0 ? jobs : omp_get_num_procs(); }
+
+Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
+  Sweep sweep(study, options, progress);
+  sweep.run(threadCount(options.jobs));
+  return sweep.result();
+}
+
+Table sortedRuns(const Table& runs, const Study& study) {
+  std::map<std::string_view, const TableRow*> by_key;
+  for (const auto& row : runs.rows) by_key[row.front()] = &row;
+  Table sorted{runs.head, runs.columns, {}};
+  for (const auto* all : {&study.series, &study.other_variant}) {
+    for (const auto& series : *all) {
+      for (const auto& spec : series.runs) {
+        const auto found = by_key.find(specKey(spec));
+        if (found == by_key.end()) continue;
+        sorted.rows.push_back(*found->second);
+        by_key.erase(found);
+      }
+    }
+  }
+  return sorted;
+}
+
+}  // namespace irk

@@ -1,0 +1,257 @@
+#include "experiments/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/text.h"
+#include "experiments/builtin_studies.h"
+#include "experiments/numbers.h"
+#include "experiments/study_file.h"
+#include "tableaus/catalogue.h"
+
+namespace irk {
+namespace {
+
+// Keys of a block that are no fields of a spec.
+constexpr std::string_view kSweepKeys[] = {"families", "stages",       "methods",    "tolerances",
+                                           "steps",    "refine_ratio", "refine_most"};
+
+template <class F>
+auto atPlace(const StudyValue& value, F&& f) {
+  try {
+    return f();
+  } catch (const Misuse& misuse) {
+    throw Misuse(fmt::format("{}: {}", value.place, misuse.what()));
+  }
+}
+
+const StudyValue* find(const StudyKeys& keys, std::string_view key) {
+  const auto at = keys.find(key);
+  return at == keys.end() ? nullptr : &at->second;
+}
+
+const std::string& single(std::string_view key, const StudyValue& value) {
+  if (value.items.size() != 1) {
+    throw Misuse(fmt::format("{}: {}: one value is expected, not a list", value.place, key));
+  }
+  return value.items.front();
+}
+
+double number(const StudyKeys& keys, std::string_view key, double fallback,
+              const NumberRange& range) {
+  const auto* value = find(keys, key);
+  if (!value) return fallback;
+  return atPlace(*value, [&] { return parseNumber(key, single(key, *value), range); });
+}
+
+std::vector<double> numbers(const StudyValue& value, std::string_view key,
+                            const NumberRange& range) {
+  std::vector<double> all;
+  for (const auto& item : value.items) {
+    all.push_back(atPlace(value, [&] { return parseNumber(key, item, range); }));
+  }
+  return all;
+}
+
+bool flag(const StudyKeys& keys, std::string_view key) {
+  const auto* value = find(keys, key);
+  if (!value) return false;
+  const auto& text = single(key, *value);
+  if (text != "true" && text != "false") {
+    throw Misuse(fmt::format("{}: {} = '{}': true or false", value->place, key, text));
+  }
+  return text == "true";
+}
+
+// Numbers and ranges: 3, "1..20".
+std::vector<Index> stageList(const StudyValue& value) {
+  std::vector<Index> stages;
+  const auto integer = [&](std::string_view text) {
+    return atPlace(value, [&] { return parseInteger("stages", text, 1, kMaxStages); });
+  };
+  for (const std::string_view item : value.items) {
+    const auto dots = item.find("..");
+    const auto last = dots == item.npos ? integer(item) : integer(item.substr(dots + 2));
+    for (auto s = integer(item.substr(0, dots)); s <= last; ++s) stages.push_back(s);
+  }
+  return stages;
+}
+
+const FamilyEntry& findFamily(std::string_view id) {
+  std::vector<std::string> known;
+  for (const auto& family : familyCatalogue()) {
+    if (family.id == id) return family;
+    known.push_back(family.id);
+  }
+  throw Misuse(unknownName("family", id, known));
+}
+
+// `methods`, and `families` x `stages` from the smallest member on.
+std::vector<std::string> methodList(const StudyKeys& keys) {
+  std::vector<std::string> methods;
+  if (const auto* listed = find(keys, "methods")) {
+    for (const auto& method : listed->items) {
+      atPlace(*listed, [&] { return makeTableau<double>(method).stages(); });
+      methods.push_back(method);
+    }
+  }
+  const auto* families = find(keys, "families");
+  const auto* stages = find(keys, "stages");
+  if (families && !stages) throw Misuse(families->place + ": families need a list of stages");
+  for (const auto& id : families ? families->items : std::vector<std::string>()) {
+    const auto& family = atPlace(
+        *families, [&]() -> const auto& { return findFamily(id); });
+    for (const Index s : stageList(*stages)) {
+      if (s >= family.min_stages) methods.push_back(fmt::format("{}_{}", id, s));
+    }
+  }
+  if (methods.empty()) {
+    throw Misuse(find(keys, "scene")->place + ": no methods: give methods, or families and stages");
+  }
+  return methods;
+}
+
+// All combinations of the block's spec fields.
+std::vector<RunSpec> specProduct(const StudyKeys& keys) {
+  std::vector<RunSpec> specs(1);
+  for (const auto& [key, value] : keys) {
+    if (std::find(std::begin(kSweepKeys), std::end(kSweepKeys), key) != std::end(kSweepKeys)) {
+      continue;
+    }
+    const auto& field = atPlace(
+        value, [&]() -> const auto& { return findField(key); });
+    std::vector<RunSpec> product;
+    for (const auto& spec : specs) {
+      for (const auto& item : value.items) {
+        product.push_back(spec);
+        atPlace(value, [&] { field.set(product.back(), item); });
+      }
+    }
+    specs = std::move(product);
+  }
+  return specs;
+}
+
+void setFixedStep(RunSpec& spec, double h) {
+  spec.options.step.control = StepControl::kFixed;
+  spec.options.step.estimate = ErrorEstimate::kNone;
+  spec.options.step.h = h;
+}
+
+Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
+  Series series;
+  const auto append = [&](auto&& change) {
+    series.runs.push_back(spec);
+    change(series.runs.back());
+  };
+  if (const auto* tolerances = find(keys, "tolerances")) {
+    series.end = SeriesEnd::kTimeout;
+    for (const double tol : numbers(*tolerances, "tolerances", kPositive)) {
+      append(
+          [tol](RunSpec& run) { run.options.tolerances.rtol = run.options.tolerances.atol = tol; });
+    }
+  } else if (const auto* steps = find(keys, "steps")) {
+    for (const double h : numbers(*steps, "steps", kPositive)) {
+      append([h](RunSpec& run) { setFixedStep(run, h); });
+    }
+  } else if (find(keys, "refine_most")) {
+    series.end = SeriesEnd::kRoundOff;
+    constexpr NumberRange kRatio{[](double x) { return x > 1 && x <= 10; }, "1 < ratio <= 10"};
+    constexpr NumberRange kMost{[](double x) { return x >= 1 && x <= 1e9; }, "1 <= N <= 1e9"};
+    const double ratio = number(keys, "refine_ratio", 1.25, kRatio);
+    const double most = number(keys, "refine_most", 1, kMost);
+    const double start = makeScene<double>(spec.scene, spec.settings).start.t;
+    for (const int n : divisions(ratio, static_cast<int>(most))) {
+      append([&](RunSpec& run) { setFixedStep(run, (run.t_end - start) / n); });
+    }
+  } else {
+    append([](RunSpec&) {});
+  }
+  return series;
+}
+
+void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
+  const auto& scene = *find(keys, "scene");
+  if (scene.items.empty()) throw Misuse(scene.place + ": the block names no scene");
+  const auto methods = methodList(keys);
+  for (RunSpec spec : specProduct(keys)) {
+    spec = atPlace(scene, [&] { return resolved(spec); });
+    for (const auto& method : methods) {
+      spec.method = method;
+      all.push_back(makeSeries(spec, keys));
+    }
+  }
+}
+
+TimingOptions timingOptions(const StudyKeys& keys) {
+  constexpr NumberRange kCount{[](double x) { return x >= 1 && x <= 1000; }, "1 to 1000"};
+  TimingOptions timing;
+  timing.wanted = find(keys, "timing") != nullptr;
+  timing.min_time_s = number(keys, "timing.min_time_s", timing.min_time_s, kPositive);
+  timing.repetitions =
+      static_cast<int>(number(keys, "timing.repetitions", timing.repetitions, kCount));
+  timing.once_above_s = number(keys, "timing.once_above_s", timing.once_above_s, kPositive);
+  timing.skip_above_s = number(keys, "timing.skip_above_s", timing.skip_above_s, kPositive);
+  const std::vector<std::string> known{"timing", "timing.min_time_s", "timing.repetitions",
+                                       "timing.once_above_s", "timing.skip_above_s"};
+  for (const auto& [key, value] : keys) {
+    const bool unknown = std::find(known.begin(), known.end(), key) == known.end();
+    if (key.starts_with("timing") && unknown) {
+      throw Misuse(fmt::format("{}: {}", value.place, unknownName("key", key, known)));
+    }
+  }
+  return timing;
+}
+
+}  // namespace
+
+std::vector<int> divisions(double ratio, int most) {
+  std::vector<int> all;
+  for (int n = 1; n <= most; n = std::max(n + 1, static_cast<int>(std::lround(n * ratio)))) {
+    all.push_back(n);
+  }
+  return all;
+}
+
+Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
+  const StudyFile text = parseStudyFile(toml, file, variant);
+  Study study;
+  study.id = std::filesystem::path(file).stem();
+  if (const auto* title = find(text.study, "title")) study.title = single("title", *title);
+  study.orders = flag(text.study, "orders");
+  study.trajectories = flag(text.study, "trajectories");
+  if (const auto* targets = find(text.study, "targets")) {
+    study.targets = numbers(*targets, "targets", kPositive);
+  }
+  study.timing = timingOptions(text.study);
+  for (const auto& block : text.blocks) appendBlock(block, study.series);
+  const bool quick = variant == StudyVariant::kQuick;
+  const auto other = quick ? StudyVariant::kFull : StudyVariant::kQuick;
+  for (const auto& block : parseStudyFile(toml, file, other).blocks) {
+    appendBlock(block, study.other_variant);
+  }
+  return study;
+}
+
+Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
+  std::vector<std::string> known;
+  for (const auto& study : builtinStudies()) {
+    if (study.id == id_or_file)
+      return parseStudy(study.toml, fmt::format("{}.toml", study.id), variant);
+    known.emplace_back(study.id);
+  }
+  const std::filesystem::path path(id_or_file);
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path)) {
+    throw Misuse(unknownName("study or file", id_or_file, known));
+  }
+  const std::string toml{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return parseStudy(toml, path.string(), variant);
+}
+
+}  // namespace irk

@@ -1,0 +1,59 @@
+// A study: which runs, and what to do with them afterwards.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/run_spec.h"
+
+namespace irk {
+
+/// When the runs of a series that come later need not be made.
+enum class SeriesEnd {
+  kAll,       ///< every run is made
+  kRoundOff,  ///< after three runs whose errors no longer shrink: steps refined to round-off
+  kTimeout,   ///< after a timeout the harder ones are recorded as timeouts without running
+};
+
+/// Runs of one method on one scene, from the easiest to the hardest: made in this order.
+struct Series {
+  std::vector<RunSpec> runs;
+  SeriesEnd end = SeriesEnd::kAll;
+};
+
+/// The serial timing pass.
+struct TimingOptions {
+  bool wanted = false;
+  double min_time_s = 0.02;   ///< > 0. Google Benchmark repeats a run until this much time is spent
+  int repetitions = 3;        ///< >= 1
+  double once_above_s = 0.5;  ///< > 0. Longer runs are repeated once only, ...
+  double skip_above_s = 3;    ///< > 0. ... and still longer ones keep the accuracy run's time
+};
+
+struct Study {
+  std::string id;
+  std::string title;
+  std::vector<Series> series;
+  /// Of the other variant: a quick run throws no finished full run away.
+  std::vector<Series> other_variant;
+  bool orders = false;          ///< fit orders: orders.csv
+  bool trajectories = false;    ///< write the solution over time of every run: <scene>.csv
+  std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv
+  TimingOptions timing;
+};
+
+enum class StudyVariant { kFull, kQuick };
+
+/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is
+/// allowed.
+Study loadStudy(std::string_view id_or_file, StudyVariant variant);
+
+/// From TOML text; `file` names it in messages.
+Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);
+
+/// N = 1, 2, ... growing at least by one and by `ratio`, up to `most`: steps t_end / N.
+std::vector<int> divisions(double ratio, int most);
+
+}  // namespace irk

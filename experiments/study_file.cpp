@@ -1,0 +1,117 @@
+#include "experiments/study_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "core/text.h"
+#include "experiments/numbers.h"
+
+namespace irk {
+namespace {
+
+class FileReader {
+ public:
+  explicit FileReader(std::string file) : file_(std::move(file)) {}
+
+  std::string place(const toml::source_region& region) const {
+    return fmt::format("{}:{}", file_, region.begin.line);
+  }
+
+  [[noreturn]] void refuse(const toml::node& node, std::string_view reason) const {
+    throw Misuse(fmt::format("{}: {}", place(node.source()), reason));
+  }
+
+  std::string scalar(std::string_view key, const toml::node& node) const {
+    if (const auto* text = node.as_string()) return text->get();
+    if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
+    if (const auto* number = node.as_floating_point()) return numberText(number->get());
+    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    refuse(node, fmt::format("{}: text, a number, true or false is expected", key));
+  }
+
+  StudyValue value(std::string_view key, const toml::node& node) const {
+    StudyValue value{{}, place(node.source())};
+    if (const auto* list = node.as_array()) {
+      for (const auto& item : *list) value.items.push_back(scalar(key, item));
+      if (value.items.empty()) refuse(node, fmt::format("{}: an empty list", key));
+    } else {
+      value.items.push_back(scalar(key, node));
+    }
+    return value;
+  }
+
+  const toml::table& table(std::string_view key, const toml::node& node) const {
+    if (const auto* found = node.as_table()) return *found;
+    refuse(node, fmt::format("{}: a table is expected", key));
+  }
+
+  /// Overwrites `keys` with what the table holds; `quick` inside it is left out.
+  void merge(const toml::table& from, StudyKeys& keys) const {
+    for (const auto& [key, node] : from) {
+      if (key.str() != "quick")
+        keys.insert_or_assign(std::string(key.str()), value(key.str(), node));
+    }
+  }
+
+  void mergeQuick(const toml::table& from, StudyKeys& keys) const {
+    if (const auto* quick = from.get("quick")) merge(table("quick", *quick), keys);
+  }
+
+ private:
+  std::string file_;
+};
+
+constexpr std::string_view kStudyKeys[] = {"title",  "orders",   "trajectories", "targets",
+                                           "timing", "defaults", "quick",        "block"};
+
+void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
+                  StudyKeys& study) {
+  if (key == "defaults" || key == "quick" || key == "block") return;
+  if (std::find(std::begin(kStudyKeys), std::end(kStudyKeys), key) == std::end(kStudyKeys)) {
+    reader.refuse(node, unknownName("key", key, {std::begin(kStudyKeys), std::end(kStudyKeys)}));
+  }
+  if (key != "timing") {
+    study[std::string(key)] = reader.value(key, node);
+    return;
+  }
+  study["timing"] = {{"true"}, reader.place(node.source())};
+  for (const auto& [name, item] : reader.table("timing", node)) {
+    study[fmt::format("timing.{}", name.str())] = reader.value(name.str(), item);
+  }
+}
+
+toml::table parsed(std::string_view text, const FileReader& reader) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw Misuse(fmt::format("{}: {}", reader.place(error.source()), error.description()));
+  }
+}
+
+}  // namespace
+
+StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVariant variant) {
+  const FileReader reader(file);
+  const toml::table root = parsed(text, reader);
+  StudyFile result;
+  for (const auto& [key, node] : root) readStudyKey(reader, key.str(), node, result.study);
+
+  StudyKeys defaults;
+  const bool quick = variant == StudyVariant::kQuick;
+  if (const auto* node = root.get("defaults"))
+    reader.merge(reader.table("defaults", *node), defaults);
+  const auto* blocks = root.get_as<toml::array>("block");
+  if (!blocks || blocks->empty()) throw Misuse(file + ": no [[block]]: a study needs at least one");
+  for (const auto& node : *blocks) {
+    const toml::table& block = reader.table("block", node);
+    StudyKeys keys = defaults;
+    reader.merge(block, keys);
+    if (quick) reader.mergeQuick(root, keys);
+    if (quick) reader.mergeQuick(block, keys);
+    keys.try_emplace("scene", StudyValue{{}, reader.place(node.source())});
+    result.blocks.push_back(std::move(keys));
+  }
+  return result;
+}
+
+}  // namespace irk

@@ -1,0 +1,163 @@
+#include "experiments/cli.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+struct Result {
+  int status;
+  std::string out, err;
+};
+
+Result irkProgram(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const int status = runProgram(arguments, {out, err});
+  return {status, out.str(), err.str()};
+}
+
+std::set<std::string> keysOf(const nlohmann::json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(Cli, SolveJsonHasExactlyTheKeys) {
+  const auto run = irkProgram({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10",
+                               "--t-end", "1", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error",
+                                                 "steps", "counters", "cpu_s", "spec"}));
+  EXPECT_EQ(keysOf(json["steps"]),
+            (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
+  EXPECT_EQ(keysOf(json["counters"]),
+            (std::set<std::string>{"residuals", "jacobians", "factorizations", "solves",
+                                   "newton_iterations"}));
+  EXPECT_EQ(json["status"], "success");
+  EXPECT_NEAR(json["u"][0].get<double>(), 14.127892217751, 1e-7);
+  EXPECT_NEAR(json["v"][0].get<double>(), 20.537482851413, 1e-7);
+  EXPECT_EQ(json["spec"]["method"], "radau_iia_5");
+  EXPECT_TRUE(json["error"].is_number());
+}
+
+TEST(Cli, UnknownNumbersAreNull) {
+  const auto run = irkProgram({"solve", "slider_crank", "--t-end", "0.123", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(nlohmann::json::parse(run.out)["error"].is_null());
+}
+
+TEST(Cli, MultiprecisionNumbersAreText) {
+  const auto run = irkProgram({"solve", "riccati_tracking", "--scalar", "mp50", "--step", "0.5",
+                               "--method", "gauss_3", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(nlohmann::json::parse(run.out)["x"][0].is_string());
+}
+
+TEST(Cli, StepMeansFixedSteps) {
+  const auto run = irkProgram({"solve", "kepler", "--step", "0.1", "--t-end", "1", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["spec"]["control"], "fixed");
+  EXPECT_EQ(json["steps"]["accepted"], 10);
+}
+
+TEST(Cli, AFailedRunIsStatusOneWithItsCause) {
+  const auto run = irkProgram({"solve", "kepler", "--tol", "1e-10", "--max-steps", "2", "--json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(nlohmann::json::parse(run.out)["status"], "max_steps");
+}
+
+struct BadInput {
+  std::vector<std::string> arguments;
+  std::vector<std::string> message;
+};
+
+TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
+  const BadInput inputs[] = {
+      {{"solve", "slider_krank"}, {"scene", "slider_krank", "'slider_crank'"}},
+      {{"solve", "kepler", "--method", "radau_ia_"}, {"radau_ia_"}},
+      {{"solve", "kepler", "--method", "gaus_3"}, {"gaus_3", "'gauss_3'"}},
+      {{"solve", "kepler", "--method", "gauss_0"}, {"0"}},
+      {{"solve", "kepler", "--newton", "simple"}, {"newton", "simple", "'simplified'"}},
+      {{"solve", "kepler", "--solver", "schurr"}, {"solver", "schurr", "'schur'"}},
+      {{"solve", "kepler", "--jacobian", "no_mass"}, {"jacobian", "no_mass", "full"}},
+      {{"solve", "kepler", "--step", "-0.1"}, {"step", "-0.1", "> 0"}},
+      {{"solve", "kepler", "--step", "0"}, {"step", "0", "> 0"}},
+      {{"solve", "kepler", "--tol", "2"}, {"tol", "2", "0 < tol < 1"}},
+      {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
+      {{"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, {"step", "tol"}},
+      {{"solve", "kepler", "--control", "fixed"}, {"step", "> 0"}},
+      {{"solve", "kepler", "--estimate", "none"}, {"control", "paper", "none"}},
+      {{"solve", "kepler", "--t-end", "-1"}, {"t_end", "-1"}},
+      {{"solve", "kepler", "--set", "ee=0.5"}, {"'ee'", "'e'", "kepler"}},
+      {{"solve", "kepler", "--set", "k"}, {"'k'", "name=value"}},
+      {{"solve", "pendulum", "--method", "lobatto_iiib_3"}, {"lobatto_iiib_3", "algebraic"}},
+      {{"solve", "kepler", "--newton", "full", "--solver", "schur"}, {"full", "schur"}},
+      {{"solve", "kepler", "--methd", "gauss_2"}, {"--methd"}},
+      {{"solve"}, {"scene"}},
+      {{"slove", "kepler"}, {"slove", "'solve'"}},
+      {{}, {"subcommand"}},
+      {{"run", "ordr"}, {"ordr", "'order'"}},
+      {{"run", "order", "--jobs", "-2"}, {"jobs", "-2", "0"}},
+      {{"run", "order", "--shard", "3/2"}, {"shard", "3", "2"}},
+      {{"list", "scene"}, {"scene", "'scenes'"}},
+      {{"tableau", "check", "no_such_file.txt"}, {"no_such_file.txt"}},
+      {{"merge", "no_such_folder"}, {"no_such_folder"}},
+      {{"compare", "no_such_folder", "neither"}, {"no_such_folder"}},
+  };
+  for (const auto& [arguments, message] : inputs) {
+    std::string line;
+    for (const auto& argument : arguments) line += argument + " ";
+    const auto run = irkProgram(arguments);
+    EXPECT_EQ(run.status, 2) << line << run.err;
+    EXPECT_EQ(run.out, "") << line;
+    EXPECT_TRUE(containsAll(run.err, message)) << line;
+  }
+}
+
+TEST(Cli, ADamagedTableauFileIsStatusTwo) {
+  const TemporaryFolder folder;
+  const auto whole = irkProgram({"tableau", "export", "radau_iia_3"});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string path = folder.path() / "method.txt";
+  const auto solveWith = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return irkProgram({"solve", "riccati_tracking", "--method", path, "--step", "0.1"});
+  };
+  EXPECT_EQ(solveWith(whole.out).status, 0);
+
+  const auto cut = solveWith(whole.out.substr(0, whole.out.size() * 2 / 3));
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_TRUE(containsAll(cut.err, {"method.txt:"}));
+
+  std::string lie = whole.out;
+  lie.replace(lie.find("order: 5"), 8, "order: 6");
+  const auto contradiction = solveWith(lie);
+  EXPECT_EQ(contradiction.status, 2);
+  EXPECT_TRUE(containsAll(contradiction.err, {"method.txt:", "6"}));
+
+  std::string nan = whole.out;
+  const auto number = nan.find("0.", nan.find("\nA"));
+  nan.replace(number, nan.find_first_of(" \n", number) - number, "nan");
+  const auto not_a_number = solveWith(nan);
+  EXPECT_EQ(not_a_number.status, 2);
+  EXPECT_TRUE(containsAll(not_a_number.err, {"method.txt:", "nan"}));
+}
+
+TEST(Cli, ListsNameEverything) {
+  const auto all = irkProgram({"list"});
+  EXPECT_EQ(all.status, 0);
+  EXPECT_TRUE(containsAll(all.out, {"slider_crank", "radau_iia_S", "cpu_time", "coupled_dense"}));
+  EXPECT_EQ(irkProgram({"--help"}).status, 0);
+}
+
+}  // namespace
+}  // namespace irk

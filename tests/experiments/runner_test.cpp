@@ -1,0 +1,172 @@
+#include "experiments/runner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "experiments/cost_at_error.h"
+#include "experiments/orders.h"
+#include "experiments/results.h"
+#include "experiments/run_table.h"
+#include "experiments/timing.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+constexpr char kToml[] = R"(
+title = "Small"
+orders = true
+[[block]]
+scene = "riccati_tracking"
+families = ["radau_iia", "lobatto_iiib"]
+stages = [2, 3]
+refine_most = 40
+[[block]]
+scene = "pendulum"
+t_end = 1
+methods = ["radau_iia_2", "lobatto_iiib_3"]
+tolerances = [1e-3, 1e-5]
+)";
+
+Study small() { return parseStudy(kToml, "small.toml", StudyVariant::kFull); }
+
+RunnerOptions options(const TemporaryFolder& folder, int jobs) {
+  RunnerOptions options;
+  options.results = folder.path();
+  options.jobs = jobs;
+  return options;
+}
+
+TEST(Runner, OneAndTwoThreadsMakeTheSameRows) {
+  const TemporaryFolder one, two;
+  std::ostringstream quiet;
+  const Table a = runStudy(small(), options(one, 1), quiet);
+  const Table b = runStudy(small(), options(two, 2), quiet);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    for (std::size_t c = 0; c < a.columns.size(); ++c) {
+      if (a.columns[c] == "cpu_s") continue;
+      EXPECT_EQ(a.rows[i][c], b.rows[i][c]) << "row " << i << ", " << a.columns[c];
+    }
+  }
+  std::ostringstream differences;
+  EXPECT_EQ(compareRuns(a, b, differences), 0) << differences.str();
+}
+
+TEST(Runner, CompareSeesADifference) {
+  const TemporaryFolder folder;
+  std::ostringstream out;
+  const Table a = runStudy(small(), options(folder, 2), out);
+  Table b = a;
+  b.rows[0][b.column("residuals")] = "1";
+  b.rows.pop_back();
+  EXPECT_EQ(compareRuns(a, b, out), 2);
+}
+
+TEST(Runner, MisuseInsideASweepIsARow) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table runs = runStudy(small(), options(folder, 1), quiet);
+  int refused = 0;
+  for (const auto& row : runs.rows) {
+    if (textAt(runs, row, "outcome") != "refused") continue;
+    ++refused;
+    EXPECT_EQ(textAt(runs, row, "method"), "lobatto_iiib_3");
+    EXPECT_EQ(textAt(runs, row, "stages"), "3");
+    EXPECT_TRUE(containsAll(textAt(runs, row, "detail"), {"lobatto_iiib_3", "algebraic"}));
+  }
+  EXPECT_EQ(refused, 2);
+}
+
+TEST(Runner, FinishedRunsAreNotMadeAgain) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const auto file = folder.path() / "small" / "runs.csv";
+  Table runs = runStudy(small(), options(folder, 2), quiet);
+  // A mark on a row shows whether it was made again; a row that is lost is made again.
+  const std::size_t cpu = runs.column("cpu_s");
+  for (auto& row : runs.rows) row[cpu] = "12345";
+  const TableRow lost = runs.rows.back();
+  runs.rows.pop_back();
+  writeTable(file, runs);
+  std::ofstream(file, std::ios::app) << csvLine(lost).substr(0, 30);  // interrupted while writing
+
+  const Table again = runStudy(small(), options(folder, 2), quiet);
+  ASSERT_EQ(again.rows.size(), runs.rows.size() + 1);
+  for (std::size_t i = 0; i + 1 < again.rows.size(); ++i) EXPECT_EQ(again.rows[i][cpu], "12345");
+  EXPECT_NE(again.rows.back()[cpu], "12345");
+
+  RunnerOptions fresh = options(folder, 2);
+  fresh.finished = FinishedRuns::kRunAgain;
+  for (const auto& row : runStudy(small(), fresh, quiet).rows) EXPECT_NE(row[cpu], "12345");
+}
+
+TEST(Runner, ShardsTogetherAreTheWhole) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  std::vector<std::string> parts;
+  for (int i = 1; i <= 3; ++i) {
+    RunnerOptions part = options(folder, 1);
+    parseShard(std::to_string(i) + "/3", part);
+    runStudy(small(), part, quiet);
+    parts.push_back(studyFolder(small(), part));
+  }
+  const Table merged = sortedRuns(mergedRuns(parts), small());
+  const Table whole = runStudy(small(), options(folder, 1), quiet);
+  std::ostringstream differences;
+  EXPECT_EQ(compareRuns(whole, merged, differences), 0) << differences.str();
+  RunnerOptions bad;
+  EXPECT_TRUE(containsAll(misuseOf([&] { parseShard("4/3", bad); }), {"shard", "4", "3"}));
+  EXPECT_TRUE(containsAll(misuseOf([&] { parseShard("half", bad); }), {"shard", "half", "i/n"}));
+}
+
+TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table orders = orderTable(runStudy(small(), options(folder, 2), quiet));
+  ASSERT_EQ(orders.rows.size(), 4u);
+  for (const auto& row : orders.rows) {
+    EXPECT_EQ(textAt(orders, row, "component"), "x");
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees")
+        << textAt(orders, row, "family") << " " << textAt(orders, row, "stages") << ": "
+        << textAt(orders, row, "order") << " " << textAt(orders, row, "reason");
+  }
+}
+
+TEST(Timing, TimesSuccessfulRunsOnce) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  Study study = small();
+  study.timing = {true, 1e-4, 3, 0.5, 3};
+  Table runs = runStudy(study, options(folder, 2), quiet);
+  const auto file = folder.path() / "small" / "runs.csv";
+  timeStudy(study, file, runs, quiet);
+  const Table read = readTable(file);
+  for (const auto& row : read.rows) {
+    const double repetitions = numberAt(read, row, "cpu_runs");
+    if (!succeededAt(read, row)) {
+      EXPECT_EQ(repetitions, 0);
+      continue;
+    }
+    EXPECT_EQ(repetitions, 3);
+    EXPECT_GT(numberAt(read, row, "cpu_s"), 0);
+    EXPECT_GE(numberAt(read, row, "cpu_median_s"), numberAt(read, row, "cpu_s"));
+    EXPECT_GE(numberAt(read, row, "cpu_spread"), 0);
+  }
+}
+
+TEST(CostAtError, InterpolatesTheLowerEnvelope) {
+  // cost = error^(-1/2), and one point above the envelope.
+  const std::vector<CostPoint> points{{1e-2, 10}, {1e-4, 100}, {1e-6, 1000}, {1e-3, 500}};
+  EXPECT_NEAR(costAtError(points, 1e-4), 100, 1e-9);
+  EXPECT_NEAR(costAtError(points, 1e-5), std::pow(10, 2.5), 1e-9);
+  EXPECT_NEAR(costAtError(points, 0.5), 10, 1e-9);
+  EXPECT_TRUE(std::isnan(costAtError(points, 1e-7)));
+  EXPECT_TRUE(std::isnan(costAtError({}, 1)));
+}
+
+}  // namespace
+}  // namespace irk
