@@ -60,11 +60,58 @@ class PaperController final : public StepController {
   int barred_ = 0;
 };
 
+/// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
+///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
+/// A step is kept where it would grow by less than a fifth: its factors are worth more. After a
+/// rejection it does not grow at once.
+class PredictiveController final : public StepController {
+ public:
+  explicit PredictiveController(int order) : exponent_(1.0 / (order + 1)) {}
+
+  StepDecision decide(double error, double h) override {
+    const double eps = std::max(error, kTinyError);
+    double factor = kSafety * std::pow(eps, -exponent_);
+    if (error > 1) {
+      rejected_ = true;
+      return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
+    }
+    if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * std::pow(last_error_ / eps, exponent_));
+    last_h_ = h;
+    last_error_ = std::max(eps, kErrorFloor);
+    factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
+    rejected_ = false;
+    const double grown = factor < 1 || factor > kKeepUpTo ? h * factor : h;
+    return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
+  }
+  double afterFailure(double h) override {
+    rejected_ = true;
+    failed_h_ = h;
+    barred_ = kBarredSteps;
+    return h / 2;
+  }
+
+ private:
+  static constexpr double kTinyError = 1e-300;
+  static constexpr double kSafety = 0.9;
+  static constexpr double kShrinkAtMost = 0.2;  // FACL, FACR and ERRACC of RADAU
+  static constexpr double kGrowAtMost = 8;
+  static constexpr double kErrorFloor = 1e-2;
+  static constexpr double kKeepUpTo = 1.2;
+  static constexpr int kBarredSteps = 10;
+
+  double exponent_;
+  double last_error_ = 0, last_h_ = 0;
+  double failed_h_ = 0;
+  int barred_ = 0;
+  bool rejected_ = false;
+};
+
 }  // namespace
 
 std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
   switch (options.control) {
     case StepControl::kPaper: return std::make_unique<PaperController>(options, order);
+    case StepControl::kPredictive: return std::make_unique<PredictiveController>(order);
     case StepControl::kFixed: return nullptr;
   }
   return nullptr;

@@ -37,6 +37,7 @@ constexpr Named<ErrorEstimate> kEstimates[] = {
     {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
 constexpr Named<StepControl> kControls[] = {
     {StepControl::kPaper, "paper", "section 6 of the paper"},
+    {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
     {StepControl::kFixed, "fixed", "constant steps"}};
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},

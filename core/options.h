@@ -23,7 +23,11 @@ enum class Predictor {
   kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
 };
 enum class ErrorEstimate { kDoubling, kNone };
-enum class StepControl { kPaper, kFixed };
+enum class StepControl {
+  kPaper,       ///< the paper's section 6
+  kPredictive,  ///< Gustafsson's, HW II (IV.8.25)
+  kFixed,
+};
 enum class JacobianPoint { kStart, kMiddle };
 enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1

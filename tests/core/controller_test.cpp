@@ -65,5 +65,30 @@ TEST(PaperController, DoesNotReturnAtOnceToAStepThatNewtonFailed) {
   EXPECT_EQ(kept, 9);
 }
 
+StepOptions predictive() {
+  StepOptions o;
+  o.control = StepControl::kPredictive;
+  return o;
+}
+
+TEST(PredictiveController, FollowsTheFormula) {
+  const auto controller = makeController(predictive(), 3);
+  // No history: h_new = 0.9 h eps^(-1/4).
+  EXPECT_NEAR(controller->decide(std::pow(0.5, 4), 0.1).h, 0.18, 1e-14);
+  // The error grew by 2^4 over the same step: half of the plain proposal 0.9.
+  EXPECT_NEAR(controller->decide(1, 0.1).h, 0.045, 1e-14);
+  // It fell: the plain proposal stands; between 1 and 1.2 the step is kept.
+  EXPECT_EQ(controller->decide(std::pow(0.8, 4), 0.1).h, 0.1);
+}
+
+TEST(PredictiveController, RejectsAndThenDoesNotGrowAtOnce) {
+  const auto controller = makeController(predictive(), 3);
+  const auto rejected = controller->decide(std::pow(2.0, 4), 0.1);
+  EXPECT_FALSE(rejected.accept);
+  EXPECT_NEAR(rejected.h, 0.045, 1e-14);
+  EXPECT_EQ(controller->decide(1e-8, 0.045).h, 0.045);
+  EXPECT_NEAR(controller->decide(1e-8, 0.045).h, 8 * 0.045, 1e-14);
+}
+
 }  // namespace
 }  // namespace irk
