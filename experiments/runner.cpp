@@ -93,12 +93,12 @@ class Sweep {
  private:
   void runSeries(const Series& series) {
     RoundOffRule round_off(series.runs.front().scalar);
-    const TableRow* timeout = nullptr;
+    const TableRow* too_long = nullptr;
     for (std::size_t i = 0; i < series.runs.size(); ++i) {
-      const TableRow* row = finishedOrMade(series.runs[i], timeout);
+      const TableRow* row = finishedOrMade(series.runs[i], too_long);
       if (!row) return;
       const auto& outcome = textAt(table_, *row, "outcome");
-      if (series.end == SeriesEnd::kTimeout && outcome == name(Outcome::kTimeout)) timeout = row;
+      if (series.end == SeriesEnd::kTooLong && ranTooLong(outcome)) too_long = row;
       const bool done = series.end == SeriesEnd::kRoundOff &&
                         (outcome == "refused" || round_off.reached(table_, *row));
       if (done) {
@@ -110,7 +110,7 @@ class Sweep {
   }
 
   // Null after an interrupt.
-  const TableRow* finishedOrMade(const RunSpec& spec, const TableRow* timeout) {
+  const TableRow* finishedOrMade(const RunSpec& spec, const TableRow* too_long) {
     if (interruptFlag()) return nullptr;
     const std::string key = specKey(spec);
     {
@@ -121,7 +121,7 @@ class Sweep {
         return &found->second;
       }
     }
-    const RunRecord record = timeout ? notMade(spec, *timeout, table_) : make(spec);
+    const RunRecord record = too_long ? notMade(spec, *too_long, table_) : make(spec);
     if (record.outcome == name(Outcome::kInterrupted)) return nullptr;
     const std::lock_guard lock(mutex_);
     TableRow& row = finished_[key] = runRow(key, study_.id, record);
@@ -136,10 +136,10 @@ class Sweep {
 
   RunRecord make(const RunSpec& spec) const {
     const Watch watch{&interruptFlag(), {}};
-    return orRefused(spec, [&] {
+    return withoutMachine(orRefused(spec, [&] {
       return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(folder_, spec))
                                  : execute(spec, watch);
-    });
+    }));
   }
 
   const Study& study_;

@@ -32,14 +32,25 @@ bool RoundOffRule::reached(const Table& table, const TableRow& row) {
   return all;
 }
 
+bool ranTooLong(std::string_view outcome) {
+  return outcome == name(Outcome::kMaxSteps) || outcome == name(Outcome::kTimeout);
+}
+
+RunRecord withoutMachine(RunRecord record) {
+  if (record.outcome != name(Outcome::kTimeout)) return record;
+  record.counters = {};
+  record.detail = fmt::format("longer than {} s", record.spec.time_limit);
+  return record;
+}
+
 RunRecord notMade(const RunSpec& spec, const TableRow& easier, const Table& table) {
   RunRecord record;
   record.spec = spec;
   record.family = textAt(table, easier, "family");
   record.stages = static_cast<Index>(numberAt(table, easier, "stages"));
-  record.outcome = name(Outcome::kTimeout);
-  record.detail = fmt::format("not run: rtol = {} took longer than {} s already",
-                              textAt(table, easier, "rtol"), spec.time_limit);
+  record.outcome = textAt(table, easier, "outcome");
+  record.detail =
+      fmt::format("not run: rtol = {} took too long already", textAt(table, easier, "rtol"));
   return record;
 }
 

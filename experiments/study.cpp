@@ -150,7 +150,7 @@ Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
     change(series.runs.back());
   };
   if (const auto* tolerances = find(keys, "tolerances")) {
-    series.end = SeriesEnd::kTimeout;
+    series.end = SeriesEnd::kTooLong;
     for (const double tol : numbers(*tolerances, "tolerances", kPositive)) {
       append(
           [tol](RunSpec& run) { run.options.tolerances.rtol = run.options.tolerances.atol = tol; });

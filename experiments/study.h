@@ -14,7 +14,7 @@ namespace irk {
 enum class SeriesEnd {
   kAll,       ///< every run is made
   kRoundOff,  ///< after three runs whose errors no longer shrink: steps refined to round-off
-  kTimeout,   ///< after a timeout the harder ones are recorded as timeouts without running
+  kTooLong,   ///< after one that ran out of steps or time, the harder ones are recorded as such
 };
 
 /// Runs of one method on one scene, from the easiest to the hardest: made in this order.

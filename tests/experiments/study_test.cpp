@@ -43,7 +43,7 @@ TEST(Study, IsACartesianProduct) {
   ASSERT_EQ(study.series.size(), 2u * 2 * 7);
   for (const auto& series : study.series) {
     ASSERT_EQ(series.runs.size(), 3u);
-    EXPECT_EQ(series.end, SeriesEnd::kTimeout);
+    EXPECT_EQ(series.end, SeriesEnd::kTooLong);
     EXPECT_EQ(series.runs[2].options.tolerances.rtol, 1e-6);
     EXPECT_EQ(series.runs[2].options.tolerances.atol, 1e-6);
     EXPECT_EQ(series.runs[0].options.newton.kind, NewtonKind::kModified);
