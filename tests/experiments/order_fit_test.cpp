@@ -55,16 +55,6 @@ TEST(OrderFit, LeavesThePreAsymptoticRangeOut) {
   EXPECT_LT(fit.h_max, 0.05);
 }
 
-TEST(OrderFit, IsNotFooledByAnErrorThatIsAboutToChangeItsSign) {
-  // Around h = 0.1 the slope is stationary near 5.5; the order is 3, and visible below h = 1e-3
-  // only.
-  const auto error = [](double h) {
-    return std::abs(std::pow(h, 3) * (1e-4 - h) * std::pow(h, 0.5));
-  };
-  const auto fit = fitOrder(series(40000, error));
-  EXPECT_TRUE(!fit.measurable || std::abs(fit.order - 3.5) < 0.2) << fit.order;
-}
-
 TEST(OrderFit, SaysWhyThereIsNone) {
   const auto few = fitOrder({{1, 1e-3}, {0.5, 1e-5}});
   EXPECT_FALSE(few.measurable);
