@@ -12,6 +12,7 @@ namespace irk {
 namespace {
 
 struct Slope {
+  double offset;  // log(error) at h = 1
   double value;
   double deviation;   // standard error; 0 for two points
   double confidence;  // 95 %
@@ -27,9 +28,9 @@ Slope fitSlope(std::span<const ErrorPoint> window) {
   double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
   gsl_fit_linear(x.data(), 1, y.data(), 1, n, &c0, &slope, &cov00, &cov01, &variance,
                  &sum_of_squares);
-  if (n == 2) return {slope, 0, INFINITY};
+  if (n == 2) return {c0, slope, 0, INFINITY};
   const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 2));
-  return {slope, std::sqrt(variance), t * std::sqrt(variance)};
+  return {c0, slope, std::sqrt(variance), t * std::sqrt(variance)};
 }
 
 double centre(std::span<const ErrorPoint> window) {
@@ -47,6 +48,18 @@ double drift(std::span<const ErrorPoint> window, const Slope& whole) {
   const double change = std::abs(fitSlope(coarse).value - fitSlope(fine).value);
   const double extrapolation = centre(window) / (centre(coarse) - centre(fine));
   return (change + kHalves * whole.deviation) * extrapolation;
+}
+
+// An error that is about to change its sign has a stable slope over decades, and a wrong one.
+// Behind the window it then falls below the line, two points in a row; round-off lies above it.
+bool continues(std::span<const ErrorPoint> finer, const Slope& slope) {
+  constexpr double kFactor = 2;
+  const auto below = [&slope](const ErrorPoint& p) {
+    return std::log(kFactor * p.error) < slope.offset + slope.value * std::log(p.h);
+  };
+  return std::adjacent_find(finer.begin(), finer.end(), [&below](auto& p, auto& q) {
+           return below(p) && below(q);
+         }) == finer.end();
 }
 
 // From coarse to fine, errors that are numbers only.
@@ -104,6 +117,7 @@ OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options)
       const auto window = std::span(points).subspan(begin, end - begin);
       if (window.front().error < options.min_ratio * window.back().error) continue;
       const Slope slope = fitSlope(window);
+      if (!continues(std::span(points).subspan(end), slope)) continue;
       const double uncertainty = slope.confidence + drift(window, slope);
       if (uncertainty >= best_uncertainty) continue;
       best_uncertainty = uncertainty;
