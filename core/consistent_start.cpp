@@ -14,18 +14,6 @@ namespace {
 constexpr double kConstraintTolerance = 1e-7;
 constexpr int kIterations = 25;
 
-template <class Real>
-Point<Real> pointOf(const State<Real>& s, const Sizes& n) {
-  const Real* const w = s.w.data();
-  return {s.t,
-          {s.u.data(), n.nu},
-          {s.v.data(), n.nu},
-          {s.x.data(), n.nx},
-          {w, n.nu},
-          {w + n.nu, n.nx},
-          {w + n.nu + n.nx, n.nz}};
-}
-
 StartReport report(Outcome outcome, double t, Index row, const char* what, double value) {
   std::ostringstream text;
   text << "at the start, t = " << t << ": row " << row << ": " << what << " = " << value;
@@ -45,7 +33,7 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
   const VecView<Real> rows(r.data(), n.n());
   const Index first = n.nu + n.nx;
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
-    system.evaluate(level, pointOf(state, n), rows);
+    system.evaluate(level, pointOf(state), rows);
     const Real size = Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
                       (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>()
                                                  : Real(0));
@@ -65,8 +53,8 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
   const Vec<Real> given = state.w;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   for (int i = 0; i < kIterations; ++i) {
-    system.evaluate(Level::kAcceleration, pointOf(state, n), rows);
-    differentiator.evaluate(Level::kAcceleration, pointOf(state, n), D);
+    system.evaluate(Level::kAcceleration, pointOf(state), rows);
+    differentiator.evaluate(Level::kAcceleration, pointOf(state), D);
     const Mat<Real> D0 = D.dense0();
     if (!r.allFinite() || !D0.allFinite()) {
       return report(Outcome::kNotFinite, t, -1, "residual or derivative",
@@ -75,7 +63,7 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
     const Eigen::FullPivLU<Mat<Real>> lu(D0);
     if (!lu.isInvertible()) {
       state.w = given;
-      system.evaluate(Level::kFormulated, pointOf(state, n), rows);
+      system.evaluate(Level::kFormulated, pointOf(state), rows);
       Index worst = 0;
       const double value = static_cast<double>(Real(r.cwiseAbs().maxCoeff(&worst)));
       if (!w_required || value <= kConstraintTolerance) return {};
@@ -89,7 +77,7 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
   }
   // Linear problems end after two iterations; what is left at the level of the constraints' tolerance
   // serves as start values.
-  system.evaluate(Level::kAcceleration, pointOf(state, n), rows);
+  system.evaluate(Level::kAcceleration, pointOf(state), rows);
   Index worst = 0;
   const double value = static_cast<double>(Real(r.cwiseAbs().maxCoeff(&worst)));
   const double size = 1 + static_cast<double>(Real(state.w.norm()));

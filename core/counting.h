@@ -23,6 +23,12 @@ class CountingSystem final : public System<Real> {
   }
   const std::vector<int>& rowPowers() const override { return inner_.rowPowers(); }
   const ErrorPowers& errorPowers() const override { return inner_.errorPowers(); }
+  void switching(const Point<Real>& p, VecView<Real> g) const override { inner_.switching(p, g); }
+  void onSwitch(Index i, State<Real>& state) const override { inner_.onSwitch(i, state); }
+  std::string switchName(Index i) const override { return inner_.switchName(i); }
+  Discontinuity discontinuity() const override { return inner_.discontinuity(); }
+  bool projectsVelocity() const override { return inner_.projectsVelocity(); }
+  bool secondOrder() const override { return inner_.secondOrder(); }
   State<Real> fromScene(const State<Real>& scene) const override {
     return inner_.fromScene(scene);
   }

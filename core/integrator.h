@@ -23,10 +23,20 @@ struct StepRecord {
   const State<Real>& state;
 };
 
+/// One switch. `state`: just after it, in the scene's unknowns.
+template <class Real>
+struct SwitchRecord {
+  Real t;
+  Index index;  ///< of the switching function
+  std::string name;
+  const State<Real>& state;
+};
+
 /// What the caller wants to know and to say while an integration runs. All optional.
 template <class Real>
 struct Monitor {
   std::function<void(const StepRecord<Real>&)> accepted;
+  std::function<void(const SwitchRecord<Real>&)> switched;
   /// Asked before each step: kSuccess goes on; kTimeout or kInterrupted ends the run.
   std::function<Outcome()> interrupt;
 };
@@ -34,7 +44,7 @@ struct Monitor {
 template <class Real>
 struct Solution {
   Outcome outcome = Outcome::kSuccess;
-  std::string detail;  ///< for a failure: where and what, in one line
+  std::string detail;  ///< where and what, in one line: of a failure, or of chattering
   State<Real> state;   ///< the last accepted state, in the scene's unknowns
   Counters counters;
 };

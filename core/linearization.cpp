@@ -20,7 +20,7 @@ std::shared_ptr<const Pattern> Pattern::dense(Index n) {
 template <class Real>
 template <class T>
 Differentiator<Real>::Buffers<T>::Buffers(const Sizes& n)
-    : u(n.nu), v(n.nu), x(n.nx), w(n.n()), r(n.n()) {}
+    : u(n.nu), v(n.nu), x(n.nx), w(n.n()), d(n.discrete), r(n.n()) {}
 
 template <class Real>
 template <class T>
@@ -31,7 +31,8 @@ Point<T> Differentiator<Real>::Buffers<T>::point(const Sizes& n, const T& t) con
           {x.data(), n.nx},
           {w.data(), n.nu},
           {w.data() + n.nu, n.nx},
-          {w.data() + n.nu + n.nx, n.nz}};
+          {w.data() + n.nu + n.nx, n.nz},
+          {d.data(), n.discrete}};
 }
 
 template <class Real>
@@ -81,6 +82,7 @@ void copyPoint(const Point<Real>& p, const Sizes& n, Buffers& to) {
   for (Index i = 0; i < n.nu; ++i) to.w[i] = p.a[i];
   for (Index i = 0; i < n.nx; ++i) to.w[n.nu + i] = p.k[i];
   for (Index i = 0; i < n.nz; ++i) to.w[n.nu + n.nx + i] = p.z[i];
+  for (Index i = 0; i < n.discrete; ++i) to.d[i] = p.d[i];
 }
 }  // namespace
 

@@ -58,7 +58,7 @@ class Differentiator {
   };
   template <class T>
   struct Buffers {  // the numbers below a Point, and the residual
-    Vec<T> u, v, x, w, r;
+    Vec<T> u, v, x, w, d, r;
     explicit Buffers(const Sizes& n);
     Point<T> point(const Sizes& n, const T& t) const;
     /// The component that a direction perturbs.

@@ -12,7 +12,15 @@ namespace {
 
 constexpr Named<Formulation> kFormulations[] = {
     {Formulation::kIndex2, "index2", "constraints differentiated once, rows scaled by 1/h (paper)"},
-    {Formulation::kIndex3, "index3", "position constraints as they are, rows scaled by 1/h^2"}};
+    {Formulation::kIndex3, "index3", "position constraints as they are, rows scaled by 1/h^2"},
+    {Formulation::kGgl, "ggl", "stabilised index 2: g = 0 and dg/dt = 0, u' = v + G^T mu"},
+    {Formulation::kIndex2Projected, "index2_projected", "index 2, v projected after each step"},
+    {Formulation::kIndex1, "index1", "constraints differentiated twice"}};
+constexpr Named<Discontinuity> kDiscontinuities[] = {
+    {Discontinuity::kIgnore, "ignore", "jumps are left to the error estimate (paper)"},
+    {Discontinuity::kIterate, "iterate", "modes frozen in Newton, updated after it, step repeated"},
+    {Discontinuity::kLocate, "locate", "the root of a switching function ends the step; restart"},
+    {Discontinuity::kSmooth, "smooth", "the scene's regularisation"}};
 constexpr Named<ConstraintScaling> kScalings[] = {
     {ConstraintScaling::kOn, "on", "constraint rows multiplied by 1/h or 1/h^2 (paper)"},
     {ConstraintScaling::kOff, "off", "constraint rows as they are"}};
@@ -34,14 +42,24 @@ constexpr Named<Predictor> kPredictors[] = {
     {Predictor::kAcceleration, "acceleration", "(a, k, z) at the step's start"}};
 constexpr Named<ErrorEstimate> kEstimates[] = {
     {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
+    {ErrorEstimate::kRichardson, "richardson", "doubling, each component with its own order"},
+    {ErrorEstimate::kDoublingScalar, "doubling_scalar", "difference of the norms (HOTINT)"},
     {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
 constexpr Named<StepControl> kControls[] = {
     {StepControl::kPaper, "paper", "section 6 of the paper"},
+    {StepControl::kHotint, "hotint", "the paper's, as the later source has it"},
     {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
     {StepControl::kFixed, "fixed", "constant steps"}};
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
-    {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"}};
+    {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},
+    {JacobianPoint::kEachStage, "each_stage", "at the stages' start values; coupled solvers only"}};
+constexpr Named<JacobianTerms> kTerms[] = {
+    {JacobianTerms::kFull, "full", "everything"},
+    {JacobianTerms::kNoMassVxz, "no_mass_vxz", "(4.4): without d(M a)/d(v, x, z)"},
+    {JacobianTerms::kNoConstraintXz, "no_constraint_xz", "(4.5): without dG/d(x, z)"},
+    {JacobianTerms::kNoMass, "no_mass", "(4.4) and (4.8): without d(M a)/d(u, v, x, z)"},
+    {JacobianTerms::kConstantStiffness, "constant_stiffness", "(4.7): dF2/du evaluated once"}};
 constexpr Named<NormKind> kNorms[] = {
     {NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
     {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
@@ -89,6 +107,8 @@ IRK_AXIS(Predictor, kPredictors, "predictor")
 IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
 IRK_AXIS(StepControl, kControls, "control")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
+IRK_AXIS(JacobianTerms, kTerms, "jacobian")
+IRK_AXIS(Discontinuity, kDiscontinuities, "discontinuity")
 IRK_AXIS(NormKind, kNorms, "norm")
 #undef IRK_AXIS
 

@@ -22,13 +22,27 @@ enum class Predictor {
   kPrevious,      ///< the stages of the step before, stage by stage (paper)
   kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
 };
-enum class ErrorEstimate { kDoubling, kNone };
+enum class ErrorEstimate {
+  kDoubling,        ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
+  kRichardson,      ///< the same, each component divided by 2^q - 1 with its own order q
+  kDoublingScalar,  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
+  kNone,
+};
 enum class StepControl {
   kPaper,       ///< the paper's section 6
+  kHotint,      ///< the later source: s_min 2, s_max 4, exponent 1/p, no gamma
   kPredictive,  ///< Gustafsson's, HW II (IV.8.25)
   kFixed,
 };
-enum class JacobianPoint { kStart, kMiddle };
+enum class JacobianPoint { kStart, kMiddle, kEachStage };
+/// What is left out of (D0, D1, D2), paper (4.4)-(4.8).
+enum class JacobianTerms {
+  kFull,
+  kNoMassVxz,          ///< (4.4): without d(M a)/d(v, x, z)
+  kNoConstraintXz,     ///< (4.5): without dG/d(x, z)
+  kNoMass,             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
+  kConstantStiffness,  ///< (4.7): dF2/du evaluated once
+};
 enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
   kAbsolute,  ///< the paper's: 2-norm of e / atol over all components
@@ -109,6 +123,7 @@ struct IntegratorOptions {
   Tolerances tolerances;
   DerivativeSource derivatives = DerivativeSource::kAutomatic;
   JacobianPoint jacobian_point = JacobianPoint::kStart;
+  JacobianTerms jacobian = JacobianTerms::kFull;
   NewtonOptions newton;
   StageSolverKind solver = StageSolverKind::kSchur;
   Predictor predictor = Predictor::kExtrapolated;

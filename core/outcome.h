@@ -15,6 +15,7 @@ enum class Outcome {
   kNotFinite,          ///< the residual or its derivatives are NaN or infinite at the step's start
   kSingular,           ///< the Newton matrix is singular
   kInconsistentStart,  ///< constraints are violated, or accelerations cannot be determined
+  kChattering,         ///< switches follow each other without time passing
 };
 
 /// The name in tables: `success`, `newton_failed`, ...
@@ -29,6 +30,7 @@ constexpr std::string_view name(Outcome outcome) {
     case Outcome::kNotFinite: return "not_finite";
     case Outcome::kSingular: return "singular";
     case Outcome::kInconsistentStart: return "inconsistent_start";
+    case Outcome::kChattering: return "chattering";
   }
   return "?";
 }

@@ -1,4 +1,4 @@
-// From a user's struct to a System: the formulation of its position constraints.
+// From a user's struct to a System: the formulation of its position constraints, and its switches.
 //
 // A problem is one struct of about 30 lines:
 //
@@ -16,22 +16,55 @@
 //     }
 //   };
 //
-// Write `using std::sin;` and unqualified calls; T is double, a dual
-// number or a multiprecision number. Branches may compare values of T.
+// Write `using std::sin;` and unqualified calls; T is double, a dual number or a multiprecision
+// number. Branches may compare values of T.
+//
+// A problem that switches keeps its modes in the discrete state p.d (sizes().discrete numbers) and
+// declares sizes().switches switching functions. Its residual never asks where it is, only p.d:
+//
+//     template <class T>
+//     void switching(const Point<T>& p, T* g) const;            // p.d is valid while all g <= 0
+//     template <class T>
+//     void onSwitch(Index i, const Point<T>& p, T* d) const;    // g[i] > 0: changes d (a copy of p.d)
+//   and, where they exist:
+//     template <class T>
+//     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;  // what jumps; p.d is the new one
+//     template <class T>
+//     void smoothed(const Point<T>& p, T* d) const;             // d as a smooth function of p
+//     std::string switchName(Index i) const;                    // for messages
+//
+// A switching function that has no meaning in a mode returns -1 there.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <string>
 #include <utility>
 
+#include "core/misuse.h"
 #include "core/system.h"
 
 namespace irk {
 
 /// How position constraints g(t, u) = 0 enter. Design, section 3.
-enum class Formulation { kIndex3, kIndex2 };
+enum class Formulation {
+  kIndex2,           ///< dg/dt = 0
+  kIndex3,           ///< g = 0
+  kGgl,              ///< g = 0 and dg/dt = 0 with u' = v + G^T mu; Gear, Gupta, Leimkuhler 1985
+  kIndex2Projected,  ///< dg/dt = 0, v projected on it after each step; HW II (VII.7)
+  kIndex1,           ///< d2g/dt2 = 0
+};
 
 /// Whether constraint rows are multiplied by 1/h^power (paper, section 4). Off only to show why.
 enum class ConstraintScaling { kOn, kOff };
+
+/// Which system is made of a problem.
+struct SystemOptions {
+  Formulation formulation = Formulation::kIndex2;
+  ConstraintScaling scaling = ConstraintScaling::kOn;
+  Discontinuity discontinuity = Discontinuity::kIgnore;
+};
 
 /// Views of the residual rows that a problem writes. z: the nz - constraints rows of the algebraic
 /// equations that are not position constraints.
@@ -39,6 +72,9 @@ template <class T>
 struct Rows {
   VecView<T> u, x, z;
 };
+
+/// Largest numbers of discrete states and of switching functions.
+constexpr Index kMostDiscrete = 16;
 
 namespace detail {
 
@@ -76,92 +112,189 @@ struct SinkRow {
 
 }  // namespace detail
 
-/// A problem struct P in one formulation, over one scalar.
+/// A problem struct P in one formulation (all but GGL, core/ggl.h), over one scalar.
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
  public:
-  ProblemSystem(P problem, Formulation formulation, ConstraintScaling scaling)
-      : problem_(std::move(problem)), formulation_(formulation), sizes_(problem_.sizes()) {
-    const bool index3 = formulation == Formulation::kIndex3;
-    row_powers_.assign(static_cast<std::size_t>(sizes_.n()), 0);
-    error_powers_.u.assign(static_cast<std::size_t>(sizes_.nu), 0);
-    error_powers_.v.assign(static_cast<std::size_t>(sizes_.nu), index3 && hasConstraints() ? 1 : 0);
-    error_powers_.x.assign(static_cast<std::size_t>(sizes_.nx), 0);
-    error_powers_.z.assign(static_cast<std::size_t>(sizes_.nz), 0);
-    for (Index i = 0; i < sizes_.constraints; ++i) {
-      if (scaling == ConstraintScaling::kOn) {
-        row_powers_[static_cast<std::size_t>(sizes_.nu + sizes_.nx + i)] = index3 ? 2 : 1;
+  /// Throws Misuse for `smooth` where the problem switches but has no regularisation.
+  ProblemSystem(P problem, const SystemOptions& options)
+      : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
+    if (sizes_.discrete > kMostDiscrete || sizes_.switches > kMostDiscrete) {
+      throw Misuse("a problem has " + std::to_string(sizes_.discrete) + " discrete states and " +
+                   std::to_string(sizes_.switches) + " switching functions, allowed are " +
+                   std::to_string(kMostDiscrete) + " each");
+    }
+    if (smooth() && kHasSwitching && !kHasSmoothed) {
+      throw Misuse("illegal combination: discontinuity 'smooth' with a scene that has no "
+                   "regularisation: its discrete state is a memory");
+    }
+    const int index = constraintIndex();
+    const auto all = [](Index n, int power) {
+      return std::vector<int>(static_cast<std::size_t>(n), power);
+    };
+    row_powers_ = all(sizes_.n(), 0);
+    error_powers_ = {all(sizes_.nu, 0), all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
+                     all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
+    for (Index i = 0; i < sizes_.nz; ++i) {
+      const bool constraint = i < sizes_.constraints;
+      const int power = (constraint ? index : algebraicIndex()) - 1;
+      error_powers_.z[static_cast<std::size_t>(i)] = power;
+      if (options.scaling == ConstraintScaling::kOn) {
+        row_powers_[static_cast<std::size_t>(sizes_.nu + sizes_.nx + i)] = power;
       }
-      error_powers_.z[static_cast<std::size_t>(i)] = index3 ? 2 : 1;
     }
   }
 
   Sizes sizes() const override { return sizes_; }
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
-    evaluateAt(level, p, r);
+    evaluateAt(level, p, r.data());
   }
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
-    evaluateAt(level, p, r);
+    evaluateAt(level, p, r.data());
+  }
+  void switching(const Point<Real>& p, VecView<Real> g) const override {
+    if constexpr (kHasSwitching) problem_.switching(p, g.data());
+  }
+  void onSwitch(Index i, State<Real>& state) const override {
+    if constexpr (kHasSwitching) {
+      Vec<Real> d = state.d;
+      problem_.onSwitch(i, pointOf(state), d.data());
+      state.d = d;
+      if constexpr (requires { problem_.jump(i, pointOf(state), d.data(), d.data(), d.data()); }) {
+        State<Real> before = state;
+        problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+      }
+    }
+  }
+  std::string switchName(Index i) const override {
+    if constexpr (requires { problem_.switchName(i); }) return problem_.switchName(i);
+    return System<Real>::switchName(i);
+  }
+  Discontinuity discontinuity() const override { return options_.discontinuity; }
+  bool projectsVelocity() const override {
+    return options_.formulation == Formulation::kIndex2Projected && sizes_.constraints > 0;
   }
   const std::vector<int>& rowPowers() const override { return row_powers_; }
   const ErrorPowers& errorPowers() const override { return error_powers_; }
   State<Real> fromScene(const State<Real>& scene) const override { return scene; }
   State<Real> toScene(const State<Real>& state) const override { return state; }
 
- private:
-  bool hasConstraints() const { return sizes_.constraints > 0; }
-
+  /// All rows at p, the discrete state as the options treat it.
   template <class T>
-  void evaluateAt(Level level, const Point<T>& p, VecView<T> r) const {
-    const Index nc = sizes_.constraints;
-    T* g = r.data() + sizes_.nu + sizes_.nx;
-    problem_.residual(p, Rows<T>{VecView<T>(r.data(), sizes_.nu),
-                                 VecView<T>(r.data() + sizes_.nu, sizes_.nx),
-                                 VecView<T>(g + nc, sizes_.nz - nc)});
-    if constexpr (requires(T* out) { problem_.constraints(p.t, p.u, out); }) {
-      if (nc == 0) return;
-      switch (constraintLevel(level)) {
-        case Level::kFormulated:
-        case Level::kPosition:
-          problem_.constraints(p.t, p.u, g);
-          return;
-        case Level::kVelocity: {
-          const Rate<T> t{p.t, T(1.0)};
-          problem_.constraints(t, detail::VelocityView<T>{p.u, p.v},
-                               detail::SinkRow<detail::RateSink<T>, T>{g});
-          return;
-        }
-        case Level::kAcceleration: {
-          const Rate<Rate<T>> t{{p.t, T(1.0)}, {T(1.0), T(0.0)}};
-          problem_.constraints(t, detail::AccelerationView<T>{p.u, p.v, p.a},
-                               detail::SinkRow<detail::SecondRateSink<T>, T>{g});
-          return;
-        }
+  void evaluateAt(Level level, const Point<T>& p, T* r) const {
+    const bool implied = kHasSwitching && options_.discontinuity == Discontinuity::kIgnore;
+    if (sizes_.switches == 0 || !(implied || smooth())) return evaluateFrozen(level, p, r);
+    std::array<T, kMostDiscrete> d;
+    std::copy(p.d.data(), p.d.data() + p.d.size(), d.begin());
+    const Point<T> at{p.t, p.u, p.v, p.x, p.a, p.k, p.z, {d.data(), p.d.size()}};
+    if (smooth()) {
+      if constexpr (kHasSmoothed) problem_.smoothed(p, d.data());
+    } else {
+      imply(at, d);
+    }
+    evaluateFrozen(level, at, r);
+  }
+
+  /// g, dg/dt or d2g/dt2 at p.
+  template <class T>
+  void constraintRows(Level level, const Point<T>& p, T* g) const {
+    if constexpr (requires { problem_.constraints(p.t, p.u, g); }) {
+      if (level == Level::kVelocity) {
+        problem_.constraints(Rate<T>{p.t, T(1.0)}, detail::VelocityView<T>{p.u, p.v},
+                             detail::SinkRow<detail::RateSink<T>, T>{g});
+      } else if (level == Level::kAcceleration) {
+        problem_.constraints(Rate<Rate<T>>{{p.t, T(1.0)}, {T(1.0), T(0.0)}},
+                             detail::AccelerationView<T>{p.u, p.v, p.a},
+                             detail::SinkRow<detail::SecondRateSink<T>, T>{g});
+      } else {
+        problem_.constraints(p.t, p.u, g);
       }
     }
   }
 
+  const P& problem() const { return problem_; }
+
+ private:
+  static constexpr bool kHasSwitching =
+      requires(const P& problem, const Point<Real>& p, Real* out) { problem.switching(p, out); };
+  static constexpr bool kHasSmoothed =
+      requires(const P& problem, const Point<Real>& p, Real* out) { problem.smoothed(p, out); };
+
+  bool smooth() const { return options_.discontinuity == Discontinuity::kSmooth; }
+
+  /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.
+  static int algebraicIndex() {
+    if constexpr (requires { P::kAlgebraicIndex; }) return P::kAlgebraicIndex;
+    return 1;
+  }
+  int constraintIndex() const {
+    switch (options_.formulation) {
+      case Formulation::kIndex3: return 3;
+      case Formulation::kIndex1: return 1;
+      case Formulation::kIndex2:
+      case Formulation::kIndex2Projected:
+      case Formulation::kGgl: return 2;
+    }
+    return 2;
+  }
+
+  // The mode that p implies: due switches done until none is due. A cascade that does not end is
+  // cut: the error estimate has to deal with what is left.
+  template <class T>
+  void imply(const Point<T>& p, std::array<T, kMostDiscrete>& d) const {
+    if constexpr (kHasSwitching) {
+      std::array<T, kMostDiscrete> g;
+      for (Index pass = 0; pass < 2 * sizes_.switches; ++pass) {
+        problem_.switching(p, g.data());
+        Index due = 0;
+        while (due < sizes_.switches && !(g[static_cast<std::size_t>(due)] > T(0.0))) ++due;
+        if (due == sizes_.switches) return;
+        std::array<T, kMostDiscrete> next = d;
+        problem_.onSwitch(due, p, next.data());
+        d = next;
+      }
+    }
+  }
+
+  template <class T>
+  void evaluateFrozen(Level level, const Point<T>& p, T* r) const {
+    const Index nc = sizes_.constraints;
+    T* g = r + sizes_.nu + sizes_.nx;
+    problem_.residual(p, Rows<T>{VecView<T>(r, sizes_.nu), VecView<T>(r + sizes_.nu, sizes_.nx),
+                                 VecView<T>(g + nc, sizes_.nz - nc)});
+    if (nc > 0) constraintRows(constraintLevel(level), p, g);
+  }
+
   Level constraintLevel(Level level) const {
     if (level != Level::kFormulated) return level;
-    switch (formulation_) {
-      case Formulation::kIndex3: return Level::kPosition;
-      case Formulation::kIndex2: return Level::kVelocity;
+    switch (constraintIndex()) {
+      case 3: return Level::kPosition;
+      case 2: return Level::kVelocity;
+      default: return Level::kAcceleration;
     }
-    return level;
   }
 
   P problem_;
-  Formulation formulation_;
+  SystemOptions options_;
   Sizes sizes_;
   std::vector<int> row_powers_;
   ErrorPowers error_powers_;
 };
 
+}  // namespace irk
+
+#include "core/ggl.h"
+
+namespace irk {
+
 template <class Real, class P>
-std::shared_ptr<const System<Real>> makeSystem(
-    P problem, Formulation formulation = Formulation::kIndex2,
-    ConstraintScaling scaling = ConstraintScaling::kOn) {
-  return std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), formulation, scaling);
+std::shared_ptr<const System<Real>> makeSystem(P problem, const SystemOptions& options = {}) {
+  if constexpr (requires(const Vec<Real>& u, Real* g) { problem.constraints(g[0], u, g); }) {
+    if (options.formulation == Formulation::kGgl && problem.sizes().constraints > 0) {
+      return std::make_shared<const GglSystem<P, Real>>(std::move(problem), options);
+    }
+  }
+  return std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options);
 }
 
 }  // namespace irk

@@ -66,19 +66,9 @@ Point<Real> StageEquations<Real>::stage(const Mat<Real>& W, Index i) const {
           {X_.data() + i * sizes_.nx, sizes_.nx},
           {w, sizes_.nu},
           {w + sizes_.nu, sizes_.nx},
-          {w + sizes_.nu + sizes_.nx, sizes_.nz}};
+          {w + sizes_.nu + sizes_.nx, sizes_.nz},
+          {from_->d.data(), sizes_.discrete}};
 }
-
-namespace {
-template <class Real>
-Point<Real> pointOf(const State<Real>& s) {
-  const Real* const w = s.w.data();
-  const Index nu = s.u.size(), nx = s.x.size();
-  return {s.t,        {s.u.data(), nu}, {s.v.data(), nu},
-          {s.x.data(), nx}, {w, nu},    {w + nu, nx},
-          {w + nu + nx, s.w.size() - nu - nx}};
-}
-}  // namespace
 
 template <class Real>
 Point<Real> StageEquations<Real>::start() const {
@@ -102,6 +92,7 @@ void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
   const auto k = W.middleRows(sizes_.nu, sizes_.nx);
   const auto z = W.bottomRows(sizes_.nz);
   to.t = from_->t + h_;
+  to.d = from_->d;
   to.u = from_->u + h_ * from_->v;
   to.u.noalias() += ((h_ * h_) * a) * scheme_.bA;
   to.v = from_->v;

@@ -16,6 +16,10 @@ struct Counters {
   std::int64_t steps_accepted = 0;
   std::int64_t steps_rejected_error = 0;
   std::int64_t steps_rejected_newton = 0;
+  std::int64_t switches = 0;                  ///< changes of the discrete state
+  std::int64_t discontinuous_iterations = 0;  ///< `iterate`: steps repeated with a new discrete state
+  std::int64_t located_events = 0;            ///< `locate`: steps that end at a switch
+  std::int64_t chattering = 0;                ///< runs of steps that each end with a switch
 
   /// f(name, value) for each, in this order: the columns of every table.
   template <class F>
@@ -30,6 +34,10 @@ struct Counters {
     f("steps_accepted", steps_accepted);
     f("steps_rejected_error", steps_rejected_error);
     f("steps_rejected_newton", steps_rejected_newton);
+    f("switches", switches);
+    f("discontinuous_iterations", discontinuous_iterations);
+    f("located_events", located_events);
+    f("chattering", chattering);
   }
 };
 

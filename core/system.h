@@ -1,6 +1,7 @@
 // The one equation: r(t; u, v, x; a, k, z) = 0 with v = u', a = u'', k = x'.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scalar.h"
@@ -16,6 +17,10 @@ struct Sizes {
   /// How many of the nz algebraic unknowns are multipliers of position constraints g(t, u) = 0.
   /// They come first in z.
   Index constraints = 0;
+  /// Numbers of the discrete state: constant but at switches.
+  Index discrete = 0;
+  /// Switching functions.
+  Index switches = 0;
 
   Index n() const { return nu + nx + nz; }
   /// Components of the state (u, v, x, z).
@@ -28,6 +33,7 @@ struct Point {
   T t;
   ConstVec<T> u, v, x;
   ConstVec<T> a, k, z;
+  ConstVec<T> d{nullptr, 0};  ///< discrete state
 };
 
 /// The state between two steps, with the last known w = (a, k, z) as start values of the next step.
@@ -36,18 +42,43 @@ struct State {
   Real t{};
   Vec<Real> u, v, x;
   Vec<Real> w;
+  Vec<Real> d;  ///< discrete state: constant between switches
 
   explicit State(const Sizes& n = {})
       : u(Vec<Real>::Zero(n.nu)),
         v(Vec<Real>::Zero(n.nu)),
         x(Vec<Real>::Zero(n.nx)),
-        w(Vec<Real>::Zero(n.n())) {}
+        w(Vec<Real>::Zero(n.n())),
+        d(Vec<Real>::Zero(n.discrete)) {}
   auto a() { return w.head(u.size()); }
   auto a() const { return w.head(u.size()); }
   auto k() { return w.segment(u.size(), x.size()); }
   auto k() const { return w.segment(u.size(), x.size()); }
   auto z() { return w.tail(w.size() - u.size() - x.size()); }
   auto z() const { return w.tail(w.size() - u.size() - x.size()); }
+};
+
+/// Views of a state's numbers.
+template <class Real>
+Point<Real> pointOf(const State<Real>& s) {
+  const Real* const w = s.w.data();
+  const Index nu = s.u.size(), nx = s.x.size();
+  return {s.t,
+          {s.u.data(), nu},
+          {s.v.data(), nu},
+          {s.x.data(), nx},
+          {w, nu},
+          {w + nu, nx},
+          {w + nu + nx, s.w.size() - nu - nx},
+          {s.d.data(), s.d.size()}};
+}
+
+/// How switches are treated. Design, section 3.
+enum class Discontinuity {
+  kIgnore,   ///< every residual takes the mode its point implies; jumps are left to the error estimate
+  kIterate,  ///< discrete states frozen in Newton, updated after it, the step repeated until they stay
+  kLocate,   ///< frozen; the first root of a switching function ends the step, then a restart
+  kSmooth,   ///< the problem's regularisation: nothing switches
 };
 
 /// Which residual. `kFormulated` is the one that is integrated; the others replace its rows of
@@ -79,10 +110,30 @@ class System {
   virtual const std::vector<int>& rowPowers() const = 0;
   virtual const ErrorPowers& errorPowers() const = 0;
 
+  /// Which switching functions exist follows from sizes(). g (sizes().switches): the discrete state
+  /// of p is valid while every g_i <= 0; g_i > 0 says that switch i is due.
+  virtual void switching(const Point<Real>& p, VecView<Real> g) const {
+    static_cast<void>(p);
+    g.setConstant(Real(-1));
+  }
+  /// What switch i does: the new discrete state, and u, v, x where the scene makes them jump.
+  virtual void onSwitch(Index i, State<Real>& state) const {
+    static_cast<void>(i);
+    static_cast<void>(state);
+  }
+  /// For messages: "contact".
+  virtual std::string switchName(Index i) const { return std::to_string(i); }
+  /// How its evaluations treat the discrete state.
+  virtual Discontinuity discontinuity() const { return Discontinuity::kIgnore; }
+  /// Whether v is projected on dg/dt = 0 after each step.
+  virtual bool projectsVelocity() const { return false; }
+
   /// Translate between the scene's unknowns (u, v, x, z as the problem names them) and the
   /// formulation's. Identity for all but GGL.
   virtual State<Real> fromScene(const State<Real>& scene) const = 0;
   virtual State<Real> toScene(const State<Real>& state) const = 0;
+  /// Whether a = u'' is an unknown of its own (in GGL it is part of k).
+  virtual bool secondOrder() const { return true; }
 };
 
 }  // namespace irk

@@ -20,7 +20,7 @@ class Prepared final : public PreparedRun {
         scene_(makeScene<Real>(spec_.scene, spec_.settings)),
         references_(references(spec_.scene, spec_.settings)),
         tableau_(makeTableau<Real>(spec_.method)),
-        integrator_(scene_.system(spec_.formulation, spec_.scaling), tableau_, spec_.options,
+        integrator_(scene_.system({spec_.formulation, spec_.scaling, spec_.discontinuity}), tableau_, spec_.options,
                     scene_.scale) {}
 
   RunRecord execute(const Watch& watch) override {

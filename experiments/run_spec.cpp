@@ -56,6 +56,8 @@ constexpr SpecField numberField() {
 
 constexpr NumberRange kRelativeTolerance{[](double x) { return x >= 0 && x < 1; }, "0 <= rtol < 1"};
 constexpr NumberRange kResidualTolerance{[](double x) { return x > 0 && x < 1; }, "0 < x < 1"};
+constexpr NumberRange kContractivity{[](double x) { return x > 0 && x <= 1; }, "0 < x <= 1"};
+constexpr NumberRange kReuse{[](double x) { return x >= 0 && x < 1; }, "0 <= x < 1"};
 constexpr std::int64_t kMostSteps = 1'000'000'000'000;
 
 #define IRK_MEMBER(path) \
@@ -85,6 +87,7 @@ constexpr SpecField kFields[] = {
      [] { return std::string("family_stages (irk list methods) or a tableau file"); }},
     axisField<IRK_MEMBER(formulation)>("formulation"),
     axisField<IRK_MEMBER(scaling)>("scaling"),
+    axisField<IRK_MEMBER(discontinuity)>("discontinuity"),
     axisField<IRK_MEMBER(scalar)>("scalar"),
     axisField<IRK_MEMBER(options.derivatives)>("derivatives"),
     axisField<IRK_MEMBER(options.newton.kind)>("newton"),
@@ -93,8 +96,25 @@ constexpr SpecField kFields[] = {
     axisField<IRK_MEMBER(options.step.estimate)>("estimate"),
     axisField<IRK_MEMBER(options.step.control)>("control"),
     axisField<IRK_MEMBER(options.tolerances.norm)>("norm"),
+    axisField<IRK_MEMBER(options.jacobian)>("jacobian"),
     axisField<IRK_MEMBER(options.jacobian_point)>("jacobian_point"),
     IRK_NUMBER("residual_tolerance", options.newton.residual_tolerance, kResidualTolerance),
+    IRK_NUMBER("contractivity_limit", options.newton.contractivity_limit, kContractivity),
+    {"contractivity_after",
+     [](const RunSpec& s) { return std::to_string(s.options.newton.contractivity_after); },
+     [](RunSpec& s, std::string_view value) {
+       s.options.newton.contractivity_after =
+           static_cast<int>(parseInteger("contractivity_after", value, 0, 1000));
+     },
+     [] { return std::string("iterations, 0 to 1000"); }},
+    {"max_iterations",
+     [](const RunSpec& s) { return std::to_string(s.options.newton.max_iterations); },
+     [](RunSpec& s, std::string_view value) {
+       s.options.newton.max_iterations =
+           static_cast<int>(parseInteger("max_iterations", value, 1, 1000));
+     },
+     [] { return std::string("Newton iterations, 1 to 1000"); }},
+    IRK_NUMBER("keep_jacobian_below", options.newton.keep_jacobian_below, kReuse),
     IRK_NUMBER("kappa", options.newton.kappa, kNotNegative),
     IRK_NUMBER("h", options.step.h, kNotNegative),
     IRK_NUMBER("h_max", options.step.h_max, kPositive),

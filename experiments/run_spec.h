@@ -25,6 +25,7 @@ struct RunSpec {
   std::string method = "radau_iia_5";  ///< an id or the path of a tableau file
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
+  Discontinuity discontinuity = Discontinuity::kIgnore;
   ScalarKind scalar = ScalarKind::kDouble;
   IntegratorOptions options;
   /// NaN: the scene's own.

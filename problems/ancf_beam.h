@@ -123,10 +123,7 @@ class AncfBeam {
     Eigen::SparseMatrix<Real> M(nu_, nu_);
     M.setFromTriplets(entries.begin(), entries.end());
     Vec<Real> force(nu_);  // the residual at a = 0
-    const Point<Real> p{
-        s.t,          {s.u.data(), nu_}, {s.v.data(), nu_}, {s.x.data(), 0}, {s.w.data(), nu_},
-        {nullptr, 0}, {nullptr, 0}};
-    residual<Real>(p, Rows<Real>{{force.data(), nu_}, {nullptr, 0}, {nullptr, 0}});
+    residual<Real>(pointOf(s), Rows<Real>{{force.data(), nu_}, {nullptr, 0}, {nullptr, 0}});
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> ldlt(M);
     s.w = ldlt.solve(force);
     return s;

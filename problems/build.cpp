@@ -130,7 +130,7 @@ Vec<double> scales(std::initializer_list<double> values) {
 
 template <class Real>
 void completeStart(Scene<Real>& scene) {
-  const auto system = scene.system(Formulation::kIndex2, ConstraintScaling::kOn);
+  const auto system = scene.system({});
   const StartReport report =
       makeConsistent(*system, DerivativeSource::kAutomatic, true, scene.start);
   if (report.outcome != Outcome::kSuccess) {

@@ -53,9 +53,8 @@ Vec<double> scales(std::initializer_list<double> values);
 template <class Real, class P>
 void setProblem(Scene<Real>& scene, P problem) {
   scene.start = State<Real>(problem.sizes());
-  scene.system = [problem = std::move(problem)](Formulation formulation,
-                                                ConstraintScaling scaling) {
-    return makeSystem<Real>(problem, formulation, scaling);
+  scene.system = [problem = std::move(problem)](const SystemOptions& options) {
+    return makeSystem<Real>(problem, options);
   };
 }
 

@@ -11,13 +11,6 @@ namespace {
 
 constexpr int kMaxIterations = 50;
 
-template <class Real>
-Point<Real> pointOf(const State<Real>& s, const Sizes& n) {
-  const Real* const w = s.w.data();
-  return {s.t,       {s.u.data(), n.nu}, {s.v.data(), n.nu},     {s.x.data(), n.nx},
-          {w, n.nu}, {w + n.nu, n.nx},   {w + n.nu + n.nx, n.nz}};
-}
-
 // dr/d(u, x, z): columns of D2, D1 and D0.
 template <class Real>
 Mat<Real> staticJacobian(const Linearization<Real>& D, const Sizes& n) {
@@ -46,8 +39,8 @@ Equilibrium<Real> findEquilibrium(const System<Real>& system, const State<Real>&
   Vec<Real> r(n.n());
   while (found.iterations < kMaxIterations) {
     ++found.iterations;
-    system.evaluate(Level::kPosition, pointOf(s, n), VecView<Real>(r.data(), n.n()));
-    differentiator.evaluate(Level::kPosition, pointOf(s, n), D);
+    system.evaluate(Level::kPosition, pointOf(s), VecView<Real>(r.data(), n.n()));
+    differentiator.evaluate(Level::kPosition, pointOf(s), D);
     const Eigen::FullPivLU<Mat<Real>> lu(staticJacobian(D, n));
     const Vec<Real> step = lu.solve(r);
     if (!r.allFinite() || !step.allFinite()) {

@@ -32,7 +32,7 @@ struct Parameter {
 template <class Real>
 struct Scene {
   std::string id;
-  std::function<std::shared_ptr<const System<Real>>(Formulation, ConstraintScaling)> system;
+  std::function<std::shared_ptr<const System<Real>>(const SystemOptions&)> system;
   State<Real> start;  ///< t0, u, v, x consistent; w = (a, k, z) at least a good guess
   double t_end = 1;
   std::vector<std::string> names;  ///< u, v, x, z in order: "theta", "theta'", "p0", "lambda"
@@ -46,7 +46,7 @@ struct Scene {
   };
   std::vector<Output> outputs;
 
-  Sizes sizes() const { return system(Formulation::kIndex2, ConstraintScaling::kOn)->sizes(); }
+  Sizes sizes() const { return system({})->sizes(); }
 };
 
 /// One line of the catalogue.

@@ -23,7 +23,7 @@ struct Kernel {
 
   Kernel(StageSolverKind kind, Index stages) {
     const auto scene = makeScene<double>("ancf_pendulum", {{"elements", "24"}});
-    const auto system = scene.system(Formulation::kIndex2, ConstraintScaling::kOn);
+    const auto system = scene.system({});
     const Sizes n = system->sizes();
     at.emplace_back(Pattern::dense(n.n()));
     const auto& start = scene.start;

@@ -73,7 +73,7 @@ TEST(Linearization, AutomaticIsExactToRoundOff) {
 
 TEST(Linearization, ConstraintRowsAreTheDerivativesOfTheirLevel) {
   for (const auto& formulation : named<Formulation>()) {
-    const auto system = makeSystem<double>(CartesianPendulum{}, formulation.value);
+    const auto system = makeSystem<double>(CartesianPendulum{}, {formulation.value});
     expectNear(linearize(*system, DerivativeSource::kAutomatic),
                linearize(*system, DerivativeSource::kCentral), 1e-9);
   }

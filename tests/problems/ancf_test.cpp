@@ -25,7 +25,7 @@ Equilibrium<Real> bentCantilever(const std::string& elements) {
     const double f = 3 * 2.07e11 * 1e-4 / 12 / 4 * static_cast<double>(load);
     return makeScene<Real>("ancf_cantilever", {{"elements", elements},
                                                {"f", load == 1 ? "3EI/L^2" : std::to_string(f)}})
-        .system(Formulation::kIndex3, ConstraintScaling::kOn);
+        .system({Formulation::kIndex3});
   };
   return findEquilibrium<Real>(loaded, scene.start, 10);
 }
@@ -73,7 +73,7 @@ TEST(Ancf, FiftyDigitEquilibriumLeavesNoResidual) {
   const auto bent = bentCantilever<mp50>("2");
   ASSERT_EQ(bent.outcome, Outcome::kSuccess);
   const auto scene = makeScene<mp50>("ancf_cantilever");
-  const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+  const auto system = scene.system({Formulation::kIndex3});
   const auto r = residualAt<mp50, mp50>(*system, Level::kPosition, 0, pointVector(bent.state));
   EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-40) * 2.07e9);  // of EA
 }
@@ -88,7 +88,7 @@ TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
     s.v.setZero();
     s.w.setZero();
     s.u = perturbedPoint(nominal, n).head(n.nu).cast<mp50>();
-    const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+    const auto system = scene.system({Formulation::kIndex3});
     const auto r = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(s));
     const mp50 size = r.lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < n.nu; ++i) {
@@ -108,7 +108,7 @@ TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
 TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
   const auto scene = makeScene<mp50>("ancf_pendulum");
   const Sizes n = scene.sizes();
-  const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+  const auto system = scene.system({Formulation::kIndex3});
   State<mp50> s = scene.start, rest = scene.start;
   for (Index i = 0; i < n.nu; ++i) s.v[i] = mp50(static_cast<double>(i % 5) - 1.5);
   rest.v.setZero();
@@ -124,13 +124,13 @@ TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
 TEST(Equilibrium, SaysThatThereIsNone) {
   // The constant torque of the slider-crank has no equilibrium but where the crank cannot turn.
   const auto scene = makeScene<double>("slider_crank", {{"coordinates", "minimal"}});
-  const auto system = scene.system(Formulation::kIndex2, ConstraintScaling::kOn);
+  const auto system = scene.system({});
   EXPECT_NE(findEquilibrium(*system, scene.start).outcome, Outcome::kSuccess);
 }
 
 TEST(Equilibrium, FindsMultipliers) {
   const auto scene = makeScene<double>("pendulum");
-  const auto system = scene.system(Formulation::kIndex2, ConstraintScaling::kOn);
+  const auto system = scene.system({});
   State<double> guess = scene.start;
   guess.u << 0.3, -0.9;
   guess.w[2] = 5;  // without a force in the rod every direction is neutral: singular

@@ -16,7 +16,7 @@ TEST(Exact, SolvesTheEquations) {
     SCOPED_TRACE(c.name());
     const auto scene = makeScene<mp50>(c.id, c.settings);
     if (!scene.exact) continue;
-    const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+    const auto system = scene.system({Formulation::kIndex3});
     for (const double fraction : kTimes) {
       const mp50 t = mp50(fraction) * scene.t_end / 2;
       const auto s = scene.exact(t);

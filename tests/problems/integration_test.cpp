@@ -37,7 +37,7 @@ std::vector<double> knownSwitches(const SceneCase& c) {
 State<double> stateAt(const SceneCase& c, const Scene<double>& scene, State<double> from,
                       double t) {
   static const Tableau<double> tableau = makeTableau<double>("radau_iia_5");
-  Integrator<double> integrator(scene.system(Formulation::kIndex2, ConstraintScaling::kOn), tableau,
+  Integrator<double> integrator(scene.system({}), tableau,
                                 options(), scene.scale);
   std::vector<double> stops = knownSwitches(c);
   stops.push_back(t);

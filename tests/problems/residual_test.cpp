@@ -31,8 +31,8 @@ void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<
                             Formulation formulation, Level level) {
   const auto scene = makeScene<double>(c.id, c.settings);
   const auto precise = makeScene<mp50>(c.id, c.settings);
-  const auto system = scene.system(formulation, ConstraintScaling::kOn);
-  const auto precise_system = precise.system(formulation, ConstraintScaling::kOn);
+  const auto system = scene.system({formulation});
+  const auto precise_system = precise.system({formulation});
   const Mat<double> J = automaticJacobian<double>(*system, level, 0.0, y);
   const Mat<double> D = differenceJacobian(*precise_system, level, 0, y, scale);
   const Vec<double> magnitude = y.cwiseAbs().cwiseMax(scale);
@@ -68,7 +68,7 @@ TEST(Residual, MultipliersActThroughTheConstraintJacobian) {
     SCOPED_TRACE(c.name());
     const auto scene = makeScene<double>(c.id, c.settings);
     const Sizes n = scene.sizes();
-    const auto system = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
+    const auto system = scene.system({Formulation::kIndex3});
     const Mat<double> J =
         automaticJacobian<double>(*system, Level::kPosition, 0.0, perturbedPoint(scene, n));
     const Index first = n.nu + n.nx;
@@ -92,8 +92,8 @@ TEST(Residual, FiftyDigitsAgreeWithDouble) {
     const Sizes n = scene.sizes();
     const Vec<double> y = perturbedPoint(scene, n);
     for (const Formulation formulation : kFormulations) {
-      const auto system = scene.system(formulation, ConstraintScaling::kOn);
-      const auto precise_system = precise.system(formulation, ConstraintScaling::kOn);
+      const auto system = scene.system({formulation});
+      const auto precise_system = precise.system({formulation});
       const double t = 0.25;
       const Vec<double> r = residualAt<double, double>(*system, Level::kFormulated, t, y);
       const Vec<mp50> exact =
@@ -115,8 +115,8 @@ TEST(Residual, FormulationsDifferInConstraintRowsOnly) {
     const auto scene = makeScene<double>(c.id, c.settings);
     const Sizes n = scene.sizes();
     const Vec<double> y = perturbedPoint(scene, n);
-    const auto index3 = scene.system(Formulation::kIndex3, ConstraintScaling::kOn);
-    const auto index2 = scene.system(Formulation::kIndex2, ConstraintScaling::kOff);
+    const auto index3 = scene.system({Formulation::kIndex3});
+    const auto index2 = scene.system({Formulation::kIndex2, ConstraintScaling::kOff});
     const Vec<double> r3 = residualAt<double, double>(*index3, Level::kFormulated, 0, y);
     const Vec<double> r2 = residualAt<double, double>(*index2, Level::kFormulated, 0, y);
     EXPECT_EQ(r3.head(n.nu + n.nx), r2.head(n.nu + n.nx));

@@ -11,8 +11,8 @@ void expectConsistent(const SceneCase& c, const Real& eps) {
   using std::abs;
   const auto scene = makeScene<Real>(c.id, c.settings);
   const auto reference = makeScene<double>(c.id, c.settings);
-  const auto system = scene.system(Formulation::kIndex2, ConstraintScaling::kOn);
-  const auto reference_system = reference.system(Formulation::kIndex2, ConstraintScaling::kOn);
+  const auto system = scene.system({});
+  const auto reference_system = reference.system({});
   const Sizes n = system->sizes();
   const Vec<Real> y = pointVector(scene.start);
   const Vec<double> y_double = pointVector(reference.start);
