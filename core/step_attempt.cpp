@@ -80,6 +80,7 @@ class Doubling final : public StepAttempt<Real> {
       result.newton_iterations += step.newton_iterations;
       result.outcome = step.outcome;
       if (step.switched >= 0) result.switched = step.switched;
+      result.mode_error = std::max(result.mode_error, step.mode_error);
       return step.outcome == Outcome::kSuccess;
     };
     const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
@@ -88,7 +89,8 @@ class Doubling final : public StepAttempt<Real> {
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
-    result.error = error(to, static_cast<double>(h));
+    // Doubling is blind where the whole step and its halves carry the same wrong mode.
+    result.error = std::max(error(to, static_cast<double>(h)), result.mode_error);
     if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
     return result;
   }

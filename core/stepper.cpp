@@ -35,6 +35,8 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       W_(system.sizes().n(), scheme.s),
       switches_(system),
       frozen_(system.sizes()),
+      first_mode_(system.sizes()),
+      ones_(Vec<double>::Ones(system.sizes().components())),
       g_before_(system.sizes().switches) {
   stages_.W.setZero(system.sizes().n(), scheme.s);
   if (system.projectsVelocity()) {
@@ -90,6 +92,7 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
                                  const Real& h, State<Real>& to, StepResult& result) {
   result.switch_at = firstDue(from, to);
   done_.clear();
+  first_mode_ = to;
   std::vector<Index> done;
   for (int i = 0;; ++i) {
     done.clear();
@@ -109,6 +112,10 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
     solve(past, frozen_, h, to, JacobianUse::kKeep, result);
     if (result.outcome != Outcome::kSuccess) return;
   }
+  if (done_.empty()) return;
+  // Multipliers jump with the mode; u, v, x do not.
+  first_mode_.w = to.w;
+  result.mode_error = norm_.difference(first_mode_, to, static_cast<double>(h), ones_);
   for (const Index k : done_) system_.jump(k, to);
 }
 

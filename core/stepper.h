@@ -18,6 +18,9 @@ struct StepResult {
   Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
+  /// `iterate`: the difference, in the error norm, between the step in its first mode and in its
+  /// last: what the wrong one of them does over the whole step.
+  double mode_error = 0;
 };
 
 /// Attempts steps; keeps the stages of its last solved step. Owns all scratch of a step. A failed
@@ -59,6 +62,8 @@ class Stepper {
   std::unique_ptr<VelocityProjection<Real>> projection_;
   Switches<Real> switches_;
   State<Real> frozen_;       // `iterate`: the start with another discrete state
+  State<Real> first_mode_;   // and the end in the first one
+  Vec<double> ones_;
   Vec<Real> g_before_;
   std::vector<Index> done_;  // switches of the last discontinuous iteration
 };

