@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "experiments/numbers.h"
@@ -17,9 +16,6 @@ namespace {
 
 constexpr double kAgreement = 0.2;
 
-constexpr std::string_view kGroupColumns[] = {"scene", "settings", "formulation", "method",
-                                              "scalar"};
-
 std::optional<SystemKind> kindOf(const std::string& scene, const std::string& formulation) {
   const Sizes n = makeScene<double>(scene).sizes();
   if (n.nz == 0) return SystemKind::kOde;
@@ -27,19 +23,12 @@ std::optional<SystemKind> kindOf(const std::string& scene, const std::string& fo
   return formulation == "index3" ? SystemKind::kIndex3 : SystemKind::kIndex2;
 }
 
-// Series in the order in which they first appear.
-std::vector<std::vector<const TableRow*>> seriesOf(const Table& runs) {
-  std::map<TableRow, std::size_t> place;
-  std::vector<std::vector<const TableRow*>> series;
-  for (const auto& row : runs.rows) {
-    if (textAt(runs, row, "control") != "fixed" || !succeededAt(runs, row)) continue;
-    TableRow group;
-    for (const auto column : kGroupColumns) group.push_back(textAt(runs, row, column));
-    const auto [at, added] = place.try_emplace(group, series.size());
-    if (added) series.emplace_back();
-    series[at->second].push_back(&row);
+std::vector<const TableRow*> successes(const Table& runs, const RunSeries& series) {
+  std::vector<const TableRow*> rows;
+  for (const auto* row : series.rows) {
+    if (succeededAt(runs, *row)) rows.push_back(row);
   }
-  return series;
+  return rows;
 }
 
 // A user's method has the order that its tableau declares, for ordinary differential equations.
@@ -114,7 +103,11 @@ Table orderTable(const Table& runs) {
   orders.columns = {"scene",     "settings", "formulation", "family", "stages",
                     "component", "order",    "confidence",  "h_min",  "h_max",
                     "points",    "theory",   "verdict",     "reason"};
-  for (const auto& series : seriesOf(runs)) appendOrders(runs, series, orders);
+  for (const auto& series : seriesOf(runs)) {
+    const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";
+    const auto rows = successes(runs, series);
+    if (fixed && !rows.empty()) appendOrders(runs, rows, orders);
+  }
   return orders;
 }
 
