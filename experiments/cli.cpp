@@ -171,6 +171,9 @@ class Program {
     auto* report = verb(app_, "report", "all figures and the report page",
                         [this](Streams s) { return reportCommand(results_, s); });
     addResults(*report);
+    auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
+                        [this](Streams s) { return claimsCommand(results_, s); });
+    addResults(*judged);
   }
 
   void addMerging() {

@@ -31,22 +31,6 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
   return rows;
 }
 
-// A user's method has the order that its tableau declares, for ordinary differential equations.
-double theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind,
-                 char component) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (!kind) return unknown;
-  const auto& family = textAt(runs, row, "family");
-  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
-  const auto order = theoreticalOrder(family, stages, *kind, component);
-  if (order || *kind != SystemKind::kOde) return order.value_or(unknown);
-  try {
-    return makeTableau<double>(textAt(runs, row, "method")).order;
-  } catch (const Misuse&) {  // the file is no longer there
-    return unknown;
-  }
-}
-
 std::string verdictText(const OrderFit& fit, double theory) {
   if (!fit.measurable) return "not_measurable";
   if (std::isnan(theory)) return "no_theory";
@@ -85,7 +69,7 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
                          textAt(runs, first, "formulation"), textAt(runs, first, "family"),
                          textAt(runs, first, "stages")};
     OrderFit fit = fitOrder(points, options);
-    const double theory = theoryFor(runs, first, kind, component);
+    const double theory = theoryFor(runs, first, component);
     // What theory says about components of algebraic systems is a bound for all of them.
     const bool better = fit.measurable && fit.order > theory + kAgreement;
     if (better && kind != SystemKind::kOde) {
@@ -96,6 +80,22 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
 }
 
 }  // namespace
+
+// A user's method has the order that its tableau declares, for ordinary differential equations.
+double theoryFor(const Table& runs, const TableRow& row, char component) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto kind = kindOf(textAt(runs, row, "scene"), textAt(runs, row, "formulation"));
+  if (!kind) return unknown;
+  const auto& family = textAt(runs, row, "family");
+  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
+  const auto order = theoreticalOrder(family, stages, *kind, component);
+  if (order || *kind != SystemKind::kOde) return order.value_or(unknown);
+  try {
+    return makeTableau<double>(textAt(runs, row, "method")).order;
+  } catch (const Misuse&) {  // the file is no longer there
+    return unknown;
+  }
+}
 
 Table orderTable(const Table& runs) {
   Table orders;

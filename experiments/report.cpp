@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "core/misuse.h"
+#include "experiments/claims/claims.h"
 #include "experiments/environment.h"
 #include "experiments/html.h"
 #include "experiments/table.h"
@@ -159,6 +160,8 @@ std::filesystem::path writeReport(const ReportOptions& options) {
       environment += environmentHtml(study, readTable(folder / "runs.csv"));
     }
   }
+  replacePlaceholder(page, "@CLAIMS@",
+                     claimsHtml(ResultTables(options.results), figureFolder(options)));
   replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
   replacePlaceholder(page, "@TABLES@", orders);
   replacePlaceholder(page, "@ENVIRONMENT@", environment);

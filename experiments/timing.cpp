@@ -93,7 +93,8 @@ void timeStudy(const Study& study, const std::filesystem::path& file, Table& run
       unlimited.time_limit = 0;
       const auto run = prepare(unlimited);
       const bool once = candidate.seconds > study.timing.once_above_s;
-      setTiming(runs, *candidate.row, timeRun(*run, study.timing, once ? 1 : study.timing.repetitions));
+      setTiming(runs, *candidate.row,
+                timeRun(*run, study.timing, once ? 1 : study.timing.repetitions));
       writer.append(*candidate.row);
       progress.finished(kindOf(candidate), wallSeconds() - start);
     }
