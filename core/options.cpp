@@ -15,7 +15,9 @@ constexpr Named<Formulation> kFormulations[] = {
     {Formulation::kIndex3, "index3", "position constraints as they are, rows scaled by 1/h^2"},
     {Formulation::kGgl, "ggl", "stabilised index 2: g = 0 and dg/dt = 0, u' = v + G^T mu"},
     {Formulation::kIndex2Projected, "index2_projected", "index 2, v projected after each step"},
-    {Formulation::kIndex1, "index1", "constraints differentiated twice"}};
+    {Formulation::kIndex1, "index1", "constraints differentiated twice"},
+    {Formulation::kFirstOrder, "first_order",
+     "y' = f(t, y): index 1 solved for (a, k), M factorized in every evaluation"}};
 constexpr Named<Discontinuity> kDiscontinuities[] = {
     {Discontinuity::kIgnore, "ignore", "jumps are left to the error estimate (paper)"},
     {Discontinuity::kIterate, "iterate", "modes frozen in Newton, updated after it, step repeated"},

@@ -54,6 +54,7 @@ enum class Formulation {
   kGgl,              ///< g = 0 and dg/dt = 0 with u' = v + G^T mu; Gear, Gupta, Leimkuhler 1985
   kIndex2Projected,  ///< dg/dt = 0, v projected on it after each step; HW II (VII.7)
   kIndex1,           ///< d2g/dt2 = 0
+  kFirstOrder,       ///< y' = f(t, y), y = (u, v, x); core/first_order.h
 };
 
 /// Whether constraint rows are multiplied by 1/h^power (paper, section 4). Off only to show why.
@@ -160,10 +161,13 @@ class ProblemSystem final : public System<Real> {
       Vec<Real> d = state.d;
       problem_.onSwitch(i, pointOf(state), d.data());
       state.d = d;
-      if constexpr (requires { problem_.jump(i, pointOf(state), d.data(), d.data(), d.data()); }) {
-        State<Real> before = state;
-        problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
-      }
+    }
+  }
+  void jump(Index i, State<Real>& state) const override {
+    Real* const out = state.u.data();
+    if constexpr (requires { problem_.jump(i, pointOf(state), out, out, out); }) {
+      const State<Real> before = state;
+      problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
     }
   }
   std::string switchName(Index i) const override {
@@ -230,7 +234,8 @@ class ProblemSystem final : public System<Real> {
   int constraintIndex() const {
     switch (options_.formulation) {
       case Formulation::kIndex3: return 3;
-      case Formulation::kIndex1: return 1;
+      case Formulation::kIndex1:
+      case Formulation::kFirstOrder: return 1;
       case Formulation::kIndex2:
       case Formulation::kIndex2Projected:
       case Formulation::kGgl: return 2;
@@ -283,12 +288,17 @@ class ProblemSystem final : public System<Real> {
 
 }  // namespace irk
 
+#include "core/first_order.h"
 #include "core/ggl.h"
 
 namespace irk {
 
 template <class Real, class P>
 std::shared_ptr<const System<Real>> makeSystem(P problem, const SystemOptions& options = {}) {
+  if (options.formulation == Formulation::kFirstOrder) {
+    return std::make_shared<const FirstOrderForm<Real>>(
+        std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options));
+  }
   if constexpr (requires(const Vec<Real>& u, Real* g) { problem.constraints(g[0], u, g); }) {
     if (options.formulation == Formulation::kGgl && problem.sizes().constraints > 0) {
       return std::make_shared<const GglSystem<P, Real>>(std::move(problem), options);
