@@ -48,7 +48,7 @@ pointOf(v) = by eq 'family' ? familyPoint(word(values, v)) : int(word(curve_poin
 dash(v) = by eq 'family' ? familyDash(word(values, v)) : (v - 1) % 4 + 1
 titleOf(v) = by eq 'family' ? familyTitle(word(values, v)) : word(values, v)
 
-margin_left = n == 1 ? 0.12 : 0.075; margin_right = 0.02; margin_bottom = 0.27; gap_x = 0.045
+margin_left = n == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_bottom = 0.27; gap_x = 0.06
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, 430)
   set multiplot
@@ -63,7 +63,7 @@ do for [format in formats] {
     } }
     if (high == 0) { low = 1; high = 10 }
     set yrange [low / 1.5 : high * 1.5]
-    set mytics (high / low < 1e3 ? 10 : 1)
+    eval logTics('y', low, high)
     eval panel(i, n, 1)
     set title caseTitle(i) offset 0,-0.5 noenhanced
     set xlabel 'error'

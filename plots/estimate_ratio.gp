@@ -24,13 +24,13 @@ do for [i = 1 : n] { do for [g = 1 : 4] {
 
 # Summed up from the largest ratio downwards: gnuplot sums from the left, so that the axis is minus the logarithm.
 tic_list = ''
-do for [x = -3 : 6] { tic_list = tic_list.sprintf("%s'10^{%d}' %d", x == -3 ? '' : ', ', x, -x) }
+do for [x = -2 : 4] { tic_list = tic_list.sprintf("%s'10^{%d}' %d", x == -2 ? '' : ', ', x, -x) }
 margin_left = 0.085; margin_right = 0.02; margin_bottom = 0.27; gap_x = 0.03
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, 420)
   set multiplot
   unset key
-  set xrange [3 : -6]; set yrange [1e-3 : 1.3]
+  set xrange [2 : -4]; set yrange [1e-3 : 1.3]
   do for [i = 1 : n] {
     e = word(estimates, i)
     eval panel(i, n, 1)

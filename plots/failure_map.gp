@@ -61,8 +61,12 @@ levelNumber(d) = sum [k = 1 : words(levels)] (abs(real(word(levels, k)) - log10(
 inPanel(i) = row(0) && is(panel_by, word(panels, i))
 levelText(x) = abs(x - floor(x + 0.5)) < 1e-4 ? sprintf("10^{%d}", floor(x + 0.5)) \
   : sprintf("%.2g·10^{%d}", 10 ** (x - floor(x)), floor(x))
-stage_tics = "set xtics ("; do for [k = 1 : words(stages)] {
-  stage_tics = stage_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', word(stages, k), k) }
+# Labels of two digits need the room of two cells.
+crowded = words(stages) > 9
+stage_tics = "set xtics ("; last = -1; do for [k = 1 : words(stages)] {
+  text = crowded && strlen(word(stages, k)) > 1 && k < last + 2 ? '' : word(stages, k)
+  if (strlen(text)) { last = k }
+  stage_tics = stage_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', text, k) }
 stage_tics = stage_tics.")"
 level_tics = "set ytics ("; do for [k = 1 : words(levels)] {
   level_tics = level_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', levelText(real(word(levels, k))), k) }
@@ -70,7 +74,7 @@ level_tics = level_tics.")"
 
 columns = n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4
 lines = (n + columns - 1) / columns
-margin_left = columns == 1 ? 0.13 : columns == 2 ? 0.085 : 0.075; margin_right = columns == 1 ? 0.16 : 0.09
+margin_left = columns == 1 ? 0.16 : columns == 2 ? 0.11 : 0.085; margin_right = columns == 1 ? 0.16 : 0.09
 margin_top = lines == 1 ? 0.1 : 0.06
 height = 110 + 42 * lines + lines * (words(levels) < 9 ? 200 : 20 * words(levels))
 legend_height = 34.0 / height
@@ -82,20 +86,19 @@ do for [format in formats] {
   set palette defined (0 '#7f0d1d', 0.06 '#c4452f', 0.12 '#f0a35e', 0.25 '#fbe3a6', 0.45 '#b9dcc4', 0.7 '#4a9fb5', 1 '#123c69')
   set cbrange [0 : 16]; set cbtics 4 scale 0
   set xrange [0.5 : words(stages) + 0.5]; set yrange [0.5 : words(levels) + 0.5]
-  set border 15 lc rgb 0x999999; unset grid; set tics scale 0
+  set border 15 lc rgb 0x999999; unset grid; set tics scale 0 textcolor rgb ink
   do for [i = 1 : n] {
     eval panel(i, columns, lines)
-    eval stage_tics
-    eval level_tics
-    if (i % columns != 1 && columns > 1) { set format y ''; set ytics format '' } else { set ytics format '%h' }
+    eval stage_tics." nomirror scale 0 textcolor rgb ink"
+    eval level_tics." nomirror scale 0 textcolor rgb ink"
     if ((i - 1) % columns > 0) { unset ytics }
     if (i <= n - columns) { unset xtics }
     set title panelTitle(i) offset 0,-0.6 noenhanced
     set xlabel when(i > n - columns, 'stages s') offset 0,0.4
-    set ylabel when((i - 1) % columns == 0, y_label) offset 0.5,0
+    set ylabel when((i - 1) % columns == 0, y_label) offset 0.5,0 textcolor rgb ink
     unset key
     if (i == n) { set colorbox user origin 1 - margin_right + 0.015, margin_bottom size 0.015, 1 - margin_top - margin_bottom
-      set cblabel quantity_label } else { unset colorbox }
+      set cblabel quantity_label textcolor rgb ink } else { unset colorbox }
     plot file using (inPanel(i) && good(0) ? stageNumber(0) : outside):(levelNumber(0)):(0.5):(0.5):(digits(0)) \
            with boxxyerror fs solid noborder palette notitle, \
          for [k = 1 : words(seen)] file using (inPanel(i) && is("outcome", word(seen, k)) ? stageNumber(0) : outside):(levelNumber(0)) \

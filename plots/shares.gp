@@ -39,9 +39,9 @@ do for [format in formats] {
   set xrange [0.4 : words(sizes) + 0.6]; set yrange [0 : 1]
   do for [j = 1 : lines] { do for [i = 1 : columns] {
     eval panel((j - 1) * columns + i, columns, lines)
-    eval size_tics
+    eval size_tics." nomirror textcolor rgb ink"
     if (j < lines) { unset xtics }
-    if (i == 1) { set ytics ('0' 0, '25 %%' 0.25, '50 %%' 0.5, '75 %%' 0.75, '100 %%' 1) } else { unset ytics }
+    if (i == 1) { set ytics ('0' 0, '25 %%' 0.25, '50 %%' 0.5, '75 %%' 0.75, '100 %%' 1) nomirror textcolor rgb ink } else { unset ytics }
     set title when(j == 1, 's = '.stagesIn(word(methods, i))) offset 0,-0.5
     set xlabel when(j == lines, 'unknowns n of one stage') offset 0,0.3
     set ylabel when(i == 1, word(solvers, j)) offset 0.5,0 noenhanced

@@ -43,11 +43,11 @@ do for [format in formats] {
         back lw 5 lc rgb 0xF3D9D9
     }
     plot for [k = 1 : count] file(i, k) using "t":(positive(column("h"))) \
-      with steps lw 1.3 dt stageDash(Stages[k]) lc rgb Colour[k] notitle
+      with steps lw 1.4 lc rgb Colour[k] notitle
     unset arrow
   }
   eval legend(0.1)
-  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.6 dt stageDash(Stages[k]) lc rgb Colour[k] \
+  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.6 lc rgb Colour[k] \
          title word(methods, k), \
        keyentry with lines lw 5 lc rgb 0xF3D9D9 title 'discontinuity'
   unset multiplot

@@ -66,6 +66,8 @@ if (tried == 0) { eval absence(cases." in ".file) }
 if (words(variants) == 0) { variants = collected }
 count = words(variants)
 name(k) = word(variants, k)
+# Numbers stand in tables with all their digits.
+shortName(name) = strlen(name) > 10 && name[1:2] eq '0.' ? sprintf("%.3g", real(name)) : name
 coarsest = coarsest > 1 ? 1 : coarsest   # an error of 100 % and more: no digit is right
 # Each curve its own colour, mark and dash.
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
@@ -77,9 +79,9 @@ at(case, k) = chosen(case) && strcol(variant) eq name(k)
 
 if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
 lines = (panels + columns - 1) / columns
-legend_height = 0.09 + 0.04 * (count > 5) + 0.04 * (count > 8)
-margin_left = columns == 1 ? 0.12 : 0.075; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 0.05
-margin_bottom = legend_height / lines + (lines == 1 ? 0.14 : 0.1)
+legend_height = (40.0 + 18 * (count > 5) + 18 * (count > 8)) / (100 + 340 * lines)
+margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 0.05
+margin_bottom = legend_height + (lines == 1 ? 0.15 : 0.085)
 gap_x = words(cases) > 1 ? 0.065 : 0.09; gap_y = 0.13
 do for [format in formats] {
   eval open(format, columns == 1 ? 640 : 1080, 100 + 340 * lines)
@@ -91,7 +93,7 @@ do for [format in formats] {
       case = caseOf(i); c = costOf(i)
       span = Most[i] / Least[i] > 10 ? Most[i] / Least[i] : 10
       level(k) = Most[i] * span ** (0.05 + 0.025 * k)   # failures: a strip above all lines
-      set mytics (span < 1e3 ? 10 : 1)
+      eval logTics('y', Least[i], Most[i])
       set xrange [2 * coarsest : finest / 2]
       set yrange [Least[i] / 1.5 : level(count + 1)]
       eval panel(i, columns, lines)
@@ -106,7 +108,7 @@ do for [format in formats] {
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
     plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 \
-           lc rgb curveColour(k) title name(k), \
+           lc rgb curveColour(k) title shortName(name(k)), \
          keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
     eval framed
     set title; unset multiplot

@@ -69,10 +69,43 @@ std::vector<double> doublingCosts(const Table& runs) {
   return ratios;
 }
 
+// What a method does where the torque of the slider-crank is switched off.
+struct Jump {
+  std::string method;
+  double step_factor;   // median step over the smallest one around the jump
+  double error_factor;  // error over that of the run without a jump
+};
+
+double errorOf(const Table& runs, const std::string& method, std::string_view settings) {
+  return median(numbersOf(
+      where(runs, {{"scene", "slider_crank"}, {"method", method}, {"settings", settings}}),
+      "error"));
+}
+
+std::vector<Jump> jumpsOf(const ResultTables& tables) {
+  constexpr std::string_view kJump = "torque_off_at=0.5";
+  const Table& runs = tables.runs("steps");
+  std::vector<Jump> jumps;
+  for (const auto& method :
+       distinct(where(runs, {{"scene", "slider_crank"}, {"settings", kJump}}), "method")) {
+    const Table& steps = tables.table("steps", "slider_crank_torque_off_at_0.5." + method);
+    const Table near = where(steps, [&](const TableRow& row) {
+      const double t = numberAt(steps, row, "t");
+      return t > 0.45 && t < 0.55;
+    });
+    const auto at_jump = numbersOf(near, "h");
+    if (at_jump.empty()) continue;
+    jumps.push_back(
+        {method, median(numbersOf(steps, "h")) / *std::min_element(at_jump.begin(), at_jump.end()),
+         errorOf(runs, method, kJump) / errorOf(runs, method, "")});
+  }
+  return jumps;
+}
+
 }  // namespace
 
 Finding stepDoubling(const ResultTables& tables) {
-  constexpr double kSafety = 4, kReliable = 0.95, kCheap = 1.35, kDear = 1.65;
+  constexpr double kSafety = 4, kReliable = 0.95, kFair = 0.85, kCheap = 1.35, kDear = 1.65;
   const Table& estimates = tables.table("estimate", "estimates");
   std::string groups;
   double worst_differential = 1, multipliers = 1;
@@ -92,10 +125,11 @@ Finding stepDoubling(const ResultTables& tables) {
       Verdict::kContradicted, fmt::format("costs {:.3g} times as much; reliable: {}", cost, groups),
       fmt::format("A step is judged reliably if its true error is at most s_min = {:g} "
                   "times the estimate; wanted in {} of the steps, per group of "
-                  "components. Cost in residuals against the same steps without estimate, "
+                  "components (within limits: {}, multipliers aside). Cost in residuals against "
+                  "the same steps without estimate, "
                   "median of {} cases (50 % more: {} to {}).",
-                  kSafety, percent(kReliable), costs.size(), kCheap, kDear)};
-  if (worst_differential >= kReliable) finding.verdict = Verdict::kWithinLimits;
+                  kSafety, percent(kReliable), percent(kFair), costs.size(), kCheap, kDear)};
+  if (worst_differential >= kFair) finding.verdict = Verdict::kWithinLimits;
   if (std::min(worst_differential, multipliers) >= kReliable && cost_right) {
     finding.verdict = Verdict::kConfirmed;
   }
@@ -130,7 +164,7 @@ Finding multistepRestart(const ResultTables& tables) {
 }
 
 Finding smallStepsAtJumps(const ResultTables& tables) {
-  constexpr double kPays = 1.5, kSmall = 10;
+  constexpr double kPays = 1.5, kSmall = 3, kLoss = 10;
   const Table& costs = tables.table("cpu_time", "cpu_at_error");
   constexpr CasePair kPairs[] = {{"slider_crank", "", "torque_off_at=0.5"},
                                  {"hydraulic_arm", "reference=smooth", ""}};
@@ -144,26 +178,27 @@ Finding smallStepsAtJumps(const ResultTables& tables) {
   if (smooth.empty() || discontinuous.empty()) {
     return notMeasurable("two stages and five or more do not reach a common error");
   }
-  const Table& steps = tables.table("steps", "slider_crank_torque_off_at_0.5.radau_iia_5");
-  const auto all = numbersOf(steps, "h");
-  // The first tenth holds the start, which is cautious for other reasons.
-  const Table near = where(steps, [&](auto& row) {
-    return numberAt(steps, row, "t") > 0.4 && numberAt(steps, row, "t") < 0.6;
-  });
-  const auto at_jump = numbersOf(near, "h");
-  if (at_jump.empty()) return notMeasurable("the run of slider_crank did not come to 0.5 s");
-  const double factor = median(all) / *std::min_element(at_jump.begin(), at_jump.end());
+  const auto jumps = jumpsOf(tables);
+  if (jumps.empty()) return notMeasurable("no run of slider_crank came past 0.5 s");
+  std::string details;
+  bool necessary = true;  // who does not make its steps small pays with its accuracy
+  for (const auto& jump : jumps) {
+    necessary = necessary && (jump.step_factor >= kSmall || jump.error_factor >= kLoss);
+    details +=
+        fmt::format("{}{}: {:.2g} times smaller steps, {:.2g} times the error",
+                    details.empty() ? "" : "; ", jump.method, jump.step_factor, jump.error_factor);
+  }
   const double gain = median(smooth), less = median(discontinuous);
   Finding finding{
       Verdict::kContradicted,
-      fmt::format("{:.2g} times faster where smooth, {:.2g} times with jumps; steps {:.2g} "
-                  "times smaller",
-                  gain, less, factor),
-      fmt::format("Radau IIA with at least 5 stages against 2, CPU time at the smallest "
-                  "common error, medians; it pays from {} on, and more where smooth. The "
-                  "smallest step at the jump against the median step (small: {:g} times).",
-                  kPays, kSmall)};
-  if (gain >= kPays && factor >= kSmall) {
+      fmt::format("{:.2g} times faster where smooth, {:.2g} times with jumps", gain, less),
+      fmt::format(
+          "Radau IIA with at least 5 stages against 2, CPU time at the smallest common "
+          "error, medians; it pays from {} on. At the jump of the slider-crank, against the "
+          "median step and the smooth run: {}. Small: {:g} times; else the error must grow "
+          "{:g} times.",
+          kPays, details, kSmall, kLoss)};
+  if (gain >= kPays && necessary) {
     finding.verdict = gain > less ? Verdict::kConfirmed : Verdict::kWithinLimits;
   }
   return finding;
