@@ -18,7 +18,7 @@ file = data.'/runs.csv'
 what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the positions' : quantity eq 'error_v' \
   ? 'error of the velocities' : quantity eq 'error_z' ? 'error of the multipliers' : 'error of the states'
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
-  : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c
+  : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c eq 'drift' ? 'drift |g|' : c
 
 colon(case) = strstrt(case, ':')
 sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
