@@ -1,7 +1,8 @@
 # The library behind the program, the program `irk`, and the stand-alone kernels.
 irk_library(experiments)
-file(GLOB command_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp)
-target_sources(irk_experiments PRIVATE ${command_sources})
+file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp)
+target_sources(irk_experiments PRIVATE ${parts})
 target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
                       PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark
                               tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json CLI11::CLI11)
@@ -37,5 +38,4 @@ add_executable(irk experiments/main.cpp)
 target_link_libraries(irk PRIVATE irk::experiments irk_options)
 
 add_executable(irk_kernels experiments/kernels/stage_solvers.cpp)
-target_link_libraries(irk_kernels PRIVATE irk::problems irk::tableaus irk_options
-                                          benchmark::benchmark)
+target_link_libraries(irk_kernels PRIVATE irk::experiments irk_options benchmark::benchmark)
