@@ -22,7 +22,7 @@ constexpr std::string_view kGroupColumns[] = {"scene", "settings", "formulation"
 
 std::optional<SystemKind> kindOf(const std::string& scene, const std::string& formulation) {
   const Sizes n = makeScene<double>(scene).sizes();
-  if (n.nz == 0) return SystemKind::kOde;
+  if (n.nz == 0 || formulation == "first_order") return SystemKind::kOde;
   if (n.constraints < n.nz) return {};
   return formulation == "index3" ? SystemKind::kIndex3 : SystemKind::kIndex2;
 }
