@@ -25,7 +25,7 @@ StartReport report(Outcome outcome, double t, Index row, const char* what, doubl
 
 template <class Real>
 StartReport makeConsistent(const System<Real>& system, DerivativeSource source, bool w_required,
-                           State<Real>& state) {
+                           State<Real>& state, StartCheck check) {
   using std::abs;
   const Sizes n = system.sizes();
   const double t = static_cast<double>(state.t);
@@ -41,7 +41,7 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
       const double value = static_cast<double>(r[i]);
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, i, "residual", value);
       const bool constraint = i >= first && i < first + n.constraints;
-      if (constraint && abs(r[i]) > Real(kConstraintTolerance) * size) {
+      if (constraint && check == StartCheck::kConstraints && abs(r[i]) > Real(kConstraintTolerance) * size) {
         return report(Outcome::kInconsistentStart, t, i,
                       level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value);
       }
@@ -86,7 +86,9 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
                 "Newton for consistent accelerations does not converge; residual", value);
 }
 
-template StartReport makeConsistent(const System<double>&, DerivativeSource, bool, State<double>&);
-template StartReport makeConsistent(const System<mp50>&, DerivativeSource, bool, State<mp50>&);
+template StartReport makeConsistent(const System<double>&, DerivativeSource, bool, State<double>&,
+                                    StartCheck);
+template StartReport makeConsistent(const System<mp50>&, DerivativeSource, bool, State<mp50>&,
+                                    StartCheck);
 
 }  // namespace irk

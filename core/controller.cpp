@@ -14,12 +14,16 @@ namespace {
 class PaperController final : public StepController {
  public:
   PaperController(const StepOptions& o, int order)
-      : o_(o), p_(order), s_max_(o.s_min * o.s_min) {}
+      : o_(o),
+        p_(order),
+        damped_(o.control == StepControl::kPaper),
+        exponent_(1.0 / (damped_ ? order + 1 : order)),
+        s_max_(o.s_min * o.s_min) {}
 
   StepDecision decide(double error, double h) override {
     // An estimate of exactly zero would divide by zero; it asks for the largest growth.
     const double eps = std::max(error, kTinyError);
-    if (last_h_ > 0 && last_h_ != h) {
+    if (damped_ && last_h_ > 0 && last_h_ != h) {
       const double gamma = eps / last_error_ * std::pow(last_h_ / h, p_);
       // The paper's text breaks off at "restrict gamma <". Above 1 it would enlarge the step because
       // the error grew faster than expected; far below 1 it would freeze it at round-off, where the
@@ -28,7 +32,7 @@ class PaperController final : public StepController {
     }
     last_error_ = eps;
     last_h_ = h;
-    const double f = gamma_ * std::pow(1 / (o_.s_min * eps), 1.0 / (p_ + 1));
+    const double f = gamma_ * std::pow(1 / (o_.s_min * eps), exponent_);
     if (error > 1) return {false, h * std::clamp(f, kShrinkAtMost, 1 / o_.change_at_least)};
     if (f >= o_.change_at_least && eps < 1 / s_max_) {
       const double grown = h * std::min(f, o_.growth_at_most);
@@ -44,6 +48,11 @@ class PaperController final : public StepController {
     barred_ = kBarredSteps;
     return h / o_.change_at_least;
   }
+  void forget() override {
+    gamma_ = 1;
+    last_h_ = 0;
+    barred_ = 0;
+  }
 
  private:
   static constexpr double kTinyError = 1e-300;
@@ -53,12 +62,20 @@ class PaperController final : public StepController {
 
   StepOptions o_;
   int p_;
+  bool damped_;  // by gamma
+  double exponent_;
   double s_max_;
   double gamma_ = 1;
   double last_error_ = 0, last_h_ = 0;
   double failed_h_ = 0;
   int barred_ = 0;
 };
+
+/// The later HOTINT source (paper/README erratum 5): s_min = 2, s_max = 4, exponent 1/p, no gamma.
+StepOptions hotintRules(StepOptions o) {
+  o.s_min = 2;
+  return o;
+}
 
 /// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
 ///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
@@ -89,6 +106,10 @@ class PredictiveController final : public StepController {
     barred_ = kBarredSteps;
     return h / 2;
   }
+  void forget() override {
+    last_h_ = 0;
+    barred_ = 0;
+  }
 
  private:
   static constexpr double kTinyError = 1e-300;
@@ -111,6 +132,8 @@ class PredictiveController final : public StepController {
 std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
   switch (options.control) {
     case StepControl::kPaper: return std::make_unique<PaperController>(options, order);
+    case StepControl::kHotint:
+      return std::make_unique<PaperController>(hotintRules(options), order);
     case StepControl::kPredictive: return std::make_unique<PredictiveController>(order);
     case StepControl::kFixed: return nullptr;
   }

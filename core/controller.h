@@ -19,6 +19,8 @@ class StepController {
   virtual StepDecision decide(double error, double h) = 0;
   /// After Newton failed: the step to try next.
   virtual double afterFailure(double h) = 0;
+  /// A restart: what came before says nothing.
+  virtual void forget() = 0;
 };
 
 /// `order`: p of the estimate's leading error h^(p+1).

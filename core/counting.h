@@ -25,6 +25,7 @@ class CountingSystem final : public System<Real> {
   const ErrorPowers& errorPowers() const override { return inner_.errorPowers(); }
   void switching(const Point<Real>& p, VecView<Real> g) const override { inner_.switching(p, g); }
   void onSwitch(Index i, State<Real>& state) const override { inner_.onSwitch(i, state); }
+  void jump(Index i, State<Real>& state) const override { inner_.jump(i, state); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }
   Discontinuity discontinuity() const override { return inner_.discontinuity(); }
   bool projectsVelocity() const override { return inner_.projectsVelocity(); }

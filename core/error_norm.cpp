@@ -44,13 +44,14 @@ double square(double x) { return x * x; }
 }  // namespace
 
 template <class Real>
-double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, double h) const {
+double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, double h,
+                                   const Vec<double>& factor) const {
   double sum = 0;
   const auto add = [&](Index offset, const auto& a, const auto& b, const std::vector<int>& power) {
     for (Index i = 0; i < a.size(); ++i) {
       const double e = static_cast<double>(Real(a[i] - b[i]));
       const double f = std::pow(h, power[static_cast<std::size_t>(i)]);
-      sum += square(f * e / weight_[offset + i]);
+      sum += square(factor[offset + i] * f * e / weight_[offset + i]);
     }
   };
   add(0, p.u, q.u, powers_.u);

@@ -18,8 +18,10 @@ class ErrorNorm {
   /// Weights from the magnitudes of `y`, before a step. Absolute norm: weights atol.
   void update(const State<Real>& y);
 
-  /// Norm of the difference of two states after a step of size h.
-  double difference(const State<Real>& p, const State<Real>& q, double h) const;
+  /// Norm of the difference of two states after a step of size h; `factor` (2 nu + nx + nz):
+  /// multiplies each component's difference.
+  double difference(const State<Real>& p, const State<Real>& q, double h,
+                    const Vec<double>& factor) const;
 
   /// Norm of a Newton increment dW (columns from `first`) by its effect on (u, v, x, z):
   /// h^2 da, h da, h dk, dz. RMS whatever the error norm is.

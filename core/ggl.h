@@ -76,6 +76,10 @@ class GglSystem final : public System<Real> {
     State<Real> scene = toScene(state);
     scene_.onSwitch(i, scene);
     state.d = scene.d;
+  }
+  void jump(Index i, State<Real>& state) const override {
+    State<Real> scene = toScene(state);
+    scene_.jump(i, scene);
     state.x << scene.u, scene.v, scene.x;
   }
   std::string switchName(Index i) const override { return scene_.switchName(i); }

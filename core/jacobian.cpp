@@ -5,27 +5,45 @@
 namespace irk {
 
 template <class Real>
-SharedJacobian<Real>::SharedJacobian(const System<Real>& system, DerivativeSource source,
-                                     JacobianPoint point, Counters& counters)
-    : differentiator_(system, source),
-      at_(Pattern::dense(system.sizes().n())),
-      point_(point),
+SharedJacobian<Real>::SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
+                                     const IntegratorOptions& options, Counters& counters)
+    : differentiator_(system, options.derivatives, options.jacobian),
+      at_(options.jacobian_point == JacobianPoint::kEachStage
+              ? static_cast<std::size_t>(scheme.implicitStages())
+              : 1,
+          Linearization<Real>(Pattern::dense(system.sizes().n()))),
+      point_(options.jacobian_point),
       counters_(counters) {}
 
 template <class Real>
-void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq) {
-  ++counters_.jacobians;
-  const bool middle = point_ == JacobianPoint::kMiddle;
-  differentiator_.evaluate(Level::kFormulated, middle ? eq.middle() : eq.start(), at_);
+void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq, const Mat<Real>& W) {
+  if (point_ == JacobianPoint::kEachStage) {
+    eq.place(W);
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      ++counters_.jacobians;
+      const Index stage = eq.scheme().first + static_cast<Index>(i);
+      differentiator_.evaluate(Level::kFormulated, eq.stage(W, stage), at_[i]);
+    }
+  } else {
+    ++counters_.jacobians;
+    const bool middle = point_ == JacobianPoint::kMiddle;
+    differentiator_.evaluate(Level::kFormulated, middle ? eq.middle() : eq.start(), at_.front());
+  }
   t_ = eq.from().t;
   ++version_;
   stale_ = false;
 }
 
 template <class Real>
+void SharedJacobian<Real>::forget() {
+  stale_ = true;
+  differentiator_.forget();
+}
+
+template <class Real>
 Outcome NewtonMatrix<Real>::prepare(const Real& h) {
   if (version_ == shared_.version() && h_ == h) return Outcome::kSuccess;
-  const Outcome outcome = solver_->factorize({&shared_.at(), 1}, h);
+  const Outcome outcome = solver_->factorize(shared_.at(), h);
   version_ = outcome == Outcome::kSuccess ? shared_.version() : 0;
   h_ = h;
   return outcome;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/stage_equations.h"
@@ -9,28 +10,31 @@
 
 namespace irk {
 
-/// The linearization that the step's solves share, with its age. One per integrator.
+/// The linearization that the step's solves share, with its age: one for all stages or, at
+/// `each_stage`, one per stage. One per integrator.
 template <class Real>
 class SharedJacobian {
  public:
-  SharedJacobian(const System<Real>& system, DerivativeSource source, JacobianPoint point,
-                 Counters& counters);
+  SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
+                 const IntegratorOptions& options, Counters& counters);
 
-  /// Evaluates at the start (or middle) of the step that `eq` has begun.
-  void evaluate(StageEquations<Real>& eq);
+  /// Evaluates at the start or middle of the step that `eq` has begun, or at the stages W.
+  void evaluate(StageEquations<Real>& eq, const Mat<Real>& W);
+  /// A new integration.
+  void forget();
   /// Ask for a new evaluation at the next step's start.
   void markStale() { stale_ = true; }
   bool stale() const { return stale_; }
   /// Whether it was evaluated for a step that began at t.
   bool evaluatedAt(const Real& t) const { return version_ > 0 && t_ == t; }
 
-  const Linearization<Real>& at() const { return at_; }
+  std::span<const Linearization<Real>> at() const { return at_; }
   int version() const { return version_; }
   Differentiator<Real>& differentiator() { return differentiator_; }
 
  private:
   Differentiator<Real> differentiator_;
-  Linearization<Real> at_;
+  std::vector<Linearization<Real>> at_;
   JacobianPoint point_;
   Counters& counters_;
   Real t_{};

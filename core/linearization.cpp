@@ -44,16 +44,27 @@ T& Differentiator<Real>::Buffers<T>::component(const Direction& d, const Sizes& 
 }
 
 template <class Real>
-Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source)
+Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source,
+                                     JacobianTerms terms)
     : system_(system),
       source_(source),
       sizes_(system.sizes()),
+      terms_(terms),
       dual_(sizes_),
       real_(sizes_),
-      base_(sizes_.n()) {
-  for (Index j = 0; j < sizes_.n(); ++j) directions_.push_back({0, j});
-  for (Index j = 0; j < sizes_.nu + sizes_.nx; ++j) directions_.push_back({1, j});
-  for (Index j = 0; j < sizes_.nu; ++j) directions_.push_back({2, j});
+      base_(sizes_.n()),
+      zero_a_(Vec<Real>::Zero(sizes_.nu)) {
+  const Index nu = sizes_.nu, nx = sizes_.nx, n = sizes_.n();
+  const bool no_mass = terms == JacobianTerms::kNoMass;
+  const bool no_vxz = no_mass || terms == JacobianTerms::kNoMassVxz;
+  for (Index j = 0; j < nu + nx; ++j) at_a_.push_back({0, j});
+  for (Index j = nu + nx; j < n; ++j) (no_vxz ? at_zero_ : at_a_).push_back({0, j});
+  for (Index j = 0; j < nu + nx; ++j) (no_vxz ? at_zero_ : at_a_).push_back({1, j});
+  // Other rows than F2 have no constant stiffness: with them D2 has to be evaluated anyway.
+  const bool once = terms == JacobianTerms::kConstantStiffness && n == nu;
+  for (Index j = 0; j < nu; ++j) {
+    (no_mass ? at_zero_ : once ? stiffness_ : at_a_).push_back({2, j});
+  }
 }
 
 template <class Real>
@@ -61,15 +72,6 @@ void Differentiator<Real>::store(const Direction& d, Index row, const Real& valu
                                  Linearization<Real>& out) const {
   Vec<Real>& values = d.matrix == 0 ? out.d0 : d.matrix == 1 ? out.d1 : out.d2;
   values[d.column * sizes_.n() + row] = value;
-}
-
-template <class Real>
-void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
-  switch (source_) {
-    case DerivativeSource::kAutomatic: return evaluateDual(level, p, out);
-    case DerivativeSource::kCentral:
-    case DerivativeSource::kForward: return evaluateDifferences(level, p, out);
-  }
 }
 
 namespace {
@@ -87,19 +89,64 @@ void copyPoint(const Point<Real>& p, const Sizes& n, Buffers& to) {
 }  // namespace
 
 template <class Real>
-void Differentiator<Real>::evaluateDual(Level level, const Point<Real>& p,
+void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
+  evaluateGroup(at_a_, level, p, out);
+  if (!stiffness_known_) evaluateGroup(stiffness_, level, p, out);
+  if (!at_zero_.empty()) {
+    const ConstVec<Real> zero(zero_a_.data(), sizes_.nu);
+    evaluateGroup(at_zero_, level, {p.t, p.u, p.v, p.x, zero, p.k, p.z, p.d}, out);
+  }
+  if (terms_ == JacobianTerms::kNoConstraintXz) dropConstraintXz(out);
+  if (terms_ == JacobianTerms::kConstantStiffness) keepStiffness(out);
+}
+
+template <class Real>
+void Differentiator<Real>::evaluateGroup(const Directions& group, Level level,
+                                         const Point<Real>& p, Linearization<Real>& out) {
+  if (group.empty()) return;
+  t_ = p.t;
+  if (source_ == DerivativeSource::kAutomatic) {
+    copyPoint(p, sizes_, dual_);
+    evaluateDual(group, level, out);
+  } else {
+    copyPoint(p, sizes_, real_);
+    evaluateDifferences(group, level, out);
+  }
+}
+
+template <class Real>
+void Differentiator<Real>::dropConstraintXz(Linearization<Real>& out) const {
+  const Index n = sizes_.n();
+  Eigen::Map<Mat<Real>> D0(out.d0.data(), n, n), D1(out.d1.data(), n, n);
+  D0.bottomRightCorner(sizes_.nz, sizes_.nz).setZero();
+  D1.block(n - sizes_.nz, sizes_.nu, sizes_.nz, sizes_.nx).setZero();
+}
+
+template <class Real>
+void Differentiator<Real>::keepStiffness(Linearization<Real>& out) {
+  Eigen::Map<Mat<Real>> D2(out.d2.data(), sizes_.n(), sizes_.n());
+  auto F2_u = D2.topLeftCorner(sizes_.nu, sizes_.nu);
+  if (stiffness_known_) {
+    F2_u = kept_stiffness_;
+  } else {
+    kept_stiffness_ = F2_u;
+    stiffness_known_ = true;
+  }
+}
+
+template <class Real>
+void Differentiator<Real>::evaluateDual(const Directions& group, Level level,
                                         Linearization<Real>& out) {
-  copyPoint(p, sizes_, dual_);
-  const auto at = dual_.point(sizes_, Dual<Real>(p.t));
+  const auto at = dual_.point(sizes_, Dual<Real>(t_));
   const VecView<Dual<Real>> r(dual_.r.data(), sizes_.n());
-  for (std::size_t first = 0; first < directions_.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, directions_.size() - first);
+  for (std::size_t first = 0; first < group.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, group.size() - first);
     for (std::size_t c = 0; c < count; ++c) {
-      dual_.component(directions_[first + c], sizes_).d[c] = Real(1);
+      dual_.component(group[first + c], sizes_).d[c] = Real(1);
     }
     system_.evaluate(level, at, r);
     for (std::size_t c = 0; c < count; ++c) {
-      const Direction& d = directions_[first + c];
+      const Direction& d = group[first + c];
       for (Index i = 0; i < sizes_.n(); ++i) store(d, i, r[i].d[c], out);
       dual_.component(d, sizes_).d[c] = Real(0);
     }
@@ -109,7 +156,7 @@ void Differentiator<Real>::evaluateDual(Level level, const Point<Real>& p,
 // Increments: eps^(1/2) (forward) and eps^(1/3) (central) times max(|y|, 1) balance truncation and
 // round-off; Dennis & Schnabel, section 5.4.
 template <class Real>
-void Differentiator<Real>::evaluateDifferences(Level level, const Point<Real>& p,
+void Differentiator<Real>::evaluateDifferences(const Directions& group, Level level,
                                                Linearization<Real>& out) {
   using std::abs;
   using std::cbrt;
@@ -117,14 +164,13 @@ void Differentiator<Real>::evaluateDifferences(Level level, const Point<Real>& p
   const bool central = source_ == DerivativeSource::kCentral;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   const Real relative = central ? Real(cbrt(eps)) : Real(sqrt(eps));
-  copyPoint(p, sizes_, real_);
-  const auto at = real_.point(sizes_, p.t);
+  const auto at = real_.point(sizes_, t_);
   const VecView<Real> r(real_.r.data(), sizes_.n());
   if (!central) {
     system_.evaluate(level, at, r);
     base_ = r;
   }
-  for (const Direction& d : directions_) {
+  for (const Direction& d : group) {
     Real& y = real_.component(d, sizes_);
     const Real y0 = y;
     const Real magnitude = abs(y0) > Real(1) ? Real(abs(y0)) : Real(1);

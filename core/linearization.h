@@ -41,21 +41,35 @@ struct Linearization {
 
 enum class DerivativeSource { kAutomatic, kCentral, kForward };
 
+/// What is left out of (D0, D1, D2), paper (4.4)-(4.8). M a enters the residual linearly in a, so
+/// its derivatives are left out by differentiating at a = 0.
+enum class JacobianTerms {
+  kFull,
+  kNoMassVxz,          ///< (4.4): without d(M a)/d(v, x, z)
+  kNoConstraintXz,     ///< (4.5): without dG/d(x, z)
+  kNoMass,             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
+  kConstantStiffness,  ///< (4.7): dF2/du evaluated once
+};
+
 /// Evaluates a Linearization. Owns scratch: one per thread. Allocates only in its constructor.
 template <class Real>
 class Differentiator {
  public:
   /// Keeps a reference to the system.
-  Differentiator(const System<Real>& system, DerivativeSource source);
+  Differentiator(const System<Real>& system, DerivativeSource source,
+                 JacobianTerms terms = JacobianTerms::kFull);
 
   /// All three matrices at p; the pattern of `out` must be full (dense) here.
   void evaluate(Level level, const Point<Real>& p, Linearization<Real>& out);
+  /// Forgets what `constant_stiffness` keeps: a new integration.
+  void forget() { stiffness_known_ = false; }
 
  private:
   struct Direction {
     int matrix;    // 0, 1, 2: which D the column belongs to
     Index column;  // in 0..n-1
   };
+  using Directions = std::vector<Direction>;
   template <class T>
   struct Buffers {  // the numbers below a Point, and the residual
     Vec<T> u, v, x, w, d, r;
@@ -64,17 +78,27 @@ class Differentiator {
     /// The component that a direction perturbs.
     T& component(const Direction& d, const Sizes& n);
   };
-  void evaluateDual(Level level, const Point<Real>& p, Linearization<Real>& out);
-  void evaluateDifferences(Level level, const Point<Real>& p, Linearization<Real>& out);
+  void evaluateGroup(const Directions& group, Level level, const Point<Real>& p,
+                     Linearization<Real>& out);
+  void evaluateDual(const Directions& group, Level level, Linearization<Real>& out);
+  void evaluateDifferences(const Directions& group, Level level, Linearization<Real>& out);
+  void dropConstraintXz(Linearization<Real>& out) const;
+  void keepStiffness(Linearization<Real>& out);
   void store(const Direction& d, Index row, const Real& value, Linearization<Real>& out) const;
 
   const System<Real>& system_;
   DerivativeSource source_;
   Sizes sizes_;
-  std::vector<Direction> directions_;
+  JacobianTerms terms_;
+  Directions at_a_, at_zero_;  // differentiated at the point's a, at a = 0
+  Directions stiffness_;       // D2, where `constant_stiffness` may evaluate it only once
+  Mat<Real> kept_stiffness_;   // nu x nu
+  bool stiffness_known_ = false;
+  Real t_{};
   Buffers<Dual<Real>> dual_;
   Buffers<Real> real_;
   Vec<Real> base_;
+  Vec<Real> zero_a_;
 };
 
 }  // namespace irk

@@ -39,10 +39,10 @@ class NewtonBase : public Newton<Real> {
         W0_(sizes.n(), scheme.s) {}
 
   /// A new Jacobian where one is asked for, and where there is none.
-  void refresh(NewtonContext<Real>& c) {
+  void refresh(NewtonContext<Real>& c, const Mat<Real>& W) {
     auto& shared = c.matrix.shared();
     const bool wanted = shared.stale() && c.use == JacobianUse::kRefreshIfStale;
-    if (shared.version() == 0 || wanted) shared.evaluate(c.eq);
+    if (shared.version() == 0 || wanted) shared.evaluate(c.eq, W);
   }
 
   /// R(W); false if not finite.
@@ -86,14 +86,14 @@ class SimplifiedNewton final : public NewtonBase<Real> {
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     auto& shared = c.matrix.shared();
-    this->refresh(c);
+    this->refresh(c, W);
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     this->W0_ = W;
     NewtonResult result = iterate(c, W);
     if (result.outcome != Outcome::kSuccess && had_old) {
       ++c.counters.newton_restarts;
-      shared.evaluate(c.eq);
       W = this->W0_;
+      shared.evaluate(c.eq, W);
       const int before = result.iterations;
       result = iterate(c, W);
       result.iterations += before;
@@ -163,14 +163,14 @@ class ResidualNewton final : public NewtonBase<Real> {
       return iterate(c, W, kStagewise);
     }
     auto& shared = c.matrix.shared();
-    this->refresh(c);
+    this->refresh(c, W);
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     NewtonResult result = iterate(c, W, kKept);
     int before = result.iterations;
     if (result.outcome != Outcome::kSuccess && had_old) {
       ++c.counters.newton_restarts;
-      shared.evaluate(c.eq);
       W = this->W0_;
+      shared.evaluate(c.eq, W);
       result = iterate(c, W, kKept);
       result.iterations += before;
       before = result.iterations;

@@ -35,14 +35,7 @@ enum class StepControl {
   kFixed,
 };
 enum class JacobianPoint { kStart, kMiddle, kEachStage };
-/// What is left out of (D0, D1, D2), paper (4.4)-(4.8).
-enum class JacobianTerms {
-  kFull,
-  kNoMassVxz,          ///< (4.4): without d(M a)/d(v, x, z)
-  kNoConstraintXz,     ///< (4.5): without dG/d(x, z)
-  kNoMass,             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
-  kConstantStiffness,  ///< (4.7): dF2/du evaluated once
-};
+
 enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
   kAbsolute,  ///< the paper's: 2-norm of e / atol over all components

@@ -161,10 +161,13 @@ class ProblemSystem final : public System<Real> {
       Vec<Real> d = state.d;
       problem_.onSwitch(i, pointOf(state), d.data());
       state.d = d;
-      if constexpr (requires { problem_.jump(i, pointOf(state), d.data(), d.data(), d.data()); }) {
-        State<Real> before = state;
-        problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
-      }
+    }
+  }
+  void jump(Index i, State<Real>& state) const override {
+    Real* const out = state.u.data();
+    if constexpr (requires { problem_.jump(i, pointOf(state), out, out, out); }) {
+      const State<Real> before = state;
+      problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
     }
   }
   std::string switchName(Index i) const override {

@@ -29,7 +29,7 @@ void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
 
 // (2.5), (2.6): V = v0 + h A a, U = u0 + h c v0 + h^2 A^2 a, X = x0 + h A k.
 template <class Real>
-void StageEquations<Real>::stages(const Mat<Real>& W) {
+void StageEquations<Real>::place(const Mat<Real>& W) {
   const auto a = W.topRows(sizes_.nu);
   const auto k = W.middleRows(sizes_.nu, sizes_.nx);
   if (sizes_.nu > 0) {
@@ -48,7 +48,7 @@ void StageEquations<Real>::stages(const Mat<Real>& W) {
 
 template <class Real>
 bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
-  stages(W);
+  place(W);
   for (Index i = 0; i < scheme_.first; ++i) R.col(i).setZero();
   for (Index i = scheme_.first; i < scheme_.s; ++i) {
     system_.evaluate(Level::kFormulated, stage(W, i), VecView<Real>(R.col(i).data(), R.rows()));

@@ -21,7 +21,9 @@ class StageEquations {
   /// stages and stay zero. False if a residual is not finite.
   [[nodiscard]] bool residual(const Mat<Real>& W, Mat<Real>& R);
 
-  /// Stage i as of the last `residual`, for stage-wise derivatives.
+  /// The stages' u, v, x of W, without a residual.
+  void place(const Mat<Real>& W);
+  /// Stage i as of the last `residual` or `place`, for stage-wise derivatives.
   Point<Real> stage(const Mat<Real>& W, Index i) const;
   /// The step's start and its middle (u, v, x by Taylor's formula from the start), for derivatives.
   Point<Real> start() const;
@@ -36,8 +38,6 @@ class StageEquations {
   const Sizes& sizes() const { return sizes_; }
 
  private:
-  void stages(const Mat<Real>& W);
-
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
   Sizes sizes_;

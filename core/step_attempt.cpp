@@ -1,5 +1,6 @@
 #include "core/step_attempt.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,14 +17,41 @@ class Single final : public StepAttempt<Real> {
   explicit Single(Args&&... args) : stepper_(std::forward<Args>(args)...) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
-    const NewtonResult r = stepper_.attempt(stepper_.stages(), from, h, to);
-    return {r.outcome, std::numeric_limits<double>::quiet_NaN(), r.iterations};
+    return {stepper_.attempt(stepper_.stages(), from, h, to),
+            std::numeric_limits<double>::quiet_NaN()};
   }
-  void rejected() override { stepper_.forget(); }
+  void forget() override { stepper_.forget(); }
+  const StagePolynomial<Real>& stages() const override { return stepper_.stages(); }
 
  private:
   Stepper<Real> stepper_;
 };
+
+/// 1 / (2^q - 1) per component (u, v, x, z). q: the classical order for all (paper), or the
+/// component's own. What its index (from the exponents of the error norm), the stage order and stiff
+/// accuracy guarantee: HW II, table VII.4.1; Hairer, Lubich & Roche, LNM 1409.
+template <class Real>
+Vec<double> divisors(const Scheme<Real>& scheme, const System<Real>& system, bool own) {
+  const Sizes n = system.sizes();
+  const ErrorPowers& powers = system.errorPowers();
+  const int p = scheme.tableau.order;
+  const int stage = std::max(scheme.tableau.stage_order, 1);
+  const int differential = scheme.stiffly_accurate ? p : stage;
+  int index = n.nz > 0 ? 1 : 0;
+  for (const int power : powers.z) index = std::max(index, 1 + power);
+  const auto orderOf = [&](Index i) {
+    if (!own || index == 0) return p;
+    if (i < n.nu) return index < 3 ? p : differential;
+    if (i < 2 * n.nu) return index == 3 ? stage : index == 2 ? differential : p;
+    if (i < 2 * n.nu + n.nx) return index == 1 ? p : differential;
+    const int power = powers.z[static_cast<std::size_t>(i - 2 * n.nu - n.nx)];
+    if (power == 0) return index == 1 && scheme.stiffly_accurate ? p : stage;
+    return std::max(stage - (power - 1), 1);
+  };
+  Vec<double> factor(n.components());
+  for (Index i = 0; i < factor.size(); ++i) factor[i] = 1 / (std::pow(2.0, orderOf(i)) - 1);
+  return factor;
+}
 
 /// Paper (5.1)-(5.4): one step h against two steps h/2, which are the result;
 ///   error = |V_h - V_{h/2}| / (2^p - 1).
@@ -38,38 +66,53 @@ class Doubling final : public StepAttempt<Real> {
       : whole_(system, scheme, options, jacobian, norm, counters),
         half_(system, scheme, options, jacobian, norm, counters),
         norm_(norm),
-        divisor_(std::pow(2.0, scheme.tableau.order) - 1),
+        factor_(divisors(scheme, system, options.step.estimate == ErrorEstimate::kRichardson)),
+        scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
         interpolate_(options.predictor == Predictor::kExtrapolated),
         coarse_(system.sizes()),
-        middle_(system.sizes()) {}
+        middle_(system.sizes()),
+        zero_(system.sizes()) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
     AttemptResult result;
     const Real half = h / Real(2);
-    const auto done = [&](const NewtonResult& newton) {
-      result.newton_iterations += newton.iterations;
-      result.outcome = newton.outcome;
-      return newton.outcome == Outcome::kSuccess;
+    const auto done = [&](const StepResult& step) {
+      result.newton_iterations += step.newton_iterations;
+      result.outcome = step.outcome;
+      if (step.switched >= 0) result.switched = step.switched;
+      result.mode_error = std::max(result.mode_error, step.mode_error);
+      return step.outcome == Outcome::kSuccess;
     };
-    if (!done(whole_.attempt(whole_.stages(), from, h, coarse_))) return result;
+    const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
+    result.switch_at = whole.switch_at;
+    if (!done(whole)) return result;
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
-    result.error = norm_.difference(coarse_, to, static_cast<double>(h)) / divisor_;
+    // Doubling is blind where the whole step and its halves carry the same wrong mode.
+    result.error = std::max(error(to, static_cast<double>(h)), result.mode_error);
     if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
     return result;
   }
-  void rejected() override {
+  void forget() override {
     whole_.forget();
     half_.forget();
   }
+  const StagePolynomial<Real>& stages() const override { return whole_.stages(); }
 
  private:
+  double error(const State<Real>& fine, double h) const {
+    if (!scalar_) return norm_.difference(coarse_, fine, h, factor_);
+    return std::abs(norm_.difference(coarse_, zero_, h, factor_) -
+                    norm_.difference(fine, zero_, h, factor_));
+  }
+
   Stepper<Real> whole_, half_;
   const ErrorNorm<Real>& norm_;
-  double divisor_;
+  Vec<double> factor_;
+  bool scalar_;
   bool interpolate_;
-  State<Real> coarse_, middle_;
+  State<Real> coarse_, middle_, zero_;
 };
 
 }  // namespace
@@ -85,6 +128,8 @@ std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const System<Real>& system,
     case ErrorEstimate::kNone:
       return std::make_unique<Single<Real>>(system, scheme, options, jacobian, norm, counters);
     case ErrorEstimate::kDoubling:
+    case ErrorEstimate::kRichardson:
+    case ErrorEstimate::kDoublingScalar:
       return std::make_unique<Doubling<Real>>(system, scheme, options, jacobian, norm, counters);
   }
   return nullptr;

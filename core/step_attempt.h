@@ -5,10 +5,8 @@
 
 namespace irk {
 
-struct AttemptResult {
-  Outcome outcome = Outcome::kSuccess;
+struct AttemptResult : StepResult {
   double error = 0;  ///< estimate in the error norm; NaN without one
-  int newton_iterations = 0;
 };
 
 template <class Real>
@@ -18,8 +16,10 @@ class StepAttempt {
   /// One step of size h from `from` to `to` (not aliased).
   [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h,
                                               State<Real>& to) = 0;
-  /// The last attempt was not accepted.
-  virtual void rejected() = 0;
+  /// What was solved predicts badly: the attempt was not accepted, or the mode has changed.
+  virtual void forget() = 0;
+  /// The stages of the last whole step.
+  virtual const StagePolynomial<Real>& stages() const = 0;
 };
 
 template <class Real>

@@ -1,9 +1,14 @@
 #include "core/stepper.h"
 
+#include <algorithm>
+
 #include "core/multiprecision.h"
 
 namespace irk {
 namespace {
+
+// Modes of a step that still change after this many repetitions have no solution in it.
+constexpr int kDiscontinuousIterations = 10;
 
 template <class Real>
 StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& scheme) {
@@ -17,7 +22,8 @@ template <class Real>
 Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
                        const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
                        const ErrorNorm<Real>& norm, Counters& counters)
-    : counters_(counters),
+    : system_(system),
+      counters_(counters),
       eq_(system, scheme),
       matrix_(jacobian,
               std::make_unique<CountingStageSolver<Real>>(
@@ -26,24 +32,106 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       newton_(makeNewton(options, system.sizes(), scheme)),
       norm_(norm),
       start_values_(options.predictor, scheme),
-      W_(system.sizes().n(), scheme.s) {
+      W_(system.sizes().n(), scheme.s),
+      switches_(system),
+      frozen_(system.sizes()),
+      first_mode_(system.sizes()),
+      ones_(Vec<double>::Ones(system.sizes().components())),
+      g_before_(system.sizes().switches) {
   stages_.W.setZero(system.sizes().n(), scheme.s);
+  if (system.projectsVelocity()) {
+    projection_ =
+        std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
+  }
 }
 
 template <class Real>
-NewtonResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State<Real>& from,
-                                    const Real& h, State<Real>& to, JacobianUse use) {
+void Stepper<Real>::solve(const StagePolynomial<Real>& past, const State<Real>& from,
+                          const Real& h, State<Real>& to, JacobianUse use, StepResult& result) {
   eq_.begin(from, h);
   start_values_.fill(past, from, h, W_);
   NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
-  const NewtonResult result = newton_->solve(context, W_);
+  const NewtonResult newton = newton_->solve(context, W_);
+  result.newton_iterations += newton.iterations;
+  result.outcome = newton.outcome;
+  if (newton.outcome != Outcome::kSuccess) return;
+  eq_.finish(W_, to);
+  if (projection_) result.outcome = projection_->apply(to);
+}
+
+template <class Real>
+StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State<Real>& from,
+                                  const Real& h, State<Real>& to, JacobianUse use) {
+  StepResult result;
+  solve(past, from, h, to, use, result);
   stages_.valid = result.outcome == Outcome::kSuccess;
   if (!stages_.valid) return result;
+  if (!switches_.none()) {
+    if (system_.discontinuity() == Discontinuity::kIgnore) settle(to, result);
+    if (system_.discontinuity() == Discontinuity::kIterate) iterateModes(past, from, h, to, result);
+    stages_.valid = result.outcome == Outcome::kSuccess;
+    if (!stages_.valid) return result;
+  }
   stages_.t = from.t;
   stages_.h = h;
   stages_.W = W_;
-  eq_.finish(W_, to);
   return result;
+}
+
+template <class Real>
+void Stepper<Real>::settle(State<Real>& to, StepResult& result) {
+  const SwitchReport report = switches_.settle(to);
+  result.outcome = report.outcome;
+  if (report.index >= 0) result.switched = report.index;
+}
+
+// The discrete state is frozen over the step, updated at its end, and the step solved again with the
+// new one until it stays: HOTINT's discontinuous iteration.
+template <class Real>
+void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<Real>& from,
+                                 const Real& h, State<Real>& to, StepResult& result) {
+  result.switch_at = firstDue(from, to);
+  done_.clear();
+  first_mode_ = to;
+  std::vector<Index> done;
+  for (int i = 0;; ++i) {
+    done.clear();
+    const SwitchReport report = switches_.settle(to, [&](Index k) { done.push_back(k); });
+    if (report.index >= 0) result.switched = report.index;
+    result.outcome = report.outcome;
+    if (report.outcome != Outcome::kSuccess) return;
+    if (done.empty()) break;
+    if (i == kDiscontinuousIterations) {
+      result.outcome = Outcome::kChattering;
+      return;
+    }
+    ++counters_.discontinuous_iterations;
+    done_ = done;
+    frozen_ = from;
+    frozen_.d = to.d;
+    solve(past, frozen_, h, to, JacobianUse::kKeep, result);
+    if (result.outcome != Outcome::kSuccess) return;
+  }
+  if (done_.empty()) return;
+  // Multipliers jump with the mode; u, v, x do not.
+  first_mode_.w = to.w;
+  result.mode_error = norm_.difference(first_mode_, to, static_cast<double>(h), ones_);
+  for (const Index k : done_) system_.jump(k, to);
+}
+
+// The secant's root of the first switching function that is due at `to`.
+template <class Real>
+double Stepper<Real>::firstDue(const State<Real>& from, const State<Real>& to) {
+  double first = std::numeric_limits<double>::quiet_NaN();
+  if (switches_.evaluate(from).outcome != Outcome::kSuccess) return first;
+  g_before_ = switches_.g();
+  if (switches_.evaluate(to).outcome != Outcome::kSuccess) return first;
+  for (Index i = 0; i < g_before_.size(); ++i) {
+    const double before = static_cast<double>(g_before_[i]);
+    const double after = static_cast<double>(switches_.g()[i]);
+    if (after > 0 && before < 0) first = std::fmin(first, -before / (after - before));
+  }
+  return first;
 }
 
 IRK_INSTANTIATE_CLASS(Stepper)

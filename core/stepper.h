@@ -1,12 +1,27 @@
-// One step of the scheme: predict, solve, finish.
+// One step of the scheme: predict, solve, finish, and settle the discrete state.
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "core/newton.h"
 #include "core/predictor.h"
+#include "core/projection.h"
+#include "core/switches.h"
 
 namespace irk {
+
+struct StepResult {
+  Outcome outcome = Outcome::kSuccess;
+  int newton_iterations = 0;
+  Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
+  /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
+  double switch_at = std::numeric_limits<double>::quiet_NaN();
+  /// `iterate`: the difference, in the error norm, between the step in its first mode and in its
+  /// last: what the wrong one of them does over the whole step.
+  double mode_error = 0;
+};
 
 /// Attempts steps; keeps the stages of its last solved step. Owns all scratch of a step. A failed
 /// attempt leaves `to` and the stage polynomial unspecified but `from` untouched.
@@ -18,15 +33,23 @@ class Stepper {
           const ErrorNorm<Real>& norm, Counters& counters);
 
   /// One step [from.t, from.t + h] with start values from `past` (may be this stepper's own).
-  [[nodiscard]] NewtonResult attempt(const StagePolynomial<Real>& past, const State<Real>& from,
-                                     const Real& h, State<Real>& to,
-                                     JacobianUse use = JacobianUse::kRefreshIfStale);
+  [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from,
+                                   const Real& h, State<Real>& to,
+                                   JacobianUse use = JacobianUse::kRefreshIfStale);
 
   const StagePolynomial<Real>& stages() const { return stages_; }
   /// Forget the solved step: after a rejection or a discontinuity it predicts badly.
   void forget() { stages_.valid = false; }
 
  private:
+  void solve(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+             State<Real>& to, JacobianUse use, StepResult& result);
+  void iterateModes(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+                    State<Real>& to, StepResult& result);
+  double firstDue(const State<Real>& from, const State<Real>& to);
+  void settle(State<Real>& to, StepResult& result);
+
+  const System<Real>& system_;
   Counters& counters_;
   StageEquations<Real> eq_;
   NewtonMatrix<Real> matrix_;
@@ -36,6 +59,13 @@ class Stepper {
   StartValues<Real> start_values_;
   StagePolynomial<Real> stages_;
   Mat<Real> W_;
+  std::unique_ptr<VelocityProjection<Real>> projection_;
+  Switches<Real> switches_;
+  State<Real> frozen_;       // `iterate`: the start with another discrete state
+  State<Real> first_mode_;   // and the end in the first one
+  Vec<double> ones_;
+  Vec<Real> g_before_;
+  std::vector<Index> done_;  // switches of the last discontinuous iteration
 };
 
 }  // namespace irk

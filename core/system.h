@@ -116,8 +116,13 @@ class System {
     static_cast<void>(p);
     g.setConstant(Real(-1));
   }
-  /// What switch i does: the new discrete state, and u, v, x where the scene makes them jump.
+  /// The discrete state after switch i.
   virtual void onSwitch(Index i, State<Real>& state) const {
+    static_cast<void>(i);
+    static_cast<void>(state);
+  }
+  /// u, v, x after switch i, where the scene makes them jump; state.d is the new one.
+  virtual void jump(Index i, State<Real>& state) const {
     static_cast<void>(i);
     static_cast<void>(state);
   }

@@ -57,6 +57,13 @@ Parameter positiveParameter(std::string name, std::string unit, std::string mean
                          std::move(default_value), 1 / kLargestQuantity, kLargestQuantity);
 }
 
+Parameter smoothingParameter(std::string unit, std::string meaning, std::string default_value) {
+  Parameter p = positiveParameter("smoothing", std::move(unit),
+                                  "mode smooth: " + std::move(meaning), std::move(default_value));
+  p.changes_solution = false;
+  return p;
+}
+
 Parameter elementsParameter(std::string default_value) {
   Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1,
                                 kMostElements);

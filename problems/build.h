@@ -21,6 +21,9 @@ Parameter numberParameter(std::string name, std::string unit, std::string meanin
 Parameter positiveParameter(std::string name, std::string unit, std::string meaning,
                             std::string default_value);
 
+/// Over how much a regularised scene blends its modes; of effect in the mode `smooth` only.
+Parameter smoothingParameter(std::string unit, std::string meaning, std::string default_value);
+
 /// A whole number of finite elements.
 Parameter elementsParameter(std::string default_value);
 

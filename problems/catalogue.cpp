@@ -12,9 +12,11 @@ const std::vector<SceneEntry>& sceneCatalogue() {
       ancfCantileverEntry(),
       ancfPendulumEntry(),
       beamChainEntry(),
+      bouncingMassEntry(),
       dahlquistEntry(),
       hiresEntry(),
       hydraulicArmEntry(),
+      hydraulicManipulatorEntry(),
       index1NonlinearEntry(),
       index2NonlinearEntry(),
       kapsEntry(),
@@ -27,6 +29,7 @@ const std::vector<SceneEntry>& sceneCatalogue() {
       sliderCrankEntry(),
       sliderCrankFlexibleEntry(),
       stickSlipEntry(),
+      stickSlipLugreEntry(),
       vanDerPolEntry(),
   };
   return entries;

@@ -8,9 +8,11 @@ namespace irk {
 SceneEntry ancfCantileverEntry();
 SceneEntry ancfPendulumEntry();
 SceneEntry beamChainEntry();
+SceneEntry bouncingMassEntry();
 SceneEntry dahlquistEntry();
 SceneEntry hiresEntry();
 SceneEntry hydraulicArmEntry();
+SceneEntry hydraulicManipulatorEntry();
 SceneEntry index1NonlinearEntry();
 SceneEntry index2NonlinearEntry();
 SceneEntry kapsEntry();
@@ -23,6 +25,7 @@ SceneEntry robertsonEntry();
 SceneEntry sliderCrankEntry();
 SceneEntry sliderCrankFlexibleEntry();
 SceneEntry stickSlipEntry();
+SceneEntry stickSlipLugreEntry();
 SceneEntry vanDerPolEntry();
 
 }  // namespace irk

@@ -4,35 +4,76 @@
 
 #include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/regularised.h"
 
 namespace irk {
 namespace {
 
+// d = (friction while slipping: Fd sign(vb - x'), 1 while sticking).
+enum Discrete : Index { kFriction, kSticks };
+enum Switch : Index { kSlipsBack, kSlipsAhead, kReachesBelt };
+
 template <class Real>
 struct StickSlip {
-  Real m, k;    // kg, N/m
-  Real Fs, Fd;  // N: largest sticking force, slip force
-  Real vb;      // m/s
-  Real x0, v0;  // m, m/s
+  Real m, k;       // kg, N/m
+  Real Fs, Fd;     // N: largest sticking force, slip force
+  Real vb;         // m/s
+  Real x0, v0;     // m, m/s
+  Real smoothing;  // m/s
 
-  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0}; }
+  Sizes sizes() const { return {.nu = 1, .discrete = 2, .switches = 3}; }
 
-  // The law as it stands: slip force Fd sign(vb - x'); at relative velocity 0, where Coulomb's
-  // force is a set, the mass sticks as far as Fs allows, and else has begun to slip. Velocity 0 is
-  // met only exactly, so that a plain integrator rarely sees it.
-  template <class T>
-  T friction(const T& x, const T& v) const {
-    const T slip = vb - v;
-    const T spring = k * x;
-    if (slip > T(0.0)) return T(Fd);
-    if (slip < T(0.0)) return T(-Fd);
-    if (spring > T(Fs)) return T(Fd);
-    if (spring < T(-Fs)) return T(-Fd);
-    return spring;
-  }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = friction<T>(p.u[0], p.v[0]) - k * p.u[0] - m * p.a[0];
+    r.u[0] = (1 - p.d[kSticks]) * (p.d[kFriction] - k * p.u[0]) - m * p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* due) const {
+    const bool sticks = p.d[kSticks] > T(0.0);
+    const T spring = k * p.u[0];
+    due[kSlipsBack] = sticks ? T(spring - Fs) : T(-1.0);
+    due[kSlipsAhead] = sticks ? T(-spring - Fs) : T(-1.0);
+    const T ahead = p.v[0] - vb;
+    due[kReachesBelt] = sticks ? T(-1.0) : p.d[kFriction] > T(0.0) ? ahead : T(-ahead);
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>& p, T* d) const {
+    const T spring = k * p.u[0];
+    const bool holds = spring <= T(Fs) && -spring <= T(Fs);
+    d[kSticks] = T(i == kReachesBelt && holds ? 1.0 : 0.0);
+    if (i == kReachesBelt) {
+      d[kFriction] = -p.d[kFriction];
+    } else {
+      d[kFriction] = T(i == kSlipsBack ? Fd : Real(-Fd));
+    }
+  }
+  template <class T>
+  void jump(Index i, const Point<T>&, T*, T* v, T*) const {
+    if (i == kReachesBelt) v[0] = T(vb);
+  }
+  // Instead of sticking the mass creeps: friction rises to Fs over the first `smoothing` of
+  // relative velocity and falls to Fd over the next.
+  template <class T>
+  void smoothed(const Point<T>& p, T* d) const {
+    const T slip = (vb - p.v[0]) / smoothing;
+    const bool back = slip > T(0.0);
+    const T size = back ? slip : T(-slip);
+    const T rise = size * (3 - size * size) / 2;
+    const T friction = size < T(1.0) ? T(Fs * rise) : T(Fs - (Fs - Fd) * smoothStep<T>(size - 1));
+    d[kFriction] = back ? friction : T(-friction);
+    d[kSticks] = T(0.0);
+  }
+  std::string switchName(Index i) const {
+    constexpr const char* kNames[] = {"slips back", "slips ahead", "reaches the belt"};
+    return kNames[i];
+  }
+
+  /// The discrete state at x0, v0.
+  void startMode(Real* d) const {
+    const Real spring = k * x0;
+    const bool back = v0 < vb || (v0 == vb && spring > 0);
+    d[kFriction] = back ? Fd : Real(-Fd);
+    d[kSticks] = Real(v0 == vb && spring <= Fs && -spring <= Fs ? 1 : 0);
   }
 };
 
@@ -50,7 +91,7 @@ class ExactStickSlip {
     while (true) {
       if (v == p_.vb && !slips_off && abs(p_.k * x) <= p_.Fs) {
         const Real duration = stickDuration(x);
-        if (!(left > duration)) return state(t, x + p_.vb * left, v, 0);
+        if (!(left > duration)) return state(t, x + p_.vb * left, v, 0, 0);
         left -= duration;
         x = (p_.vb > 0 ? p_.Fs : -p_.Fs) / p_.k;
         slips_off = true;
@@ -68,9 +109,9 @@ class ExactStickSlip {
 
  private:
   struct Slip {
-    Real omega, centre, X, V, duration;
+    Real omega, centre, X, V, side, duration;
 
-    Slip(const StickSlip<Real>& p, const Real& x, const Real& v, const Real& side) {
+    Slip(const StickSlip<Real>& p, const Real& x, const Real& v, const Real& sign) : side(sign) {
       using std::acos;
       using std::atan2;
       using std::sqrt;
@@ -104,7 +145,7 @@ class ExactStickSlip {
       using std::sin;
       const Real x = position(tau);
       const Real v = V * cos(omega * tau) - X * omega * sin(omega * tau);
-      return of.state(t, x, v, -omega * omega * (x - centre));
+      return of.state(t, x, v, -omega * omega * (x - centre), side);
     }
   };
 
@@ -113,8 +154,11 @@ class ExactStickSlip {
     if (p_.vb == 0) return std::numeric_limits<Real>::infinity();
     return (p_.vb > 0 ? Real(edge - x) : Real(edge + x)) / (p_.vb > 0 ? p_.vb : Real(-p_.vb));
   }
-  State<Real> state(const Real& t, const Real& x, const Real& v, const Real& a) const {
+  // side: sign of the friction, 0 while sticking.
+  State<Real> state(const Real& t, const Real& x, const Real& v, const Real& a,
+                    const Real& side) const {
     State<Real> s(p_.sizes());
+    s.d << side * p_.Fd, Real(side == 0 ? 1 : 0);
     s.t = t;
     s.u[0] = x;
     s.v[0] = v;
@@ -134,12 +178,14 @@ Scene<Real> make(const Settings& settings) {
                                 .Fd = value("Fd"),
                                 .vb = value("vb"),
                                 .x0 = value("x0"),
-                                .v0 = value(settings.at("v0") == "vb" ? "vb" : "v0")};
+                                .v0 = value(settings.at("v0") == "vb" ? "vb" : "v0"),
+                                .smoothing = value("smoothing")};
   Scene<Real> scene;
   scene.id = "stick_slip";
   setProblem(scene, problem);
   scene.start.u[0] = problem.x0;
   scene.start.v[0] = problem.v0;
+  problem.startMode(scene.start.d.data());
   completeStart(scene);
   scene.t_end = 50;
   scene.names = componentNames({"x"}, {}, {});
@@ -153,21 +199,23 @@ Scene<Real> make(const Settings& settings) {
 }  // namespace
 
 SceneEntry stickSlipEntry() {
-  return {.id = "stick_slip",
-          .title = "mass on a belt with Coulomb friction",
-          .shows =
-              "set-valued friction against an exact solution: what each way to treat a "
-              "discontinuity costs",
-          .parameters = {positiveParameter("m", "kg", "mass", "1"),
-                         positiveParameter("k", "N/m", "spring", "1"),
-                         positiveParameter("Fs", "N", "largest sticking force", "1.5"),
-                         positiveParameter("Fd", "N", "slip force", "1"),
-                         numberParameter("vb", "m/s", "belt speed", "0.1", -1e3, 1e3),
-                         numberParameter("x0", "m", "position at the start", "0", -1e6, 1e6),
-                         numberParameter("v0", "m/s", "velocity at the start; vb = on the belt",
-                                         "vb", -1e6, 1e6)},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return {
+      .id = "stick_slip",
+      .title = "mass on a belt with Coulomb friction",
+      .shows =
+          "set-valued friction against an exact solution: what each way to treat a "
+          "discontinuity costs",
+      .parameters =
+          {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "1"),
+           positiveParameter("Fs", "N", "largest sticking force", "1.5"),
+           positiveParameter("Fd", "N", "slip force", "1"),
+           numberParameter("vb", "m/s", "belt speed", "0.1", -1e3, 1e3),
+           numberParameter("x0", "m", "position at the start", "0", -1e6, 1e6),
+           numberParameter("v0", "m/s", "velocity at the start; vb = on the belt", "vb", -1e6, 1e6),
+           smoothingParameter(
+               "m/s", "relative velocity at which friction is Fs; Fd from twice that on", "1e-4")},
+      .make = make<double>,
+      .make_mp50 = make<mp50>};
 }
 
 }  // namespace irk

@@ -21,7 +21,8 @@ TEST(Exact, SolvesTheEquations) {
       const mp50 t = mp50(fraction) * scene.t_end / 2;
       const auto s = scene.exact(t);
       EXPECT_EQ(s.t, t);
-      const Vec<mp50> r = residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s));
+      const Vec<mp50> r =
+          residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s), s.d);
       // 1e8: the stiffest lambda multiplies the round-off of y - phi.
       EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-49 * 1e8 * 100)) << t;
       // Central differences: truncation delta^2 / 6 times the third derivative (below 1e6).

@@ -17,7 +17,9 @@ constexpr double kTolerance = 1e-10;
 constexpr double kGrowth = 1e4;
 
 // Switches at times that depend on the solution: their treatment is the integrator's subject.
-bool hasStateJumps(const SceneCase& c) { return c.id == "stick_slip"; }
+bool hasStateJumps(const SceneCase& c) {
+  return c.id == "stick_slip" || c.id == "bouncing_mass";
+}
 
 IntegratorOptions options() {
   IntegratorOptions o;

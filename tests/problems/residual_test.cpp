@@ -9,16 +9,17 @@ namespace {
 // Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off
 // both stay below 1e-25, relative to the terms of the row.
 Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t,
-                               const Vec<double>& y, const Vec<double>& scale) {
-  const Vec<mp50> at = y.cast<mp50>();
+                               const Vec<double>& y, const Vec<double>& d,
+                               const Vec<double>& scale) {
+  const Vec<mp50> at = y.cast<mp50>(), modes = d.cast<mp50>();
   Mat<double> J(system.sizes().n(), y.size());
   for (Index j = 0; j < y.size(); ++j) {
     const mp50 delta = mp50(1e-15) * scale[j];
     Vec<mp50> above = at, below = at;
     above[j] += delta;
     below[j] -= delta;
-    const Vec<mp50> difference = residualAt<mp50, mp50>(system, level, t, above) -
-                                 residualAt<mp50, mp50>(system, level, t, below);
+    const Vec<mp50> difference = residualAt<mp50, mp50>(system, level, t, above, modes) -
+                                 residualAt<mp50, mp50>(system, level, t, below, modes);
     J.col(j) = (difference / mp50(2 * delta)).cast<double>();
   }
   return J;
@@ -27,14 +28,15 @@ Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp
 // The automatic derivative sums the same terms as the residual, each with a few operations.
 constexpr double kDerivativeTolerance = 1e4 * kEps;
 
-void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& scale,
-                            Formulation formulation, Level level) {
+void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& d,
+                            const SystemOptions& options, Level level) {
   const auto scene = makeScene<double>(c.id, c.settings);
   const auto precise = makeScene<mp50>(c.id, c.settings);
-  const auto system = scene.system({formulation});
-  const auto precise_system = precise.system({formulation});
-  const Mat<double> J = automaticJacobian<double>(*system, level, 0.0, y);
-  const Mat<double> D = differenceJacobian(*precise_system, level, 0, y, scale);
+  const auto system = scene.system(options);
+  const auto precise_system = precise.system(options);
+  const Vec<double> scale = pointScale(scene, system->sizes());
+  const Mat<double> J = automaticJacobian<double>(*system, level, 0.0, y, d);
+  const Mat<double> D = differenceJacobian(*precise_system, level, 0, y, d, scale);
   const Vec<double> magnitude = y.cwiseAbs().cwiseMax(scale);
   const Vec<double> rows = J.cwiseAbs() * magnitude;
   for (Index i = 0; i < J.rows(); ++i) {
@@ -49,14 +51,17 @@ TEST(Residual, AutomaticDerivativeIsTheDifferenceQuotient) {
   for (const SceneCase& c : sceneCases()) {
     const auto scene = makeScene<double>(c.id, c.settings);
     const Sizes n = scene.sizes();
-    const Vec<double> scale = pointScale(scene, n);
-    for (const Formulation formulation : kFormulations) {
-      for (const Level level : {Level::kFormulated, Level::kAcceleration}) {
-        SCOPED_TRACE(c.name());
-        if (isSmoothAtStart(c)) {
-          expectDerivativesAgree(c, pointVector(scene.start), scale, formulation, level);
+    for (const Mode& mode : modesToTest(scene)) {
+      for (const Formulation formulation : kFormulations) {
+        for (const Level level : {Level::kFormulated, Level::kAcceleration}) {
+          SCOPED_TRACE(c.name());
+          const SystemOptions options{formulation, ConstraintScaling::kOn, mode.discontinuity};
+          // The start may lie on a switch.
+          if (mode.discontinuity != Discontinuity::kIgnore) {
+            expectDerivativesAgree(c, pointVector(scene.start), mode.d, options, level);
+          }
+          expectDerivativesAgree(c, perturbedPoint(scene, n), mode.d, options, level);
         }
-        expectDerivativesAgree(c, perturbedPoint(scene, n), scale, formulation, level);
       }
     }
   }
@@ -69,8 +74,8 @@ TEST(Residual, MultipliersActThroughTheConstraintJacobian) {
     const auto scene = makeScene<double>(c.id, c.settings);
     const Sizes n = scene.sizes();
     const auto system = scene.system({Formulation::kIndex3});
-    const Mat<double> J =
-        automaticJacobian<double>(*system, Level::kPosition, 0.0, perturbedPoint(scene, n));
+    const Mat<double> J = automaticJacobian<double>(*system, Level::kPosition, 0.0,
+                                                    perturbedPoint(scene, n), scene.start.d);
     const Index first = n.nu + n.nx;
     const Index lambda = 2 * n.nu + n.nx + first;  // column in (u, v, x, a, k, z)
     const Mat<double> by_lambda = J.block(0, lambda, n.nu, n.constraints);
@@ -91,18 +96,22 @@ TEST(Residual, FiftyDigitsAgreeWithDouble) {
     const auto precise = makeScene<mp50>(c.id, c.settings);
     const Sizes n = scene.sizes();
     const Vec<double> y = perturbedPoint(scene, n);
-    for (const Formulation formulation : kFormulations) {
-      const auto system = scene.system({formulation});
-      const auto precise_system = precise.system({formulation});
-      const double t = 0.25;
-      const Vec<double> r = residualAt<double, double>(*system, Level::kFormulated, t, y);
-      const Vec<mp50> exact =
-          residualAt<mp50, mp50>(*precise_system, Level::kFormulated, t, y.cast<mp50>());
-      const Mat<double> J = automaticJacobian<double>(*system, Level::kFormulated, t, y);
-      const Vec<double> rows = rowSizes(J, y, pointScale(scene, n));
-      for (Index i = 0; i < r.size(); ++i) {
-        EXPECT_NEAR(r[i], static_cast<double>(exact[i]), 1e-13 * (rows[i] + std::abs(r[i])))
-            << "row " << i;
+    for (const Mode& mode : modesToTest(scene)) {
+      for (const Formulation formulation : kFormulations) {
+        const SystemOptions options{formulation, ConstraintScaling::kOn, mode.discontinuity};
+        const auto system = scene.system(options);
+        const auto precise_system = precise.system(options);
+        const double t = 0.25;
+        const Level level = Level::kFormulated;
+        const Vec<double> r = residualAt<double, double>(*system, level, t, y, mode.d);
+        const Vec<mp50> exact =
+            residualAt<mp50, mp50>(*precise_system, level, t, y.cast<mp50>(), mode.d.cast<mp50>());
+        const Mat<double> J = automaticJacobian<double>(*system, level, t, y, mode.d);
+        const Vec<double> rows = rowSizes(J, y, pointScale(scene, n));
+        for (Index i = 0; i < r.size(); ++i) {
+          EXPECT_NEAR(r[i], static_cast<double>(exact[i]), 1e-13 * (rows[i] + std::abs(r[i])))
+              << "row " << i;
+        }
       }
     }
   }
@@ -117,8 +126,10 @@ TEST(Residual, FormulationsDifferInConstraintRowsOnly) {
     const Vec<double> y = perturbedPoint(scene, n);
     const auto index3 = scene.system({Formulation::kIndex3});
     const auto index2 = scene.system({Formulation::kIndex2, ConstraintScaling::kOff});
-    const Vec<double> r3 = residualAt<double, double>(*index3, Level::kFormulated, 0, y);
-    const Vec<double> r2 = residualAt<double, double>(*index2, Level::kFormulated, 0, y);
+    const Vec<double> r3 =
+        residualAt<double, double>(*index3, Level::kFormulated, 0, y, scene.start.d);
+    const Vec<double> r2 =
+        residualAt<double, double>(*index2, Level::kFormulated, 0, y, scene.start.d);
     EXPECT_EQ(r3.head(n.nu + n.nx), r2.head(n.nu + n.nx));
     const Index rest = n.nz - n.constraints;
     EXPECT_EQ(r3.tail(rest), r2.tail(rest));

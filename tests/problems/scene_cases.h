@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/misuse.h"
 #include "problems/scene.h"
 
 namespace irk::test {
@@ -46,11 +47,6 @@ inline std::vector<SceneCase> sceneCases() {
   return cases;
 }
 
-/// Whether the residual is differentiable at the start: sticking and a closed valve are not.
-inline bool isSmoothAtStart(const SceneCase& c) {
-  return c.id != "stick_slip" && c.id != "hydraulic_arm";
-}
-
 /// (u, v, x, a, k, z) of a start.
 template <class Real>
 Vec<Real> pointVector(const State<Real>& s) {
@@ -76,14 +72,59 @@ inline Vec<double> perturbedPoint(const Scene<double>& scene, const Sizes& n) {
   return y;
 }
 
+/// The discrete states of the start and of what up to two switches make of it.
+inline std::vector<Vec<double>> modesOf(const Scene<double>& scene) {
+  const auto system = scene.system({});
+  const Index switches = system->sizes().switches;
+  std::vector<Vec<double>> modes = {scene.start.d};
+  const auto add = [&modes](const Vec<double>& d) {
+    if (std::find(modes.begin(), modes.end(), d) == modes.end()) modes.push_back(d);
+  };
+  for (Index first = 0; first < switches; ++first) {
+    State<double> s = scene.start;
+    system->onSwitch(first, s);
+    add(s.d);
+    for (Index second = 0; second < switches; ++second) {
+      State<double> next = s;
+      system->onSwitch(second, next);
+      add(next.d);
+    }
+  }
+  return modes;
+}
+
+/// A mode of the scene: its discrete state, and how the residual treats it.
+struct Mode {
+  Discontinuity discontinuity;
+  Vec<double> d;
+};
+
+/// Every mode frozen, and from the start's the implied and, where it exists, the regularised one.
+inline std::vector<Mode> modesToTest(const Scene<double>& scene) {
+  std::vector<Mode> modes;
+  for (const Vec<double>& d : modesOf(scene)) modes.push_back({Discontinuity::kLocate, d});
+  if (scene.sizes().switches == 0) return modes;
+  modes.push_back({Discontinuity::kIgnore, scene.start.d});
+  try {
+    scene.system({.discontinuity = Discontinuity::kSmooth});
+    modes.push_back({Discontinuity::kSmooth, scene.start.d});
+  } catch (const Misuse&) {  // no regularisation
+  }
+  return modes;
+}
+
+/// d: the discrete state, empty where there is none.
 template <class T, class Real>
-Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y) {
+Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y,
+                  const Vec<Real>& d = {}) {
   const Sizes n = system.sizes();
+  const Vec<T> modes = d.template cast<T>();
   const T* p = y.data();
   const T* const w = p + 2 * n.nu + n.nx;
   Vec<T> r(n.n());
-  const Point<T> point{T(t),      {p, n.nu},        {p + n.nu, n.nu},       {p + 2 * n.nu, n.nx},
-                       {w, n.nu}, {w + n.nu, n.nx}, {w + n.nu + n.nx, n.nz}};
+  const Point<T> point{
+      T(t),      {p, n.nu},        {p + n.nu, n.nu},        {p + 2 * n.nu, n.nx},
+      {w, n.nu}, {w + n.nu, n.nx}, {w + n.nu + n.nx, n.nz}, {modes.data(), modes.size()}};
   system.evaluate(level, point, VecView<T>(r.data(), n.n()));
   return r;
 }
@@ -91,14 +132,14 @@ Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const 
 /// dr/d(u, v, x, a, k, z), seeded by hand: independent of core's Differentiator.
 template <class Real>
 Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real& t,
-                            const Vec<Real>& y) {
+                            const Vec<Real>& y, const Vec<Real>& d = {}) {
   Mat<Real> J(system.sizes().n(), y.size());
   for (Index first = 0; first < y.size(); first += static_cast<Index>(kChunk)) {
     Vec<Dual<Real>> dual(y.size());
     for (Index j = 0; j < y.size(); ++j) dual[j] = Dual<Real>(y[j]);
     const Index last = std::min(y.size(), first + static_cast<Index>(kChunk));
     for (Index j = first; j < last; ++j) dual[j].d[static_cast<std::size_t>(j - first)] = Real(1);
-    const Vec<Dual<Real>> r = residualAt<Dual<Real>, Real>(system, level, t, dual);
+    const Vec<Dual<Real>> r = residualAt<Dual<Real>, Real>(system, level, t, dual, d);
     for (Index j = first; j < last; ++j) {
       for (Index i = 0; i < r.size(); ++i) J(i, j) = r[i].d[static_cast<std::size_t>(j - first)];
     }

@@ -17,8 +17,9 @@ void expectConsistent(const SceneCase& c, const Real& eps) {
   const Vec<Real> y = pointVector(scene.start);
   const Vec<double> y_double = pointVector(reference.start);
   for (const Level level : {Level::kPosition, Level::kVelocity, Level::kAcceleration}) {
-    const Vec<Real> r = residualAt<Real, Real>(*system, level, scene.start.t, y);
-    const Mat<double> J = automaticJacobian<double>(*reference_system, level, 0.0, y_double);
+    const Vec<Real> r = residualAt<Real, Real>(*system, level, scene.start.t, y, scene.start.d);
+    const Mat<double> J =
+        automaticJacobian<double>(*reference_system, level, 0.0, y_double, reference.start.d);
     const Vec<double> rows = rowSizes(J, y_double, pointScale(reference, n));
     for (Index i = 0; i < r.size(); ++i) {
       // Solving for w adds its condition to the round-off of the rows' terms.

@@ -1,0 +1,148 @@
+#include "core/event_location.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Where a step is searched. A switching function that rises above 0 and returns between two of these
+// points is not seen.
+constexpr int kSamples = 8;
+// Re-solved steps per switch; four are usual.
+constexpr int kMostSolves = 25;
+// The part of the tolerance, times h, that the time of a switch may be off.
+constexpr double kTimeTolerance = 1e-5;
+
+template <class Real>
+Real epsilon() {
+  return Eigen::NumTraits<Real>::epsilon();
+}
+
+}  // namespace
+
+template <class Real>
+EventLocator<Real>::EventLocator(const System<Real>& system, const Scheme<Real>& scheme,
+                                 double tolerance)
+    : switches_(system),
+      dense_(system.sizes(), scheme),
+      inside_(system.sizes()),
+      tolerance_(tolerance) {}
+
+template <class Real>
+Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from,
+                                          const Real& h, State<Real>& next) {
+  Root root;
+  const Location<Real> seen = first(from, h, next, attempt.stages(), root);
+  if (seen.outcome != Outcome::kSuccess || !root.found) return seen;
+  return solveTo(attempt, from, h, next, root);
+}
+
+// The first sample at which a switch is due, and the earliest root before it.
+template <class Real>
+Location<Real> EventLocator<Real>::first(const State<Real>& from, const Real& h,
+                                         const State<Real>& next,
+                                         const StagePolynomial<Real>& stages, Root& root) {
+  Location<Real> result;
+  dense_.begin(from, stages);
+  for (int j = 1; j <= kSamples; ++j) {
+    const Real theta = Real(j) / Real(kSamples);
+    if (j < kSamples) dense_.evaluate(theta, inside_);
+    const SwitchReport report = switches_.evaluate(j < kSamples ? inside_ : next);
+    if (report.outcome != Outcome::kSuccess) {
+      result.outcome = report.outcome;
+      result.index = report.index;
+      return result;
+    }
+    if (switches_.due() < 0) continue;
+    const Vec<Real> g = switches_.g();
+    for (Index i = 0; i < g.size(); ++i) {
+      if (!(g[i] > Real(0))) continue;
+      const Root candidate = refined(i, Real(Real(j - 1) / Real(kSamples)), theta, h);
+      if (!root.found || candidate.theta < root.theta) root = candidate;
+    }
+    return result;
+  }
+  return result;
+}
+
+template <class Real>
+Real EventLocator<Real>::value(const Real& theta, Index i) {
+  dense_.evaluate(theta, inside_);
+  return switches_.evaluate(inside_).outcome == Outcome::kSuccess ? switches_.g()[i] : Real(1);
+}
+
+// Bisection on the dense output: its root is a first guess.
+template <class Real>
+auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& h) -> Root {
+  const Real width = high - low;
+  const Real g_low = value(low, i), g_high = value(high, i);
+  while (high - low > Real(4) * epsilon<Real>() * high) {
+    const Real middle = (low + high) / Real(2);
+    (value(middle, i) > Real(0) ? high : low) = middle;
+  }
+  const Real near = width / Real(64);
+  Real slope = (value(Real(high + near), i) - value(high, i)) / (near * h);
+  if (!(slope > Real(0))) slope = (g_high - g_low) / (width * h);
+  return {true, i, high, slope};
+}
+
+template <class Real>
+Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from,
+                                           const Real& h, State<Real>& next, const Root& root) {
+  using std::abs;
+  Location<Real> result;
+  const Real scale = abs(from.t) > h ? Real(abs(from.t)) : h;
+  const Real resolution =
+      Real(4) * epsilon<Real>() * scale + Real(kTimeTolerance * std::min(tolerance_, 1e-3)) * h;
+  Real low(0), high = h, step = root.theta * h, slope = root.slope;
+  Real last_step(0), last_g(0);
+  bool high_is_due = false;
+  result.index = root.index;
+  for (int solves = 0; solves < kMostSolves; ++solves) {
+    const bool settled = high_is_due && high - low <= resolution;
+    if (settled || solves + 1 == kMostSolves) step = high;
+    result.attempt = attempt.attempt(from, step, next);
+    result.outcome = result.attempt.outcome;
+    if (result.outcome != Outcome::kSuccess) return result;
+    const SwitchReport report = switches_.evaluate(next);
+    result.outcome = report.outcome;
+    if (result.outcome != Outcome::kSuccess) return result;
+    const Index due = switches_.due();
+    if (due >= 0) result.index = due;
+    const Real g = switches_.g()[result.index];
+    result.h = step;
+    result.found = due >= 0;
+    // A root of the dense output alone: the step goes on to its end.
+    if (step == h) return result;
+    if (due >= 0) {
+      high = step;
+      high_is_due = true;
+      if (settled || (slope > Real(0) && g <= slope * resolution)) return result;
+    } else {
+      low = step;
+    }
+    if (solves > 0 && abs(Real(step - last_step)) > Real(1e-6) * h) {
+      slope = (g - last_g) / (step - last_step);
+    }
+    last_step = step;
+    last_g = g;
+    Real guess = slope > Real(0) ? Real(step - g / slope + resolution / Real(2)) : low;
+    if (!(guess > low && guess < high)) {
+      // Just beyond the last sign change where the root is at the edge, else halve.
+      const Real nudge = low + Real(2) * resolution;
+      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0 ? nudge
+                                                                      : Real((low + high) / Real(2));
+    }
+    step = guess;
+  }
+  return result;
+}
+
+template struct Location<double>;
+template struct Location<mp50>;
+IRK_INSTANTIATE_CLASS(EventLocator)
+
+}  // namespace irk

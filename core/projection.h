@@ -1,0 +1,33 @@
+// Velocities on dg/dt = 0 after a step: the formulation `index2_projected`.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "core/linearization.h"
+#include "core/outcome.h"
+#include "core/statistics.h"
+
+namespace irk {
+
+/// M (v - v0) + G^T mu = 0, dg/dt(t, u, v) = 0: the nearest velocity in the norm of M. HW II
+/// (VII.2), with the matrix of the acceleration level, D0 = [-M, -G^T; G, 0]. dg/dt is linear in v,
+/// so that one solve is exact. Owns scratch.
+template <class Real>
+class VelocityProjection {
+ public:
+  /// Keeps references.
+  VelocityProjection(const System<Real>& system, DerivativeSource source, Counters& counters);
+  /// Changes state.v. kSingular or kNotFinite where the projection does not exist.
+  [[nodiscard]] Outcome apply(State<Real>& state);
+
+ private:
+  const System<Real>& system_;
+  Sizes sizes_;
+  Counters& counters_;
+  Differentiator<Real> differentiator_;
+  Linearization<Real> D_;
+  Eigen::PartialPivLU<Mat<Real>> lu_;
+  Vec<Real> r_, step_;
+};
+
+}  // namespace irk
