@@ -33,6 +33,7 @@ Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
       switches_(system),
       locator_(system, scheme, locationTolerance(options)),
       locates_(!switches_.none() && system.discontinuity() == Discontinuity::kLocate),
+      switches_now_(!locates_ && system.discontinuity() != Discontinuity::kSmooth),
       state_(system.sizes()),
       next_(system.sizes()) {}
 
@@ -79,7 +80,8 @@ void Advance<Real>::tell(Index i) const {
 // Due switches at the state, each counted and told.
 template <class Real>
 Outcome Advance<Real>::settle() {
-  const SwitchReport report = switches_.settle(state_, [this](Index i) {
+  if (system_.discontinuity() == Discontinuity::kSmooth) return Outcome::kSuccess;
+  const SwitchReport report = switches_.settle(state_, Jumps::kDone, [this](Index i) {
     ++counters_.switches;
     tell(i);
   });
@@ -106,7 +108,7 @@ Outcome Advance<Real>::accept(const AttemptResult& result, const Real& h, const 
 // In the modes that do not locate, a change of mode has already happened in next_.
 template <class Real>
 void Advance<Real>::takeOver(const AttemptResult& result, double h) {
-  const bool switched = !locates_ && next_.d != state_.d;
+  const bool switched = switches_now_ && next_.d != state_.d;
   std::swap(state_, next_);
   ++counters_.steps_accepted;
   if (switched) {
@@ -114,7 +116,7 @@ void Advance<Real>::takeOver(const AttemptResult& result, double h) {
     tell(result.switched);
     if (system_.discontinuity() == Discontinuity::kIterate) restart();
   }
-  if (!locates_ && chatter_.step(switched)) noteChattering(result.switched);
+  if (chatter_.step(switched)) noteChattering(result.switched);
   if (!monitor_->accepted) return;
   const State<Real> scene = system_.toScene(state_);
   monitor_->accepted({state_.t, h, result.error, result.newton_iterations, scene});

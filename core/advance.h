@@ -55,6 +55,7 @@ class Advance {
   Switches<Real> switches_;
   EventLocator<Real> locator_;
   bool locates_;
+  bool switches_now_;  // within the attempts: `ignore` and `iterate`
   ChatterDetector chatter_;
   State<Real> state_, next_;
   const Monitor<Real>* monitor_ = nullptr;

@@ -43,8 +43,8 @@ constexpr Named<Predictor> kPredictors[] = {
     {Predictor::kPrevious, "previous", "stages of the step before (paper)"},
     {Predictor::kAcceleration, "acceleration", "(a, k, z) at the step's start"}};
 constexpr Named<ErrorEstimate> kEstimates[] = {
-    {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
     {ErrorEstimate::kRichardson, "richardson", "doubling, each component with its own order"},
+    {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
     {ErrorEstimate::kDoublingScalar, "doubling_scalar", "difference of the norms (HOTINT)"},
     {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
 constexpr Named<StepControl> kControls[] = {

@@ -23,8 +23,10 @@ enum class Predictor {
   kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
 };
 enum class ErrorEstimate {
+  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; in a step with a switch not
+  /// less than what a jump before the first stage does, which no doubling sees
+  kRichardson,
   kDoubling,        ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
-  kRichardson,      ///< the same, each component divided by 2^q - 1 with its own order q
   kDoublingScalar,  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
   kNone,
 };
@@ -88,7 +90,7 @@ struct NewtonOptions {
 
 struct StepOptions {
   StepControl control = StepControl::kPaper;
-  ErrorEstimate estimate = ErrorEstimate::kDoubling;
+  ErrorEstimate estimate = ErrorEstimate::kRichardson;
   /// > 0. Fixed control: the step (the last one is shortened to end at t_end). Else the first step;
   /// 0 = chosen from the scale of the solution.
   double h = 0;

@@ -37,8 +37,14 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       frozen_(system.sizes()),
       first_mode_(system.sizes()),
       ones_(Vec<double>::Ones(system.sizes().components())),
+      at_start_(scheme.s),
+      defect_(system.sizes().n(), 1),
+      sees_switches_(options.step.estimate == ErrorEstimate::kRichardson),
       g_before_(system.sizes().switches) {
   stages_.W.setZero(system.sizes().n(), scheme.s);
+  Vec<Real> p(scheme.s);
+  legendre<Real>(Real(0), p);
+  at_start_ = scheme.legendre_inverse.transpose() * p;
   if (system.projectsVelocity()) {
     projection_ =
         std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
@@ -67,8 +73,12 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
   stages_.valid = result.outcome == Outcome::kSuccess;
   if (!stages_.valid) return result;
   if (!switches_.none()) {
-    if (system_.discontinuity() == Discontinuity::kIgnore) settle(to, result);
-    if (system_.discontinuity() == Discontinuity::kIterate) iterateModes(past, from, h, to, result);
+    switch (system_.discontinuity()) {
+      case Discontinuity::kIgnore:
+      case Discontinuity::kSmooth: settle(from, h, to, result); break;
+      case Discontinuity::kIterate: iterateModes(past, from, h, to, result); break;
+      case Discontinuity::kLocate: break;
+    }
     stages_.valid = result.outcome == Outcome::kSuccess;
     if (!stages_.valid) return result;
   }
@@ -78,11 +88,22 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
   return result;
 }
 
+// The mode at the end, in which the next step starts; `smooth` takes it as a hint only. Doubling is
+// blind to a jump before the first stage of the whole step and of its first half: both carry the same
+// new mode from the start. There the polynomial of the stages misses the (a, k) that the step began
+// with, and h times the difference bounds what the wrong mode does.
 template <class Real>
-void Stepper<Real>::settle(State<Real>& to, StepResult& result) {
-  const SwitchReport report = switches_.settle(to);
-  result.outcome = report.outcome;
+void Stepper<Real>::settle(const State<Real>& from, const Real& h, State<Real>& to,
+                           StepResult& result) {
+  const bool smooth = system_.discontinuity() == Discontinuity::kSmooth;
+  const SwitchReport report = switches_.settle(to, smooth ? Jumps::kNone : Jumps::kDone);
+  if (!smooth) result.outcome = report.outcome;
   if (report.index >= 0) result.switched = report.index;
+  if (report.count == 0 || !sees_switches_) return;
+  defect_.noalias() = W_ * at_start_;
+  defect_ -= from.w;
+  defect_.bottomRows(from.z().size()).setZero();  // multipliers jump, u, v, x do not
+  result.mode_error = norm_.increment(defect_, 0, static_cast<double>(h));
 }
 
 // The discrete state is frozen over the step, updated at its end, and the step solved again with the
@@ -96,7 +117,7 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
   std::vector<Index> done;
   for (int i = 0;; ++i) {
     done.clear();
-    const SwitchReport report = switches_.settle(to, [&](Index k) { done.push_back(k); });
+    const SwitchReport report = switches_.settle(to, Jumps::kDone, [&](Index k) { done.push_back(k); });
     if (report.index >= 0) result.switched = report.index;
     result.outcome = report.outcome;
     if (report.outcome != Outcome::kSuccess) return;

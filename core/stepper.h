@@ -18,8 +18,10 @@ struct StepResult {
   Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
-  /// `iterate`: the difference, in the error norm, between the step in its first mode and in its
-  /// last: what the wrong one of them does over the whole step.
+  /// Of a step that ends in another mode than it began, in the error norm. `iterate`: the difference
+  /// between the step in its first mode and in its last, what the wrong one of them does over the
+  /// whole step. Else, with the estimate `richardson`: h times the defect of the stages' polynomial at
+  /// the step's start.
   double mode_error = 0;
 };
 
@@ -47,7 +49,7 @@ class Stepper {
   void iterateModes(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                     State<Real>& to, StepResult& result);
   double firstDue(const State<Real>& from, const State<Real>& to);
-  void settle(State<Real>& to, StepResult& result);
+  void settle(const State<Real>& from, const Real& h, State<Real>& to, StepResult& result);
 
   const System<Real>& system_;
   Counters& counters_;
@@ -63,6 +65,9 @@ class Stepper {
   Switches<Real> switches_;
   State<Real> frozen_;       // `iterate`: the start with another discrete state
   State<Real> first_mode_;   // and the end in the first one
+  Vec<Real> at_start_;       // weights of the stages' polynomial at the step's start
+  Mat<Real> defect_;         // n x 1
+  bool sees_switches_;
   Vec<double> ones_;
   Vec<Real> g_before_;
   std::vector<Index> done_;  // switches of the last discontinuous iteration

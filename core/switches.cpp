@@ -12,10 +12,7 @@ constexpr Index kRounds = 3;
 
 template <class Real>
 Switches<Real>::Switches(const System<Real>& system)
-    : system_(system) {
-  const bool smooth = system.discontinuity() == Discontinuity::kSmooth;
-  g_.setConstant(smooth ? 0 : system.sizes().switches, Real(-1));
-}
+    : system_(system), g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))) {}
 
 template <class Real>
 SwitchReport Switches<Real>::evaluate(const State<Real>& state) {
@@ -37,7 +34,8 @@ Index Switches<Real>::due() const {
 }
 
 template <class Real>
-SwitchReport Switches<Real>::settle(State<Real>& state, const std::function<void(Index)>& done) {
+SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps,
+                                    const std::function<void(Index)>& done) {
   SwitchReport report;
   while (true) {
     const SwitchReport at = evaluate(state);
@@ -50,7 +48,7 @@ SwitchReport Switches<Real>::settle(State<Real>& state, const std::function<void
       return report;
     }
     system_.onSwitch(i, state);
-    system_.jump(i, state);
+    if (jumps == Jumps::kDone) system_.jump(i, state);
     ++report.count;
     if (done) done(i);
   }

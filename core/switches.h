@@ -10,6 +10,9 @@
 
 namespace irk {
 
+/// Whether u, v, x jump where the scene makes them.
+enum class Jumps { kDone, kNone };
+
 struct SwitchReport {
   Outcome outcome = Outcome::kSuccess;  ///< kNotFinite, or kChattering: no mode is valid
   Index count = 0;                      ///< switches done
@@ -53,7 +56,8 @@ class Switches {
   /// The first switch due in g(), or -1.
   Index due() const;
   /// Does due switches until none is due; `done` hears each, after it.
-  SwitchReport settle(State<Real>& state, const std::function<void(Index)>& done = {});
+  SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone,
+                      const std::function<void(Index)>& done = {});
   /// "switching function 'contact'".
   std::string describe(Index i) const;
 
