@@ -3,6 +3,7 @@
 
 #include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/piecewise_linear.h"
 #include "problems/regularised.h"
 
 namespace irk {
@@ -32,6 +33,12 @@ struct BouncingMass {
   void smoothed(const Point<T>& p, T* d) const {
     d[0] = smoothStep<T>(-p.u[0] / smoothing);
   }
+  // v' from (u, v, 1)
+  Mat<Real> rates(const Vec<Real>& d) const {
+    Mat<Real> rows(1, 3);
+    rows << -k / m * d[0], 0, -g;
+    return rows;
+  }
   std::string switchName(Index) const { return "contact"; }
 };
 
@@ -48,6 +55,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d[0] = Real(scene.start.u[0] < 0 ? 1 : 0);
   completeStart(scene);
   scene.t_end = 0.5;
+  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
   scene.names = componentNames({"gap"}, {}, {});
   scene.scale = scales({0.01, 1});
   return scene;

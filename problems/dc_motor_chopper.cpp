@@ -5,6 +5,7 @@
 
 #include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/piecewise_linear.h"
 
 namespace irk {
 namespace {
@@ -32,6 +33,13 @@ struct DcMotorChopper {
   void onSwitch(Index, const Point<T>& p, T* d) const {
     d[0] = 1 - p.d[0];
   }
+  // (v', x') from (u, v, x, 1)
+  Mat<Real> rates(const Vec<Real>& d) const {
+    Mat<Real> rows(2, 4);
+    rows << 0, -b / J, kM / J, -TL / J,  //
+        0, -kM / L, -R / L, U / L * d[0];
+    return rows;
+  }
   std::string switchName(Index) const { return "chopper"; }
 };
 
@@ -53,6 +61,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d[0] = 1;
   completeStart(scene);
   scene.t_end = 0.02;
+  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
   scene.names = componentNames({"phi"}, {"i"}, {});
   scene.scale = scales({0.1, 10, 5});
   return scene;

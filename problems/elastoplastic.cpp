@@ -5,6 +5,7 @@
 
 #include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/piecewise_linear.h"
 #include "problems/regularised.h"
 
 namespace irk {
@@ -67,6 +68,13 @@ struct Elastoplastic {
     d[kPlastic] = smoothStep<T>((size / Fy - 1) / smoothing + 1) *
                   smoothStep<T>(outwards / (smoothing * velocity));
   }
+  // (v', x') from (u, v, x, 1, sin Omega t, cos Omega t)
+  Mat<Real> rates(const Vec<Real>& d) const {
+    Mat<Real> rows(2, 6);
+    rows << -k / m, 0, k / m, 0, P0 / m, 0,  //
+        0, d[kPlastic], 0, 0, 0, 0;
+    return rows;
+  }
   std::string switchName(Index i) const {
     constexpr const char* kNames[] = {"yield at +Fy", "yield at -Fy", "unloading"};
     return kNames[i];
@@ -87,6 +95,9 @@ Scene<Real> make(const Settings& settings) {
   setProblem(scene, problem);
   completeStart(scene);
   scene.t_end = 1.8;
+  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); },
+                                      problem.Omega};
   scene.names = componentNames({"u"}, {"x"}, {});
   const double yield = static_cast<double>(Real(problem.Fy / problem.k));
   scene.scale = scales({yield, 10 * yield, yield});

@@ -53,8 +53,10 @@ std::vector<Row> parseRows() {
     const bool head = line.starts_with("scene,settings,");
     if (!line.empty() && line[0] != '#' && !head) rows.push_back(parseRow(line));
   }
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const Row& a, const Row& b) { return a.reference.t < b.reference.t; });
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return std::tie(a.reference.t, a.reference.accuracy) <
+           std::tie(b.reference.t, b.reference.accuracy);
+  });
   return rows;
 }
 

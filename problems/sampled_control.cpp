@@ -3,6 +3,7 @@
 
 #include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/piecewise_linear.h"
 
 namespace irk {
 namespace {
@@ -33,6 +34,12 @@ struct SampledControl {
     modes[kForce] = control<T>(p.u[0], p.v[0]);
     modes[kNext] = p.d[kNext] + 1;
   }
+  // v' from (u, v, 1)
+  Mat<Real> rates(const Vec<Real>& modes) const {
+    Mat<Real> rows(1, 3);
+    rows << -c / m, -d / m, modes[kForce] / m;
+    return rows;
+  }
   std::string switchName(Index) const { return "sample"; }
 };
 
@@ -52,6 +59,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d << problem.control(scene.start.u[0], scene.start.v[0]), 1;
   completeStart(scene);
   scene.t_end = 1;
+  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
   scene.names = componentNames({"x"}, {}, {});
   scene.scale = scales({1, 5});
   return scene;

@@ -1,0 +1,91 @@
+// The scenes in all modes and formulations of their switches.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/problems/scene_run.h"
+
+namespace irk::test {
+namespace {
+
+// The modes that see switches keep to their tolerance. `ignore` and `smooth` see a contact only
+// through stages that lie in it: flight is a parabola, so that steps are long, and one that begins
+// in the air may have all its stages on the floor, without a difference that an estimate could see.
+TEST(Modes, OfTheBouncingMass) {
+  const auto scene = makeScene<double>("bouncing_mass");
+  const State<double> exact = scene.exact(0.5);
+  const auto error = [&](Discontinuity mode, double tolerance, const char* method) {
+    const Result r = run({"bouncing_mass", {}}, 0.5, mode, tolerance, method);
+    EXPECT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+    return std::max(std::abs(r.solution.state.u[0] - exact.u[0]) / scene.scale[0],
+                    std::abs(r.solution.state.v[0] - exact.v[0]) / scene.scale[1]);
+  };
+  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+    for (const Discontinuity mode : {Discontinuity::kIterate, Discontinuity::kLocate}) {
+      EXPECT_LT(error(mode, tolerance, "radau_iia_5"), 300 * tolerance) << idOf(mode);
+    }
+  }
+  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kSmooth}) {
+    EXPECT_LT(error(mode, 1e-6, "radau_iia_3"), 1e3 * 1e-6) << idOf(mode);
+  }
+}
+
+// Nothing switches where the modes are blended, and the blend's width bounds the error.
+TEST(Modes, RegularisationsTendToTheSwitchedScene) {
+  struct Case {
+    SceneCase scene;
+    double t;
+    const char *coarse, *fine;
+  };
+  const std::vector<Case> cases = {
+      {{"slider_crank", {{"torque_off_at", "0.5"}}}, 1, "1e-2", "1e-3"},
+      {{"stick_slip", {}}, 20, "1e-3", "1e-4"},
+      {{"elastoplastic", {}}, 1, "1e-1", "1e-2"},
+      {{"hydraulic_arm", {}}, 0.4, "1e-3", "1e-4"},
+      {{"hydraulic_manipulator", {}}, 2.1, "4e-4", "4e-5"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.scene.name());
+    const auto exact = run(c.scene, c.t, Discontinuity::kLocate).solution.state;
+    const auto error = [&](const char* smoothing) {
+      SceneCase smoothed = c.scene;
+      smoothed.settings["smoothing"] = smoothing;
+      const Result r = run(smoothed, c.t, Discontinuity::kSmooth);
+      EXPECT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+      EXPECT_TRUE(r.events.empty());
+      return std::abs(r.solution.state.u[0] - exact.u[0]);
+    };
+    const double coarse = error(c.coarse), fine = error(c.fine);
+    EXPECT_LT(fine, coarse / 3);
+  }
+}
+
+// Switches act through accelerations and multipliers, whatever the constraint's formulation.
+TEST(Modes, FormulationsOfTheMechatronicCrankAgree) {
+  const auto scene = makeScene<double>("mechatronic_crank");
+  IntegratorOptions options;
+  options.tolerances.rtol = options.tolerances.atol = 1e-9;
+  for (const Formulation formulation :
+       {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex2Projected,
+        Formulation::kIndex3, Formulation::kGgl}) {
+    const auto system = scene.system({formulation, ConstraintScaling::kOn, Discontinuity::kLocate});
+    Vec<double> scale = Vec<double>::Ones(system->sizes().components());  // GGL's mu: 1
+    scale.head(scene.scale.size()) = scene.scale;
+    Integrator<double> integrator(system, makeTableau<double>("radau_iia_5"), options, scale);
+    const Solution<double> s = integrator.integrate(scene.start, 0.5);
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << idOf(formulation) << s.detail;
+    EXPECT_EQ(s.counters.located_events, 8) << idOf(formulation);
+    EXPECT_NEAR(s.state.u[0], 5.0473797435, 1e3 * 1e-9) << idOf(formulation);
+    EXPECT_NEAR(s.state.v[0], 7.8072077607, 1e4 * 1e-9) << idOf(formulation);
+  }
+}
+
+TEST(Modes, MemoriesHaveNoRegularisation) {
+  for (const char* id : {"sampled_control", "dc_motor_chopper", "mechatronic_crank"}) {
+    const auto scene = makeScene<double>(id);
+    EXPECT_THROW(scene.system({.discontinuity = Discontinuity::kSmooth}), Misuse) << id;
+  }
+}
+
+}  // namespace
+}  // namespace irk::test
