@@ -23,7 +23,7 @@ std::string optionName(std::string_view field) {
 
 // Axes of which this version knows one strategy only.
 constexpr std::pair<std::string_view, std::string_view> kSingleStrategies[] = {
-    {"jacobian", "full"}, {"order", "fixed"}, {"discontinuity", "ignore"}};
+    {"order", "fixed"}};
 
 void requireKnown(std::string_view axis, std::string_view only, const std::string& given) {
   if (given != only) throw Misuse(unknownName(axis, given, {std::string(only)}));

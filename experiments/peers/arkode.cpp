@@ -12,6 +12,9 @@ namespace irk {
 namespace {
 
 constexpr int kOrder = 5;
+// Three iterations, the default, halve the steps of stiff problems more often than their error
+// does.
+constexpr int kNewtonIterations = 10;
 
 struct Arkode {
   IRK_SUNDIALS_API(ARKStep)
@@ -21,7 +24,9 @@ struct Arkode {
   static void set(void* memory) {
     IRK_SUNDIALS(ARKStepSetOrder(memory, kOrder));
     IRK_SUNDIALS(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE));
+    IRK_SUNDIALS(ARKStepSetInterpolantDegree(memory, kOrder));
     IRK_SUNDIALS(ARKStepSetDeduceImplicitRhs(memory, SUNTRUE));
+    IRK_SUNDIALS(ARKStepSetMaxNonlinIters(memory, kNewtonIterations));
   }
   static int reInit(void* memory, double t, N_Vector y) {
     return ARKStepReInit(memory, nullptr, sundials::OdeCallbacks::rates, t, y);

@@ -19,7 +19,8 @@ struct PeerSetup {
   double h;          ///< the first step; 0 = the peer's choice
   double h_max;
   DerivativeSource derivatives;
-  bool locate;  ///< steps end at roots of the switching functions
+  bool determined;  ///< (a, k, z) follow from (u, v, x) at acceleration level; else index 2
+  bool locate;      ///< steps end at roots of the switching functions
 };
 
 /// An integrator of a library, step by step, with the library's own step and order control. One per

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/run.h"
+
 namespace irk {
 namespace {
 
@@ -19,38 +21,41 @@ SystemOptions systemOptions(const PeerEntry& entry, const RunSpec& spec) {
   return {formulation, spec.scaling, spec.discontinuity};
 }
 
-// The scene's magnitudes; 1 for unknowns that only the formulation has.
-Vec<double> absoluteTolerances(const Scene<double>& scene, const Sizes& n, double atol) {
-  Vec<double> all = Vec<double>::Constant(n.components(), atol);
-  const Index known = std::min(scene.scale.size(), all.size());
-  all.head(known) *= scene.scale.head(known).asDiagonal();
-  return all;
+// Whether D0 at acceleration level is regular: y' = f(t, y) exists.
+bool isDetermined(const Scene<double>& scene, SystemOptions options) {
+  options.formulation = Formulation::kFirstOrder;
+  try {
+    (void)scene.system(options)->fromScene(scene.start);
+    return true;
+  } catch (const Misuse&) {
+    return false;
+  }
 }
 
 std::unique_ptr<Peer> makePeer(const PeerEntry& entry, const Scene<double>& scene,
                                const RunSpec& spec, const System<double>& system) {
   refuseIllegal(entry, spec, scene.sizes());
-  const auto& powers = system.errorPowers().z;
   const auto refuse = [&](std::string_view reason) {
     throw Misuse(fmt::format("illegal combination: method '{}' with scene '{}': {}", entry.id,
                              scene.id, reason));
   };
+  const auto& powers = system.errorPowers().z;
   if (std::any_of(powers.begin(), powers.end(), [](int p) { return p > 1; })) {
     refuse("it solves up to index 2");
   }
-  try {
-    (void)system.fromScene(scene.start);
-  } catch (const Misuse&) {
+  const bool determined = isDetermined(scene, systemOptions(entry, spec));
+  if (!determined && !entry.differential_algebraic) {
     refuse("it solves y' = f(t, y), and the scene's index is above 1: D0 is singular");
   }
   const auto& step = spec.options.step;
   return entry.make(
       {.system = system,
        .rtol = spec.options.tolerances.rtol,
-       .atol = absoluteTolerances(scene, system.sizes(), spec.options.tolerances.atol),
+       .atol = systemScale(scene.scale, system.sizes()) * spec.options.tolerances.atol,
        .h = step.h,
        .h_max = step.h_max,
        .derivatives = spec.options.derivatives,
+       .determined = determined,
        .locate = spec.discontinuity == Discontinuity::kLocate});
 }
 
