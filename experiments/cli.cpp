@@ -22,8 +22,7 @@ std::string optionName(std::string_view field) {
 }
 
 // Axes of which this version knows one strategy only.
-constexpr std::pair<std::string_view, std::string_view> kSingleStrategies[] = {
-    {"order", "fixed"}};
+constexpr std::pair<std::string_view, std::string_view> kSingleStrategies[] = {{"order", "fixed"}};
 
 void requireKnown(std::string_view axis, std::string_view only, const std::string& given) {
   if (given != only) throw Misuse(unknownName(axis, given, {std::string(only)}));
@@ -172,6 +171,9 @@ class Program {
     auto* report = verb(app_, "report", "all figures and the report page",
                         [this](Streams s) { return reportCommand(results_, s); });
     addResults(*report);
+    auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
+                        [this](Streams s) { return claimsCommand(results_, s); });
+    addResults(*judged);
   }
 
   void addMerging() {

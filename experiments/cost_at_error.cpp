@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <tuple>
 
 #include "experiments/numbers.h"
@@ -12,8 +12,8 @@
 namespace irk {
 namespace {
 
-constexpr std::string_view kGroupColumns[] = {"scene", "settings", "family", "stages"};
-constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations"};
+constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations", "jacobians",
+                                       "factorizations"};
 
 // From cheap to dear, each point more accurate than all cheaper ones.
 std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
@@ -25,24 +25,6 @@ std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
     if (best.empty() || p.error < best.back().error) best.push_back(p);
   }
   return best;
-}
-
-struct Group {
-  TableRow name;
-  std::vector<const TableRow*> rows;
-};
-
-std::vector<Group> groupsOf(const Table& runs) {
-  std::map<TableRow, std::size_t> place;
-  std::vector<Group> groups;
-  for (const auto& row : runs.rows) {
-    TableRow name;
-    for (const auto column : kGroupColumns) name.push_back(textAt(runs, row, column));
-    const auto [at, added] = place.try_emplace(name, groups.size());
-    if (added) groups.push_back({name, {}});
-    if (succeededAt(runs, row)) groups[at->second].rows.push_back(&row);
-  }
-  return groups;
 }
 
 }  // namespace
@@ -58,22 +40,30 @@ double costAtError(std::vector<CostPoint> points, double target) {
   return before.cost * std::pow(at->cost / before.cost, part);
 }
 
+double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost,
+                         double target) {
+  std::vector<CostPoint> points;
+  for (const auto* run : series.rows) {
+    if (!succeededAt(runs, *run)) continue;
+    points.push_back({numberAt(runs, *run, "error"), numberAt(runs, *run, cost)});
+  }
+  return costAtError(std::move(points), target);
+}
+
 Table costTable(const Table& runs, const std::vector<double>& targets) {
   Table costs;
   costs.head = runs.head;
-  costs.columns = {"scene",     "settings",          "family", "stages", "target_error", "cpu_s",
-                   "residuals", "newton_iterations", "reached"};
-  for (const auto& group : groupsOf(runs)) {
+  costs.columns = seriesColumns(runs);
+  costs.columns.emplace_back("target_error");
+  costs.columns.insert(costs.columns.end(), std::begin(kCosts), std::end(kCosts));
+  costs.columns.emplace_back("reached");
+  for (const auto& series : seriesOf(runs)) {
     for (const double target : targets) {
-      TableRow row = group.name;
+      TableRow row = series.name;
       row.push_back(numberText(target));
       bool reached = false;
       for (const auto cost : kCosts) {
-        std::vector<CostPoint> points;
-        for (const auto* run : group.rows) {
-          points.push_back({numberAt(runs, *run, "error"), numberAt(runs, *run, cost)});
-        }
-        const double value = costAtError(points, target);
+        const double value = seriesCostAtError(runs, series, cost, target);
         reached = reached || !std::isnan(value);
         row.push_back(numberText(value));
       }

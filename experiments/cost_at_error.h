@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/table.h"
+#include "experiments/run_table.h"
 
 namespace irk {
 
@@ -16,8 +16,12 @@ struct CostPoint {
 /// the cheapest cost if that is more accurate already; NaN if no point reaches it.
 double costAtError(std::vector<CostPoint> points, double target);
 
-/// Columns scene, settings, family, stages, target_error, cpu_s, residuals, newton_iterations,
-/// reached (0 with nan where a method does not get there).
+/// The same for the successful runs of a series: `cost` is a column, the errors are `error`.
+double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost,
+                         double target);
+
+/// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians,
+/// factorizations, reached (0 with nan where a series does not get there).
 Table costTable(const Table& runs, const std::vector<double>& targets);
 
 }  // namespace irk

@@ -2,9 +2,10 @@
 # Only the peers need SUNDIALS: core, tableaus and problems do not know it.
 find_package(SUNDIALS REQUIRED COMPONENTS arkode cvode ida nvecserial sunlinsoldense sunmatrixdense)
 irk_library(experiments)
-file(GLOB more_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
-                                         ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp)
-target_sources(irk_experiments PRIVATE ${more_sources})
+file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp)
+target_sources(irk_experiments PRIVATE ${parts})
 target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
                       PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark
                               tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json CLI11::CLI11
@@ -42,5 +43,4 @@ add_executable(irk experiments/main.cpp)
 target_link_libraries(irk PRIVATE irk::experiments irk_options)
 
 add_executable(irk_kernels experiments/kernels/stage_solvers.cpp)
-target_link_libraries(irk_kernels PRIVATE irk::problems irk::tableaus irk_options
-                                          benchmark::benchmark)
+target_link_libraries(irk_kernels PRIVATE irk::experiments irk_options benchmark::benchmark)

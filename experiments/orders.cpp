@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "experiments/numbers.h"
@@ -17,9 +16,6 @@ namespace {
 
 constexpr double kAgreement = 0.2;
 
-constexpr std::string_view kGroupColumns[] = {"scene", "settings", "formulation", "method",
-                                              "scalar"};
-
 std::optional<SystemKind> kindOf(const std::string& scene, const std::string& formulation) {
   const Sizes n = makeScene<double>(scene).sizes();
   if (n.nz == 0 || formulation == "first_order") return SystemKind::kOde;
@@ -27,35 +23,12 @@ std::optional<SystemKind> kindOf(const std::string& scene, const std::string& fo
   return formulation == "index3" ? SystemKind::kIndex3 : SystemKind::kIndex2;
 }
 
-// Series in the order in which they first appear.
-std::vector<std::vector<const TableRow*>> seriesOf(const Table& runs) {
-  std::map<TableRow, std::size_t> place;
-  std::vector<std::vector<const TableRow*>> series;
-  for (const auto& row : runs.rows) {
-    if (textAt(runs, row, "control") != "fixed" || !succeededAt(runs, row)) continue;
-    TableRow group;
-    for (const auto column : kGroupColumns) group.push_back(textAt(runs, row, column));
-    const auto [at, added] = place.try_emplace(group, series.size());
-    if (added) series.emplace_back();
-    series[at->second].push_back(&row);
+std::vector<const TableRow*> successes(const Table& runs, const RunSeries& series) {
+  std::vector<const TableRow*> rows;
+  for (const auto* row : series.rows) {
+    if (succeededAt(runs, *row)) rows.push_back(row);
   }
-  return series;
-}
-
-// A user's method has the order that its tableau declares, for ordinary differential equations.
-double theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind,
-                 char component) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (!kind) return unknown;
-  const auto& family = textAt(runs, row, "family");
-  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
-  const auto order = theoreticalOrder(family, stages, *kind, component);
-  if (order || *kind != SystemKind::kOde) return order.value_or(unknown);
-  try {
-    return makeTableau<double>(textAt(runs, row, "method")).order;
-  } catch (const Misuse&) {  // the file is no longer there
-    return unknown;
-  }
+  return rows;
 }
 
 std::string verdictText(const OrderFit& fit, double theory) {
@@ -96,7 +69,7 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
                          textAt(runs, first, "formulation"), textAt(runs, first, "family"),
                          textAt(runs, first, "stages")};
     OrderFit fit = fitOrder(points, options);
-    const double theory = theoryFor(runs, first, kind, component);
+    const double theory = theoryFor(runs, first, component);
     // What theory says about components of algebraic systems is a bound for all of them.
     const bool better = fit.measurable && fit.order > theory + kAgreement;
     if (better && kind != SystemKind::kOde) {
@@ -108,13 +81,33 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
 
 }  // namespace
 
+// A user's method has the order that its tableau declares, for ordinary differential equations.
+double theoryFor(const Table& runs, const TableRow& row, char component) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto kind = kindOf(textAt(runs, row, "scene"), textAt(runs, row, "formulation"));
+  if (!kind) return unknown;
+  const auto& family = textAt(runs, row, "family");
+  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
+  const auto order = theoreticalOrder(family, stages, *kind, component);
+  if (order || *kind != SystemKind::kOde) return order.value_or(unknown);
+  try {
+    return makeTableau<double>(textAt(runs, row, "method")).order;
+  } catch (const Misuse&) {  // the file is no longer there
+    return unknown;
+  }
+}
+
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
   orders.columns = {"scene",     "settings", "formulation", "family", "stages",
                     "component", "order",    "confidence",  "h_min",  "h_max",
                     "points",    "theory",   "verdict",     "reason"};
-  for (const auto& series : seriesOf(runs)) appendOrders(runs, series, orders);
+  for (const auto& series : seriesOf(runs)) {
+    const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";
+    const auto rows = successes(runs, series);
+    if (fixed && !rows.empty()) appendOrders(runs, rows, orders);
+  }
   return orders;
 }
 

@@ -10,4 +10,7 @@ namespace irk {
 /// Verdict: `agrees` (within 0.2), `differs`, `not_measurable`, `no_theory`.
 Table orderTable(const Table& runs);
 
+/// Theory's order of a component ('u', 'v', 'x', 'z') for the run in this row; NaN if unknown.
+double theoryFor(const Table& runs, const TableRow& row, char component);
+
 }  // namespace irk

@@ -15,10 +15,9 @@ constexpr double kTerminalInterval = 0.2, kFileInterval = 10;  // s
 
 }  // namespace
 
-Progress::Progress(std::ostream& out, std::string label, std::size_t total)
+Progress::Progress(std::ostream& out, std::string label)
     : out_(out),
       label_(std::move(label)),
-      total_(total),
       start_(wallSeconds()),
       shown_(start_),
       terminal_(&out == &std::cerr && isatty(STDERR_FILENO) == 1) {
@@ -33,13 +32,20 @@ Progress::~Progress() {
        << std::flush;
 }
 
-void Progress::finished(std::size_t count) {
-  made_ += count;
+void Progress::expect(const std::string& kind) {
+  ++total_;
+  time_.expect(kind);
+}
+
+void Progress::finished(const std::string& kind, double seconds) {
+  ++made_;
+  time_.made(kind, seconds);
   show();
 }
 
-void Progress::skipped(std::size_t count) {
-  skipped_ += count;
+void Progress::skipped(const std::string& kind) {
+  ++skipped_;
+  time_.dropped(kind);
   show();
 }
 
@@ -52,8 +58,9 @@ void Progress::show() {
 
 std::string Progress::text() const {
   const std::size_t done = made_ + skipped_;
-  const double each = (wallSeconds() - start_) / static_cast<double>(made_);
-  const double left = each * static_cast<double>(total_ - std::min(done, total_));
+  // As many threads as until now, and whatever else slows them.
+  const double pace = time_.spent() > 0 ? (wallSeconds() - start_) / time_.spent() : 0;
+  const double left = pace * time_.left();
   return fmt::format("{}: {}/{} runs, {} %, about {} left", label_, done, total_,
                      total_ == 0 ? 100 : 100 * done / total_, durationText(left));
 }

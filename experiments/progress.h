@@ -5,21 +5,25 @@
 #include <iosfwd>
 #include <string>
 
+#include "experiments/time_left.h"
+
 namespace irk {
 
 /// On a terminal the line is rewritten in place; elsewhere a new line every ten seconds.
 /// Not thread-safe: call it from within a critical section.
 class Progress {
  public:
-  Progress(std::ostream& out, std::string label, std::size_t total);
+  Progress(std::ostream& out, std::string label);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Runs that were made now: the time left is estimated from them.
-  void finished(std::size_t count = 1);
-  /// Runs that are there already, or that need not be made.
-  void skipped(std::size_t count);
+  /// A run to come; for kinds see TimeLeft.
+  void expect(const std::string& kind);
+  /// A run that was made now, and how long it took.
+  void finished(const std::string& kind, double seconds);
+  /// A run that is there already, or that need not be made.
+  void skipped(const std::string& kind);
 
  private:
   void show();
@@ -27,7 +31,8 @@ class Progress {
 
   std::ostream& out_;
   std::string label_;
-  std::size_t total_, made_ = 0, skipped_ = 0;
+  TimeLeft time_;
+  std::size_t total_ = 0, made_ = 0, skipped_ = 0;
   double start_, shown_;
   double interval_;  ///< seconds between two lines
   bool terminal_;

@@ -14,8 +14,10 @@
 #include <string_view>
 
 #include "core/misuse.h"
+#include "experiments/claims/claims.h"
 #include "experiments/environment.h"
 #include "experiments/html.h"
+#include "experiments/study.h"
 #include "experiments/table.h"
 
 namespace irk {
@@ -58,6 +60,16 @@ std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) 
                      (figureFolder(options) / figure.name).string(), figure.assignments);
 }
 
+// Inside double quotes.
+std::string shellQuoted(std::string_view text) {
+  std::string quoted;
+  for (const char c : text) {
+    if (c == '"' || c == '$' || c == '`' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted;
+}
+
 bool hasResults(const Figure& figure, const ReportOptions& options) {
   return std::filesystem::is_directory(options.results / figure.study);
 }
@@ -68,21 +80,6 @@ std::string readText(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions& options) {
-  std::string html;
-  for (const auto& figure : figures) {
-    if (!std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"))) continue;
-    const auto command =
-        fmt::format("gnuplot -e \"{}\" plots/{}", gnuplotCommands(figure, options), figure.script);
-    html += fmt::format(
-        "<figure id=\"{0}\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\">"
-        "</a>\n<figcaption><b>{1}.</b> {2} <a href=\"figures/{0}.png\">PNG</a>"
-        "<code>{3}</code></figcaption></figure>\n",
-        figure.name, escapeHtml(figure.title), escapeHtml(figure.caption), escapeHtml(command));
-  }
-  return html;
-}
-
 std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
   std::vector<std::string> studies;
   for (const auto& figure : figures) {
@@ -91,6 +88,40 @@ std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
     }
   }
   return studies;
+}
+
+std::string studyTitle(const std::string& id) {
+  try {
+    return loadStudy(id, StudyVariant::kQuick).title;
+  } catch (const Misuse&) {  // not built in: its figures stand in a list of the user's own
+    return id;
+  }
+}
+
+std::string figureHtml(const Figure& figure, const ReportOptions& options) {
+  const auto command = fmt::format("gnuplot -e \"{}\" plots/{}",
+                                   shellQuoted(gnuplotCommands(figure, options)), figure.script);
+  return fmt::format(
+      "<figure id=\"{0}\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
+      "loading=\"lazy\"></a>\n<figcaption><b>{1}.</b> {2} <a href=\"figures/{0}.png\">PNG</a>"
+      "<code>{3}</code></figcaption></figure>\n",
+      figure.name, escapeHtml(figure.title), escapeHtml(figure.caption), escapeHtml(command));
+}
+
+// Under the title of their study; a study without figures has no heading.
+std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions& options) {
+  std::string html;
+  for (const auto& study : studiesOf(figures)) {
+    std::string own;
+    for (const auto& figure : figures) {
+      const bool drawn = std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"));
+      if (figure.study == study && drawn) own += figureHtml(figure, options);
+    }
+    if (own.empty()) continue;
+    html +=
+        fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study)), own);
+  }
+  return html;
 }
 
 }  // namespace
@@ -159,6 +190,8 @@ std::filesystem::path writeReport(const ReportOptions& options) {
       environment += environmentHtml(study, readTable(folder / "runs.csv"));
     }
   }
+  replacePlaceholder(page, "@CLAIMS@",
+                     claimsHtml(ResultTables(options.results), figureFolder(options)));
   replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
   replacePlaceholder(page, "@TABLES@", orders);
   replacePlaceholder(page, "@ENVIRONMENT@", environment);

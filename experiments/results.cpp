@@ -11,8 +11,10 @@
 
 #include "core/misuse.h"
 #include "experiments/cost_at_error.h"
+#include "experiments/estimates.h"
 #include "experiments/numbers.h"
 #include "experiments/orders.h"
+#include "experiments/phases.h"
 #include "experiments/run_table.h"
 
 namespace irk {
@@ -48,11 +50,14 @@ int compareRow(const Table& runs, const TableRow& a, const TableRow& b, std::ost
 
 }  // namespace
 
-void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder) {
+void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
+                    std::ostream& progress) {
   if (study.orders) writeTable(folder / "orders.csv", orderTable(runs));
   if (!study.targets.empty()) {
     writeTable(folder / "cpu_at_error.csv", costTable(runs, study.targets));
   }
+  if (study.estimates) writeTable(folder / "estimates.csv", estimateTable(study, runs));
+  if (study.phases) writeTable(folder / "phases.csv", phaseTable(study, runs, progress));
 }
 
 Table mergedRuns(const std::vector<std::string>& folders) {

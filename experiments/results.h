@@ -10,8 +10,9 @@
 
 namespace irk {
 
-/// orders.csv and cpu_at_error.csv, as the study asks.
-void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder);
+/// orders.csv, cpu_at_error.csv, estimates.csv and phases.csv, as the study asks.
+void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
+                    std::ostream& progress);
 
 /// All rows of the folders' runs.csv; of rows with one key a timed one wins. Throws Misuse for
 /// tables of different studies or columns.

@@ -79,9 +79,16 @@ class Prepared final : public PreparedRun {
       return late ? Outcome::kTimeout : Outcome::kSuccess;
     };
     if (watch.accepted) {
-      watch.accepted(static_cast<double>(scene_.start.t), values(scene_.start));
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      watch.accepted({static_cast<double>(scene_.start.t), none, none, 0, values(scene_.start)});
       monitor.accepted = [&](const StepRecord<Real>& step) {
-        watch.accepted(static_cast<double>(step.t), values(step.state));
+        watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations,
+                        values(step.state)});
+      };
+    }
+    if (watch.switched) {
+      monitor.switched = [&](const SwitchRecord<Real>& change) {
+        watch.switched(static_cast<double>(change.t), change.name);
       };
     }
     const auto solution = method_.integrate(scene_.start, Real(spec_.t_end), monitor);

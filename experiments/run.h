@@ -32,11 +32,21 @@ struct RunRecord {
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
 };
 
+/// An accepted step, or the start: NaN and 0 where there is no step.
+struct AcceptedStep {
+  double t;  ///< at its end
+  double h;
+  double error;  ///< estimate in units of the tolerance; NaN without one
+  int newton_iterations;
+  std::span<const double> values;  ///< the components and outputs of PreparedRun::columns
+};
+
 /// What the caller says and wants to hear while a run goes on. All optional.
 struct Watch {
   const std::atomic<bool>* stop = nullptr;
-  /// The start and every accepted step: t, then the components and outputs of PreparedRun::columns.
-  std::function<void(double t, std::span<const double> values)> accepted;
+  std::function<void(const AcceptedStep&)> accepted;
+  /// A change of the discrete state.
+  std::function<void(double t, const std::string& name)> switched;
 };
 
 /// Scene, tableau and integrator of a spec, built once and run as often as wanted. One per thread.

@@ -91,6 +91,19 @@ void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real
   }
 }
 
+template <class Real>
+double driftOf(const Scene<Real>& scene, const State<Real>& state) {
+  const auto system = scene.system({});
+  const Sizes n = system->sizes();
+  double drift = std::numeric_limits<double>::quiet_NaN();
+  Vec<Real> r(n.n());
+  if (n.constraints > 0) system->evaluate(Level::kPosition, pointOf(state), {r.data(), r.size()});
+  for (Index i = n.nu + n.nx; i < n.nu + n.nx + n.constraints; ++i) {
+    raise(drift, std::abs(static_cast<double>(r[i])));
+  }
+  return drift;
+}
+
 }  // namespace
 
 template <class Real>
@@ -98,6 +111,7 @@ RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& refer
                    const State<Real>& state) {
   RunErrors errors;
   const Sizes n = scene.sizes();
+  errors.drift = driftOf(scene, state);
   if (scene.exact) compareExact(scene, n, state, errors);
   if (!std::isnan(errors.all)) return errors;
   for (const auto& [component, reference] : bestAt(references, static_cast<double>(state.t))) {

@@ -13,6 +13,8 @@ namespace irk {
 struct RunErrors {
   double all = std::numeric_limits<double>::quiet_NaN();
   double u = all, v = all, x = all, z = all;
+  /// Largest |g| over the position constraints g(t, u) = 0 of the scene. NaN without constraints.
+  double drift = all;
 };
 
 /// Against Scene::exact if it knows anything at the state's time, else against references at that

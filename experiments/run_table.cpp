@@ -1,5 +1,8 @@
 #include "experiments/run_table.h"
 
+#include <algorithm>
+#include <map>
+
 #include "experiments/numbers.h"
 
 namespace irk {
@@ -7,10 +10,31 @@ namespace {
 
 // Spec fields that stand in columns, in groups around the derived ones.
 constexpr std::string_view kSpecBefore[] = {"scene", "settings", "method"};
-constexpr std::string_view kSpecAfter[] = {
-    "formulation", "scaling", "scalar", "derivatives", "newton", "solver", "predictor",
-    "estimate",    "control", "norm",   "h",           "rtol",   "atol",   "t_end"};
-constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z"};
+constexpr std::string_view kSpecAfter[] = {"formulation",
+                                           "scaling",
+                                           "discontinuity",
+                                           "scalar",
+                                           "derivatives",
+                                           "jacobian",
+                                           "jacobian_point",
+                                           "newton",
+                                           "contractivity_limit",
+                                           "contractivity_after",
+                                           "max_iterations",
+                                           "keep_jacobian_below",
+                                           "solver",
+                                           "predictor",
+                                           "estimate",
+                                           "control",
+                                           "norm",
+                                           "h",
+                                           "rtol",
+                                           "atol",
+                                           "t_end"};
+// What a series runs through.
+constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
+constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
+                                        "error_x", "error_z", "drift"};
 constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs"};
 
 void append(std::vector<std::string>& to, std::span<const std::string_view> names) {
@@ -39,11 +63,35 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const auto name : kSpecAfter) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
-  for (const double error : {e.all, e.u, e.v, e.x, e.z}) row.push_back(numberText(error));
+  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift}) row.push_back(numberText(error));
   record.counters.forEach(
       [&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", record.detail});
   return row;
+}
+
+std::vector<std::string> seriesColumns(const Table& table) {
+  std::vector<std::string> columns{"scene", "settings", "method", "family", "stages"};
+  for (const auto name : kSpecAfter) {
+    const bool swept = std::find(std::begin(kSwept), std::end(kSwept), name) != std::end(kSwept);
+    if (!swept) columns.emplace_back(name);
+  }
+  std::erase_if(columns, [&](const auto& name) { return !table.hasColumn(name); });
+  return columns;
+}
+
+std::vector<RunSeries> seriesOf(const Table& runs) {
+  const auto columns = seriesColumns(runs);
+  std::map<TableRow, std::size_t> place;
+  std::vector<RunSeries> all;
+  for (const auto& row : runs.rows) {
+    TableRow name;
+    for (const auto& column : columns) name.push_back(textAt(runs, row, column));
+    const auto [at, added] = place.try_emplace(name, all.size());
+    if (added) all.push_back({name, {}});
+    all[at->second].rows.push_back(&row);
+  }
+  return all;
 }
 
 void setTiming(const Table& table, TableRow& row, const Timing& timing) {

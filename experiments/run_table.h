@@ -12,6 +12,18 @@ std::vector<std::string> runColumns();
 /// `key`: specKey of the record's spec. Timing columns are empty until the timing pass.
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record);
 
+/// The columns that tell series apart: all that decides a run but h, rtol and atol. Those that the
+/// table has.
+std::vector<std::string> seriesColumns(const Table& table);
+
+/// Runs that differ in h, rtol and atol only.
+struct RunSeries {
+  TableRow name;  ///< the cells of seriesColumns
+  std::vector<const TableRow*> rows;
+};
+/// In the order in which they first appear. Points into the table.
+std::vector<RunSeries> seriesOf(const Table& runs);
+
 /// The spread columns of the timing pass: cpu_s is their minimum.
 struct Timing {
   double minimum_s;

@@ -11,6 +11,7 @@
 #include <ostream>
 
 #include "core/misuse.h"
+#include "experiments/clock.h"
 #include "experiments/environment.h"
 #include "experiments/interrupt.h"
 #include "experiments/numbers.h"
@@ -21,6 +22,14 @@
 
 namespace irk {
 namespace {
+
+// What tells how long a run lasts, but for its number of stages: series come in their order.
+std::string kindOf(const RunSpec& spec) {
+  const auto& tolerances = spec.options.tolerances;
+  return fmt::format("{} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings),
+                     idOf(spec.formulation), spec.options.step.h,
+                     std::max(tolerances.rtol, tolerances.atol));
+}
 
 // The rows that a former run of the study left behind.
 Table finishedRuns(const std::filesystem::path& file, const Study& study,
@@ -57,9 +66,10 @@ class Sweep {
       const auto turn = static_cast<int>(i % static_cast<std::size_t>(options.shards));
       if (turn + 1 == options.shard) work_.push_back(&study.series[i]);
     }
-    std::size_t total = 0;
-    for (const auto* series : work_) total += series->runs.size();
-    progress_.emplace(out, study.id, total);
+    progress_.emplace(out, study.id);
+    for (const auto* series : work_) {
+      for (const auto& spec : series->runs) progress_->expect(kindOf(spec));
+    }
     for (const auto& row : table_.rows) finished_[row.front()] = row;
   }
 
@@ -103,7 +113,7 @@ class Sweep {
                         (outcome == "refused" || round_off.reached(table_, *row));
       if (done) {
         const std::lock_guard lock(mutex_);
-        progress_->skipped(series.runs.size() - i - 1);
+        for (++i; i < series.runs.size(); ++i) progress_->skipped(kindOf(series.runs[i]));
         return;
       }
     }
@@ -117,16 +127,21 @@ class Sweep {
       const std::lock_guard lock(mutex_);
       const auto found = finished_.find(key);
       if (found != finished_.end() && hasTrajectory(spec)) {
-        progress_->skipped(1);
+        progress_->skipped(kindOf(spec));
         return &found->second;
       }
     }
+    const double start = wallSeconds();
     const RunRecord record = too_long ? notMade(spec, *too_long, table_) : make(spec);
     if (record.outcome == name(Outcome::kInterrupted)) return nullptr;
     const std::lock_guard lock(mutex_);
     TableRow& row = finished_[key] = runRow(key, study_.id, record);
     writer_.append(row);
-    progress_->finished();
+    if (too_long) {
+      progress_->skipped(kindOf(spec));
+    } else {
+      progress_->finished(kindOf(spec), wallSeconds() - start);
+    }
     return &row;
   }
 

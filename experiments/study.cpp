@@ -228,6 +228,8 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   if (const auto* title = find(text.study, "title")) study.title = single("title", *title);
   study.orders = flag(text.study, "orders");
   study.trajectories = flag(text.study, "trajectories");
+  study.estimates = flag(text.study, "estimates");
+  study.phases = flag(text.study, "phases");
   if (const auto* targets = find(text.study, "targets")) {
     study.targets = numbers(*targets, "targets", kPositive);
   }

@@ -39,7 +39,9 @@ struct Study {
   /// Of the other variant: a quick run throws no finished full run away.
   std::vector<Series> other_variant;
   bool orders = false;          ///< fit orders: orders.csv
-  bool trajectories = false;    ///< write the solution over time of every run: <scene>.csv
+  bool trajectories = false;    ///< write the solution over time of every run: <scene>.<method>.csv
+  bool estimates = false;       ///< compare estimated with true errors of steps: estimates.csv
+  bool phases = false;          ///< shares of the parts of Newton's method: phases.csv
   std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv
   TimingOptions timing;
 };

@@ -61,8 +61,9 @@ class FileReader {
   std::string file_;
 };
 
-constexpr std::string_view kStudyKeys[] = {"title",  "orders",   "trajectories", "targets",
-                                           "timing", "defaults", "quick",        "block"};
+constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
+                                           "phases", "timing", "targets",      "defaults",
+                                           "quick",  "block"};
 
 void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
                   StudyKeys& study) {

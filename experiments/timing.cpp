@@ -3,9 +3,11 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
+#include "experiments/clock.h"
 #include "experiments/interrupt.h"
 #include "experiments/progress.h"
 #include "experiments/runner.h"
@@ -39,6 +41,11 @@ struct Candidate {
   const RunSpec* spec;
   double seconds;  // of the accuracy run
 };
+
+// Runs of about the same length take about the same time to be timed.
+std::string kindOf(const Candidate& candidate) {
+  return std::to_string(std::ilogb(candidate.seconds));
+}
 
 std::vector<Candidate> candidates(const Study& study, Table& runs) {
   const auto specs = specsByKey(study);
@@ -76,17 +83,20 @@ void timeStudy(const Study& study, const std::filesystem::path& file, Table& run
                std::ostream& out) {
   const auto wanted = candidates(study, runs);
   {
-    Progress progress(out, study.id + " timing", wanted.size());
+    Progress progress(out, study.id + " timing");
+    for (const auto& candidate : wanted) progress.expect(kindOf(candidate));
     RowWriter writer(file, runs);
-    for (const auto& [row, spec, seconds] : wanted) {
+    for (const auto& candidate : wanted) {
       if (interruptFlag()) break;
-      RunSpec unlimited = *spec;
+      const double start = wallSeconds();
+      RunSpec unlimited = *candidate.spec;
       unlimited.time_limit = 0;
       const auto run = prepare(unlimited);
-      const bool once = seconds > study.timing.once_above_s;
-      setTiming(runs, *row, timeRun(*run, study.timing, once ? 1 : study.timing.repetitions));
-      writer.append(*row);
-      progress.finished();
+      const bool once = candidate.seconds > study.timing.once_above_s;
+      setTiming(runs, *candidate.row,
+                timeRun(*run, study.timing, once ? 1 : study.timing.repetitions));
+      writer.append(*candidate.row);
+      progress.finished(kindOf(candidate), wallSeconds() - start);
     }
   }
   writeTable(file, runs);

@@ -7,10 +7,11 @@
 
 namespace irk {
 
-/// <scene>.csv, with the settings in its name where there are any.
+/// <scene>.<method>.csv, with the settings behind the scene where there are any.
 std::filesystem::path trajectoryPath(const std::filesystem::path& folder, const RunSpec& spec);
 
-/// Runs and writes columns t, components, outputs; long runs are thinned. Throws Misuse as
+/// Runs and writes columns t, h, error, newton_iterations, switches, components, outputs. Long runs
+/// are thinned: a row then holds the smallest step since the row before it. Throws Misuse as
 /// `prepare`.
 RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch,
                                 const std::filesystem::path& file);

@@ -1,9 +1,10 @@
 # A scene's solution over time, one panel per kind of quantity.
 #   gnuplot -e "data='results/scenes'; out='slider_crank'; scene='slider_crank'" scene_solution.gp
-# Reads <scene>.csv: t and the components by name. Options: scene, file_name, panels.
+# Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels.
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("scene")) scene = 'slider_crank'
-if (!exists("file_name")) file_name = scene
+if (!exists("method")) method = 'radau_iia_5'
+if (!exists("file_name")) file_name = scene.'.'.method
 file = data.'/'.file_name.'.csv'
 
 # A panel is "label|columns", or "label|columns|factor" for values in another unit; a column a:b is b over
@@ -33,7 +34,7 @@ set datafile columnheaders
 if (!exists("panels")) {
   if (position(known_scenes, scene)) { panels = Layout[position(known_scenes, scene)] } else {
     panels = ""
-    do for [c in header] { if (c ne 't' && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
+    do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
   }
 }
 over(c) = strstrt(c, ':') ? c[1 : strstrt(c, ':') - 1] : 't'

@@ -33,6 +33,13 @@ set style textbox opaque border lc rgb 0xcccccc
 
 decades(axis) = sprintf("set logscale %s; set format %s '10^{%%L}'; set m%stics 1", axis, axis, axis)
 
+# On a logarithmic axis of less than two decades the decades alone are too few labels: 1, 2, 5 then.
+label125(m, e) = m == 1 ? sprintf("10^{%d}", e) : sprintf("%d·10^{%d}", m, e)
+tics125(axis, low, high) = (tics = '', sum [e = int(floor(log10(low))) : int(ceil(log10(high)))] sum [k = 1 : 3] \
+  (strlen(tics = tics.sprintf("%s'%s' %g", strlen(tics) ? ', ' : '', label125(int("125"[k:k]), e), int("125"[k:k]) * 10.0 ** e))), \
+  sprintf("set %stics (%s) nomirror", axis, tics))
+logTics(axis, low, high) = high / low < 99 ? tics125(axis, low, high) : sprintf("set %stics autofreq nomirror", axis)
+
 # --- Families: one colour (Okabe and Ito, distinct to colour-blind eyes), mark and dash each.
 families_known = "gauss radau_ia radau_iia lobatto_iiia lobatto_iiib lobatto_iiic lobatto_iiics lobatto_iiid"
 family_titles  = "'Gauss' 'Radau IA' 'Radau IIA' 'Lobatto IIIA' 'Lobatto IIIB' 'Lobatto IIIC' 'Lobatto IIIC*' 'Lobatto IIID'"

@@ -49,6 +49,8 @@ int tableauExport(const std::string& id_or_file, Streams streams);
 
 int plotCommand(const std::string& study, const std::string& results, Streams streams);
 int reportCommand(const std::string& results, Streams streams);
+/// The paper's claims and what the results say about them.
+int claimsCommand(const std::string& results, Streams streams);
 
 struct MergeOptions {
   std::vector<std::string> folders;

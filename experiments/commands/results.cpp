@@ -26,7 +26,7 @@ int mergeCommand(const MergeOptions& options, Streams streams) {
   const Table runs = sortedRuns(merged, study);
   const auto folder = std::filesystem::path(options.results) / study.id;
   writeTable(folder / "runs.csv", runs);
-  writeSummaries(study, runs, folder);
+  writeSummaries(study, runs, folder, streams.err);
   fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(),
              options.folders.size(), folder.string());
   return 0;

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "experiments/claims/claims.h"
 #include "experiments/commands/commands.h"
 #include "experiments/environment.h"
 #include "experiments/interrupt.h"
@@ -15,7 +16,10 @@ namespace irk {
 namespace {
 
 // In the order in which a reader wants them: what is computed, whether it is right, what it costs.
-constexpr std::string_view kPaperStudies[] = {"scenes", "order", "order_mp50", "cpu_time"};
+constexpr std::string_view kPaperStudies[] = {
+    "scenes", "order", "order_mp50", "cpu_time", "families", "steps", "discontinuity", "peers",
+    "jacobian", "newton_rule", "k_form", "phases", "control", "estimate", "drift", "small_steps",
+    "failure_constraints", "failure_stability", "failure_newton"};
 
 void printSummary(const Study& study, const Table& runs, const std::filesystem::path& folder,
                   std::ostream& out) {
@@ -33,7 +37,7 @@ int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
   if (!interruptFlag() && whole && study.timing.wanted) {
     timeStudy(study, folder / "runs.csv", runs, streams.err);
   }
-  if (whole) writeSummaries(study, runs, folder);
+  if (whole) writeSummaries(study, runs, folder, streams.err);
   printSummary(study, runs, folder, streams.out);
   if (!interruptFlag()) return 0;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
@@ -60,6 +64,11 @@ int paperCommand(const RunOptions& options, Streams streams) {
 int plotCommand(const std::string& study, const std::string& results, Streams streams) {
   const ReportOptions options{results, homeFolder()};
   return drawFigures(study, options, streams.err) == 0 ? 0 : 1;
+}
+
+int claimsCommand(const std::string& results, Streams streams) {
+  streams.out << claimsText(ResultTables(results));
+  return 0;
 }
 
 int reportCommand(const std::string& results, Streams streams) {

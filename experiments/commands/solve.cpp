@@ -83,7 +83,8 @@ RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::strin
   const auto out = std::filesystem::path(plot).replace_extension();
   drawFigure(
       "scene_solution.gp",
-      fmt::format("data='{}'; out='{}'; scene='{}'", folder.string(), out.string(), spec.scene),
+      fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'", folder.string(), out.string(),
+                  spec.scene, file.stem().string()),
       homeFolder(), err);
   std::filesystem::remove_all(folder);
   return record;

@@ -1,60 +1,47 @@
-// One factorization and one solve of the Newton matrix, per stage solver and number of stages, at
-// n = 98 to 100: the ANCF pendulum with 24 elements at its start.
+// The parts of Newton's method, per stage solver, number of stages and number of unknowns:
+// residual, Jacobian, factorization and solve of the ANCF pendulum at its start.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <string>
-#include <vector>
 
-#include "core/scheme.h"
-#include "core/stage_solver.h"
-#include "problems/scene.h"
-#include "tableaus/catalogue.h"
+#include "experiments/newton_kernel.h"
 
 namespace irk {
 namespace {
 
 constexpr double kStep = 1e-3;  // s: about what an accurate run takes
 
-struct Kernel {
-  std::vector<Linearization<double>> at;
-  std::unique_ptr<StageSolver<double>> solver;
-  Mat<double> rhs;
+NewtonKernel makeKernel(StageSolverKind solver, const benchmark::State& state) {
+  RunSpec spec;
+  spec.scene = "ancf_pendulum";
+  spec.settings = {{"elements", std::to_string(state.range(1))}};
+  spec.method = "radau_iia_" + std::to_string(state.range(0));
+  spec.options.solver = solver;
+  return {spec, kStep};
+}
 
-  Kernel(StageSolverKind kind, Index stages) {
-    const auto scene = makeScene<double>("ancf_pendulum", {{"elements", "24"}});
-    const auto system = scene.system({});
-    const Sizes n = system->sizes();
-    at.emplace_back(Pattern::dense(n.n()));
-    const auto& start = scene.start;
-    const auto view = [](const auto& y) { return ConstVec<double>(y.data(), y.size()); };
-    const Vec<double> a = start.a(), k = start.k(), z = start.z();
-    Differentiator<double>(*system, DerivativeSource::kAutomatic)
-        .evaluate(Level::kFormulated,
-                  {start.t, view(start.u), view(start.v), view(start.x), view(a), view(k), view(z)},
-                  at.front());
-    const Scheme<double> scheme(makeTableau<double>("radau_iia_" + std::to_string(stages)));
-    solver = makeStageSolver<double>(
-        kind, {scheme.implicitA(), at.front().pattern, system->rowPowers(), n});
-    if (solver->stagewise()) at.resize(static_cast<std::size_t>(stages), at.front());
-    rhs = Mat<double>::Ones(n.n(), stages);
-  }
+struct Part {
+  const char* name;
+  void (NewtonKernel::*call)();
 };
+constexpr Part kSystemParts[] = {{"residual", &NewtonKernel::residual},
+                                 {"jacobian", &NewtonKernel::jacobian}};
+constexpr Part kSolverParts[] = {{"factorize", &NewtonKernel::factorize},
+                                 {"solve", &NewtonKernel::solve}};
 
-void factorizeAndSolve(benchmark::State& state, StageSolverKind kind) {
-  Kernel kernel(kind, state.range(0));
-  Mat<double> rhs = kernel.rhs;
-  for ([[maybe_unused]] auto _ : state) {
-    const Outcome outcome = kernel.solver->factorize(kernel.at, kStep);
-    if (outcome != Outcome::kSuccess) {
-      state.SkipWithError("factorization failed");
-      break;
-    }
-    rhs = kernel.rhs;
-    kernel.solver->solve(rhs);
-    benchmark::DoNotOptimize(rhs.data());
-  }
-  state.counters["n"] = static_cast<double>(rhs.rows());
+void measure(benchmark::State& state, StageSolverKind solver, const Part& part) {
+  NewtonKernel kernel = makeKernel(solver, state);
+  kernel.factorize();
+  for ([[maybe_unused]] auto _ : state) (kernel.*part.call)();
+  state.counters["n"] = static_cast<double>(kernel.unknowns());
+}
+
+void add(const std::string& name, StageSolverKind solver, const Part& part) {
+  benchmark::RegisterBenchmark(name.c_str(), measure, solver, part)
+      ->ArgsProduct({{3, 5, 10}, {4, 24}})
+      ->ArgNames({"stages", "elements"})
+      ->Unit(benchmark::kMicrosecond);
 }
 
 }  // namespace
@@ -62,14 +49,13 @@ void factorizeAndSolve(benchmark::State& state, StageSolverKind kind) {
 
 int main(int argc, char** argv) {
   try {
+    for (const auto& part : irk::kSystemParts) {
+      irk::add(part.name, irk::StageSolverKind::kSchur, part);
+    }
     for (const auto& solver : irk::named<irk::StageSolverKind>()) {
-      benchmark::RegisterBenchmark(std::string(solver.id).c_str(), irk::factorizeAndSolve,
-                                   solver.value)
-          ->Arg(3)
-          ->Arg(5)
-          ->Arg(10)
-          ->ArgName("stages")
-          ->Unit(benchmark::kMicrosecond);
+      for (const auto& part : irk::kSolverParts) {
+        irk::add(std::string(solver.id) + '/' + part.name, solver.value, part);
+      }
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -23,8 +23,6 @@ struct Arkode {
   }
   static void set(void* memory) {
     IRK_SUNDIALS(ARKStepSetOrder(memory, kOrder));
-    IRK_SUNDIALS(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE));
-    IRK_SUNDIALS(ARKStepSetInterpolantDegree(memory, kOrder));
     IRK_SUNDIALS(ARKStepSetDeduceImplicitRhs(memory, SUNTRUE));
     IRK_SUNDIALS(ARKStepSetMaxNonlinIters(memory, kNewtonIterations));
   }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "experiments/table.h"
+#include "experiments/run_table.h"
 #include "experiments/trajectory.h"
 #include "tests/experiments/support.h"
 
@@ -73,13 +73,20 @@ TEST(Run, TrajectoryHoldsStartAndEnd) {
   const TemporaryFolder folder;
   const RunSpec run = spec("scene=slider_crank;t_end=0.3");
   const auto file = trajectoryPath(folder.path(), run);
-  EXPECT_EQ(file.filename(), "slider_crank.csv");
+  EXPECT_EQ(file.filename(), "slider_crank.radau_iia_5.csv");
   const RunRecord record = executeWithTrajectory(run, {}, file);
   const Table table = readTable(file);
   ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(record.counters.steps_accepted) + 1);
   EXPECT_EQ(table.rows.front()[0], "0");
   EXPECT_EQ(std::stod(table.rows.back()[table.column("theta")]), record.u[0]);
   EXPECT_TRUE(table.hasColumn("x3"));
+  double time = 0;
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    time += numberAt(table, table.rows[i], "h");
+    EXPECT_LE(numberAt(table, table.rows[i], "error"), 1) << "accepted";
+    EXPECT_GT(numberAt(table, table.rows[i], "newton_iterations"), 0);
+  }
+  EXPECT_NEAR(time, 0.3, 1e-12);
 }
 
 }  // namespace

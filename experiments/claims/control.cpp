@@ -1,0 +1,220 @@
+// Claims about error estimates, step control and discontinuities.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "experiments/claims/evaluations.h"
+#include "experiments/claims/measures.h"
+#include "experiments/cost_at_error.h"
+
+namespace irk {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct CasePair {
+  const char *scene, *smooth, *discontinuous;  // settings
+};
+
+double leastCost(const Table& costs, const Cells& cells, double least_stages, double most_stages) {
+  const Table rows = where(costs, cells);
+  double least = kInfinity;
+  for (const auto& row : rows.rows) {
+    const double s = numberAt(rows, row, "stages");
+    if (s >= least_stages && s <= most_stages && textAt(rows, row, "reached") == "1") {
+      least = std::min(least, numberAt(rows, row, "cpu_s"));
+    }
+  }
+  return least;
+}
+
+// How much five and more stages save against two, at the smallest error that two stages reach.
+std::optional<double> gainOfOrder(const Table& costs, std::string_view scene,
+                                  std::string_view settings) {
+  std::optional<double> gain;
+  double least_error = kInfinity;
+  for (const auto& error : distinct(costs, "target_error")) {
+    const Cells cells{
+        {"scene", scene}, {"settings", settings}, {"family", "radau_iia"}, {"target_error", error}};
+    const double few = leastCost(costs, cells, 2, 2), many = leastCost(costs, cells, 5, 100);
+    if (std::isinf(few) || std::isinf(many) || std::stod(error) >= least_error) continue;
+    least_error = std::stod(error);
+    gain = few / many;
+  }
+  return gain;
+}
+
+// Residuals per accepted length of time of doubled steps 2 h over those of plain steps h.
+std::vector<double> doublingCosts(const Table& runs) {
+  std::map<TableRow, double> plain;
+  std::vector<double> ratios;
+  for (const auto* control : {"fixed", "paper"}) {
+    for (const auto& row : runs.rows) {
+      const bool pair = numberAt(runs, row, "rtol") == 0.5 && succeededAt(runs, row) &&
+                        textAt(runs, row, "control") == control;
+      if (!pair) continue;
+      const TableRow key{textAt(runs, row, "scene"), textAt(runs, row, "method")};
+      const double residuals = numberAt(runs, row, "residuals");
+      if (std::string_view(control) == "fixed") {
+        plain[key] = residuals;
+      } else if (plain.contains(key)) {
+        ratios.push_back(residuals / plain[key]);
+      }
+    }
+  }
+  return ratios;
+}
+
+// What a method does where the torque of the slider-crank is switched off.
+struct Jump {
+  std::string method;
+  double step_factor;   // median step over the smallest one around the jump
+  double error_factor;  // error over that of the run without a jump
+};
+
+double errorOf(const Table& runs, const std::string& method, std::string_view settings) {
+  return median(numbersOf(
+      where(runs, {{"scene", "slider_crank"}, {"method", method}, {"settings", settings}}),
+      "error"));
+}
+
+std::vector<Jump> jumpsOf(const ResultTables& tables) {
+  constexpr std::string_view kJump = "torque_off_at=0.5";
+  const Table& runs = tables.runs("steps");
+  std::vector<Jump> jumps;
+  for (const auto& method :
+       distinct(where(runs, {{"scene", "slider_crank"}, {"settings", kJump}}), "method")) {
+    const Table& steps = tables.table("steps", "slider_crank_torque_off_at_0.5." + method);
+    const Table near = where(steps, [&](const TableRow& row) {
+      const double t = numberAt(steps, row, "t");
+      return t > 0.45 && t < 0.55;
+    });
+    const auto at_jump = numbersOf(near, "h");
+    if (at_jump.empty()) continue;
+    jumps.push_back(
+        {method, median(numbersOf(steps, "h")) / *std::min_element(at_jump.begin(), at_jump.end()),
+         errorOf(runs, method, kJump) / errorOf(runs, method, "")});
+  }
+  return jumps;
+}
+
+}  // namespace
+
+Finding stepDoubling(const ResultTables& tables) {
+  constexpr double kSafety = 4, kReliable = 0.95, kFair = 0.85, kCheap = 1.35, kDear = 1.65;
+  const Table& estimates = tables.table("estimate", "estimates");
+  std::string groups;
+  double worst_differential = 1, multipliers = 1;
+  for (const auto* group : {"u", "v", "x", "z"}) {
+    const auto ratios = numbersOf(where(estimates, {{"group", group}}), "doubling");
+    if (ratios.empty()) continue;
+    const double reliable = part(ratios, [](double x) { return x <= kSafety; });
+    groups += fmt::format("{}{} {}", groups.empty() ? "" : ", ", group, percent(reliable));
+    auto& least = group[0] == 'z' ? multipliers : worst_differential;
+    least = std::min(least, reliable);
+  }
+  if (groups.empty()) return notMeasurable("no step with an estimate above round-off");
+  const auto costs = doublingCosts(tables.runs("control"));
+  const double cost = median(costs);
+  const bool cost_right = cost >= kCheap && cost <= kDear;
+  Finding finding{
+      Verdict::kContradicted, fmt::format("costs {:.3g} times as much; reliable: {}", cost, groups),
+      fmt::format("A step is judged reliably if its true error is at most s_min = {:g} "
+                  "times the estimate; wanted in {} of the steps, per group of "
+                  "components (within limits: {}, multipliers aside). Cost in residuals against "
+                  "the same steps without estimate, "
+                  "median of {} cases (50 % more: {} to {}).",
+                  kSafety, percent(kReliable), percent(kFair), costs.size(), kCheap, kDear)};
+  if (worst_differential >= kFair) finding.verdict = Verdict::kWithinLimits;
+  if (std::min(worst_differential, multipliers) >= kReliable && cost_right) {
+    finding.verdict = Verdict::kConfirmed;
+  }
+  return finding;
+}
+
+Finding multistepRestart(const ResultTables& tables) {
+  constexpr double kMuch = 1.5, kSome = 1.1;
+  const Table& runs = tables.runs("peers");
+  // Cost with the torque switched off at 0.5 s over the cost without, at equal errors.
+  const auto penalty = [&](auto&& is_wanted) {
+    const Table chosen = where(runs, [&](auto& row) {
+      return textAt(runs, row, "scene") == "slider_crank" && is_wanted(textAt(runs, row, "method"));
+    });
+    return median(compareCosts(chosen, "settings", "", "torque_off_at=0.5", "cpu_s").all);
+  };
+  const double multistep =
+      penalty([](const std::string& method) { return method.find("bdf") != method.npos; });
+  const double one_step =
+      penalty([](const std::string& method) { return method.starts_with("radau"); });
+  if (std::isnan(multistep) || std::isnan(one_step)) {
+    return notMeasurable("no multistep method reaches an error with and without the discontinuity");
+  }
+  const double ratio = multistep / one_step;
+  return {
+      graded(-ratio, -kMuch, -kSome),
+      fmt::format("a jump costs BDF {:.2g} times, Radau IIA {:.2g} times", multistep, one_step),
+      fmt::format("Slider-crank: CPU time with the torque switched off over that without, at equal "
+                  "errors, medians. Confirmed: the factor of the multistep codes is at least {} "
+                  "times that of Radau IIA; within limits: {}.",
+                  kMuch, kSome)};
+}
+
+Finding smallStepsAtJumps(const ResultTables& tables) {
+  constexpr double kPays = 1.5, kSmall = 3, kLoss = 10;
+  const Table& costs = tables.table("cpu_time", "cpu_at_error");
+  constexpr CasePair kPairs[] = {{"slider_crank", "", "torque_off_at=0.5"},
+                                 {"hydraulic_arm", "reference=smooth", ""}};
+  std::vector<double> smooth, discontinuous;
+  for (const auto& pair : kPairs) {
+    const auto a = gainOfOrder(costs, pair.scene, pair.smooth);
+    const auto b = gainOfOrder(costs, pair.scene, pair.discontinuous);
+    if (a) smooth.push_back(*a);
+    if (b) discontinuous.push_back(*b);
+  }
+  if (smooth.empty() || discontinuous.empty()) {
+    return notMeasurable("two stages and five or more do not reach a common error");
+  }
+  const auto jumps = jumpsOf(tables);
+  if (jumps.empty()) return notMeasurable("no run of slider_crank came past 0.5 s");
+  std::string details;
+  bool necessary = true;  // who does not make its steps small pays with its accuracy
+  for (const auto& jump : jumps) {
+    necessary = necessary && (jump.step_factor >= kSmall || jump.error_factor >= kLoss);
+    details +=
+        fmt::format("{}{}: {:.2g} times smaller steps, {:.2g} times the error",
+                    details.empty() ? "" : "; ", jump.method, jump.step_factor, jump.error_factor);
+  }
+  const double gain = median(smooth), less = median(discontinuous);
+  Finding finding{
+      Verdict::kContradicted,
+      fmt::format("{:.2g} times faster where smooth, {:.2g} times with jumps", gain, less),
+      fmt::format(
+          "Radau IIA with at least 5 stages against 2, CPU time at the smallest common "
+          "error, medians; it pays from {} on. At the jump of the slider-crank, against the "
+          "median step and the smooth run: {}. Small: {:g} times; else the error must grow "
+          "{:g} times.",
+          kPays, details, kSmall, kLoss)};
+  if (gain >= kPays && necessary) {
+    finding.verdict = gain > less ? Verdict::kConfirmed : Verdict::kWithinLimits;
+  }
+  return finding;
+}
+
+Finding relativeTolerances(const ResultTables& tables) {
+  constexpr double kLittle = 1.2, kSome = 1.5;
+  const Table& runs = tables.runs("control");
+  const auto ratios = compareCosts(runs, "norm", "mixed", "absolute", "cpu_s").all;
+  const double ratio = median(ratios);
+  if (std::isnan(ratio)) return notMeasurable("no error is reached with both norms");
+  return {graded(ratio, kLittle, kSome), fmt::format("absolute costs {:.3g} times as much", ratio),
+          fmt::format("CPU time with an absolute over that with a mixed tolerance at equal errors, "
+                      "oscillating scenes, median of {} pairs. Relative tolerances help little if "
+                      "that is at most {}.",
+                      ratios.size(), kLittle)};
+}
+
+}  // namespace irk

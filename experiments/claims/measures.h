@@ -1,0 +1,51 @@
+// What evaluations of claims share: choosing rows, medians, costs of two variants at equal errors.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/claims/claims.h"
+#include "experiments/run_table.h"
+
+namespace irk {
+
+/// Column and cell.
+using Cells = std::vector<std::pair<std::string_view, std::string_view>>;
+
+/// The rows with these cells.
+Table where(const Table& table, const Cells& cells);
+/// The rows that the test accepts.
+Table where(const Table& table, const std::function<bool(const TableRow&)>& test);
+/// Different cells, in order of appearance.
+std::vector<std::string> distinct(const Table& table, std::string_view column);
+/// The numbers of a column, NaN left out.
+std::vector<double> numbersOf(const Table& table, std::string_view column);
+
+/// NaN of nothing.
+double median(std::vector<double> values);
+/// The part of the values that the test accepts; NaN of nothing.
+double part(const std::vector<double>& values, const std::function<bool(double)>& test);
+/// `0.5 %`.
+std::string percent(double part);
+
+/// Costs of `other` over those of `base` at equal errors.
+struct CostRatios {
+  std::vector<double> all;  ///< one per pair of series and error that both reach
+  int lost = 0;             ///< errors that only `base` reaches
+  int won = 0;              ///< errors that only `other` reaches
+};
+/// Pairs of series that are equal but for one column, compared at the errors 1e-3, 1e-4, ... 1e-10.
+CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base,
+                        std::string_view other, std::string_view cost);
+
+/// The errors at which costs are compared.
+std::span<const double> comparedErrors();
+
+/// Of two thresholds: `good` and better, `fair` and better, else contradicted. Smaller is better.
+Verdict graded(double value, double good, double fair);
+Finding notMeasurable(std::string reason);
+
+}  // namespace irk

@@ -1,0 +1,22 @@
+#include "experiments/claims/result_tables.h"
+
+#include <fmt/format.h>
+
+namespace irk {
+
+void ResultTables::put(const std::string& study, const std::string& name, Table table) {
+  tables_[study + '/' + name] = std::move(table);
+}
+
+const Table& ResultTables::table(std::string_view study, std::string_view name) const {
+  const auto key = fmt::format("{}/{}", study, name);
+  const auto found = tables_.find(key);
+  if (found != tables_.end()) return found->second;
+  const auto file = results_ / study / fmt::format("{}.csv", name);
+  if (results_.empty() || !std::filesystem::exists(file)) {
+    throw MissingResults(fmt::format("study {} has not been run", study));
+  }
+  return tables_[key] = readTable(file);
+}
+
+}  // namespace irk

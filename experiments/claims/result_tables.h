@@ -1,0 +1,37 @@
+// The tables that claims are judged by.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "experiments/table.h"
+
+namespace irk {
+
+/// A study's results are not there. Not a misuse: a claim then is `not measurable`.
+class MissingResults : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// results/<study>/<name>.csv, each read once, when it is asked for.
+class ResultTables {
+ public:
+  explicit ResultTables(std::filesystem::path results = {}) : results_(std::move(results)) {}
+
+  /// A table that no file holds.
+  void put(const std::string& study, const std::string& name, Table table);
+
+  /// Throws MissingResults.
+  const Table& runs(std::string_view study) const { return table(study, "runs"); }
+  const Table& table(std::string_view study, std::string_view name) const;
+
+ private:
+  std::filesystem::path results_;
+  mutable std::map<std::string, Table> tables_;  // by study/name
+};
+
+}  // namespace irk

@@ -1,0 +1,153 @@
+#include "experiments/estimates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "core/integrator.h"
+#include "experiments/numbers.h"
+#include "experiments/orders.h"
+#include "experiments/run_table.h"
+#include "experiments/theory.h"
+#include "tableaus/catalogue.h"
+
+namespace irk {
+namespace {
+
+constexpr int kSamples = 24;      // steps of one run
+constexpr Index kMoreStages = 4;  // of the accurate solution, ...
+constexpr int kSubsteps = 4;      // ... and its steps
+constexpr double kRoundOff = 1000 * std::numeric_limits<double>::epsilon();
+
+struct Step {
+  State<double> from;
+  double h;
+};
+
+/// One scene in one formulation, and its steps with any method.
+class Stepper {
+ public:
+  explicit Stepper(const RunSpec& spec)
+      : spec_(spec),
+        scene_(makeScene<double>(spec.scene, spec.settings)),
+        system_(scene_.system({spec.formulation, spec.scaling, spec.discontinuity})) {}
+
+  const Scene<double>& scene() const { return scene_; }
+
+  /// The steps that the run takes, some of them.
+  std::vector<Step> steps() const {
+    std::vector<Step> all;
+    State<double> from = scene_.start;
+    Monitor<double> monitor;
+    monitor.accepted = [&](const StepRecord<double>& step) {
+      all.push_back({from, step.h});
+      from = step.state;
+    };
+    Integrator<double> integrator(system_, makeTableau<double>(spec_.method), spec_.options,
+                                  scene_.scale);
+    static_cast<void>(integrator.integrate(scene_.start, spec_.t_end, monitor));
+    std::vector<Step> some;
+    const std::size_t stride = all.size() / kSamples + 1;
+    for (std::size_t i = stride / 2; i < all.size(); i += stride) some.push_back(all[i]);
+    return some;
+  }
+
+  /// `count` equal steps of a method over the step's interval: u, v, x, z at its end.
+  std::optional<Vec<double>> end(const Step& step, const std::string& method, int count) const {
+    IntegratorOptions options = spec_.options;
+    options.step.control = StepControl::kFixed;
+    options.step.estimate = ErrorEstimate::kNone;
+    options.step.h = step.h / count;
+    options.newton.kind = NewtonKind::kSimplified;
+    Integrator<double> integrator(system_, makeTableau<double>(method), options, scene_.scale);
+    const auto solution = integrator.integrate(step.from, step.from.t + step.h);
+    if (solution.outcome != Outcome::kSuccess) return {};
+    const auto& s = solution.state;
+    Vec<double> y(system_->sizes().components());
+    y << s.u, s.v, s.x, s.z();
+    return y;
+  }
+
+ private:
+  RunSpec spec_;
+  Scene<double> scene_;
+  std::shared_ptr<const System<double>> system_;
+};
+
+struct Group {
+  char name;
+  Index first, count;
+};
+
+std::vector<Group> groupsOf(const Sizes& n) {
+  return {{'u', 0, n.nu}, {'v', n.nu, n.nu}, {'x', 2 * n.nu, n.nx}, {'z', 2 * n.nu + n.nx, n.nz}};
+}
+
+double largest(const Vec<double>& y, const Vec<double>& scale, const Group& group) {
+  double most = 0;
+  for (Index i = group.first; i < group.first + group.count; ++i) {
+    most = std::max(most, std::abs(y[i]) / (i < scale.size() ? scale[i] : 1));
+  }
+  return most;
+}
+
+// Local errors are of order q + 1: the difference of one step and two halves is 2^q - 1 times the
+// error of the halves. Doubling takes the classical order for every component.
+double excess(double order) { return std::exp2(order) - 1; }
+
+void appendStep(const Stepper& stepper, const Step& step, const RunSpec& spec,
+                const TableRow& start, const Table& runs, const TableRow& run, Table& table) {
+  const auto tableau = makeTableau<double>(spec.method);
+  const auto accurate = "radau_iia_" + std::to_string(tableau.stages() + kMoreStages);
+  const auto coarse = stepper.end(step, spec.method, 1), fine = stepper.end(step, spec.method, 2);
+  const auto exact = stepper.end(step, accurate, kSubsteps);
+  if (!coarse || !fine || !exact) return;
+  const auto& scale = stepper.scene().scale;
+  for (const Group& group : groupsOf(stepper.scene().sizes())) {
+    const double size = largest(*exact, scale, group);
+    const double difference = largest(*coarse - *fine, scale, group);
+    const double error = largest(*fine - *exact, scale, group);
+    // Below round-off of the group neither number means anything.
+    if (group.count == 0 || !(std::max(difference, error) > kRoundOff * std::max(size, 1.0))) {
+      continue;
+    }
+    const double q = theoryFor(runs, run, group.name);
+    TableRow row = start;
+    row.insert(row.end(), {textAt(runs, run, "rtol"), numberText(step.from.t), numberText(step.h),
+                           std::string(1, group.name), numberText(difference), numberText(error),
+                           numberText(error / difference * excess(tableau.order)),
+                           numberText(error / difference * excess(q))});
+    table.rows.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+Table estimateTable(const Study& study, const Table& runs) {
+  Table table{runs.head, seriesColumns(runs), {}};
+  table.columns.insert(table.columns.end(), {"rtol", "t", "h", "group", "difference", "error",
+                                             "doubling", "richardson"});
+  std::map<std::string, const RunSpec*> specs;
+  for (const auto& series : study.series) {
+    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
+  }
+  for (const auto& series : seriesOf(runs)) {
+    for (const auto* run : series.rows) {
+      const auto spec = specs.find(run->front());
+      if (spec == specs.end() || !succeededAt(runs, *run) ||
+          spec->second->options.step.estimate == ErrorEstimate::kNone ||
+          spec->second->scalar != ScalarKind::kDouble) {
+        continue;
+      }
+      const Stepper stepper(*spec->second);
+      for (const Step& step : stepper.steps()) {
+        appendStep(stepper, step, *spec->second, series.name, runs, *run, table);
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace irk

@@ -1,0 +1,51 @@
+#include "experiments/newton_kernel.h"
+
+#include "core/counting.h"
+#include "core/scheme.h"
+#include "tableaus/catalogue.h"
+
+namespace irk {
+
+NewtonKernel::NewtonKernel(const RunSpec& spec, double h)
+    : system_(makeScene<double>(spec.scene, spec.settings)
+                  .system({spec.formulation, spec.scaling, spec.discontinuity})),
+      start_(system_->fromScene(makeScene<double>(spec.scene, spec.settings).start)),
+      h_(h),
+      differentiator_(*system_, spec.options.derivatives),
+      r_(Vec<double>::Zero(system_->sizes().n())) {
+  const Sizes n = system_->sizes();
+  at_.emplace_back(Pattern::dense(n.n()));
+  Counters counters;
+  const CountingSystem<double> counted(*system_, counters);
+  Differentiator<double>(counted, spec.options.derivatives)
+      .evaluate(Level::kFormulated, point(), at_.front());
+  residuals_per_jacobian_ = counters.residuals;
+
+  const Scheme<double> scheme(makeTableau<double>(spec.method));
+  const Mat<double> A = scheme.implicitA();
+  solver_ = makeStageSolver<double>(spec.options.solver,
+                                    {A, at_.front().pattern, system_->rowPowers(), n});
+  if (solver_->stagewise()) at_.resize(static_cast<std::size_t>(A.rows()), at_.front());
+  rhs_ = ones_ = Mat<double>::Ones(n.n(), A.rows());
+}
+
+void NewtonKernel::residual() {
+  system_->evaluate(Level::kFormulated, point(), {r_.data(), r_.size()});
+}
+
+void NewtonKernel::jacobian() {
+  differentiator_.evaluate(Level::kFormulated, point(), at_.front());
+}
+
+void NewtonKernel::factorize() {
+  if (solver_->factorize(at_, h_) != Outcome::kSuccess) {
+    throw Misuse("the Newton matrix cannot be factorized at the scene's start");
+  }
+}
+
+void NewtonKernel::solve() {
+  rhs_ = ones_;
+  solver_->solve(rhs_);
+}
+
+}  // namespace irk

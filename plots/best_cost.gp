@@ -1,0 +1,80 @@
+# What an error costs at best: the least cost over all numbers of stages, one curve per family (or per value of
+# another column), one panel per scene.
+#   gnuplot -e "data='results/families'; out='families'; cases='pendulum slider_crank'" best_cost.gp
+# Reads cpu_at_error.csv. Options: cases (scene or scene:settings, quoted if with blanks), by (a column), values
+# (those shown), cost (cpu_s, residuals, ...), titles (quoted words, one per case).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("cases")) cases = 'pendulum slider_crank slider_crank_flexible'
+if (!exists("by")) by = 'family'
+if (!exists("values")) values = ''
+if (!exists("cost")) cost = 'cpu_s'
+if (!exists("titles")) titles = ''
+file = data.'/cpu_at_error.csv'
+n = words(cases)
+colon(case) = strstrt(case, ':')
+sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
+settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
+caseTitle(i) = words(titles) >= i ? word(titles, i) : sceneTitle(sceneOf(word(cases, i)), settingsOf(word(cases, i)))
+inCase(i) = is("scene", sceneOf(word(cases, i))) && is("settings", settingsOf(word(cases, i)))
+
+tried = 0
+do for [i = 1 : n] {
+  undefine N_*
+  stats file using (inCase(i) ? (collect(strcol(by)), 1) : 0) name "N" nooutput
+  tried = tried + (exists("N_sum") ? N_sum : 0)
+}
+if (tried == 0) { eval absence(cases." in ".file) }
+if (words(values) == 0) { values = collected }
+count = words(values)
+collected = ""
+stats file using (collect(sprintf("%.2f", log10(column("target_error")))), 1) name "N" nooutput
+exponents = sorted(collected)
+targets = words(exponents)
+target(k) = 10 ** real(word(exponents, k))
+at(i, v, k) = inCase(i) && strcol(by) eq word(values, v) && abs(log10(column("target_error")) - real(word(exponents, k))) < 0.01 && !absent(cost)
+array Best[n * count * targets]
+slot(i, v, k) = ((i - 1) * count + v - 1) * targets + k
+least = 1e300; most = 0
+do for [i = 1 : n] { do for [v = 1 : count] { do for [k = 1 : targets] {
+  best = 1e300
+  stats file using (at(i, v, k) ? (best = column(cost) < best ? column(cost) : best, 1) : 0) nooutput
+  Best[slot(i, v, k)] = best
+  if (best < 1e300) { least = best < least ? best : least; most = best > most ? best : most }
+} } }
+curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F"
+curve_points = "7 5 9 11 4 6 8 10"
+colour(v) = by eq 'family' ? familyColour(word(values, v)) : int(word(curve_colours, v))
+pointOf(v) = by eq 'family' ? familyPoint(word(values, v)) : int(word(curve_points, v))
+dash(v) = by eq 'family' ? familyDash(word(values, v)) : (v - 1) % 4 + 1
+titleOf(v) = by eq 'family' ? familyTitle(word(values, v)) : word(values, v)
+
+margin_left = n == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_bottom = 0.27; gap_x = 0.06
+do for [format in formats] {
+  eval open(format, n == 1 ? 640 : 1080, 430)
+  set multiplot
+  unset key
+  eval decades("x"); eval decades("y")
+  set xrange [2 * target(targets) : target(1) / 2]
+  do for [i = 1 : n] {
+    low = 1e300; high = 0
+    do for [v = 1 : count] { do for [k = 1 : targets] {
+      b = Best[slot(i, v, k)]
+      if (b < 1e300) { low = b < low ? b : low; high = b > high ? b : high }
+    } }
+    if (high == 0) { low = 1; high = 10 }
+    set yrange [low / 1.5 : high * 1.5]
+    eval logTics('y', low, high)
+    eval panel(i, n, 1)
+    set title caseTitle(i) offset 0,-0.5 noenhanced
+    set xlabel 'error'
+    set ylabel when(i == 1, cost eq 'cpu_s' ? 'CPU time in s' : cost) offset 1,0 noenhanced
+    plot for [v = 1 : count] '+' using (target(int($0) + 1)):(Best[slot(i, v, int($0) + 1)] < 1e300 ? Best[slot(i, v, int($0) + 1)] : NaN) \
+      every ::0::(targets - 1) with linespoints lw 1.4 dt dash(v) pt pointOf(v) ps 0.8 lc rgb colour(v) notitle
+  }
+  eval legend(0.11)
+  plot 2 notitle, for [v = 1 : count] keyentry with linespoints lw 1.4 dt dash(v) pt pointOf(v) ps 0.8 lc rgb colour(v) title titleOf(v)
+  unset multiplot
+  unset output
+  eval framed
+  unset logscale; set xrange [*:*]; set yrange [*:*]
+}

@@ -1,0 +1,57 @@
+# What the parts of Newton's method take of its time, over the number of unknowns: one panel per number of
+# stages, one row per stage solver.
+#   gnuplot -e "data='results/phases'; out='phases'; scene='ancf_pendulum'" shares.gp
+# Reads phases.csv. Options: scene, derivatives, solvers (one row of panels each), methods (one column each).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("scene")) scene = 'ancf_pendulum'
+if (!exists("derivatives")) derivatives = 'difference_forward'
+if (!exists("solvers")) solvers = 'coupled_dense schur'
+if (!exists("methods")) methods = 'radau_iia_3 radau_iia_5 radau_iia_10'
+file = data.'/phases.csv'
+parts = "residual jacobian factorization solve"
+part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves'"
+part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B"
+row(d) = is("scene", scene) && is("derivatives", derivatives)
+undefine N_*
+stats file using (row(0) ? (collect(sprintf("%d", column("n"))), 1) : 0) name "N" nooutput
+if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+sizes = sorted(collected)
+collected = ""
+stats file using (row(0) ? (collect(strcol("method")), 1) : 0) name "N" nooutput
+kept = ""
+do for [m in methods] { if (position(collected, m)) { kept = kept.' '.m } }
+methods = kept
+columns = words(methods); lines = words(solvers)
+place(d) = sum [k = 1 : words(sizes)] (int(word(sizes, k)) == column("n") ? k : 0)
+at(solver, method) = row(0) && is("solver", solver) && is("method", method)
+share(k) = column('share_'.word(parts, k))
+below(k) = k == 1 ? 0 : sum [j = 1 : k - 1] share(j)
+size_tics = "set xtics ("; do for [k = 1 : words(sizes)] {
+  size_tics = size_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', word(sizes, k), k) }
+size_tics = size_tics.")"
+stagesIn(method) = system("echo '".method."' | sed 's/.*_//'")
+
+margin_left = 0.085; margin_right = 0.02; margin_top = 0.07; margin_bottom = 0.2; gap_x = 0.025; gap_y = 0.05
+do for [format in formats] {
+  eval open(format, columns == 1 ? 520 : 1080, 120 + 210 * lines)
+  set multiplot
+  unset key; unset grid; set border 3 lc rgb 0x666666; set tics scale 0
+  set xrange [0.4 : words(sizes) + 0.6]; set yrange [0 : 1]
+  do for [j = 1 : lines] { do for [i = 1 : columns] {
+    eval panel((j - 1) * columns + i, columns, lines)
+    eval size_tics." nomirror textcolor rgb ink"
+    if (j < lines) { unset xtics }
+    if (i == 1) { set ytics ('0' 0, '25 %%' 0.25, '50 %%' 0.5, '75 %%' 0.75, '100 %%' 1) nomirror textcolor rgb ink } else { unset ytics }
+    set title when(j == 1, 's = '.stagesIn(word(methods, i))) offset 0,-0.5
+    set xlabel when(j == lines, 'unknowns n of one stage') offset 0,0.3
+    set ylabel when(i == 1, word(solvers, j)) offset 0.5,0 noenhanced
+    plot for [k = 1 : 4] file using (at(word(solvers, j), word(methods, i)) ? place(0) : outside):(below(k) + share(k) / 2):(0.38):(share(k) / 2) \
+      with boxxyerror fs solid noborder lc rgb int(word(part_colours, k)) notitle
+  } }
+  eval legend(0.1)
+  plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb int(word(part_colours, k)) title word(part_titles, k)
+  unset multiplot
+  unset output
+  eval framed
+  set xrange [*:*]; set yrange [*:*]
+}

@@ -1,0 +1,57 @@
+# The step size over time, one curve per method; lines mark the discontinuities.
+#   gnuplot -e "data='results/steps'; out='steps'; cases='slider_crank slider_crank_torque_off_at_0.5'" step_size.gp
+# Reads <case>.<method>.csv. Options: cases (files without method; one panel each), titles (quoted words),
+# methods, marks (quoted words, one per case: times of discontinuities).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("cases")) cases = 'slider_crank slider_crank_torque_off_at_0.5'
+if (!exists("titles")) titles = ''
+if (!exists("methods")) methods = 'radau_iia_2 radau_iia_5 radau_iia_9'
+if (!exists("marks")) marks = ''
+n = words(cases)
+count = words(methods)
+file(i, k) = data.'/'.word(cases, i).'.'.word(methods, k).'.csv'
+there(i, k) = int(system("test -f '".file(i, k)."' && echo 1 || echo 0"))
+any = 0
+do for [i = 1 : n] { do for [k = 1 : count] { any = any + there(i, k) } }
+if (any == 0) { eval absence(cases." in ".data) }
+stagesIn(method) = int(system("echo '".method."' | sed 's/.*_//'"))
+array Colour[count]; array Stages[count]
+do for [k = 1 : count] { Stages[k] = stagesIn(word(methods, k)); Colour[k] = stageColour(Stages[k]) }
+least = 1e300; most = 0
+do for [i = 1 : n] { do for [k = 1 : count] { if (there(i, k)) {
+  undefine H_*
+  stats file(i, k) using (column("h") > 0 ? log10(column("h")) : NaN) name "H" nooutput
+  if (exists("H_min")) { least = 10 ** H_min < least ? 10 ** H_min : least; most = 10 ** H_max > most ? 10 ** H_max : most }
+} } }
+jumps(i) = words(marks) >= i ? word(marks, i) : ''
+
+margin_left = n == 1 ? 0.12 : 0.075; margin_right = 0.02; margin_bottom = 0.25; gap_x = 0.03
+do for [format in formats] {
+  eval open(format, n == 1 ? 640 : 1080, 400)
+  set multiplot
+  eval decades("y")
+  unset key
+  set xrange [*:*] noextend; set yrange [least / 2 : most * 2]
+  do for [i = 1 : n] {
+    eval panel(i, n, 1)
+    set title when(words(titles) >= i, word(titles, i)) offset 0,-0.5
+    set xlabel 't in s'
+    set ylabel when(i == 1, 'step size in s') offset 1,0
+    if (i > 1) { set format y '' }
+    do for [j = 1 : words(jumps(i))] {
+      set arrow j from first real(word(jumps(i), j)), graph 0 to first real(word(jumps(i), j)), graph 1 nohead \
+        back lw 5 lc rgb 0xF3D9D9
+    }
+    plot for [k = 1 : count] file(i, k) using "t":(positive(column("h"))) \
+      with steps lw 1.4 lc rgb Colour[k] notitle
+    unset arrow
+  }
+  eval legend(0.1)
+  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.6 lc rgb Colour[k] \
+         title word(methods, k), \
+       keyentry with lines lw 5 lc rgb 0xF3D9D9 title 'discontinuity'
+  unset multiplot
+  unset output
+  eval framed
+  unset logscale; set xrange [*:*]; set yrange [*:*]
+}

@@ -1,0 +1,118 @@
+# Work against accuracy, one curve per value of a column: a switch of the Jacobian, a formulation, a method.
+# The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
+#   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='slider_crank'" work_by.gp
+# Reads runs.csv. Options:
+#   variant (a column, whose values are the curves), variants (those shown, in this order),
+#   cases (scene or scene:settings, quoted if with blanks; one panel each), titles (quoted words, one per case),
+#   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...),
+#   only (quoted words column=value, which all rows must have), columns (of panels).
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("variant")) variant = 'jacobian'
+if (!exists("variants")) variants = ''
+if (!exists("cases")) cases = 'slider_crank'
+if (!exists("titles")) titles = ''
+if (!exists("costs")) costs = 'cpu_s'
+if (!exists("quantity")) quantity = 'error'
+if (!exists("only")) only = ''
+file = data.'/runs.csv'
+what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the positions' : quantity eq 'error_v' \
+  ? 'error of the velocities' : quantity eq 'error_z' ? 'error of the multipliers' : 'error of the states'
+cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
+  : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c eq 'drift' ? 'drift |g|' : c
+
+colon(case) = strstrt(case, ':')
+sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
+settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
+shortSettings(case) = strlen(settingsOf(case)) > 24 ? '' : settingsOf(case)
+equals(pair) = strstrt(pair, '=')
+holds(pair) = is(pair[1 : equals(pair) - 1], pair[equals(pair) + 1 : strlen(pair)])
+allowed(d) = words(only) == 0 ? 1 : (sum [i = 1 : words(only)] holds(word(only, i))) == words(only)
+inCase(case) = is("scene", sceneOf(case)) && is("settings", settingsOf(case)) && allowed(0)
+shown(d) = words(variants) == 0 || position(variants, strcol(variant))
+chosen(case) = inCase(case) && shown(0)
+error(d) = succeeded(0) && !absent(quantity) ? positive(column(quantity)) : NaN
+asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
+
+panels = words(cases) > 1 ? words(cases) : words(costs)
+caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
+costOf(i) = words(cases) > 1 ? word(costs, 1) : word(costs, i)
+caseTitle(i) = words(titles) >= i ? word(titles, i) : sceneTitle(sceneOf(caseOf(i)), shortSettings(caseOf(i)))
+
+# Ranges, over all panels for the errors and per panel for the costs.
+tried = 0; rows = 0; coarsest = 1e-300; finest = 1e300; top = 1
+array Least[panels]; array Most[panels]
+do for [i = 1 : panels] {
+  undefine N_*; undefine E_*; undefine C_*; undefine F_*
+  stats file using (chosen(caseOf(i)) ? (collect(strcol(variant)), 1) : 0) name "N" nooutput
+  tried = tried + (exists("N_sum") ? N_sum : 0)
+  stats file using (chosen(caseOf(i)) && error(0) > 0 ? 1 : 0) name "N" nooutput
+  Least[i] = 1; Most[i] = 10
+  if (exists("N_sum") && N_sum > 0) {
+    rows = rows + N_sum
+    stats file using (chosen(caseOf(i)) ? error(0) : NaN) name "E" nooutput
+    stats file using (chosen(caseOf(i)) && error(0) > 0 ? positive(column(costOf(i))) : NaN) name "C" nooutput
+    coarsest = E_max > coarsest ? E_max : coarsest
+    finest = E_min < finest ? E_min : finest
+    if (exists("C_min")) { Least[i] = C_min; Most[i] = C_max }
+  }
+  stats file using (chosen(caseOf(i)) && !succeeded(0) ? 1 : 0) name "N" nooutput
+  if (exists("N_sum") && N_sum > 0) {
+    stats file using (chosen(caseOf(i)) && !succeeded(0) ? asked(0) : NaN) name "F" nooutput
+    finest = F_min < finest ? F_min : finest
+    coarsest = F_max > coarsest ? F_max : coarsest
+  }
+}
+if (tried == 0) { eval absence(cases." in ".file) }
+if (words(variants) == 0) { variants = collected }
+count = words(variants)
+name(k) = word(variants, k)
+# Numbers stand in tables with all their digits.
+shortName(name) = strlen(name) > 10 && name[1:2] eq '0.' ? sprintf("%.3g", real(name)) : name
+coarsest = coarsest > 1 ? 1 : coarsest   # an error of 100 % and more: no digit is right
+# Each curve its own colour, mark and dash.
+curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
+curve_points = "7 5 9 11 4 6 8 10 13 12"
+curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
+curvePoint(k) = int(word(curve_points, (k - 1) % 10 + 1))
+curveDash(k) = (k - 1) % 4 + 1
+at(case, k) = chosen(case) && strcol(variant) eq name(k)
+
+if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
+lines = (panels + columns - 1) / columns
+legend_height = (40.0 + 18 * (count > 5) + 18 * (count > 8)) / (100 + 340 * lines)
+margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 0.05
+margin_bottom = legend_height + (lines == 1 ? 0.15 : 0.085)
+gap_x = words(cases) > 1 ? 0.065 : 0.09; gap_y = 0.13
+do for [format in formats] {
+  eval open(format, columns == 1 ? 640 : 1080, 100 + 340 * lines)
+  if (rows == 0) { eval nothing(cases) } else {
+    set multiplot
+    eval decades("x"); eval decades("y")
+    unset key
+    do for [i = 1 : panels] {
+      case = caseOf(i); c = costOf(i)
+      span = Most[i] / Least[i] > 10 ? Most[i] / Least[i] : 10
+      level(k) = Most[i] * span ** (0.05 + 0.025 * k)   # failures: a strip above all lines
+      eval logTics('y', Least[i], Most[i])
+      set xrange [2 * coarsest : finest / 2]
+      set yrange [Least[i] / 1.5 : level(count + 1)]
+      eval panel(i, columns, lines)
+      set title when(words(cases) > 1 || words(titles) > 0, caseTitle(i)) offset 0,-0.5 noenhanced
+      set xlabel when(i > panels - columns, what)
+      set ylabel when(words(costs) > 1 || i % columns == 1 || columns == 1, cost_title(c)) offset 1,0 noenhanced
+      plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
+             with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
+           for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? asked(0) : outside):(level(k)) \
+             with points pt failure_point ps 0.6 lw 1.5 lc rgb curveColour(k) notitle
+    }
+    eval legend(legend_height)
+    set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
+    plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 \
+           lc rgb curveColour(k) title shortName(name(k)), \
+         keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
+    eval framed
+    set title; unset multiplot
+  }
+  unset output
+  unset logscale; set xrange [*:*]; set yrange [*:*]
+}

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "experiments/builtin_studies.h"
+#include "experiments/estimates.h"
+#include "experiments/phases.h"
+#include "experiments/report.h"
+#include "experiments/run_table.h"
+#include "experiments/runner.h"
+#include "experiments/time_left.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+std::filesystem::path plots() { return std::filesystem::path(IRK_SOURCE_DIR) / "plots"; }
+
+TEST(Figures, BelongToStudiesAndScriptsThatExist) {
+  std::set<std::string> studies, names;
+  for (const auto& study : builtinStudies()) studies.emplace(study.id);
+  for (const auto& figure : readFigures(plots() / "figures.txt")) {
+    EXPECT_TRUE(studies.contains(figure.study)) << figure.name << ": " << figure.study;
+    EXPECT_TRUE(std::filesystem::exists(plots() / figure.script)) << figure.name;
+    EXPECT_TRUE(names.insert(figure.name).second) << figure.name << " twice";
+    EXPECT_FALSE(figure.title.empty() || figure.caption.empty()) << figure.name;
+  }
+}
+
+// Every built-in study's runs can be prepared, or are refused for a reason that has a name.
+TEST(Figures, StudiesHaveRunsThatResolve) {
+  for (const auto& entry : builtinStudies()) {
+    const Study study = loadStudy(entry.id, StudyVariant::kQuick);
+    ASSERT_FALSE(study.series.empty()) << entry.id;
+    for (const auto& series : study.series) {
+      EXPECT_NO_THROW((void)specKey(series.runs.front())) << entry.id;
+    }
+  }
+}
+
+TEST(Estimates, OfSmallStepsAreTheTrueErrors) {
+  const Study study = parseStudy(R"(
+estimates = true
+[[block]]
+scene = "riccati_tracking"
+methods = "radau_iia_2"
+tolerances = 1e-6
+)",
+                                 "small.toml", StudyVariant::kFull);
+  const TemporaryFolder folder;
+  RunnerOptions options;
+  options.results = folder.path();
+  std::ostringstream quiet;
+  const Table table = estimateTable(study, runStudy(study, options, quiet));
+  ASSERT_GT(table.rows.size(), 5u);
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(textAt(table, row, "group"), "x");
+    // |V_h - V_{h/2}| / (2^p - 1) is the error of V_{h/2} up to O(h).
+    EXPECT_NEAR(numberAt(table, row, "doubling"), 1, 0.2);
+    EXPECT_EQ(numberAt(table, row, "doubling"), numberAt(table, row, "richardson")) << "p = q";
+  }
+}
+
+TEST(Phases, SharesAddUp) {
+  const Study study = parseStudy(R"(
+phases = true
+[[block]]
+scene = "slider_crank"
+t_end = 0.1
+methods = "radau_iia_3"
+solver = ["coupled_dense", "schur"]
+)",
+                                 "small.toml", StudyVariant::kFull);
+  const TemporaryFolder folder;
+  RunnerOptions options;
+  options.results = folder.path();
+  std::ostringstream quiet;
+  const Table table = phaseTable(study, runStudy(study, options, quiet), quiet);
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (const auto& row : table.rows) {
+    double sum = 0;
+    for (const auto* share :
+         {"share_residual", "share_jacobian", "share_factorization", "share_solve"}) {
+      EXPECT_GT(numberAt(table, row, share), 0) << share;
+      sum += numberAt(table, row, share);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(textAt(table, row, "n"), "3");
+  }
+}
+
+TEST(TimeLeft, CountsEveryKindByItsOwnLength) {
+  TimeLeft time;
+  time.expect("short", 10);
+  time.expect("long", 2);
+  time.expect("unknown", 1);
+  EXPECT_EQ(time.left(), 0) << "nothing is known yet";
+  time.made("short", 1);
+  time.made("long", 100);
+  // 9 short ones, 1 long one, and one of the mean length.
+  EXPECT_NEAR(time.left(), 9 * 1 + 100 + 50.5, 1e-12);
+  time.dropped("long", 1);
+  EXPECT_NEAR(time.left(), 9 * 1 + 50.5, 1e-12);
+  EXPECT_EQ(time.spent(), 101);
+}
+
+}  // namespace
+}  // namespace irk
