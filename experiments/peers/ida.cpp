@@ -40,16 +40,16 @@ class Ida final : public Peer {
         yp_(workspace_.add(Vec<double>::Zero(sizes_.components()))) {
     void* const memory = IDACreate(workspace_.context());
     IRK_SUNDIALS(IDAInit(memory, residual, 0, workspace_.y(), yp_));
-    PeerSetup tested = setup;
-    if (excludeAlgebraic(setup.determined, tested.atol)) {
+    Vec<double> atol = setup.atol;
+    if (excludeAlgebraic(setup.determined, atol)) {
       IRK_SUNDIALS(IDASetNonlinConvCoef(memory, kNewtonTolerance));
       IRK_SUNDIALS(IDASetMaxNonlinIters(memory, kNewtonIterations));
     }
-    solver_.setUp(memory, tested, workspace_, this, jacobian, roots);
+    solver_.setUp(memory, setup, workspace_.add(atol), workspace_, this, jacobian, roots);
   }
 
-  StartReport start(State<double>& state, double t_end) override {
-    const StartReport report = makeConsistent<double>(system_, derivatives_, true, state);
+  StartReport start(State<double>& state, double t_end, StartCheck check) override {
+    const StartReport report = makeConsistent<double>(system_, derivatives_, true, state, check);
     if (report.outcome != Outcome::kSuccess) return report;
     VecView<double> y(workspace_.values(), sizes_.components());
     VecView<double> yp(N_VGetArrayPointer(yp_), sizes_.components());

@@ -30,8 +30,8 @@ class Peer {
   virtual ~Peer() = default;
 
   /// From `state` on, whatever was before; a multistep method begins at order 1 again. Sets state.w
-  /// if the peer needs it.
-  virtual StartReport start(State<double>& state, double t_end) = 0;
+  /// if the peer needs it; `check` is for that.
+  virtual StartReport start(State<double>& state, double t_end, StartCheck check) = 0;
 
   /// One accepted step. It ends at t_end at the latest. Sets t, u, v, x of the state, and w if the
   /// peer has it.
