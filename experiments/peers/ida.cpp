@@ -5,7 +5,7 @@
 // increments are those of v over h and never get below the tolerance when h is small (Petzold &
 // Loetstedt, SIAM J. Sci. Stat. Comput. 7, 1986). In exchange Newton is told to be more exact.
 // (With the defaults IDA fails at the first step of slider_crank_flexible at rtol = 1e-8, and needs
-// four times the steps for the pendulum in index 1.) The start is made consistent by the suite
+// six times the steps for the pendulum in index 1.) The start is made consistent by the suite
 // instead of IDACalcIC, which knows index 1 only. Hindmarsh et al., ACM TOMS 31 (2005).
 #include <ida/ida.h>
 
