@@ -264,8 +264,14 @@ void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->onSwitch(i, scene);
   state.d = scene.d;
-  state.x << scene.u, scene.v, scene.x;
   classify(scene);
+}
+
+template <class Real>
+void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  inner_->jump(i, scene);
+  state.x << scene.u, scene.v, scene.x;
 }
 
 template <class Real>

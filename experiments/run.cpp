@@ -1,5 +1,7 @@
 #include "experiments/run.h"
 
+#include <algorithm>
+
 #include "core/integrator.h"
 #include "core/multiprecision.h"
 #include "experiments/clock.h"
@@ -20,7 +22,7 @@ class RungeKutta {
   RungeKutta(const Scene<Real>& scene, const RunSpec& spec)
       : tableau_(makeTableau<Real>(spec.method)),
         system_(scene.system({spec.formulation, spec.scaling, spec.discontinuity})),
-        integrator_(system_, tableau_, spec.options, scene.scale) {}
+        integrator_(system_, tableau_, spec.options, systemScale(scene.scale, system_->sizes())) {}
 
   const std::string& family() const { return tableau_.family; }
   Index stages() const { return tableau_.stages(); }
@@ -156,6 +158,13 @@ class Prepared final : public PreparedRun {
 };
 
 }  // namespace
+
+Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
+  Vec<double> all = Vec<double>::Ones(system.components());
+  const Index known = std::min(scene.size(), all.size());
+  all.head(known) = scene.head(known);
+  return all;
+}
 
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);

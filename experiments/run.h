@@ -60,6 +60,10 @@ class PreparedRun {
   virtual std::vector<std::string> columns() const = 0;
 };
 
+/// Magnitudes of a system's components from those of its scene: 1 for unknowns that only the
+/// formulation has; cut off where it has eliminated some.
+Vec<double> systemScale(const Vec<double>& scene, const Sizes& system);
+
 /// Throws Misuse for everything that can never work.
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
 

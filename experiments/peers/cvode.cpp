@@ -11,6 +11,7 @@ namespace {
 
 struct Cvode {
   IRK_SUNDIALS_API(CVode)
+  static constexpr bool kRemembers = false;
   static void* create(SUNContext context, N_Vector y) {
     void* const memory = CVodeCreate(CV_BDF, context);
     IRK_SUNDIALS(CVodeInit(memory, sundials::OdeCallbacks::rates, 0, y));

@@ -42,7 +42,7 @@ class Gsl final : public Peer {
                                                      setup.atol.data()));
   }
 
-  StartReport start(State<double>& state, double t_end) override {
+  StartReport start(State<double>& state, double t_end, StartCheck) override {
     y_ = state.x;
     t_end_ = t_end;
     ode_.setDiscrete(state.d);

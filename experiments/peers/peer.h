@@ -19,7 +19,8 @@ struct PeerSetup {
   double h;          ///< the first step; 0 = the peer's choice
   double h_max;
   DerivativeSource derivatives;
-  bool locate;  ///< steps end at roots of the switching functions
+  bool determined;  ///< (a, k, z) follow from (u, v, x) at acceleration level; else index 2
+  bool locate;      ///< steps end at roots of the switching functions
 };
 
 /// An integrator of a library, step by step, with the library's own step and order control. One per
@@ -29,8 +30,8 @@ class Peer {
   virtual ~Peer() = default;
 
   /// From `state` on, whatever was before; a multistep method begins at order 1 again. Sets state.w
-  /// if the peer needs it.
-  virtual StartReport start(State<double>& state, double t_end) = 0;
+  /// if the peer needs it; `check` is for that.
+  virtual StartReport start(State<double>& state, double t_end, StartCheck check) = 0;
 
   /// One accepted step. It ends at t_end at the latest. Sets t, u, v, x of the state, and w if the
   /// peer has it.

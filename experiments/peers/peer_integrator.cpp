@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/run.h"
+
 namespace irk {
 namespace {
-
-// Switches at one time, per switching function, before it is called chattering.
-constexpr Index kMostSwitches = 4;
 
 // ODE codes get y' = f(t, y) whatever the scene: without constraints all formulations are one.
 SystemOptions systemOptions(const PeerEntry& entry, const RunSpec& spec) {
@@ -19,38 +18,41 @@ SystemOptions systemOptions(const PeerEntry& entry, const RunSpec& spec) {
   return {formulation, spec.scaling, spec.discontinuity};
 }
 
-// The scene's magnitudes; 1 for unknowns that only the formulation has.
-Vec<double> absoluteTolerances(const Scene<double>& scene, const Sizes& n, double atol) {
-  Vec<double> all = Vec<double>::Constant(n.components(), atol);
-  const Index known = std::min(scene.scale.size(), all.size());
-  all.head(known) *= scene.scale.head(known).asDiagonal();
-  return all;
+// Whether D0 at acceleration level is regular: y' = f(t, y) exists.
+bool isDetermined(const Scene<double>& scene, SystemOptions options) {
+  options.formulation = Formulation::kFirstOrder;
+  try {
+    (void)scene.system(options)->fromScene(scene.start);
+    return true;
+  } catch (const Misuse&) {
+    return false;
+  }
 }
 
 std::unique_ptr<Peer> makePeer(const PeerEntry& entry, const Scene<double>& scene,
                                const RunSpec& spec, const System<double>& system) {
   refuseIllegal(entry, spec, scene.sizes());
-  const auto& powers = system.errorPowers().z;
   const auto refuse = [&](std::string_view reason) {
     throw Misuse(fmt::format("illegal combination: method '{}' with scene '{}': {}", entry.id,
                              scene.id, reason));
   };
+  const auto& powers = system.errorPowers().z;
   if (std::any_of(powers.begin(), powers.end(), [](int p) { return p > 1; })) {
     refuse("it solves up to index 2");
   }
-  try {
-    (void)system.fromScene(scene.start);
-  } catch (const Misuse&) {
+  const bool determined = isDetermined(scene, systemOptions(entry, spec));
+  if (!determined && !entry.differential_algebraic) {
     refuse("it solves y' = f(t, y), and the scene's index is above 1: D0 is singular");
   }
   const auto& step = spec.options.step;
   return entry.make(
       {.system = system,
        .rtol = spec.options.tolerances.rtol,
-       .atol = absoluteTolerances(scene, system.sizes(), spec.options.tolerances.atol),
+       .atol = systemScale(scene.scale, system.sizes()) * spec.options.tolerances.atol,
        .h = step.h,
        .h_max = step.h_max,
        .derivatives = spec.options.derivatives,
+       .determined = determined,
        .locate = spec.discontinuity == Discontinuity::kLocate});
 }
 
@@ -62,18 +64,21 @@ PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scen
       max_steps_(spec.options.step.max_steps),
       peer_(makePeer(entry, scene, spec, *system_)),
       state_(system_->sizes()),
-      g_(system_->sizes().switches) {
+      switches_(*system_) {
   validate(spec.options);
 }
 
 Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_end,
                                            const Monitor<double>& monitor) {
   counters_ = {};
+  chatter_ = {};
   state_ = system_->fromScene(start);
-  if (!(state_.t <= t_end)) {
+  length_ = t_end - state_.t;
+  if (!(length_ >= 0)) {
     throw Misuse(fmt::format("t_end = {} lies before the start, t = {}", t_end, state_.t));
   }
-  StartReport report = begin(t_end);
+  StartReport report = settle(monitor);
+  if (report.outcome == Outcome::kSuccess) report = begin(t_end, StartCheck::kConstraints);
   if (report.outcome == Outcome::kSuccess) report = run(t_end, monitor);
   collectCounts();
   return {report.outcome, report.detail, system_->toScene(state_), counters_};
@@ -92,14 +97,18 @@ StartReport PeerIntegrator::run(double t_end, const Monitor<double>& monitor) {
       constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
       monitor.accepted({state_.t, state_.t - t, kUnknown, 0, system_->toScene(state_)});
     }
-    const StartReport switched = switchModes(t_end, monitor);
+    const StartReport switched = afterStep(t_end, monitor);
     if (switched.outcome != Outcome::kSuccess) return switched;
   }
   return {};
 }
 
-StartReport PeerIntegrator::begin(double t_end) {
-  const StartReport report = peer_->start(state_, t_end);
+StartReport PeerIntegrator::begin(double t_end, StartCheck check) {
+  collectCounts();
+  // Libraries refuse an interval within round-off of t.
+  const double shortest = 100 * std::numeric_limits<double>::epsilon() * std::abs(t_end);
+  if (t_end - state_.t <= shortest) state_.t = t_end;
+  const StartReport report = peer_->start(state_, t_end, check);
   started_ = report.outcome == Outcome::kSuccess;
   return report;
 }
@@ -114,50 +123,61 @@ StartReport PeerIntegrator::failed(Outcome outcome, const std::string& what) con
   return {outcome, fmt::format("{} at t = {:.6g}", what, state_.t)};
 }
 
-StartReport PeerIntegrator::switchModes(double t_end, const Monitor<double>& monitor) {
-  if (g_.size() == 0 || system_->discontinuity() == Discontinuity::kSmooth) return {};
-  Index done = 0;
-  for (Index i = dueSwitch(); i >= 0; i = dueSwitch()) {
-    if (++done > kMostSwitches * g_.size()) {
-      ++counters_.chattering;
-      return failed(Outcome::kChattering, system_->switchName(i) + ": switches without end");
-    }
-    const StartReport report = doSwitch(i, t_end);
-    if (report.outcome != Outcome::kSuccess) return report;
-    if (monitor.switched) {
-      monitor.switched({state_.t, i, system_->switchName(i), system_->toScene(state_)});
-    }
-  }
-  return {};
+void PeerIntegrator::tell(Index i, const Monitor<double>& monitor) const {
+  if (!monitor.switched) return;
+  const auto scene = system_->toScene(state_);
+  monitor.switched({state_.t, i, system_->switchName(i), scene});
 }
 
-// A switching function that has become positive, or whose root ended the step.
-Index PeerIntegrator::dueSwitch() {
-  system_->switching(pointOf(state_), {g_.data(), g_.size()});
-  for (Index i = 0; i < g_.size(); ++i) {
-    if (g_[i] > 0 || peer_->foundRoot(i)) return i;
-  }
-  return -1;
+StartReport PeerIntegrator::settle(const Monitor<double>& monitor) {
+  const SwitchReport report = switches_.settle(state_, [&](Index i) {
+    ++counters_.switches;
+    tell(i, monitor);
+  });
+  if (report.outcome == Outcome::kSuccess) return {};
+  return failed(report.outcome, switches_.describe(report.index));
 }
 
-// Located switches begin a new integration. Ignored ones do so only where the state jumps: a jump
-// of the rates is left to the error estimate.
-StartReport PeerIntegrator::doSwitch(Index i, double t_end) {
-  const State<double> before = state_;
-  system_->onSwitch(i, state_);
-  ++counters_.switches;
+StartReport PeerIntegrator::afterStep(double t_end, const Monitor<double>& monitor) {
+  if (switches_.none()) return {};
   const bool locate = system_->discontinuity() == Discontinuity::kLocate;
-  if (locate) ++counters_.located_events;
-  const bool jumps = state_.u != before.u || state_.v != before.v || state_.x != before.x;
-  if (!locate && !jumps) {
-    peer_->setDiscrete(state_.d);
-    return {};
+  return locate ? locatedSwitch(t_end, monitor) : ignoredSwitches(t_end, monitor);
+}
+
+// The switch whose root ended the step, or that is due without one, then a new start. What that
+// switch makes due at once waits for one step: the library's state at a root is interpolated, and
+// functions that should then be 0 are positive by round-off.
+StartReport PeerIntegrator::locatedSwitch(double t_end, const Monitor<double>& monitor) {
+  const SwitchReport report = switches_.evaluate(state_);
+  if (report.outcome != Outcome::kSuccess) {
+    return failed(report.outcome, switches_.describe(report.index));
   }
-  collectCounts();
-  // Libraries refuse an interval within round-off of t.
-  const double shortest = 100 * std::numeric_limits<double>::epsilon() * std::abs(t_end);
-  if (t_end - state_.t <= shortest) state_.t = t_end;
-  return begin(t_end);
+  Index i = 0;
+  while (i < switches_.g().size() && !peer_->foundRoot(i)) ++i;
+  if (i == switches_.g().size()) i = switches_.due();
+  if (i < 0) return {};
+  ++counters_.located_events;
+  if (chatter_.event(state_.t, length_)) {
+    ++counters_.chattering;
+    return failed(Outcome::kChattering, switches_.describe(i));
+  }
+  system_->onSwitch(i, state_);
+  system_->jump(i, state_);
+  ++counters_.switches;
+  tell(i, monitor);
+  return begin(t_end, StartCheck::kNone);
+}
+
+// A new start only where the state jumps: a jump of the rates is left to the error estimate.
+StartReport PeerIntegrator::ignoredSwitches(double t_end, const Monitor<double>& monitor) {
+  const State<double> before = state_;
+  const StartReport report = settle(monitor);
+  if (report.outcome != Outcome::kSuccess) return report;
+  if (chatter_.step(state_.d != before.d)) ++counters_.chattering;
+  const bool jumped = state_.u != before.u || state_.v != before.v || state_.x != before.x;
+  if (jumped) return begin(t_end, StartCheck::kNone);
+  peer_->setDiscrete(state_.d);
+  return {};
 }
 
 }  // namespace irk

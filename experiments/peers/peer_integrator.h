@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/integrator.h"
+#include "core/switches.h"
 #include "experiments/peers/catalogue.h"
 
 namespace irk {
@@ -20,19 +21,23 @@ class PeerIntegrator {
 
  private:
   StartReport run(double t_end, const Monitor<double>& monitor);
-  StartReport begin(double t_end);
+  StartReport begin(double t_end, StartCheck check);
   void collectCounts();
   StartReport failed(Outcome outcome, const std::string& what) const;
-  StartReport switchModes(double t_end, const Monitor<double>& monitor);
-  StartReport doSwitch(Index i, double t_end);
-  Index dueSwitch();
+  StartReport settle(const Monitor<double>& monitor);
+  StartReport afterStep(double t_end, const Monitor<double>& monitor);
+  StartReport locatedSwitch(double t_end, const Monitor<double>& monitor);
+  StartReport ignoredSwitches(double t_end, const Monitor<double>& monitor);
+  void tell(Index i, const Monitor<double>& monitor) const;
 
   std::shared_ptr<const System<double>> system_;
   std::int64_t max_steps_;
   std::unique_ptr<Peer> peer_;
   State<double> state_;
-  Vec<double> g_;  // switching functions
+  Switches<double> switches_;
+  ChatterDetector chatter_;
   Counters counters_;
+  double length_ = 0;
   bool started_ = false;
 };
 

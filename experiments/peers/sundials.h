@@ -98,16 +98,16 @@ constexpr int kOneStep = 2, kRootReturn = 2;
 template <class Api>
 class Solver {
  public:
-  /// `jacobian`, `roots`: the callbacks; their user data is `self`.
+  /// Takes over new memory. `jacobian`, `roots`: the callbacks; their user data is `self`.
   template <class Jacobian, class Roots>
-  void setUp(void* memory, const PeerSetup& setup, Workspace& workspace, void* self,
+  void setUp(void* memory, const PeerSetup& setup, N_Vector atol, Workspace& workspace, void* self,
              Jacobian jacobian, Roots roots) {
     memory_.reset(memory);
 #if SUNDIALS_VERSION_MAJOR < 7
     IRK_SUNDIALS(Api::setErrHandlerFn(memory, keepMessage, &workspace.message()));
 #endif
     IRK_SUNDIALS(Api::setUserData(memory, self));
-    IRK_SUNDIALS(Api::svTolerances(memory, setup.rtol, workspace.add(setup.atol)));
+    IRK_SUNDIALS(Api::svTolerances(memory, setup.rtol, atol));
     IRK_SUNDIALS(Api::setLinearSolver(memory, workspace.solver(), workspace.matrix()));
     IRK_SUNDIALS(Api::setJacFn(memory, jacobian));
     IRK_SUNDIALS(Api::setInitStep(memory, setup.h));

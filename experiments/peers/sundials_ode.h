@@ -33,19 +33,21 @@ struct OdeCallbacks {
 };
 
 /// Api: as IRK_SUNDIALS_API, and create(context, y), set(memory), reInit(memory, t, y),
-/// advance(memory, t_end, y, t).
+/// advance(memory, t_end, y, t); kRemembers: an integration leaves something behind that reInit
+/// does not remove.
 template <class Api>
 class OdePeer final : public Peer {
  public:
   explicit OdePeer(const PeerSetup& setup)
-      : callbacks_(setup.system), workspace_(callbacks_.ode.size()) {
-    void* const memory = Api::create(workspace_.context(), workspace_.y());
-    solver_.setUp(memory, setup, workspace_, &callbacks_, OdeCallbacks::jacobian,
-                  OdeCallbacks::roots);
-    Api::set(memory);
+      : setup_(setup),
+        callbacks_(setup.system),
+        workspace_(callbacks_.ode.size()),
+        atol_(workspace_.add(setup.atol)) {
+    createMemory();
   }
 
-  StartReport start(State<double>& state, double t_end) override {
+  StartReport start(State<double>& state, double t_end, StartCheck check) override {
+    if (Api::kRemembers && check == StartCheck::kConstraints) createMemory();
     std::copy(state.x.begin(), state.x.end(), workspace_.values());
     callbacks_.ode.setDiscrete(state.d);
     callbacks_.ode.resetCounts();
@@ -73,8 +75,17 @@ class OdePeer final : public Peer {
   std::string message() const override { return workspace_.message(); }
 
  private:
+  void createMemory() {
+    void* const memory = Api::create(workspace_.context(), workspace_.y());
+    solver_.setUp(memory, setup_, atol_, workspace_, &callbacks_, OdeCallbacks::jacobian,
+                  OdeCallbacks::roots);
+    Api::set(memory);
+  }
+
+  PeerSetup setup_;
   OdeCallbacks callbacks_;
   Workspace workspace_;
+  N_Vector atol_;
   Solver<Api> solver_;
 };
 
