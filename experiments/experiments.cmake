@@ -1,11 +1,16 @@
 # The library behind the program, the program `irk`, and the stand-alone kernels.
+# Only the peers need SUNDIALS: core, tableaus and problems do not know it.
+find_package(SUNDIALS REQUIRED COMPONENTS arkode cvode ida nvecserial sunlinsoldense sunmatrixdense)
 irk_library(experiments)
 file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
-                                  ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp)
+                                  ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp)
 target_sources(irk_experiments PRIVATE ${parts})
 target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
                       PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark
-                              tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json CLI11::CLI11)
+                              tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json CLI11::CLI11
+                              SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::nvecserial
+                              SUNDIALS::sunlinsoldense SUNDIALS::sunmatrixdense)
 
 # The study files travel inside the program.
 set(generated ${CMAKE_BINARY_DIR}/experiments)

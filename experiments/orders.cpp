@@ -18,7 +18,7 @@ constexpr double kAgreement = 0.2;
 
 std::optional<SystemKind> kindOf(const std::string& scene, const std::string& formulation) {
   const Sizes n = makeScene<double>(scene).sizes();
-  if (n.nz == 0) return SystemKind::kOde;
+  if (n.nz == 0 || formulation == "first_order") return SystemKind::kOde;
   if (n.constraints < n.nz) return {};
   return formulation == "index3" ? SystemKind::kIndex3 : SystemKind::kIndex2;
 }

@@ -3,6 +3,7 @@
 #include "core/integrator.h"
 #include "core/multiprecision.h"
 #include "experiments/clock.h"
+#include "experiments/peers/peer_integrator.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
@@ -12,16 +13,59 @@ Vec<double> rounded(const auto& y) {
   return y.unaryExpr([](const auto& value) { return static_cast<double>(value); });
 }
 
+/// An implicit Runge-Kutta method of the suite.
 template <class Real>
+class RungeKutta {
+ public:
+  RungeKutta(const Scene<Real>& scene, const RunSpec& spec)
+      : tableau_(makeTableau<Real>(spec.method)),
+        system_(scene.system({spec.formulation, spec.scaling, spec.discontinuity})),
+        integrator_(system_, tableau_, spec.options, scene.scale) {}
+
+  const std::string& family() const { return tableau_.family; }
+  Index stages() const { return tableau_.stages(); }
+  Solution<Real> integrate(const State<Real>& start, const Real& t_end,
+                           const Monitor<Real>& monitor) {
+    auto solution = integrator_.integrate(start, t_end, monitor);
+    const auto* form = dynamic_cast<const FirstOrderForm<Real>*>(system_.get());
+    if (form && solution.detail.empty()) {
+      solution.detail = "mass factorizations: " + std::to_string(form->massFactorizations());
+    }
+    return solution;
+  }
+
+ private:
+  Tableau<Real> tableau_;
+  std::shared_ptr<const System<Real>> system_;
+  Integrator<Real> integrator_;
+};
+
+/// An integrator of another library.
+class PeerMethod {
+ public:
+  PeerMethod(const Scene<double>& scene, const RunSpec& spec)
+      : entry_(*findPeer(spec.method)), integrator_(entry_, scene, spec) {}
+
+  const std::string& family() const { return entry_.id; }
+  Index stages() const { return 0; }
+  Solution<double> integrate(const State<double>& start, double t_end,
+                             const Monitor<double>& monitor) {
+    return integrator_.integrate(start, t_end, monitor);
+  }
+
+ private:
+  const PeerEntry& entry_;
+  PeerIntegrator integrator_;
+};
+
+template <class Real, class Method>
 class Prepared final : public PreparedRun {
  public:
   explicit Prepared(const RunSpec& spec)
       : spec_(resolved(spec)),
         scene_(makeScene<Real>(spec_.scene, spec_.settings)),
         references_(references(spec_.scene, spec_.settings)),
-        tableau_(makeTableau<Real>(spec_.method)),
-        integrator_(scene_.system({spec_.formulation, spec_.scaling, spec_.discontinuity}), tableau_, spec_.options,
-                    scene_.scale) {}
+        method_(scene_, spec_) {}
 
   RunRecord execute(const Watch& watch) override {
     Monitor<Real> monitor;
@@ -45,12 +89,12 @@ class Prepared final : public PreparedRun {
         watch.switched(static_cast<double>(change.t), change.name);
       };
     }
-    const auto solution = integrator_.integrate(scene_.start, Real(spec_.t_end), monitor);
+    const auto solution = method_.integrate(scene_.start, Real(spec_.t_end), monitor);
     return record(solution, threadSeconds() - start);
   }
 
   void integrate() override {
-    last_ = integrator_.integrate(scene_.start, Real(spec_.t_end)).outcome;
+    last_ = method_.integrate(scene_.start, Real(spec_.t_end), {}).outcome;
   }
 
   std::vector<std::string> columns() const override {
@@ -76,8 +120,8 @@ class Prepared final : public PreparedRun {
   RunRecord record(const Solution<Real>& solution, double seconds) const {
     const State<Real>& state = solution.state;
     RunRecord record{.spec = spec_,
-                     .family = tableau_.family,
-                     .stages = tableau_.stages(),
+                     .family = method_.family(),
+                     .stages = method_.stages(),
                      .outcome = std::string(name(solution.outcome)),
                      .detail = solution.detail,
                      .t = static_cast<double>(state.t),
@@ -107,19 +151,19 @@ class Prepared final : public PreparedRun {
   RunSpec spec_;
   Scene<Real> scene_;
   std::vector<Reference> references_;
-  Tableau<Real> tableau_;
-  Integrator<Real> integrator_;
+  Method method_;
   Outcome last_ = Outcome::kSuccess;
 };
 
 }  // namespace
 
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
+  if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
   switch (spec.scalar) {
     case ScalarKind::kDouble:
-      return std::make_unique<Prepared<double>>(spec);
+      return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
     case ScalarKind::kMp50:
-      return std::make_unique<Prepared<mp50>>(spec);
+      return std::make_unique<Prepared<mp50, RungeKutta<mp50>>>(spec);
   }
   return nullptr;
 }
@@ -132,7 +176,8 @@ RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make)
   } catch (const Misuse& misuse) {
     RunRecord record;
     record.spec = spec;
-    record.family = spec.method.substr(0, spec.method.rfind('_'));
+    const bool peer = findPeer(spec.method) != nullptr;
+    record.family = peer ? spec.method : spec.method.substr(0, spec.method.rfind('_'));
     record.stages = stagesInId(spec.method);
     record.outcome = "refused";
     record.detail = misuse.what();

@@ -22,7 +22,7 @@ std::string_view axisName<ScalarKind>();
 struct RunSpec {
   std::string scene;
   Settings settings;
-  std::string method = "radau_iia_5";  ///< an id or the path of a tableau file
+  std::string method = "radau_iia_5";  ///< an id, of a peer also, or a tableau file
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
   Discontinuity discontinuity = Discontinuity::kIgnore;

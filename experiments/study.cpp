@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "experiments/builtin_studies.h"
 #include "experiments/numbers.h"
+#include "experiments/peers/catalogue.h"
 #include "experiments/study_file.h"
 #include "tableaus/catalogue.h"
 
@@ -96,7 +97,9 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
   std::vector<std::string> methods;
   if (const auto* listed = find(keys, "methods")) {
     for (const auto& method : listed->items) {
-      atPlace(*listed, [&] { return makeTableau<double>(method).stages(); });
+      if (!findPeer(method)) {
+        atPlace(*listed, [&] { return makeTableau<double>(method).stages(); });
+      }
       methods.push_back(method);
     }
   }

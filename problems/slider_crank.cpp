@@ -3,7 +3,7 @@
 
 #include "problems/build.h"
 #include "problems/entries.h"
-#include "problems/slider_crank_data.h"
+#include "problems/slider_crank_coordinates.h"
 
 namespace irk {
 namespace {
@@ -12,13 +12,15 @@ using slider_crank::Absolute;
 using slider_crank::Data;
 using slider_crank::Minimal;
 using slider_crank::Redundant;
+using slider_crank::SwitchedTorque;
 
 // Magnitudes over the first two seconds: the crank ends at 40 rad/s, forces at some newton.
 constexpr double kAngle = 1, kAngleRate = 10, kForce = 1;
+constexpr const char* kNever = "inf";
 
 template <class Real>
-void makeRedundant(const Data<Real>& d, Scene<Real>& scene) {
-  setProblem(scene, Redundant<Real>{d});
+void makeRedundant(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
+  setProblem(scene, Redundant<Real>{torque, d});
   scene.names = componentNames({"theta", "phi"}, {}, {"lambda"});
   scene.scale = scales({kAngle, kAngle, kAngleRate, kAngleRate, kForce});
   scene.outputs = {{"x3", [d](const State<Real>& s) {
@@ -28,8 +30,8 @@ void makeRedundant(const Data<Real>& d, Scene<Real>& scene) {
 }
 
 template <class Real>
-void makeMinimal(const Data<Real>& d, Scene<Real>& scene) {
-  setProblem(scene, Minimal<Real>{d});
+void makeMinimal(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
+  setProblem(scene, Minimal<Real>{torque, d});
   scene.names = componentNames({"theta"}, {}, {});
   scene.scale = scales({kAngle, kAngleRate});
   const auto phi = [d](const State<Real>& s) {
@@ -50,8 +52,8 @@ void makeMinimal(const Data<Real>& d, Scene<Real>& scene) {
 }
 
 template <class Real>
-void makeAbsolute(const Data<Real>& d, Scene<Real>& scene) {
-  setProblem(scene, Absolute<Real>{d});
+void makeAbsolute(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
+  setProblem(scene, Absolute<Real>{torque, d});
   scene.names =
       componentNames({"x1", "y1", "theta", "x2", "y2", "phi", "x3", "y3"}, {},
                      {"lambda1", "lambda2", "lambda3", "lambda4", "lambda5", "lambda6", "lambda7"});
@@ -70,23 +72,23 @@ void makeAbsolute(const Data<Real>& d, Scene<Real>& scene) {
 template <class Real>
 Scene<Real> make(const Settings& settings) {
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Data<Real> d{.L1 = value("L1"),
-                     .L2 = value("L2"),
-                     .m1 = value("m1"),
-                     .m2 = value("m2"),
-                     .m3 = value("m3"),
-                     .torque = value("T"),
-                     .torque_off_at = value("torque_off_at")};
+  const Data<Real> d = slider_crank::dataFrom<Real>(settings);
+  const bool switched = settings.at("torque_off_at") != kNever;
+  const SwitchedTorque<Real> torque{.torque = value("T"),
+                                    .switched = switched,
+                                    .off_at = switched ? value("torque_off_at") : Real(0),
+                                    .smoothing = value("smoothing")};
   Scene<Real> scene;
   scene.id = "slider_crank";
   const std::string& coordinates = settings.at("coordinates");
   if (coordinates == "minimal") {
-    makeMinimal(d, scene);
+    makeMinimal(torque, d, scene);
   } else if (coordinates == "absolute") {
-    makeAbsolute(d, scene);
+    makeAbsolute(torque, d, scene);
   } else {
-    makeRedundant(d, scene);
+    makeRedundant(torque, d, scene);
   }
+  scene.start.d.setOnes();  // torque on
   completeStart(scene);
   scene.t_end = 2;
   return scene;
@@ -96,15 +98,14 @@ std::vector<Parameter> parameters() {
   Parameter coordinates = wordParameter("coordinates", "description of the same mechanism",
                                         {"redundant", "absolute", "minimal"});
   coordinates.changes_solution = false;
-  return {coordinates,
-          positiveParameter("L1", "m", "crank length", "0.1"),
-          positiveParameter("L2", "m", "rod length, more than L1 for full turns", "0.3"),
-          positiveParameter("m1", "kg", "mass of the crank", "0.2"),
-          positiveParameter("m2", "kg", "mass of the rod", "0.2"),
-          positiveParameter("m3", "kg", "mass of the slider", "0.4"),
-          numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6),
-          numberParameter("torque_off_at", "s", "time when the torque is switched off; inf = never",
-                          "inf", 0, 1e15)};
+  std::vector<Parameter> all = slider_crank::bodyParameters();
+  all.insert(all.begin(), coordinates);
+  all.insert(all.end(),
+             {numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6),
+              numberParameter("torque_off_at", "s",
+                              "time when the torque is switched off; inf = never", kNever, 0, 1e15),
+              smoothingParameter("s", "half of the time in which the torque goes", "1e-3")});
+  return all;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "experiments/builtin_studies.h"
 #include "experiments/commands/commands.h"
+#include "experiments/peers/catalogue.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
@@ -30,7 +31,8 @@ void listMethods(std::ostream& out) {
     fmt::print(out, "{}_S  {}, order {}, S = {} .. {}\n", family.id, family.title, family.order,
                family.min_stages, kMaxStages);
   }
-  out << "or the path of a tableau file\n";
+  out << "or the path of a tableau file\npeers, with their own step control:\n";
+  for (const auto& peer : peerCatalogue()) fmt::print(out, "{:<12} {}\n", peer.id, peer.title);
 }
 
 void listStudies(std::ostream& out) {

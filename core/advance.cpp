@@ -1,0 +1,167 @@
+#include "core/advance.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "core/consistent_start.h"
+#include "core/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// How finely a switch is located: a part of the tolerance, with fixed steps to round-off.
+double locationTolerance(const IntegratorOptions& options) {
+  if (options.step.control == StepControl::kFixed) return 0;
+  return std::max(options.tolerances.rtol, options.tolerances.atol);
+}
+
+}  // namespace
+
+template <class Real>
+Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
+                       const IntegratorOptions& options, StepAttempt<Real>& attempt,
+                       SharedJacobian<Real>& jacobian, StepController* controller,
+                       Counters& counters)
+    : system_(system),
+      source_(options.derivatives),
+      w_required_(scheme.first > 0),
+      attempt_(attempt),
+      jacobian_(jacobian),
+      controller_(controller),
+      counters_(counters),
+      switches_(system),
+      locator_(system, scheme, locationTolerance(options)),
+      locates_(!switches_.none() && system.discontinuity() == Discontinuity::kLocate),
+      state_(system.sizes()),
+      next_(system.sizes()) {}
+
+template <class Real>
+Outcome Advance<Real>::begin(const State<Real>& start, double length,
+                             const Monitor<Real>& monitor) {
+  monitor_ = &monitor;
+  length_ = length;
+  chatter_ = {};
+  start_detail_.clear();
+  note_.clear();
+  jacobian_.forget();
+  restart();
+  state_ = system_.fromScene(start);
+  const Outcome modes = settle();
+  if (modes != Outcome::kSuccess) return modes;
+  const StartReport report = makeConsistent<Real>(system_, source_, w_required_, state_);
+  start_detail_ = report.detail;
+  return report.outcome;
+}
+
+template <class Real>
+Solution<Real> Advance<Real>::solution(Outcome outcome, std::string detail) const {
+  return {outcome, std::move(detail), system_.toScene(state_), counters_};
+}
+
+template <class Real>
+Solution<Real> Advance<Real>::failed(Outcome outcome, double h, const char* what) const {
+  if (!start_detail_.empty()) return solution(outcome, start_detail_);
+  std::ostringstream text;
+  text.precision(6);
+  text << what << " at t = " << static_cast<double>(state_.t) << ", h = " << h;
+  if (blamed_ >= 0) text << ", " << switches_.describe(blamed_);
+  return solution(outcome, text.str());
+}
+
+template <class Real>
+void Advance<Real>::tell(Index i) const {
+  if (!monitor_->switched) return;
+  const State<Real> scene = system_.toScene(state_);
+  monitor_->switched({state_.t, i, system_.switchName(i), scene});
+}
+
+// Due switches at the state, each counted and told.
+template <class Real>
+Outcome Advance<Real>::settle() {
+  const SwitchReport report = switches_.settle(state_, [this](Index i) {
+    ++counters_.switches;
+    tell(i);
+  });
+  blamed_ = report.outcome == Outcome::kSuccess ? -1 : report.index;
+  return report.outcome;
+}
+
+// Nothing of the steps before a change of mode is of use after it.
+template <class Real>
+void Advance<Real>::restart() {
+  attempt_.forget();
+  jacobian_.markStale();
+  if (controller_) controller_->forget();
+}
+
+template <class Real>
+Outcome Advance<Real>::accept(const AttemptResult& result, const Real& h, const Real& end) {
+  if (locates_) return acceptLocated(result, h, end);
+  next_.t = end;
+  takeOver(result, static_cast<double>(h));
+  return Outcome::kSuccess;
+}
+
+// In the modes that do not locate, a change of mode has already happened in next_.
+template <class Real>
+void Advance<Real>::takeOver(const AttemptResult& result, double h) {
+  const bool switched = !locates_ && next_.d != state_.d;
+  std::swap(state_, next_);
+  ++counters_.steps_accepted;
+  if (switched) {
+    ++counters_.switches;
+    tell(result.switched);
+    if (system_.discontinuity() == Discontinuity::kIterate) restart();
+  }
+  if (!locates_ && chatter_.step(switched)) noteChattering(result.switched);
+  if (!monitor_->accepted) return;
+  const State<Real> scene = system_.toScene(state_);
+  monitor_->accepted({state_.t, h, result.error, result.newton_iterations, scene});
+}
+
+template <class Real>
+void Advance<Real>::noteChattering(Index i) {
+  ++counters_.chattering;
+  if (!note_.empty()) return;
+  std::ostringstream text;
+  text << "chattering: " << switches_.describe(i) << " switches in every step at t = "
+       << static_cast<double>(state_.t);
+  note_ = text.str();
+}
+
+// Shortens the solved step to the first switch in it, takes it over, and restarts with the new mode
+// and consistent (a, k, z).
+template <class Real>
+Outcome Advance<Real>::acceptLocated(AttemptResult result, Real h, const Real& end) {
+  const Location<Real> at = locator_.locate(attempt_, state_, h, next_);
+  if (at.outcome != Outcome::kSuccess) {
+    blamed_ = at.index;
+    return at.outcome;
+  }
+  if (at.found && at.h < h) {
+    result = at.attempt;
+    h = at.h;
+  } else {
+    next_.t = end;
+  }
+  takeOver(result, static_cast<double>(h));
+  if (!at.found) return Outcome::kSuccess;
+  ++counters_.located_events;
+  if (chatter_.event(static_cast<double>(state_.t), length_)) {
+    ++counters_.chattering;
+    blamed_ = at.index;
+    return Outcome::kChattering;
+  }
+  const Outcome modes = settle();
+  if (modes != Outcome::kSuccess) return modes;
+  restart();
+  const StartReport report =
+      makeConsistent<Real>(system_, source_, w_required_, state_, StartCheck::kNone);
+  start_detail_ = report.detail;
+  return report.outcome;
+}
+
+IRK_INSTANTIATE_CLASS(Advance)
+
+}  // namespace irk

@@ -1,0 +1,67 @@
+// What happens when a solved step is taken over: switches, restarts, and what the caller hears.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/controller.h"
+#include "core/event_location.h"
+#include "core/integrator.h"
+#include "core/jacobian.h"
+
+namespace irk {
+
+/// The state of an integration. Knows nothing of step sizes. All references outlive it.
+template <class Real>
+class Advance {
+ public:
+  Advance(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+          StepAttempt<Real>& attempt, SharedJacobian<Real>& jacobian, StepController* controller,
+          Counters& counters);
+
+  /// A new integration over `length`: due switches, consistent (a, k, z).
+  [[nodiscard]] Outcome begin(const State<Real>& start, double length,
+                              const Monitor<Real>& monitor);
+  /// Takes over `next()`, solved with step h towards `end`. With `locate` the step may be shortened
+  /// to the first switch in it. kSuccess, or why the switch cannot be passed.
+  [[nodiscard]] Outcome accept(const AttemptResult& result, const Real& h, const Real& end);
+
+  const State<Real>& state() const { return state_; }
+  State<Real>& next() { return next_; }
+  /// What is left to t_end after a switch close to it is no step.
+  void endAt(const Real& t_end) { state_.t = t_end; }
+
+  Solution<Real> solution(Outcome outcome, std::string detail) const;
+  Solution<Real> success() const { return solution(Outcome::kSuccess, note_); }
+  Solution<Real> failed(Outcome outcome, double h, const char* what) const;
+  /// The switching function that a failure is to be blamed on; -1 for none.
+  void blame(Index i) { blamed_ = i; }
+
+ private:
+  Outcome settle();
+  Outcome acceptLocated(AttemptResult result, Real h, const Real& end);
+  void takeOver(const AttemptResult& result, double h);
+  void noteChattering(Index i);
+  void restart();
+  void tell(Index i) const;
+
+  const System<Real>& system_;
+  DerivativeSource source_;
+  bool w_required_;
+  StepAttempt<Real>& attempt_;
+  SharedJacobian<Real>& jacobian_;
+  StepController* controller_;
+  Counters& counters_;
+  Switches<Real> switches_;
+  EventLocator<Real> locator_;
+  bool locates_;
+  ChatterDetector chatter_;
+  State<Real> state_, next_;
+  const Monitor<Real>* monitor_ = nullptr;
+  double length_ = 0;
+  std::string start_detail_;  // of a start that is not consistent
+  std::string note_;          // of chattering
+  Index blamed_ = -1;
+};
+
+}  // namespace irk

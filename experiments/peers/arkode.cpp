@@ -1,0 +1,40 @@
+// SUNDIALS ARKODE with its diagonally implicit Runge-Kutta method of order 5, set up as its manual
+// recommends for stiff systems: modified Newton with a dense solver and the exact Jacobian, rtol
+// and a vector of atol, never past the end, Lagrange interpolation, the stages' rates deduced from
+// Newton's result instead of evaluated; all other controls at their defaults. Reynolds et al.,
+// ACM TOMS 49 (2023).
+#include <arkode/arkode_arkstep.h>
+
+#include "experiments/peers/catalogue.h"
+#include "experiments/peers/sundials_ode.h"
+
+namespace irk {
+namespace {
+
+constexpr int kOrder = 5;
+
+struct Arkode {
+  IRK_SUNDIALS_API(ARKStep)
+  static void* create(SUNContext context, N_Vector y) {
+    return ARKStepCreate(nullptr, sundials::OdeCallbacks::rates, 0, y, context);
+  }
+  static void set(void* memory) {
+    IRK_SUNDIALS(ARKStepSetOrder(memory, kOrder));
+    IRK_SUNDIALS(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE));
+    IRK_SUNDIALS(ARKStepSetDeduceImplicitRhs(memory, SUNTRUE));
+  }
+  static int reInit(void* memory, double t, N_Vector y) {
+    return ARKStepReInit(memory, nullptr, sundials::OdeCallbacks::rates, t, y);
+  }
+  static int advance(void* memory, double t_end, N_Vector y, double* t) {
+    return ARKStepEvolve(memory, t_end, y, t, sundials::kOneStep);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> makeArkode(const PeerSetup& setup) {
+  return std::make_unique<sundials::OdePeer<Arkode>>(setup);
+}
+
+}  // namespace irk

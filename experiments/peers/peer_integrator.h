@@ -1,0 +1,39 @@
+// A peer behind the face of the suite's own integrator.
+#pragma once
+
+#include <memory>
+
+#include "core/integrator.h"
+#include "experiments/peers/catalogue.h"
+
+namespace irk {
+
+/// Runs a peer from switch to switch. One integration at a time; reusable; one per thread.
+class PeerIntegrator {
+ public:
+  /// Throws Misuse for what the peer cannot do, naming both ids and the reason.
+  PeerIntegrator(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec);
+
+  /// As Integrator::integrate. max_steps counts accepted steps: a peer's attempts are its own.
+  [[nodiscard]] Solution<double> integrate(const State<double>& start, double t_end,
+                                           const Monitor<double>& monitor = {});
+
+ private:
+  StartReport run(double t_end, const Monitor<double>& monitor);
+  StartReport begin(double t_end);
+  void collectCounts();
+  StartReport failed(Outcome outcome, const std::string& what) const;
+  StartReport switchModes(double t_end, const Monitor<double>& monitor);
+  StartReport doSwitch(Index i, double t_end);
+  Index dueSwitch();
+
+  std::shared_ptr<const System<double>> system_;
+  std::int64_t max_steps_;
+  std::unique_ptr<Peer> peer_;
+  State<double> state_;
+  Vec<double> g_;  // switching functions
+  Counters counters_;
+  bool started_ = false;
+};
+
+}  // namespace irk
