@@ -13,6 +13,25 @@ Vec<double> rounded(const auto& y) {
   return y.unaryExpr([](const auto& value) { return static_cast<double>(value); });
 }
 
+// The scene's magnitudes for the unknowns of its formulation; those that only the formulation knows
+// count as 1.
+template <class Real>
+Vec<double> scaleOf(const Scene<Real>& scene, const System<Real>& system) {
+  if (scene.scale.size() == 0) return {};
+  const Sizes n = scene.sizes();
+  const Vec<Real> scale = scene.scale.template cast<Real>();
+  State<Real> magnitudes = scene.start;
+  magnitudes.u = scale.head(n.nu);
+  magnitudes.v = scale.segment(n.nu, n.nu);
+  magnitudes.x = scale.segment(2 * n.nu, n.nx);
+  magnitudes.w.setZero();
+  magnitudes.z() = scale.tail(n.nz);
+  const State<Real> mapped = system.fromScene(magnitudes);
+  Vec<double> all(system.sizes().components());
+  all << rounded(mapped.u), rounded(mapped.v), rounded(mapped.x), rounded(mapped.z());
+  return all.unaryExpr([](double x) { return x > 0 ? x : 1; });
+}
+
 /// An implicit Runge-Kutta method of the suite.
 template <class Real>
 class RungeKutta {
@@ -20,7 +39,7 @@ class RungeKutta {
   RungeKutta(const Scene<Real>& scene, const RunSpec& spec)
       : tableau_(makeTableau<Real>(spec.method)),
         system_(scene.system({spec.formulation, spec.scaling, spec.discontinuity})),
-        integrator_(system_, tableau_, spec.options, scene.scale) {}
+        integrator_(system_, tableau_, spec.options, scaleOf(scene, *system_)) {}
 
   const std::string& family() const { return tableau_.family; }
   Index stages() const { return tableau_.stages(); }
