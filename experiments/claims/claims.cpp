@@ -52,7 +52,7 @@ const std::vector<Claim>& catalogue() {
       {"C8",
        "Multistep methods cannot restart quickly after a discontinuity.",
        {"peers"},
-       {"peers_smooth", "peers_discontinuous"},
+       {"peers_smooth", "peers_discontinuous", "peers_located"},
        multistepRestart},
       {"C9",
        "High order pays in the smooth part; at discontinuities the step must be small.",

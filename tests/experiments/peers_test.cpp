@@ -85,10 +85,10 @@ TEST(Peers, TheWatchIsHeard) {
   for (const auto& peer : peerCatalogue()) {
     RunSpec run = spec(peer.id, "scene=kepler");
     std::int64_t heard = 0;
-    const RunRecord all = execute(run, {nullptr, [&heard](double, auto) { ++heard; }});
+    const RunRecord all = execute(run, {.accepted = [&heard](const AcceptedStep&) { ++heard; }});
     EXPECT_EQ(heard, all.counters.steps_accepted + 1) << peer.id;
     const std::atomic<bool> stop = true;
-    EXPECT_EQ(execute(run, {&stop, {}}).outcome, "interrupted") << peer.id;
+    EXPECT_EQ(execute(run, {.stop = &stop}).outcome, "interrupted") << peer.id;
     run.options.step.max_steps = 3;
     EXPECT_EQ(execute(run).outcome, "max_steps") << peer.id;
     run.time_limit = 1e-9;
