@@ -81,8 +81,10 @@ at(case, k) = chosen(case) && strcol(variant) eq name(k)
 if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
 lines = (panels + columns - 1) / columns
 legend_height = (40.0 + 18 * (count > 5) + 18 * (count > 8)) / (100 + 340 * lines)
+# Three panels in a row have no room for every decade.
+every = coarsest / finest > 1e9 ? 4 : 2
 wide_tics = 'set xtics ('
-do for [e = -4 : 0] { wide_tics = wide_tics.sprintf("%s'10^{%d}' %g", e == -4 ? '' : ', ', 4 * e, 10.0 ** (4 * e)) }
+do for [e = -8 : 0] { wide_tics = wide_tics.sprintf("%s'10^{%d}' %g", e == -8 ? '' : ', ', every * e, 10.0 ** (every * e)) }
 wide_tics = wide_tics.') nomirror'
 margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 0.05
 margin_bottom = legend_height + (lines == 1 ? 0.15 : 0.085)
@@ -98,7 +100,7 @@ do for [format in formats] {
       span = Most[i] / Least[i] > 10 ? Most[i] / Least[i] : 10
       level(k) = Most[i] * span ** (0.05 + 0.025 * k)   # failures: a strip above all lines
       eval logTics('y', Least[i], Most[i])
-      if (columns == 3 && coarsest / finest > 1e9) { eval wide_tics }
+      if (columns == 3 && coarsest / finest > 1e5) { eval wide_tics }
       set xrange [2 * coarsest : finest / 2]
       set yrange [Least[i] / 1.5 : level(count + 1)]
       eval panel(i, columns, lines)
