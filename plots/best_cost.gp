@@ -48,6 +48,10 @@ pointOf(v) = by eq 'family' ? familyPoint(word(values, v)) : int(word(curve_poin
 dash(v) = by eq 'family' ? familyDash(word(values, v)) : (v - 1) % 4 + 1
 titleOf(v) = by eq 'family' ? familyTitle(word(values, v)) : word(values, v)
 
+# Three panels in a row have no room for every decade.
+wide_tics = 'set xtics ('
+do for [e = -8 : 0] { wide_tics = wide_tics.sprintf("%s'10^{%d}' %g", e == -8 ? '' : ', ', 2 * e, 10.0 ** (2 * e)) }
+wide_tics = wide_tics.') nomirror'
 margin_left = n == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_bottom = 0.27; gap_x = 0.06
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, 430)
@@ -64,6 +68,7 @@ do for [format in formats] {
     if (high == 0) { low = 1; high = 10 }
     set yrange [low / 1.5 : high * 1.5]
     eval logTics('y', low, high)
+    if (n > 2 && targets > 5) { eval wide_tics }
     eval panel(i, n, 1)
     set title caseTitle(i) offset 0,-0.5 noenhanced
     set xlabel 'error'

@@ -61,11 +61,10 @@ levelNumber(d) = sum [k = 1 : words(levels)] (abs(real(word(levels, k)) - log10(
 inPanel(i) = row(0) && is(panel_by, word(panels, i))
 levelText(x) = abs(x - floor(x + 0.5)) < 1e-4 ? sprintf("10^{%d}", floor(x + 0.5)) \
   : sprintf("%.2g·10^{%d}", 10 ** (x - floor(x)), floor(x))
-# Labels of two digits need the room of two cells.
+# Labels of two digits need the room of two cells; the last one is always there.
 crowded = words(stages) > 9
-stage_tics = "set xtics ("; last = -1; do for [k = 1 : words(stages)] {
-  text = crowded && strlen(word(stages, k)) > 1 && k < last + 2 ? '' : word(stages, k)
-  if (strlen(text)) { last = k }
+stage_tics = "set xtics ("; do for [k = 1 : words(stages)] {
+  text = crowded && strlen(word(stages, k)) > 1 && (words(stages) - k) % 2 ? '' : word(stages, k)
   stage_tics = stage_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', text, k) }
 stage_tics = stage_tics.")"
 level_tics = "set ytics ("; do for [k = 1 : words(levels)] {

@@ -43,7 +43,7 @@ do for [format in formats] {
         back lw 5 lc rgb 0xF3D9D9
     }
     plot for [k = 1 : count] file(i, k) using "t":(positive(column("h"))) \
-      with steps lw 1.4 lc rgb Colour[k] notitle
+      with fsteps lw 1.4 lc rgb Colour[k] notitle
     unset arrow
   }
   eval legend(0.1)

@@ -39,7 +39,7 @@ costOf(i) = words(cases) > 1 ? word(costs, 1) : word(costs, i)
 caseTitle(i) = words(titles) >= i ? word(titles, i) : sceneTitle(sceneOf(caseOf(i)), shortSettings(caseOf(i)))
 
 # Ranges, over all panels for the errors and per panel for the costs.
-tried = 0; rows = 0; coarsest = 1e-300; finest = 1e300; top = 1
+tried = 0; rows = 0; failures = 0; coarsest = 1e-300; finest = 1e300; top = 1
 array Least[panels]; array Most[panels]
 do for [i = 1 : panels] {
   undefine N_*; undefine E_*; undefine C_*; undefine F_*
@@ -57,6 +57,7 @@ do for [i = 1 : panels] {
   }
   stats file using (chosen(caseOf(i)) && !succeeded(0) ? 1 : 0) name "N" nooutput
   if (exists("N_sum") && N_sum > 0) {
+    failures = failures + N_sum
     stats file using (chosen(caseOf(i)) && !succeeded(0) ? asked(0) : NaN) name "F" nooutput
     finest = F_min < finest ? F_min : finest
     coarsest = F_max > coarsest ? F_max : coarsest
@@ -80,6 +81,11 @@ at(case, k) = chosen(case) && strcol(variant) eq name(k)
 if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
 lines = (panels + columns - 1) / columns
 legend_height = (40.0 + 18 * (count > 5) + 18 * (count > 8)) / (100 + 340 * lines)
+# Three panels in a row have no room for every decade.
+every = coarsest / finest > 1e9 ? 4 : 2
+wide_tics = 'set xtics ('
+do for [e = -8 : 0] { wide_tics = wide_tics.sprintf("%s'10^{%d}' %g", e == -8 ? '' : ', ', every * e, 10.0 ** (every * e)) }
+wide_tics = wide_tics.') nomirror'
 margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 0.05
 margin_bottom = legend_height + (lines == 1 ? 0.15 : 0.085)
 gap_x = words(cases) > 1 ? 0.065 : 0.09; gap_y = 0.13
@@ -94,6 +100,7 @@ do for [format in formats] {
       span = Most[i] / Least[i] > 10 ? Most[i] / Least[i] : 10
       level(k) = Most[i] * span ** (0.05 + 0.025 * k)   # failures: a strip above all lines
       eval logTics('y', Least[i], Most[i])
+      if (columns == 3 && coarsest / finest > 1e5) { eval wide_tics }
       set xrange [2 * coarsest : finest / 2]
       set yrange [Least[i] / 1.5 : level(count + 1)]
       eval panel(i, columns, lines)
@@ -109,7 +116,7 @@ do for [format in formats] {
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
     plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 \
            lc rgb curveColour(k) title shortName(name(k)), \
-         keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
+         for [k = 1 : failures > 0] keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
     eval framed
     set title; unset multiplot
   }

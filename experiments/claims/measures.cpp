@@ -14,7 +14,7 @@
 namespace irk {
 namespace {
 
-constexpr double kErrors[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 void compareSeries(const Table& runs, const RunSeries& base, const RunSeries& other,

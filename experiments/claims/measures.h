@@ -37,7 +37,7 @@ struct CostRatios {
   int lost = 0;             ///< errors that only `base` reaches
   int won = 0;              ///< errors that only `other` reaches
 };
-/// Pairs of series that are equal but for one column, compared at the errors 1e-3, 1e-4, ... 1e-10.
+/// Pairs of series that are equal but for one column, compared at the errors 1e-2, 1e-3, ... 1e-10.
 CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base,
                         std::string_view other, std::string_view cost);
 

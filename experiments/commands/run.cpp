@@ -16,10 +16,25 @@ namespace irk {
 namespace {
 
 // In the order in which a reader wants them: what is computed, whether it is right, what it costs.
-constexpr std::string_view kPaperStudies[] = {
-    "scenes", "order", "order_mp50", "cpu_time", "families", "steps", "discontinuity", "peers",
-    "jacobian", "newton_rule", "k_form", "phases", "control", "estimate", "drift", "small_steps",
-    "failure_constraints", "failure_stability", "failure_newton"};
+constexpr std::string_view kPaperStudies[] = {"scenes",
+                                              "order",
+                                              "order_mp50",
+                                              "cpu_time",
+                                              "families",
+                                              "steps",
+                                              "discontinuity",
+                                              "peers",
+                                              "jacobian",
+                                              "newton_rule",
+                                              "k_form",
+                                              "phases",
+                                              "control",
+                                              "estimate",
+                                              "drift",
+                                              "small_steps",
+                                              "failure_constraints",
+                                              "failure_stability",
+                                              "failure_newton"};
 
 void printSummary(const Study& study, const Table& runs, const std::filesystem::path& folder,
                   std::ostream& out) {

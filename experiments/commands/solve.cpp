@@ -81,11 +81,10 @@ RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::strin
   const auto file = folder / (spec.scene + ".csv");
   const RunRecord record = executeWithTrajectory(spec, watch, file);
   const auto out = std::filesystem::path(plot).replace_extension();
-  drawFigure(
-      "scene_solution.gp",
-      fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'", folder.string(), out.string(),
-                  spec.scene, file.stem().string()),
-      homeFolder(), err);
+  drawFigure("scene_solution.gp",
+             fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'", folder.string(),
+                         out.string(), spec.scene, file.stem().string()),
+             homeFolder(), err);
   std::filesystem::remove_all(folder);
   return record;
 }

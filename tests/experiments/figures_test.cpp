@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -26,6 +28,32 @@ TEST(Figures, BelongToStudiesAndScriptsThatExist) {
     EXPECT_TRUE(names.insert(figure.name).second) << figure.name << " twice";
     EXPECT_FALSE(figure.title.empty() || figure.caption.empty()) << figure.name;
   }
+}
+
+TEST(Figures, FailureMapsShowDigitsAndCauses) {
+  const TemporaryFolder folder;
+  Table runs;
+  runs.columns = {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error"};
+  const auto add = [&](const char* stages, const char* h, const char* outcome, const char* error) {
+    runs.rows.push_back({"pendulum", "", "radau_iia", stages, h, "1e-6", outcome, error});
+  };
+  add("2", "0.1", "success", "1e-3");
+  add("2", "0.01", "success", "0");
+  add("3", "0.1", "newton_failed", "nan");
+  add("3", "0.01", "timeout", "nan");
+  writeTable(folder.path() / "runs.csv", runs);
+  const auto out = folder.path() / "map";
+  std::ostringstream err;
+  ASSERT_TRUE(drawFigure(
+      "failure_map.gp",
+      "data='" + folder.path().string() + "'; out='" + out.string() + "'; scene='pendulum'",
+      IRK_SOURCE_DIR, err))
+      << err.str();
+  std::ifstream in(out.string() + ".svg");
+  const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_TRUE(containsAll(svg, {"Radau IIA", "Newton fails", "too slow", "correct digits"}));
+  EXPECT_EQ(svg.find("singular"), svg.npos) << "only causes that occur";
+  EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
 }
 
 // Every built-in study's runs can be prepared, or are refused for a reason that has a name.
