@@ -35,35 +35,41 @@ template <class Real>
 Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from,
                                           const Real& h, State<Real>& next) {
   Root root;
-  const Location<Real> seen = first(from, h, next, attempt.stages(), root);
+  const Location<Real> seen = first(attempt, from, next, root);
   if (seen.outcome != Outcome::kSuccess || !root.found) return seen;
   return solveTo(attempt, from, h, next, root);
 }
 
-// The first sample at which a switch is due, and the earliest root before it.
+// The first sample at which a switch is due, and the earliest root before it, part by part.
 template <class Real>
-Location<Real> EventLocator<Real>::first(const State<Real>& from, const Real& h,
-                                         const State<Real>& next,
-                                         const StagePolynomial<Real>& stages, Root& root) {
+Location<Real> EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& from,
+                                         const State<Real>& next, Root& root) {
   Location<Real> result;
-  dense_.begin(from, stages);
-  for (int j = 1; j <= kSamples; ++j) {
-    const Real theta = Real(j) / Real(kSamples);
-    if (j < kSamples) dense_.evaluate(theta, inside_);
-    const SwitchReport report = switches_.evaluate(j < kSamples ? inside_ : next);
-    if (report.outcome != Outcome::kSuccess) {
-      result.outcome = report.outcome;
-      result.index = report.index;
+  const auto pieces = attempt.pieces(from);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const StepPiece<Real>& piece = pieces[k];
+    dense_.begin(*piece.from, *piece.stages);
+    const State<Real>& end = k + 1 < pieces.size() ? *pieces[k + 1].from : next;
+    for (int j = 1; j <= kSamples; ++j) {
+      const Real theta = Real(j) / Real(kSamples);
+      if (j < kSamples) dense_.evaluate(theta, inside_);
+      const SwitchReport report = switches_.evaluate(j < kSamples ? inside_ : end);
+      if (report.outcome != Outcome::kSuccess) {
+        result.outcome = report.outcome;
+        result.index = report.index;
+        return result;
+      }
+      if (switches_.due() < 0) continue;
+      const Real offset = piece.from->t - from.t;
+      const Vec<Real> g = switches_.g();
+      for (Index i = 0; i < g.size(); ++i) {
+        if (!(g[i] > Real(0))) continue;
+        const Root found =
+            refined(i, Real(Real(j - 1) / Real(kSamples)), theta, offset, piece.stages->h);
+        if (!root.found || found.step < root.step) root = found;
+      }
       return result;
     }
-    if (switches_.due() < 0) continue;
-    const Vec<Real> g = switches_.g();
-    for (Index i = 0; i < g.size(); ++i) {
-      if (!(g[i] > Real(0))) continue;
-      const Root candidate = refined(i, Real(Real(j - 1) / Real(kSamples)), theta, h);
-      if (!root.found || candidate.theta < root.theta) root = candidate;
-    }
-    return result;
   }
   return result;
 }
@@ -76,7 +82,8 @@ Real EventLocator<Real>::value(const Real& theta, Index i) {
 
 // Bisection on the dense output: its root is a first guess.
 template <class Real>
-auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& h) -> Root {
+auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& offset, const Real& h)
+    -> Root {
   const Real width = high - low;
   const Real g_low = value(low, i), g_high = value(high, i);
   while (high - low > Real(4) * epsilon<Real>() * high) {
@@ -86,7 +93,7 @@ auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& h) ->
   const Real near = width / Real(64);
   Real slope = (value(Real(high + near), i) - value(high, i)) / (near * h);
   if (!(slope > Real(0))) slope = (g_high - g_low) / (width * h);
-  return {true, i, high, slope};
+  return {true, i, offset + high * h, slope};
 }
 
 template <class Real>
@@ -97,7 +104,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
   const Real scale = abs(from.t) > h ? Real(abs(from.t)) : h;
   const Real resolution =
       Real(4) * epsilon<Real>() * scale + Real(kTimeTolerance * std::min(tolerance_, 1e-3)) * h;
-  Real low(0), high = h, step = root.theta * h, slope = root.slope;
+  Real low(0), high = h, step = root.step < h ? root.step : h, slope = root.slope;
   Real last_step(0), last_g(0);
   bool high_is_due = false;
   result.index = root.index;

@@ -34,12 +34,12 @@ class EventLocator {
   struct Root {
     bool found = false;
     Index index = -1;
-    Real theta{}, slope{};  // slope: dg/dt
+    Real step{}, slope{};  // from the step's start; dg/dt
   };
-  Location<Real> first(const State<Real>& from, const Real& h, const State<Real>& next,
-                       const StagePolynomial<Real>& stages, Root& root);
+  Location<Real> first(StepAttempt<Real>& attempt, const State<Real>& from,
+                       const State<Real>& next, Root& root);
   Real value(const Real& theta, Index i);
-  Root refined(Index i, Real low, Real high, const Real& h);
+  Root refined(Index i, Real low, Real high, const Real& offset, const Real& h);
   Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
                          State<Real>& next, const Root& root);
 

@@ -21,7 +21,9 @@ class Single final : public StepAttempt<Real> {
             std::numeric_limits<double>::quiet_NaN()};
   }
   void forget() override { stepper_.forget(); }
-  const StagePolynomial<Real>& stages() const override { return stepper_.stages(); }
+  std::vector<StepPiece<Real>> pieces(const State<Real>& from) const override {
+    return {{&from, &stepper_.stages()}};
+  }
 
  private:
   Stepper<Real> stepper_;
@@ -69,6 +71,8 @@ class Doubling final : public StepAttempt<Real> {
         factor_(divisors(scheme, system, options.step.estimate == ErrorEstimate::kRichardson)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
         interpolate_(options.predictor == Predictor::kExtrapolated),
+        keeps_pieces_(system.sizes().switches > 0 &&
+                      system.discontinuity() == Discontinuity::kLocate),
         coarse_(system.sizes()),
         middle_(system.sizes()),
         zero_(system.sizes()) {}
@@ -88,6 +92,7 @@ class Doubling final : public StepAttempt<Real> {
     if (!done(whole)) return result;
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
+    if (keeps_pieces_) first_half_ = half_.stages();
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
     // Doubling is blind where the whole step and its halves carry the same wrong mode.
     result.error = std::max(error(to, static_cast<double>(h)), result.mode_error);
@@ -98,7 +103,9 @@ class Doubling final : public StepAttempt<Real> {
     whole_.forget();
     half_.forget();
   }
-  const StagePolynomial<Real>& stages() const override { return whole_.stages(); }
+  std::vector<StepPiece<Real>> pieces(const State<Real>& from) const override {
+    return {{&from, &first_half_}, {&middle_, &half_.stages()}};
+  }
 
  private:
   double error(const State<Real>& fine, double h) const {
@@ -112,6 +119,8 @@ class Doubling final : public StepAttempt<Real> {
   Vec<double> factor_;
   bool scalar_;
   bool interpolate_;
+  bool keeps_pieces_;  // for the dense output of `locate`
+  StagePolynomial<Real> first_half_;
   State<Real> coarse_, middle_, zero_;
 };
 

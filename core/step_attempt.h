@@ -1,12 +1,21 @@
 // A step with its error estimate: the strategies of the axis `estimate`.
 #pragma once
 
+#include <vector>
+
 #include "core/stepper.h"
 
 namespace irk {
 
 struct AttemptResult : StepResult {
   double error = 0;  ///< estimate in the error norm; NaN without one
+};
+
+/// A solved step inside an attempt.
+template <class Real>
+struct StepPiece {
+  const State<Real>* from;
+  const StagePolynomial<Real>* stages;
 };
 
 template <class Real>
@@ -18,8 +27,9 @@ class StepAttempt {
                                               State<Real>& to) = 0;
   /// What was solved predicts badly: the attempt was not accepted, or the mode has changed.
   virtual void forget() = 0;
-  /// The stages of the last whole step.
-  virtual const StagePolynomial<Real>& stages() const = 0;
+  /// The parts of which the last solved step is made, in order: their starts and stages. Valid while
+  /// `from` of the attempt is.
+  virtual std::vector<StepPiece<Real>> pieces(const State<Real>& from) const = 0;
 };
 
 template <class Real>

@@ -9,6 +9,8 @@ namespace {
 
 // Modes of a step that still change after this many repetitions have no solution in it.
 constexpr int kDiscontinuousIterations = 10;
+// An error, in tolerances, for a switch that the ends of a step do not show.
+constexpr double kUnseenSwitch = 1e3;
 
 template <class Real>
 StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& scheme) {
@@ -133,11 +135,24 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
     solve(past, frozen_, h, to, JacobianUse::kKeep, result);
     if (result.outcome != Outcome::kSuccess) return;
   }
-  if (done_.empty()) return;
+  if (done_.empty()) {
+    if (dueInside()) result.mode_error = kUnseenSwitch;
+    return;
+  }
   // Multipliers jump with the mode; u, v, x do not.
   first_mode_.w = to.w;
   result.mode_error = norm_.difference(first_mode_, to, static_cast<double>(h), ones_);
   for (const Index k : done_) system_.jump(k, to);
+}
+
+// Whether a switch is due at a stage although none is at the end: a mode that comes and goes.
+template <class Real>
+bool Stepper<Real>::dueInside() {
+  for (Index i = eq_.scheme().first; i < eq_.scheme().s; ++i) {
+    if (switches_.evaluate(eq_.stage(W_, i)).outcome != Outcome::kSuccess) return true;
+    if (switches_.due() >= 0) return true;
+  }
+  return false;
 }
 
 // The secant's root of the first switching function that is due at `to`.

@@ -48,6 +48,7 @@ class Stepper {
              State<Real>& to, JacobianUse use, StepResult& result);
   void iterateModes(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                     State<Real>& to, StepResult& result);
+  bool dueInside();
   double firstDue(const State<Real>& from, const State<Real>& to);
   void settle(const State<Real>& from, const Real& h, State<Real>& to, StepResult& result);
 

@@ -15,10 +15,10 @@ Switches<Real>::Switches(const System<Real>& system)
     : system_(system), g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))) {}
 
 template <class Real>
-SwitchReport Switches<Real>::evaluate(const State<Real>& state) {
+SwitchReport Switches<Real>::evaluate(const Point<Real>& p) {
   using std::isfinite;  // of double; others by their namespace
   if (none()) return {};
-  system_.switching(pointOf(state), VecView<Real>(g_.data(), g_.size()));
+  system_.switching(p, VecView<Real>(g_.data(), g_.size()));
   for (Index i = 0; i < g_.size(); ++i) {
     if (!isfinite(g_[i])) return {Outcome::kNotFinite, 0, i};
   }

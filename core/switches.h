@@ -50,8 +50,9 @@ class Switches {
   explicit Switches(const System<Real>& system);
 
   bool none() const { return g_.size() == 0; }
-  /// g at a state; kNotFinite with the first index that is.
-  SwitchReport evaluate(const State<Real>& state);
+  /// g at a point; kNotFinite with the first index that is.
+  SwitchReport evaluate(const Point<Real>& p);
+  SwitchReport evaluate(const State<Real>& state) { return evaluate(pointOf(state)); }
   const Vec<Real>& g() const { return g_; }
   /// The first switch due in g(), or -1.
   Index due() const;

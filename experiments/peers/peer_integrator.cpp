@@ -129,8 +129,13 @@ void PeerIntegrator::tell(Index i, const Monitor<double>& monitor) const {
   monitor.switched({state_.t, i, system_->switchName(i), scene});
 }
 
+bool PeerIntegrator::switches() const {
+  return !switches_.none() && system_->discontinuity() != Discontinuity::kSmooth;
+}
+
 StartReport PeerIntegrator::settle(const Monitor<double>& monitor) {
-  const SwitchReport report = switches_.settle(state_, [&](Index i) {
+  if (!switches()) return {};
+  const SwitchReport report = switches_.settle(state_, Jumps::kDone, [&](Index i) {
     ++counters_.switches;
     tell(i, monitor);
   });
@@ -139,7 +144,7 @@ StartReport PeerIntegrator::settle(const Monitor<double>& monitor) {
 }
 
 StartReport PeerIntegrator::afterStep(double t_end, const Monitor<double>& monitor) {
-  if (switches_.none()) return {};
+  if (!switches()) return {};
   const bool locate = system_->discontinuity() == Discontinuity::kLocate;
   return locate ? locatedSwitch(t_end, monitor) : ignoredSwitches(t_end, monitor);
 }

@@ -24,6 +24,7 @@ class PeerIntegrator {
   StartReport begin(double t_end, StartCheck check);
   void collectCounts();
   StartReport failed(Outcome outcome, const std::string& what) const;
+  bool switches() const;
   StartReport settle(const Monitor<double>& monitor);
   StartReport afterStep(double t_end, const Monitor<double>& monitor);
   StartReport locatedSwitch(double t_end, const Monitor<double>& monitor);
