@@ -86,13 +86,16 @@ class Prepared final : public PreparedRun {
                         values(step.state)});
       };
     }
-    if (watch.switched) {
-      monitor.switched = [&](const SwitchRecord<Real>& change) {
-        watch.switched(static_cast<double>(change.t), change.name);
-      };
-    }
+    std::vector<SwitchEvent> switches;
+    monitor.switched = [&](const SwitchRecord<Real>& change) {
+      const double t = static_cast<double>(change.t);
+      if (switches.size() < kMostRecordedSwitches) switches.push_back({t, change.name});
+      if (watch.switched) watch.switched(t, change.name);
+    };
     const auto solution = method_.integrate(scene_.start, Real(spec_.t_end), monitor);
-    return record(solution, threadSeconds() - start);
+    RunRecord result = record(solution, threadSeconds() - start);
+    result.switches = std::move(switches);
+    return result;
   }
 
   void integrate() override {
@@ -134,6 +137,7 @@ class Prepared final : public PreparedRun {
                      .digits = {},
                      .errors = {},
                      .counters = solution.counters,
+                     .switches = {},
                      .cpu_s = seconds};
     if (solution.outcome == Outcome::kSuccess) {
       record.errors = errorsOf(scene_, references_, state);

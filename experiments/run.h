@@ -16,6 +16,12 @@
 
 namespace irk {
 
+/// A change of the discrete state.
+struct SwitchEvent {
+  double t;
+  std::string name;  ///< of the switching function
+};
+
 struct RunRecord {
   RunSpec spec;
   std::string family;
@@ -27,10 +33,14 @@ struct RunRecord {
   std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
   RunErrors errors;
   Counters counters;
+  std::vector<SwitchEvent> switches;  ///< the first kMostRecordedSwitches
   double cpu_s = std::numeric_limits<double>::quiet_NaN();
 
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
 };
+
+/// A chattering run has no end of them.
+constexpr std::size_t kMostRecordedSwitches = 1000;
 
 /// An accepted step, or the start: NaN and 0 where there is no step.
 struct AcceptedStep {

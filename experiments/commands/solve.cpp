@@ -69,6 +69,9 @@ void printRecord(std::ostream& out, const RunRecord& record,
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
   });
+  for (const auto& [t, name] : record.switches) {
+    fmt::print(out, "switch {:<15} t = {:.15g}\n", name, t);
+  }
   fmt::print(out, "{:<22} {:.3g}\n", "cpu_s", record.cpu_s);
 }
 

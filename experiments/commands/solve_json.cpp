@@ -29,6 +29,10 @@ Json specObject(const RunSpec& spec) {
   object["settings"] = Json::object();
   for (const auto& [name, value] : spec.settings) object["settings"][name] = value;
   object["residual_tolerance"] = spec.options.newton.residual_tolerance;
+  object["contractivity_limit"] = spec.options.newton.contractivity_limit;
+  object["contractivity_after"] = spec.options.newton.contractivity_after;
+  object["max_iterations"] = spec.options.newton.max_iterations;
+  object["keep_jacobian_below"] = spec.options.newton.keep_jacobian_below;
   object["kappa"] = spec.options.newton.kappa;
   object["h"] = spec.options.step.h;
   object["h_max"] = spec.options.step.h_max;
@@ -38,6 +42,20 @@ Json specObject(const RunSpec& spec) {
   object["max_steps"] = spec.options.step.max_steps;
   object["time_limit"] = spec.time_limit;
   return object;
+}
+
+// Of runs that switch: when and what, and what it cost.
+void addSwitches(const RunRecord& record, Json& json) {
+  const Counters& c = record.counters;
+  if (c.switches == 0 && c.discontinuous_iterations == 0) return;
+  json["counters"]["switches"] = c.switches;
+  json["counters"]["discontinuous_iterations"] = c.discontinuous_iterations;
+  json["counters"]["located_events"] = c.located_events;
+  json["counters"]["chattering"] = c.chattering;
+  json["switches"] = Json::array();
+  for (const auto& [t, name] : record.switches) {
+    json["switches"].push_back({{"t", t}, {"name", name}});
+  }
 }
 
 }  // namespace
@@ -61,6 +79,8 @@ std::string solveJson(const RunRecord& record) {
                       {"factorizations", c.factorizations},
                       {"solves", c.solves},
                       {"newton_iterations", c.newton_iterations}};
+  addSwitches(record, json);
+  if (!record.detail.empty()) json["detail"] = record.detail;
   json["cpu_s"] = record.cpu_s;
   json["spec"] = specObject(record.spec);
   return json.dump(2);

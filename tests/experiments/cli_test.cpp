@@ -48,6 +48,21 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
   EXPECT_TRUE(json["error"].is_number());
 }
 
+TEST(Cli, SolveJsonListsSwitches) {
+  const auto run = irkProgram({"solve", "stick_slip", "--method", "radau_iia_10", "--tol", "1e-10",
+                               "--discontinuity", "locate", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  const double times[] = {15, 18.536383773289554, 28.536383773289554,
+                          32.07276754657911, 42.07276754657911, 45.609151319868666};
+  ASSERT_EQ(json["switches"].size(), std::size(times));
+  for (std::size_t i = 0; i < std::size(times); ++i) {
+    EXPECT_NEAR(json["switches"][i]["t"].get<double>(), times[i], 1e-10);
+    EXPECT_TRUE(json["switches"][i]["name"].is_string());
+  }
+  EXPECT_EQ(json["counters"]["located_events"], 6);
+}
+
 TEST(Cli, UnknownNumbersAreNull) {
   const auto run = irkProgram({"solve", "slider_crank", "--t-end", "0.123", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
