@@ -44,8 +44,8 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
   length_ = length;
   chatter_ = {};
   start_detail_.clear();
+  blamed_ = -1;
   note_.clear();
-  jacobian_.forget();
   restart();
   state_ = system_.fromScene(start);
   const Outcome modes = settle();
@@ -93,7 +93,7 @@ Outcome Advance<Real>::settle() {
 template <class Real>
 void Advance<Real>::restart() {
   attempt_.forget();
-  jacobian_.markStale();
+  jacobian_.forget();
   if (controller_) controller_->forget();
 }
 
@@ -127,8 +127,8 @@ void Advance<Real>::noteChattering(Index i) {
   ++counters_.chattering;
   if (!note_.empty()) return;
   std::ostringstream text;
-  text << "chattering: " << switches_.describe(i) << " switches in every step at t = "
-       << static_cast<double>(state_.t);
+  text << "chattering: " << switches_.describe(i)
+       << " switches in every step at t = " << static_cast<double>(state_.t);
   note_ = text.str();
 }
 
@@ -150,7 +150,7 @@ Outcome Advance<Real>::acceptLocated(AttemptResult result, Real h, const Real& e
   takeOver(result, static_cast<double>(h));
   if (!at.found) return Outcome::kSuccess;
   ++counters_.located_events;
-  if (chatter_.event(static_cast<double>(state_.t), length_)) {
+  if (chatter_.event(static_cast<double>(state_.t), length_, at.resolution)) {
     ++counters_.chattering;
     blamed_ = at.index;
     return Outcome::kChattering;

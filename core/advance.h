@@ -23,7 +23,8 @@ class Advance {
   [[nodiscard]] Outcome begin(const State<Real>& start, double length,
                               const Monitor<Real>& monitor);
   /// Takes over `next()`, solved with step h towards `end`. With `locate` the step may be shortened
-  /// to the first switch in it. kSuccess, or why the switch cannot be passed.
+  /// to the first switch in it. kSuccess, or why the switch cannot be passed; kNewtonFailed and
+  /// kSingular: the shortened step could not be solved, and nothing was taken over.
   [[nodiscard]] Outcome accept(const AttemptResult& result, const Real& h, const Real& end);
 
   const State<Real>& state() const { return state_; }

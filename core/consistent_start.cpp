@@ -1,9 +1,8 @@
 #include "core/consistent_start.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <sstream>
-
-#include <Eigen/LU>
 
 #include "core/multiprecision.h"
 
@@ -34,14 +33,15 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
   const Index first = n.nu + n.nx;
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
     system.evaluate(level, pointOf(state), rows);
-    const Real size = Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
-                      (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>()
-                                                 : Real(0));
+    const Real size =
+        Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
+        (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>() : Real(0));
     for (Index i = 0; i < n.n(); ++i) {
       const double value = static_cast<double>(r[i]);
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, i, "residual", value);
       const bool constraint = i >= first && i < first + n.constraints;
-      if (constraint && check == StartCheck::kConstraints && abs(r[i]) > Real(kConstraintTolerance) * size) {
+      if (constraint && check == StartCheck::kConstraints &&
+          abs(r[i]) > Real(kConstraintTolerance) * size) {
         return report(Outcome::kInconsistentStart, t, i,
                       level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value);
       }
@@ -69,14 +69,15 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
       if (!w_required || value <= kConstraintTolerance) return {};
       return report(Outcome::kInconsistentStart, t, worst,
                     "accelerations cannot be determined (D0 is singular) and the given ones leave "
-                    "the residual", value);
+                    "the residual",
+                    value);
     }
     const Vec<Real> dw = lu.solve(r);
     state.w -= dw;
     if (dw.norm() <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
   }
-  // Linear problems end after two iterations; what is left at the level of the constraints' tolerance
-  // serves as start values.
+  // Linear problems end after two iterations; what is left at the level of the constraints'
+  // tolerance serves as start values.
   system.evaluate(Level::kAcceleration, pointOf(state), rows);
   Index worst = 0;
   const double value = static_cast<double>(Real(r.cwiseAbs().maxCoeff(&worst)));

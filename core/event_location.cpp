@@ -8,8 +8,8 @@
 namespace irk {
 namespace {
 
-// Where a step is searched. A switching function that rises above 0 and returns between two of these
-// points is not seen.
+// Where a step is searched. A switching function that rises above 0 and returns between two of
+// these points is not seen.
 constexpr int kSamples = 8;
 // Re-solved steps per switch; four are usual.
 constexpr int kMostSolves = 25;
@@ -29,6 +29,7 @@ EventLocator<Real>::EventLocator(const System<Real>& system, const Scheme<Real>&
     : switches_(system),
       dense_(system.sizes(), scheme),
       inside_(system.sizes()),
+      due_(system.sizes().switches),
       tolerance_(tolerance) {}
 
 template <class Real>
@@ -46,10 +47,10 @@ Location<Real> EventLocator<Real>::first(StepAttempt<Real>& attempt, const State
                                          const State<Real>& next, Root& root) {
   Location<Real> result;
   const auto pieces = attempt.pieces(from);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const StepPiece<Real>& piece = pieces[k];
+  for (std::size_t k = 0; k < pieces.count; ++k) {
+    const StepPiece<Real>& piece = pieces.at[k];
     dense_.begin(*piece.from, *piece.stages);
-    const State<Real>& end = k + 1 < pieces.size() ? *pieces[k + 1].from : next;
+    const State<Real>& end = k + 1 < pieces.count ? *pieces.at[k + 1].from : next;
     for (int j = 1; j <= kSamples; ++j) {
       const Real theta = Real(j) / Real(kSamples);
       if (j < kSamples) dense_.evaluate(theta, inside_);
@@ -61,9 +62,9 @@ Location<Real> EventLocator<Real>::first(StepAttempt<Real>& attempt, const State
       }
       if (switches_.due() < 0) continue;
       const Real offset = piece.from->t - from.t;
-      const Vec<Real> g = switches_.g();
-      for (Index i = 0; i < g.size(); ++i) {
-        if (!(g[i] > Real(0))) continue;
+      due_ = switches_.g();
+      for (Index i = 0; i < due_.size(); ++i) {
+        if (!(due_[i] > Real(0))) continue;
         const Root found =
             refined(i, Real(Real(j - 1) / Real(kSamples)), theta, offset, piece.stages->h);
         if (!root.found || found.step < root.step) root = found;
@@ -86,12 +87,12 @@ auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& offse
     -> Root {
   const Real width = high - low;
   const Real g_low = value(low, i), g_high = value(high, i);
-  while (high - low > Real(4) * epsilon<Real>() * high) {
+  while (high - low > Real(4) * epsilon<Real>()) {
     const Real middle = (low + high) / Real(2);
     (value(middle, i) > Real(0) ? high : low) = middle;
   }
   const Real near = width / Real(64);
-  Real slope = (value(Real(high + near), i) - value(high, i)) / (near * h);
+  Real slope = (value(high, i) - value(Real(high - near), i)) / (near * h);
   if (!(slope > Real(0))) slope = (g_high - g_low) / (width * h);
   return {true, i, offset + high * h, slope};
 }
@@ -104,12 +105,13 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
   const Real scale = abs(from.t) > h ? Real(abs(from.t)) : h;
   const Real resolution =
       Real(4) * epsilon<Real>() * scale + Real(kTimeTolerance * std::min(tolerance_, 1e-3)) * h;
-  Real low(0), high = h, step = root.step < h ? root.step : h, slope = root.slope;
-  Real last_step(0), last_g(0);
-  bool high_is_due = false;
+  Real low(0), high = h, step = root.step > resolution ? root.step : resolution;
+  if (step > h) step = h;
+  Real slope = root.slope, last_step(0), last_g(0);
   result.index = root.index;
+  result.resolution = static_cast<double>(resolution);
   for (int solves = 0; solves < kMostSolves; ++solves) {
-    const bool settled = high_is_due && high - low <= resolution;
+    const bool settled = high - low <= resolution;
     if (settled || solves + 1 == kMostSolves) step = high;
     result.attempt = attempt.attempt(from, step, next);
     result.outcome = result.attempt.outcome;
@@ -118,20 +120,23 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     result.outcome = report.outcome;
     if (result.outcome != Outcome::kSuccess) return result;
     const Index due = switches_.due();
-    if (due >= 0) result.index = due;
+    const bool other = due >= 0 && due != result.index;
+    if (other) {  // values and slopes of the function before say nothing about this one
+      result.index = due;
+      slope = Real(0);
+    }
     const Real g = switches_.g()[result.index];
     result.h = step;
     result.found = due >= 0;
     // A root of the dense output alone: the step goes on to its end.
-    if (step == h) return result;
+    if (step == h && due < 0) return result;
     if (due >= 0) {
       high = step;
-      high_is_due = true;
       if (settled || (slope > Real(0) && g <= slope * resolution)) return result;
     } else {
       low = step;
     }
-    if (solves > 0 && abs(Real(step - last_step)) > Real(1e-6) * h) {
+    if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
       slope = (g - last_g) / (step - last_step);
     }
     last_step = step;
@@ -140,8 +145,9 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (!(guess > low && guess < high)) {
       // Just beyond the last sign change where the root is at the edge, else halve.
       const Real nudge = low + Real(2) * resolution;
-      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0 ? nudge
-                                                                      : Real((low + high) / Real(2));
+      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0
+                  ? nudge
+                  : Real((low + high) / Real(2));
     }
     step = guess;
   }

@@ -12,6 +12,7 @@ struct Location {
   bool found = false;
   Index index = -1;       ///< of the switching function, also of one that is not finite
   Real h{};               ///< size of the step that ends at the switch
+  double resolution = 0;  ///< how finely its time was looked for
   AttemptResult attempt;  ///< of that step
 };
 
@@ -36,8 +37,8 @@ class EventLocator {
     Index index = -1;
     Real step{}, slope{};  // from the step's start; dg/dt
   };
-  Location<Real> first(StepAttempt<Real>& attempt, const State<Real>& from,
-                       const State<Real>& next, Root& root);
+  Location<Real> first(StepAttempt<Real>& attempt, const State<Real>& from, const State<Real>& next,
+                       Root& root);
   Real value(const Real& theta, Index i);
   Root refined(Index i, Real low, Real high, const Real& offset, const Real& h);
   Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
@@ -46,6 +47,7 @@ class EventLocator {
   Switches<Real> switches_;
   DenseOutput<Real> dense_;
   State<Real> inside_;
+  Vec<Real> due_;
   double tolerance_;
 };
 

@@ -216,15 +216,14 @@ void FirstOrderForm<Real>::divideByMatrix(Vec<Real>& x) const {
 // At the start and after each switch. D0's dependence is seen on states nearby; where it shows only
 // further away, a Jacobian's residual tells (`evaluate`).
 template <class Real>
-void FirstOrderForm<Real>::classify(const State<Real>& scene) const {
+bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   solved_ = false;
   at_ = scene;
   evaluateMatrix();
   const Mat<Real> D0 = lu_.matrix();
   if (!Eigen::FullPivLU<Mat<Real>>(D0).isInvertible()) {
-    throw Misuse(
-        "illegal combination: formulation 'first_order' with a system whose D0 = "
-        "dr/d(a,k,z) is singular at the start: (a, k, z) do not follow from (u, v, x)");
+    rates_ = Rates::kNonlinear;  // whose solves will say so
+    return false;
   }
   rates_ = kindNear(scene, D0);
   at_ = scene;
@@ -232,6 +231,7 @@ void FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   diagonal_ = D0.diagonal();
   if (rates_ == Rates::kConstant && D0.isDiagonal(Real(0))) rates_ = Rates::kDiagonal;
   if (rates_ == Rates::kConstant) factorize();
+  return true;
 }
 
 template <class Real>
@@ -264,7 +264,7 @@ void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->onSwitch(i, scene);
   state.d = scene.d;
-  classify(scene);
+  static_cast<void>(classify(scene));
 }
 
 template <class Real>
@@ -277,7 +277,11 @@ void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
 template <class Real>
 State<Real> FirstOrderForm<Real>::fromScene(const State<Real>& scene) const {
   start_w_ = scene.w;
-  classify(scene);
+  if (!classify(scene)) {
+    throw Misuse(
+        "illegal combination: formulation 'first_order' with a system whose D0 = "
+        "dr/d(a,k,z) is singular at the start: (a, k, z) do not follow from (u, v, x)");
+  }
   factorizations_ = 0;
   State<Real> state(sizes_);
   state.t = scene.t;

@@ -48,7 +48,7 @@ class FirstOrderForm final : public System<Real> {
   /// How (a, k, z) enter the residual: decides how often D0 is evaluated.
   enum class Rates { kDiagonal, kConstant, kLinear, kNonlinear };
 
-  void classify(const State<Real>& scene) const;
+  bool classify(const State<Real>& scene) const;  // false: D0 is singular
   Rates kindNear(const State<Real>& scene, const Mat<Real>& D0) const;
   bool solve(const Real& t, const Real* y, const Real* d) const;
   bool holds(const Real& t, const Real* y, const Real* d) const;

@@ -1,4 +1,5 @@
-// The stabilised index-2 formulation of Gear, Gupta & Leimkuhler, J. CAM 12-13 (1985); HW II (VII.1):
+// The stabilised index-2 formulation of Gear, Gupta & Leimkuhler, J. CAM 12-13 (1985); HW II
+// (VII.1):
 //   u' = v + G^T mu,   M v' = f - G^T lambda,   0 = g(t, u),   0 = dg/dt,   G = dg/du.
 // Included by core/problem.h.
 #pragma once
@@ -6,41 +7,6 @@
 #include "core/problem.h"
 
 namespace irk {
-
-namespace detail {
-
-// u with unit directions first, first + 1, ... for derivatives of g with respect to u.
-template <class T>
-struct DirectionView {
-  const ConstVec<T>& u;
-  Index first;
-  Dual<T> operator[](Index i) const {
-    Dual<T> value(u[i]);
-    if (i >= first && i < first + static_cast<Index>(kChunk)) {
-      value.d[static_cast<std::size_t>(i - first)] = T(1.0);
-    }
-    return value;
-  }
-};
-// g[k] = expression adds mu_k dg_k/du_i to the rows of the directions.
-template <class T>
-struct TransposedSink {
-  T* rows;
-  Index count;
-  const ConstVec<T>& mu;
-  struct Row {
-    const TransposedSink& sink;
-    Index k;
-    void operator=(const Dual<T>& g) {
-      for (Index c = 0; c < sink.count; ++c) {
-        sink.rows[c] += sink.mu[k] * g.d[static_cast<std::size_t>(c)];
-      }
-    }
-  };
-  Row operator[](Index k) const { return {*this, k}; }
-};
-
-}  // namespace detail
 
 /// A problem struct P with position constraints as a system of first order. Its unknowns:
 /// x = (u, v, x of the scene), z = (z of the scene, mu); no second-order rows.

@@ -29,7 +29,8 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
   const Sizes n = system.sizes();
   if (n.nz > 0 && !scheme.allowsAlgebraic()) {
     throw Misuse("illegal combination: method '" + scheme.tableau.id + "' with a system of " +
-                 std::to_string(n.nz) + " algebraic unknowns: A is singular, the stages do not "
+                 std::to_string(n.nz) +
+                 " algebraic unknowns: A is singular, the stages do not "
                  "determine them");
   }
   if (options.jacobian_point == JacobianPoint::kEachStage &&
@@ -40,7 +41,8 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
   }
   if (options.jacobian != JacobianTerms::kFull && !system.secondOrder()) {
     throw Misuse("illegal combination: jacobian '" + std::string(idOf(options.jacobian)) +
-                 "' with formulation 'ggl': its accelerations are no unknowns of their own");
+                 "' with formulation 'ggl' or 'first_order': its accelerations are no unknowns of "
+                 "their own");
   }
   if (options.newton.kind == NewtonKind::kFull &&
       options.solver != StageSolverKind::kCoupledDense) {
@@ -99,6 +101,8 @@ class Integrator<Real>::Run {
       ++counters_.steps_rejected_newton;
       const bool mode = result.outcome == Outcome::kChattering || result.switched >= 0;
       advance_->blame(mode ? result.switched : -1);
+    } else {
+      advance_->blame(-1);
     }
     return result;
   }
@@ -119,7 +123,8 @@ class Integrator<Real>::Run {
     const bool divides = std::abs(count * options_.step.h - length_) <= 1e-9 * length_;
     const Real h = divides ? Real((t_end - t0) / Real(count)) : Real(options_.step.h);
     if (count > static_cast<double>(options_.step.max_steps)) {
-      return advance_->failed(Outcome::kMaxSteps, static_cast<double>(h), "too many steps asked for");
+      return advance_->failed(Outcome::kMaxSteps, static_cast<double>(h),
+                              "too many steps asked for");
     }
     for (std::int64_t i = 0; i < steps; ++i) {
       const bool last = i + 1 == steps;
@@ -191,6 +196,12 @@ class Integrator<Real>::Run {
         continue;
       }
       const Outcome outcome = advance_->accept(result, step, last ? t_end : advance_->next().t);
+      if (outcome == Outcome::kNewtonFailed || outcome == Outcome::kSingular) {
+        ++counters_.steps_rejected_newton;
+        attempt_->forget();
+        h = controller_->afterFailure(size);
+        continue;
+      }
       if (outcome != Outcome::kSuccess) {
         return advance_->failed(outcome, size, "switch not passed");
       }

@@ -43,7 +43,8 @@ constexpr Named<Predictor> kPredictors[] = {
     {Predictor::kPrevious, "previous", "stages of the step before (paper)"},
     {Predictor::kAcceleration, "acceleration", "(a, k, z) at the step's start"}};
 constexpr Named<ErrorEstimate> kEstimates[] = {
-    {ErrorEstimate::kRichardson, "richardson", "doubling, each component with its own order"},
+    {ErrorEstimate::kRichardson, "richardson",
+     "doubling, each component with its own order; sees switches"},
     {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
     {ErrorEstimate::kDoublingScalar, "doubling_scalar", "difference of the norms (HOTINT)"},
     {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
@@ -74,30 +75,30 @@ std::string text(double x) {
 
 void require(bool legal, std::string_view field, double value, std::string_view range) {
   if (!legal) {
-    throw Misuse(std::string(field) + " = " + text(value) + " is out of range: " +
-                 std::string(range));
+    throw Misuse(std::string(field) + " = " + text(value) +
+                 " is out of range: " + std::string(range));
   }
 }
 
 }  // namespace
 
-#define IRK_AXIS(E, table, axis)                 \
-  template <>                                    \
-  std::span<const Named<E>> named<E>() {         \
-    return table;                                \
-  }                                              \
-  template <>                                    \
-  std::string_view axisName<E>() {               \
-    return axis;                                 \
-  }                                              \
-  template <>                                    \
-  E parseId<E>(std::string_view id) {            \
-    std::vector<std::string> known;              \
-    for (const auto& entry : table) {            \
-      if (entry.id == id) return entry.value;    \
-      known.emplace_back(entry.id);              \
-    }                                            \
-    throw Misuse(unknownName(axis, id, known));  \
+#define IRK_AXIS(E, table, axis)                \
+  template <>                                   \
+  std::span<const Named<E>> named<E>() {        \
+    return table;                               \
+  }                                             \
+  template <>                                   \
+  std::string_view axisName<E>() {              \
+    return axis;                                \
+  }                                             \
+  template <>                                   \
+  E parseId<E>(std::string_view id) {           \
+    std::vector<std::string> known;             \
+    for (const auto& entry : table) {           \
+      if (entry.id == id) return entry.value;   \
+      known.emplace_back(entry.id);             \
+    }                                           \
+    throw Misuse(unknownName(axis, id, known)); \
   }
 
 IRK_AXIS(Formulation, kFormulations, "formulation")
@@ -123,8 +124,8 @@ void validate(const IntegratorOptions& o) {
           "newton.residual_tolerance", newton.residual_tolerance, "0 < tol < 1");
   require(newton.contractivity_limit > 0 && newton.contractivity_limit <= 1,
           "newton.contractivity_limit", newton.contractivity_limit, "0 < limit <= 1");
-  require(newton.contractivity_after >= 0, "newton.contractivity_after",
-          newton.contractivity_after, "an integer >= 0");
+  require(newton.contractivity_after >= 0, "newton.contractivity_after", newton.contractivity_after,
+          "an integer >= 0");
   require(newton.max_iterations >= 1, "newton.max_iterations", newton.max_iterations,
           "an integer >= 1");
   require(newton.kappa >= 0 && std::isfinite(newton.kappa), "newton.kappa", newton.kappa,

@@ -25,13 +25,14 @@
 //     template <class T>
 //     void switching(const Point<T>& p, T* g) const;            // p.d is valid while all g <= 0
 //     template <class T>
-//     void onSwitch(Index i, const Point<T>& p, T* d) const;    // g[i] > 0: changes d (a copy of p.d)
+//     void onSwitch(Index i, const Point<T>& p, T* d) const;    // g[i] > 0: changes d (a copy of
+//     p.d)
 //   and, where they exist:
 //     template <class T>
-//     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;  // what jumps; p.d is the new one
-//     template <class T>
-//     void smoothed(const Point<T>& p, T* d) const;             // d as a smooth function of p
-//     std::string switchName(Index i) const;                    // for messages
+//     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;  // what jumps; p.d is the new
+//     one template <class T> void smoothed(const Point<T>& p, T* d) const;             // d as a
+//     smooth function of p std::string switchName(Index i) const;                    // for
+//     messages
 //
 // A switching function that has no meaning in a mode returns -1 there.
 #pragma once
@@ -42,8 +43,8 @@
 #include <string>
 #include <utility>
 
+#include "core/constraint_views.h"
 #include "core/misuse.h"
-#include "core/system.h"
 
 namespace irk {
 
@@ -52,7 +53,7 @@ enum class Formulation {
   kIndex2,           ///< dg/dt = 0
   kIndex3,           ///< g = 0
   kGgl,              ///< g = 0 and dg/dt = 0 with u' = v + G^T mu; Gear, Gupta, Leimkuhler 1985
-  kIndex2Projected,  ///< dg/dt = 0, v projected on it after each step; HW II (VII.7)
+  kIndex2Projected,  ///< dg/dt = 0, v projected on it after each step; HW II (VII.2)
   kIndex1,           ///< d2g/dt2 = 0
   kFirstOrder,       ///< y' = f(t, y), y = (u, v, x); core/first_order.h
 };
@@ -77,42 +78,6 @@ struct Rows {
 /// Largest numbers of discrete states and of switching functions.
 constexpr Index kMostDiscrete = 16;
 
-namespace detail {
-
-// g(t, u(t)) with u' = v: views that hand out and take in rates without storing a vector of them.
-template <class T>
-struct VelocityView {
-  const ConstVec<T>& u;
-  const ConstVec<T>& v;
-  Rate<T> operator[](Index i) const { return {u[i], v[i]}; }
-};
-template <class T>
-struct AccelerationView {
-  const ConstVec<T>& u;
-  const ConstVec<T>& v;
-  const ConstVec<T>& a;
-  Rate<Rate<T>> operator[](Index i) const { return {{u[i], v[i]}, {v[i], a[i]}}; }
-};
-
-// g[i] = expression stores only the wanted derivative.
-template <class T>
-struct RateSink {
-  T& out;
-  void operator=(const Rate<T>& g) { out = g.d[0]; }
-};
-template <class T>
-struct SecondRateSink {
-  T& out;
-  void operator=(const Rate<Rate<T>>& g) { out = g.d[0].d[0]; }
-};
-template <class Sink, class T>
-struct SinkRow {
-  T* data;
-  Sink operator[](Index i) const { return Sink{data[i]}; }
-};
-
-}  // namespace detail
-
 /// A problem struct P in one formulation (all but GGL, core/ggl.h), over one scalar.
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
@@ -126,15 +91,17 @@ class ProblemSystem final : public System<Real> {
                    std::to_string(kMostDiscrete) + " each");
     }
     if (smooth() && kHasSwitching && !kHasSmoothed) {
-      throw Misuse("illegal combination: discontinuity 'smooth' with a scene that has no "
-                   "regularisation: its discrete state is a memory");
+      throw Misuse(
+          "illegal combination: discontinuity 'smooth' with a scene that has no "
+          "regularisation: its discrete state is a memory");
     }
     const int index = constraintIndex();
     const auto all = [](Index n, int power) {
       return std::vector<int>(static_cast<std::size_t>(n), power);
     };
     row_powers_ = all(sizes_.n(), 0);
-    error_powers_ = {all(sizes_.nu, 0), all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
+    error_powers_ = {all(sizes_.nu, 0),
+                     all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
                      all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
     for (Index i = 0; i < sizes_.nz; ++i) {
       const bool constraint = i < sizes_.constraints;
@@ -220,9 +187,12 @@ class ProblemSystem final : public System<Real> {
 
  private:
   static constexpr bool kHasSwitching =
-      requires(const P& problem, const Point<Real>& p, Real* out) { problem.switching(p, out); };
-  static constexpr bool kHasSmoothed =
-      requires(const P& problem, const Point<Real>& p, Real* out) { problem.smoothed(p, out); };
+      requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.switching(p, out);
+  };
+  static constexpr bool kHasSmoothed = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.smoothed(p, out);
+  };
 
   bool smooth() const { return options_.discontinuity == Discontinuity::kSmooth; }
 
@@ -233,12 +203,15 @@ class ProblemSystem final : public System<Real> {
   }
   int constraintIndex() const {
     switch (options_.formulation) {
-      case Formulation::kIndex3: return 3;
+      case Formulation::kIndex3:
+        return 3;
       case Formulation::kIndex1:
-      case Formulation::kFirstOrder: return 1;
+      case Formulation::kFirstOrder:
+        return 1;
       case Formulation::kIndex2:
       case Formulation::kIndex2Projected:
-      case Formulation::kGgl: return 2;
+      case Formulation::kGgl:
+        return 2;
     }
     return 2;
   }
@@ -273,9 +246,12 @@ class ProblemSystem final : public System<Real> {
   Level constraintLevel(Level level) const {
     if (level != Level::kFormulated) return level;
     switch (constraintIndex()) {
-      case 3: return Level::kPosition;
-      case 2: return Level::kVelocity;
-      default: return Level::kAcceleration;
+      case 3:
+        return Level::kPosition;
+      case 2:
+        return Level::kVelocity;
+      default:
+        return Level::kAcceleration;
     }
   }
 

@@ -13,8 +13,7 @@ VelocityProjection<Real>::VelocityProjection(const System<Real>& system, Derivat
       differentiator_(system, source),
       D_(Pattern::dense(sizes_.n())),
       lu_(sizes_.n()),
-      r_(sizes_.n()),
-      step_(sizes_.n()) {}
+      r_(sizes_.n()) {}
 
 template <class Real>
 Outcome VelocityProjection<Real>::apply(State<Real>& state) {
@@ -24,10 +23,12 @@ Outcome VelocityProjection<Real>::apply(State<Real>& state) {
   system_.evaluate(Level::kVelocity, pointOf(state), VecView<Real>(r_.data(), r_.size()));
   r_.head(first).setZero();
   r_.tail(sizes_.nz - sizes_.constraints).setZero();
-  lu_.compute(D_.dense0());
-  step_ = lu_.solve(r_);
-  if (!step_.allFinite()) return Outcome::kSingular;
-  state.v -= step_.head(sizes_.nu);
+  lu_.matrix() = D_.dense0();
+  const Outcome outcome = lu_.factorize();
+  if (outcome != Outcome::kSuccess) return outcome;
+  lu_.solve(r_);
+  if (!r_.allFinite()) return Outcome::kNotFinite;
+  state.v -= r_.head(sizes_.nu);
   return Outcome::kSuccess;
 }
 

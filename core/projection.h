@@ -1,8 +1,7 @@
 // Velocities on dg/dt = 0 after a step: the formulation `index2_projected`.
 #pragma once
 
-#include <Eigen/LU>
-
+#include "core/dense_lu.h"
 #include "core/linearization.h"
 #include "core/outcome.h"
 #include "core/statistics.h"
@@ -26,8 +25,8 @@ class VelocityProjection {
   Counters& counters_;
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
-  Eigen::PartialPivLU<Mat<Real>> lu_;
-  Vec<Real> r_, step_;
+  DenseLu<Real> lu_;
+  Vec<Real> r_;
 };
 
 }  // namespace irk

@@ -21,39 +21,13 @@ class Single final : public StepAttempt<Real> {
             std::numeric_limits<double>::quiet_NaN()};
   }
   void forget() override { stepper_.forget(); }
-  std::vector<StepPiece<Real>> pieces(const State<Real>& from) const override {
-    return {{&from, &stepper_.stages()}};
+  StepPieces<Real> pieces(const State<Real>& from) const override {
+    return {{{{&from, &stepper_.stages()}, {nullptr, nullptr}}}, 1};
   }
 
  private:
   Stepper<Real> stepper_;
 };
-
-/// 1 / (2^q - 1) per component (u, v, x, z). q: the classical order for all (paper), or the
-/// component's own. What its index (from the exponents of the error norm), the stage order and stiff
-/// accuracy guarantee: HW II, table VII.4.1; Hairer, Lubich & Roche, LNM 1409.
-template <class Real>
-Vec<double> divisors(const Scheme<Real>& scheme, const System<Real>& system, bool own) {
-  const Sizes n = system.sizes();
-  const ErrorPowers& powers = system.errorPowers();
-  const int p = scheme.tableau.order;
-  const int stage = std::max(scheme.tableau.stage_order, 1);
-  const int differential = scheme.stiffly_accurate ? p : stage;
-  int index = n.nz > 0 ? 1 : 0;
-  for (const int power : powers.z) index = std::max(index, 1 + power);
-  const auto orderOf = [&](Index i) {
-    if (!own || index == 0) return p;
-    if (i < n.nu) return index < 3 ? p : differential;
-    if (i < 2 * n.nu) return index == 3 ? stage : index == 2 ? differential : p;
-    if (i < 2 * n.nu + n.nx) return index == 1 ? p : differential;
-    const int power = powers.z[static_cast<std::size_t>(i - 2 * n.nu - n.nx)];
-    if (power == 0) return index == 1 && scheme.stiffly_accurate ? p : stage;
-    return std::max(stage - (power - 1), 1);
-  };
-  Vec<double> factor(n.components());
-  for (Index i = 0; i < factor.size(); ++i) factor[i] = 1 / (std::pow(2.0, orderOf(i)) - 1);
-  return factor;
-}
 
 /// Paper (5.1)-(5.4): one step h against two steps h/2, which are the result;
 ///   error = |V_h - V_{h/2}| / (2^p - 1).
@@ -62,13 +36,12 @@ Vec<double> divisors(const Scheme<Real>& scheme, const System<Real>& system, boo
 template <class Real>
 class Doubling final : public StepAttempt<Real> {
  public:
-  Doubling(const System<Real>& system, const Scheme<Real>& scheme,
-           const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
-           const ErrorNorm<Real>& norm, Counters& counters)
+  Doubling(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
       : whole_(system, scheme, options, jacobian, norm, counters),
         half_(system, scheme, options, jacobian, norm, counters),
         norm_(norm),
-        factor_(divisors(scheme, system, options.step.estimate == ErrorEstimate::kRichardson)),
+        factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
         interpolate_(options.predictor == Predictor::kExtrapolated),
         keeps_pieces_(system.sizes().switches > 0 &&
@@ -103,8 +76,8 @@ class Doubling final : public StepAttempt<Real> {
     whole_.forget();
     half_.forget();
   }
-  std::vector<StepPiece<Real>> pieces(const State<Real>& from) const override {
-    return {{&from, &first_half_}, {&middle_, &half_.stages()}};
+  StepPieces<Real> pieces(const State<Real>& from) const override {
+    return {{{{&from, &first_half_}, {&middle_, &half_.stages()}}}, 2};
   }
 
  private:
@@ -127,12 +100,34 @@ class Doubling final : public StepAttempt<Real> {
 }  // namespace
 
 template <class Real>
-std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const System<Real>& system,
-                                                   const Scheme<Real>& scheme,
-                                                   const IntegratorOptions& options,
-                                                   SharedJacobian<Real>& jacobian,
-                                                   const ErrorNorm<Real>& norm,
-                                                   Counters& counters) {
+Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
+                            ErrorEstimate estimate) {
+  const bool own = estimate == ErrorEstimate::kRichardson;
+  const Sizes n = system.sizes();
+  const ErrorPowers& powers = system.errorPowers();
+  const int p = scheme.tableau.order;
+  const int stage = std::max(scheme.tableau.stage_order, 1);
+  const int differential = scheme.stiffly_accurate ? p : stage;
+  int index = n.nz > 0 ? 1 : 0;
+  for (const int power : powers.z) index = std::max(index, 1 + power);
+  const auto orderOf = [&](Index i) {
+    if (!own || index == 0) return p;
+    if (i < n.nu) return index < 3 ? p : differential;
+    if (i < 2 * n.nu) return index == 3 ? stage : index == 2 ? differential : p;
+    if (i < 2 * n.nu + n.nx) return index == 1 ? p : differential;
+    const int power = powers.z[static_cast<std::size_t>(i - 2 * n.nu - n.nx)];
+    if (power == 0) return index == 1 && scheme.stiffly_accurate ? p : stage;
+    return std::max(stage - (power - 1), 1);
+  };
+  Vec<double> factor(n.components());
+  for (Index i = 0; i < factor.size(); ++i) factor[i] = 1 / (std::pow(2.0, orderOf(i)) - 1);
+  return factor;
+}
+
+template <class Real>
+std::unique_ptr<StepAttempt<Real>> makeStepAttempt(
+    const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+    SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters) {
   switch (options.step.estimate) {
     case ErrorEstimate::kNone:
       return std::make_unique<Single<Real>>(system, scheme, options, jacobian, norm, counters);
@@ -144,9 +139,13 @@ std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const System<Real>& system,
   return nullptr;
 }
 
-template std::unique_ptr<StepAttempt<double>> makeStepAttempt(
-    const System<double>&, const Scheme<double>&, const IntegratorOptions&,
-    SharedJacobian<double>&, const ErrorNorm<double>&, Counters&);
+template Vec<double> doublingFactors(const Scheme<double>&, const System<double>&, ErrorEstimate);
+template Vec<double> doublingFactors(const Scheme<mp50>&, const System<mp50>&, ErrorEstimate);
+template std::unique_ptr<StepAttempt<double>> makeStepAttempt(const System<double>&,
+                                                              const Scheme<double>&,
+                                                              const IntegratorOptions&,
+                                                              SharedJacobian<double>&,
+                                                              const ErrorNorm<double>&, Counters&);
 template std::unique_ptr<StepAttempt<mp50>> makeStepAttempt(const System<mp50>&,
                                                             const Scheme<mp50>&,
                                                             const IntegratorOptions&,

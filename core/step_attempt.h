@@ -1,7 +1,7 @@
 // A step with its error estimate: the strategies of the axis `estimate`.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "core/stepper.h"
 
@@ -19,6 +19,12 @@ struct StepPiece {
 };
 
 template <class Real>
+struct StepPieces {
+  std::array<StepPiece<Real>, 2> at;
+  std::size_t count;
+};
+
+template <class Real>
 class StepAttempt {
  public:
   virtual ~StepAttempt() = default;
@@ -27,17 +33,24 @@ class StepAttempt {
                                               State<Real>& to) = 0;
   /// What was solved predicts badly: the attempt was not accepted, or the mode has changed.
   virtual void forget() = 0;
-  /// The parts of which the last solved step is made, in order: their starts and stages. Valid while
-  /// `from` of the attempt is.
-  virtual std::vector<StepPiece<Real>> pieces(const State<Real>& from) const = 0;
+  /// The parts of which the last solved step is made, in order: their starts and stages. Valid
+  /// while `from` of the attempt is.
+  virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
 };
+
+/// 1 / (2^q - 1) per component (u, v, x, z): what the difference of one step and two halves is
+/// multiplied by. q: the classical order for all (paper) or, with `richardson`, the component's
+/// own: what its index (from the exponents of the error norm), the stage order and stiff accuracy
+/// guarantee. HW II, table VII.4.1; Hairer, Lubich & Roche, LNM 1409.
+template <class Real>
+Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
+                            ErrorEstimate estimate);
 
 template <class Real>
 std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const System<Real>& system,
                                                    const Scheme<Real>& scheme,
                                                    const IntegratorOptions& options,
                                                    SharedJacobian<Real>& jacobian,
-                                                   const ErrorNorm<Real>& norm,
-                                                   Counters& counters);
+                                                   const ErrorNorm<Real>& norm, Counters& counters);
 
 }  // namespace irk

@@ -27,9 +27,8 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
     : system_(system),
       counters_(counters),
       eq_(system, scheme),
-      matrix_(jacobian,
-              std::make_unique<CountingStageSolver<Real>>(
-                  makeStageSolver(options.solver, setupOf(system, scheme)), counters)),
+      matrix_(jacobian, std::make_unique<CountingStageSolver<Real>>(
+                            makeStageSolver(options.solver, setupOf(system, scheme)), counters)),
       stagewise_(jacobian, setupOf(system, scheme), options.newton.kind, counters),
       newton_(makeNewton(options, system.sizes(), scheme)),
       norm_(norm),
@@ -48,14 +47,13 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
   legendre<Real>(Real(0), p);
   at_start_ = scheme.legendre_inverse.transpose() * p;
   if (system.projectsVelocity()) {
-    projection_ =
-        std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
+    projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
 }
 
 template <class Real>
-void Stepper<Real>::solve(const StagePolynomial<Real>& past, const State<Real>& from,
-                          const Real& h, State<Real>& to, JacobianUse use, StepResult& result) {
+void Stepper<Real>::solve(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+                          State<Real>& to, JacobianUse use, StepResult& result) {
   eq_.begin(from, h);
   start_values_.fill(past, from, h, W_);
   NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
@@ -77,9 +75,14 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
   if (!switches_.none()) {
     switch (system_.discontinuity()) {
       case Discontinuity::kIgnore:
-      case Discontinuity::kSmooth: settle(from, h, to, result); break;
-      case Discontinuity::kIterate: iterateModes(past, from, h, to, result); break;
-      case Discontinuity::kLocate: break;
+      case Discontinuity::kSmooth:
+        settle(from, h, to, result);
+        break;
+      case Discontinuity::kIterate:
+        iterateModes(past, from, h, to, result);
+        break;
+      case Discontinuity::kLocate:
+        break;
     }
     stages_.valid = result.outcome == Outcome::kSuccess;
     if (!stages_.valid) return result;
@@ -91,9 +94,9 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
 }
 
 // The mode at the end, in which the next step starts; `smooth` takes it as a hint only. Doubling is
-// blind to a jump before the first stage of the whole step and of its first half: both carry the same
-// new mode from the start. There the polynomial of the stages misses the (a, k) that the step began
-// with, and h times the difference bounds what the wrong mode does.
+// blind to a jump before the first stage of the whole step and of its first half: both carry the
+// same new mode from the start. There the polynomial of the stages misses the (a, k) that the step
+// began with, and h times the difference bounds what the wrong mode does.
 template <class Real>
 void Stepper<Real>::settle(const State<Real>& from, const Real& h, State<Real>& to,
                            StepResult& result) {
@@ -108,8 +111,8 @@ void Stepper<Real>::settle(const State<Real>& from, const Real& h, State<Real>& 
   result.mode_error = norm_.increment(defect_, 0, static_cast<double>(h));
 }
 
-// The discrete state is frozen over the step, updated at its end, and the step solved again with the
-// new one until it stays: HOTINT's discontinuous iteration.
+// The discrete state is frozen over the step, updated at its end, and the step solved again with
+// the new one until it stays: HOTINT's discontinuous iteration.
 template <class Real>
 void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<Real>& from,
                                  const Real& h, State<Real>& to, StepResult& result) {
@@ -119,7 +122,8 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
   std::vector<Index> done;
   for (int i = 0;; ++i) {
     done.clear();
-    const SwitchReport report = switches_.settle(to, Jumps::kDone, [&](Index k) { done.push_back(k); });
+    const SwitchReport report =
+        switches_.settle(to, Jumps::kDone, [&](Index k) { done.push_back(k); });
     if (report.index >= 0) result.switched = report.index;
     result.outcome = report.outcome;
     if (report.outcome != Outcome::kSuccess) return;
@@ -129,7 +133,7 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
       return;
     }
     ++counters_.discontinuous_iterations;
-    done_ = done;
+    done_.insert(done_.end(), done.begin(), done.end());
     frozen_ = from;
     frozen_.d = to.d;
     solve(past, frozen_, h, to, JacobianUse::kKeep, result);

@@ -18,10 +18,10 @@ struct StepResult {
   Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
-  /// Of a step that ends in another mode than it began, in the error norm. `iterate`: the difference
-  /// between the step in its first mode and in its last, what the wrong one of them does over the
-  /// whole step. Else, with the estimate `richardson`: h times the defect of the stages' polynomial at
-  /// the step's start.
+  /// Of a step that ends in another mode than it began, in the error norm. `iterate`: the
+  /// difference between the step in its first mode and in its last, what the wrong one of them does
+  /// over the whole step. Else, with the estimate `richardson`: h times the defect of the stages'
+  /// polynomial at the step's start.
   double mode_error = 0;
 };
 
@@ -30,9 +30,8 @@ struct StepResult {
 template <class Real>
 class Stepper {
  public:
-  Stepper(const System<Real>& system, const Scheme<Real>& scheme,
-          const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
-          const ErrorNorm<Real>& norm, Counters& counters);
+  Stepper(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+          SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
 
   /// One step [from.t, from.t + h] with start values from `past` (may be this stepper's own).
   [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from,
@@ -64,14 +63,14 @@ class Stepper {
   Mat<Real> W_;
   std::unique_ptr<VelocityProjection<Real>> projection_;
   Switches<Real> switches_;
-  State<Real> frozen_;       // `iterate`: the start with another discrete state
-  State<Real> first_mode_;   // and the end in the first one
-  Vec<Real> at_start_;       // weights of the stages' polynomial at the step's start
-  Mat<Real> defect_;         // n x 1
+  State<Real> frozen_;      // `iterate`: the start with another discrete state
+  State<Real> first_mode_;  // and the end in the first one
+  Vec<Real> at_start_;      // weights of the stages' polynomial at the step's start
+  Mat<Real> defect_;        // n x 1
   bool sees_switches_;
   Vec<double> ones_;
   Vec<Real> g_before_;
-  std::vector<Index> done_;  // switches of the last discontinuous iteration
+  std::vector<Index> done_;  // switches of the discontinuous iterations
 };
 
 }  // namespace irk

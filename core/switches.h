@@ -1,6 +1,7 @@
 // The discrete state: which switches are due, and doing them.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -22,15 +23,16 @@ struct SwitchReport {
 /// Switches that follow each other without time passing.
 class ChatterDetector {
  public:
-  /// After an accepted step of a mode that does not locate: true once per run of kRun steps that all
-  /// end with a switch.
+  /// After an accepted step of a mode that does not locate: true once per run of kRun steps that
+  /// all end with a switch.
   bool step(bool switched) {
     steps_ = switched ? steps_ + 1 : 0;
     return steps_ == kRun;
   }
-  /// After a located switch at t, in an integration of this length: true if there is no getting away.
-  bool event(double t, double length) {
-    events_ = t - last_ <= kNoTime * length ? events_ + 1 : 0;
+  /// After a switch located at t as finely as `resolution`, in an integration of this length: true
+  /// if there is no getting away.
+  bool event(double t, double length, double resolution) {
+    events_ = t - last_ <= std::max(kNoTime * length, 4 * resolution) ? events_ + 1 : 0;
     last_ = t;
     return events_ == kRun;
   }

@@ -75,8 +75,10 @@ Point<Real> pointOf(const State<Real>& s) {
 
 /// How switches are treated. Design, section 3.
 enum class Discontinuity {
-  kIgnore,   ///< every residual takes the mode its point implies; jumps are left to the error estimate
-  kIterate,  ///< discrete states frozen in Newton, updated after it, the step repeated until they stay
+  kIgnore,   ///< every residual takes the mode its point implies; jumps are left to the error
+             ///< estimate
+  kIterate,  ///< discrete states frozen in Newton, updated after it, the step repeated until they
+             ///< stay
   kLocate,   ///< frozen; the first root of a switching function ends the step, then a restart
   kSmooth,   ///< the problem's regularisation: nothing switches
 };
@@ -92,7 +94,8 @@ struct ErrorPowers {
   std::vector<int> u, v, x, z;
 };
 
-/// A system in residual form. Immutable and shared by threads: evaluation has no side effects.
+/// A system in residual form. Immutable and shared by threads: evaluation has no side
+/// effects (but FirstOrderForm, which keeps its factors: one per thread).
 template <class Real>
 class System {
  public:
@@ -134,10 +137,10 @@ class System {
   virtual bool projectsVelocity() const { return false; }
 
   /// Translate between the scene's unknowns (u, v, x, z as the problem names them) and the
-  /// formulation's. Identity for all but GGL.
+  /// formulation's. Identity for all but GGL and first order.
   virtual State<Real> fromScene(const State<Real>& scene) const = 0;
   virtual State<Real> toScene(const State<Real>& state) const = 0;
-  /// Whether a = u'' is an unknown of its own (in GGL it is part of k).
+  /// Whether a = u'' is an unknown of its own (in GGL and first order it is part of k).
   virtual bool secondOrder() const { return true; }
 };
 

@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "core/integrator.h"
+#include "core/step_attempt.h"
+#include "experiments/interrupt.h"
 #include "experiments/numbers.h"
-#include "experiments/orders.h"
+#include "experiments/peers/catalogue.h"
+#include "experiments/run.h"
 #include "experiments/run_table.h"
-#include "experiments/theory.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
@@ -27,14 +29,15 @@ struct Step {
 };
 
 /// One scene in one formulation, and its steps with any method.
-class Stepper {
+class StepSampler {
  public:
-  explicit Stepper(const RunSpec& spec)
+  explicit StepSampler(const RunSpec& spec)
       : spec_(spec),
         scene_(makeScene<double>(spec.scene, spec.settings)),
         system_(scene_.system({spec.formulation, spec.scaling, spec.discontinuity})) {}
 
   const Scene<double>& scene() const { return scene_; }
+  const System<double>& system() const { return *system_; }
 
   /// The steps that the run takes, some of them.
   std::vector<Step> steps() const {
@@ -46,7 +49,7 @@ class Stepper {
       from = step.state;
     };
     Integrator<double> integrator(system_, makeTableau<double>(spec_.method), spec_.options,
-                                  scene_.scale);
+                                  systemScale(scene_.scale, system_->sizes()));
     static_cast<void>(integrator.integrate(scene_.start, spec_.t_end, monitor));
     std::vector<Step> some;
     const std::size_t stride = all.size() / kSamples + 1;
@@ -61,11 +64,12 @@ class Stepper {
     options.step.estimate = ErrorEstimate::kNone;
     options.step.h = step.h / count;
     options.newton.kind = NewtonKind::kSimplified;
-    Integrator<double> integrator(system_, makeTableau<double>(method), options, scene_.scale);
+    Integrator<double> integrator(system_, makeTableau<double>(method), options,
+                                  systemScale(scene_.scale, system_->sizes()));
     const auto solution = integrator.integrate(step.from, step.from.t + step.h);
     if (solution.outcome != Outcome::kSuccess) return {};
     const auto& s = solution.state;
-    Vec<double> y(system_->sizes().components());
+    Vec<double> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());
     y << s.u, s.v, s.x, s.z();
     return y;
   }
@@ -93,19 +97,21 @@ double largest(const Vec<double>& y, const Vec<double>& scale, const Group& grou
   return most;
 }
 
-// Local errors are of order q + 1: the difference of one step and two halves is 2^q - 1 times the
-// error of the halves. Doubling takes the classical order for every component.
-double excess(double order) { return std::exp2(order) - 1; }
-
-void appendStep(const Stepper& stepper, const Step& step, const RunSpec& spec,
+// The error of the two half steps over what an estimate makes of their difference to the whole
+// step.
+void appendStep(const StepSampler& sampler, const Step& step, const RunSpec& spec,
                 const TableRow& start, const Table& runs, const TableRow& run, Table& table) {
   const auto tableau = makeTableau<double>(spec.method);
   const auto accurate = "radau_iia_" + std::to_string(tableau.stages() + kMoreStages);
-  const auto coarse = stepper.end(step, spec.method, 1), fine = stepper.end(step, spec.method, 2);
-  const auto exact = stepper.end(step, accurate, kSubsteps);
+  const auto coarse = sampler.end(step, spec.method, 1), fine = sampler.end(step, spec.method, 2);
+  const auto exact = sampler.end(step, accurate, kSubsteps);
   if (!coarse || !fine || !exact) return;
-  const auto& scale = stepper.scene().scale;
-  for (const Group& group : groupsOf(stepper.scene().sizes())) {
+  const auto& scale = sampler.scene().scale;
+  const auto factors = [&](ErrorEstimate estimate) {
+    return doublingFactors(Scheme<double>(tableau), sampler.system(), estimate);
+  };
+  const auto all = factors(ErrorEstimate::kDoubling), own = factors(ErrorEstimate::kRichardson);
+  for (const Group& group : groupsOf(sampler.scene().sizes())) {
     const double size = largest(*exact, scale, group);
     const double difference = largest(*coarse - *fine, scale, group);
     const double error = largest(*fine - *exact, scale, group);
@@ -113,12 +119,11 @@ void appendStep(const Stepper& stepper, const Step& step, const RunSpec& spec,
     if (group.count == 0 || !(std::max(difference, error) > kRoundOff * std::max(size, 1.0))) {
       continue;
     }
-    const double q = theoryFor(runs, run, group.name);
     TableRow row = start;
     row.insert(row.end(), {textAt(runs, run, "rtol"), numberText(step.from.t), numberText(step.h),
                            std::string(1, group.name), numberText(difference), numberText(error),
-                           numberText(error / difference * excess(tableau.order)),
-                           numberText(error / difference * excess(q))});
+                           numberText(error / (difference * all[group.first])),
+                           numberText(error / (difference * own[group.first]))});
     table.rows.push_back(std::move(row));
   }
 }
@@ -129,21 +134,19 @@ Table estimateTable(const Study& study, const Table& runs) {
   Table table{runs.head, seriesColumns(runs), {}};
   table.columns.insert(table.columns.end(), {"rtol", "t", "h", "group", "difference", "error",
                                              "doubling", "richardson"});
-  std::map<std::string, const RunSpec*> specs;
-  for (const auto& series : study.series) {
-    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
-  }
+  const auto specs = specsByKey(study);
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
-      if (spec == specs.end() || !succeededAt(runs, *run) ||
+      if (spec == specs.end() || !succeededAt(runs, *run) || interruptFlag() ||
+          findPeer(spec->second->method) ||
           spec->second->options.step.estimate == ErrorEstimate::kNone ||
           spec->second->scalar != ScalarKind::kDouble) {
         continue;
       }
-      const Stepper stepper(*spec->second);
-      for (const Step& step : stepper.steps()) {
-        appendStep(stepper, step, *spec->second, series.name, runs, *run, table);
+      const StepSampler sampler(*spec->second);
+      for (const Step& step : sampler.steps()) {
+        appendStep(sampler, step, *spec->second, series.name, runs, *run, table);
       }
     }
   }

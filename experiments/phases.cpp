@@ -10,6 +10,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/newton_kernel.h"
 #include "experiments/numbers.h"
+#include "experiments/peers/catalogue.h"
 #include "experiments/progress.h"
 #include "experiments/run_table.h"
 
@@ -73,17 +74,15 @@ Table phaseTable(const Study& study, const Table& runs, std::ostream& out) {
       table.columns.end(),
       {"rtol", "n", "residual_s", "jacobian_s", "factorization_s", "solve_s", "share_residual",
        "share_jacobian", "share_factorization", "share_solve", "covered"});
-  std::map<std::string, const RunSpec*> specs;
-  for (const auto& series : study.series) {
-    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
-  }
+  const auto specs = specsByKey(study);
   Progress progress(out, study.id + " phases");
   for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
       const auto& kind = textAt(runs, *run, "settings");
-      if (spec == specs.end() || !succeededAt(runs, *run) || interruptFlag()) {
+      if (spec == specs.end() || !succeededAt(runs, *run) || interruptFlag() ||
+          findPeer(spec->second->method)) {
         progress.skipped(kind);
         continue;
       }

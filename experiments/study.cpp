@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "core/text.h"
 #include "experiments/builtin_studies.h"
@@ -219,6 +220,14 @@ std::vector<int> divisions(double ratio, int most) {
     all.push_back(n);
   }
   return all;
+}
+
+std::map<std::string, const RunSpec*> specsByKey(const Study& study) {
+  std::map<std::string, const RunSpec*> specs;
+  for (const auto& series : study.series) {
+    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
+  }
+  return specs;
 }
 
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,9 @@ enum class StudyVariant { kFull, kQuick };
 /// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is
 /// allowed.
 Study loadStudy(std::string_view id_or_file, StudyVariant variant);
+
+/// The specs of all runs by their keys; the study must outlive them.
+std::map<std::string, const RunSpec*> specsByKey(const Study& study);
 
 /// From TOML text; `file` names it in messages.
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);

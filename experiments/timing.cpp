@@ -28,14 +28,6 @@ class Collector final : public benchmark::BenchmarkReporter {
   std::vector<double> seconds;
 };
 
-std::map<std::string, const RunSpec*> specsByKey(const Study& study) {
-  std::map<std::string, const RunSpec*> specs;
-  for (const auto& series : study.series) {
-    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
-  }
-  return specs;
-}
-
 struct Candidate {
   TableRow* row;
   const RunSpec* spec;

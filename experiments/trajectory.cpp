@@ -35,7 +35,8 @@ Row merged(const Row& a, const Row& b) {
           b.values};
 }
 
-// Keeps rows by their time, not their number: chattering takes most steps and shows least.
+// Keeps rows by their time, not their number: small steps at switches are most of the rows and show
+// least.
 std::vector<Row> thinned(const std::vector<Row>& rows) {
   if (rows.size() <= kMostRows) return rows;
   const double spacing = (rows.back().t - rows.front().t) / static_cast<double>(kMostRows);

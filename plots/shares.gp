@@ -31,7 +31,7 @@ size_tics = "set xtics ("; do for [k = 1 : words(sizes)] {
 size_tics = size_tics.")"
 stagesIn(method) = system("echo '".method."' | sed 's/.*_//'")
 
-margin_left = 0.085; margin_right = 0.02; margin_top = 0.07; margin_bottom = 0.2; gap_x = 0.025; gap_y = 0.05
+margin_left = columns == 1 ? 0.19 : 0.085; margin_right = 0.02; margin_top = 0.07; margin_bottom = 0.2; gap_x = 0.025; gap_y = 0.05
 do for [format in formats] {
   eval open(format, columns == 1 ? 520 : 1080, 120 + 210 * lines)
   set multiplot

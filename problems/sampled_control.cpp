@@ -33,6 +33,8 @@ struct SampledControl {
   void onSwitch(Index, const Point<T>& p, T* modes) const {
     modes[kForce] = control<T>(p.u[0], p.v[0]);
     modes[kNext] = p.d[kNext] + 1;
+    // A step may be longer than the sampling.
+    while (p.t >= modes[kNext] * Ts) modes[kNext] = modes[kNext] + 1;
   }
   // v' from (u, v, 1)
   Mat<Real> rates(const Vec<Real>& modes) const {

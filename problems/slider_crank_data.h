@@ -1,5 +1,4 @@
-// The rigid slider-crank's data, its tree of crank and rod, and its switched torque. Internal to
-// the crank scenes.
+// The rigid slider-crank's data, its tree of crank and rod. Internal to the crank scenes.
 #pragma once
 
 #include <cmath>

@@ -189,7 +189,10 @@ Scene<Real> make(const Settings& settings) {
   completeStart(scene);
   scene.t_end = 50;
   scene.names = componentNames({"x"}, {}, {});
-  scene.scale = scales({static_cast<double>(Real(problem.Fs / problem.k)), 1});
+  // Velocities matter as far as they compare with the belt's: an error e of x delays a slip by e /
+  // vb.
+  const double belt = std::abs(static_cast<double>(problem.vb));
+  scene.scale = scales({static_cast<double>(Real(problem.Fs / problem.k)), belt > 0 ? belt : 1});
   if (problem.Fd <= problem.Fs) {
     scene.exact = [exact = ExactStickSlip<Real>(problem)](const Real& t) { return exact.at(t); };
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/misuse.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/html.h"
 
@@ -134,6 +135,8 @@ Finding judge(const Claim& claim, const ResultTables& tables) {
     return claim.evaluate(tables);
   } catch (const MissingResults& missing) {
     return {Verdict::kNotMeasurable, "–", missing.what()};
+  } catch (const Misuse& old) {  // a table of another version
+    return {Verdict::kNotMeasurable, "–", old.what()};
   }
 }
 

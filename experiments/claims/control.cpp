@@ -156,13 +156,14 @@ Finding stepDoubling(const ResultTables& tables) {
   const auto costs = doublingCosts(tables.runs("control"));
   const double cost = median(costs);
   const bool cost_right = cost >= kCheap && cost <= kDear;
-  double blind = 0;
-  std::string blindest = "no method";
+  double blind = std::numeric_limits<double>::quiet_NaN();
+  std::string blindest;
   for (const auto& jump : jumpsOf(tables)) {
-    if (!(jump.error_factor > blind)) continue;
+    if (std::isnan(jump.error_factor) || jump.error_factor <= blind) continue;
     blind = jump.error_factor;
     blindest = jump.method;
   }
+  if (std::isnan(blind)) return notMeasurable("no run came past the jump");
   Finding finding{
       Verdict::kContradicted, fmt::format("costs {:.3g} times as much; reliable: {}", cost, groups),
       fmt::format(
@@ -195,9 +196,14 @@ Finding multistepRestart(const ResultTables& tables) {
       fmt::format("BDF over Radau IIA: {:.2g} times where smooth, {:.2g} times with jumps",
                   median(smooth), median(jumps)),
       fmt::format("CPU time at equal errors, best code of each kind, medians of {} and {} pairs "
-                  "of scene and error; {:.2g} times where both locate the switches. Confirmed: "
-                  "the factor grows at least {} times at jumps; within limits: {} times.",
-                  smooth.size(), jumps.size(), median(located), kMuch, kSome)};
+                  "of scene and error; Radau IIA's error estimate is told of the switches. {}"
+                  "Confirmed: the factor grows at least {} times at jumps; within limits: {} "
+                  "times.",
+                  smooth.size(), jumps.size(),
+                  located.empty()
+                      ? ""
+                      : fmt::format("{:.2g} times where both locate them. ", median(located)),
+                  kMuch, kSome)};
 }
 
 Finding smallStepsAtJumps(const ResultTables& tables) {

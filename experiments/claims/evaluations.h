@@ -1,18 +1,19 @@
-// One evaluation per claim. All thresholds stand in their reasons. Throw MissingResults.
+// One evaluation per claim. The thresholds of `confirmed` stand in their reasons. Throw
+// MissingResults.
 #pragma once
 
 #include "experiments/claims/claims.h"
 
 namespace irk {
 
-// Schemes: claims_schemes.cpp.
+// Schemes: schemes.cpp.
 Finding highOrders(const ResultTables& tables);         // C1
 Finding manyStages(const ResultTables& tables);         // C2
 Finding driftIsNegligible(const ResultTables& tables);  // C7
 Finding newmarkIsLobatto(const ResultTables& tables);   // C10
 Finding radauIsBest(const ResultTables& tables);        // C13
 
-// Newton's method: claims_newton.cpp.
+// Newton's method: newton.cpp.
 Finding phaseShares(const ResultTables& tables);          // C4
 Finding massDerivatives(const ResultTables& tables);      // C5
 Finding smallSteps(const ResultTables& tables);           // C6
@@ -20,7 +21,7 @@ Finding noMassFactorization(const ResultTables& tables);  // C11
 Finding newtonRule(const ResultTables& tables);           // C12
 Finding jacobianReuse(const ResultTables& tables);        // C15
 
-// Control: claims_control.cpp.
+// Control: control.cpp.
 Finding stepDoubling(const ResultTables& tables);        // C3
 Finding multistepRestart(const ResultTables& tables);    // C8
 Finding smallStepsAtJumps(const ResultTables& tables);   // C9

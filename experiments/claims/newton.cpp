@@ -106,7 +106,7 @@ Finding phaseShares(const ResultTables& tables) {
       graded(1 - dearer, 1 - kNearlyAll, 1 - kHalf),
       fmt::format("evaluations dearer in {} of the runs", percent(dearer)),
       fmt::format("Residual and Jacobian against the factorization of the coupled dense matrix "
-                  "of all stages, {} runs with fewer than {:g} unknowns, 3 to 10 stages "
+                  "of all stages, {} runs with fewer than {:g} unknowns "
                   "(confirmed: {}). {}",
                   shares.size(), kFew, percent(kNearlyAll),
                   std::isinf(crossing)

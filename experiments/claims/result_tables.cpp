@@ -14,7 +14,7 @@ const Table& ResultTables::table(std::string_view study, std::string_view name) 
   if (found != tables_.end()) return found->second;
   const auto file = results_ / study / fmt::format("{}.csv", name);
   if (results_.empty() || !std::filesystem::exists(file)) {
-    throw MissingResults(fmt::format("study {} has not been run", study));
+    throw MissingResults(fmt::format("study {} has not been run: no {}.csv", study, name));
   }
   return tables_[key] = readTable(file);
 }

@@ -114,7 +114,7 @@ Finding manyStages(const ResultTables& tables) {
       Verdict::kContradicted, fmt::format("fastest with {:g} stages", best),
       fmt::format("Radau IIA at the smallest error reached, median over {} smooth scenes; about 10 "
                   "means {} to {}. At tolerances of 1e-11 and below {} of the runs with more than "
-                  "10 stages fail, {} of those with fewer.",
+                  "10 stages fail, {} of those with up to 10.",
                   fastest.size(), kMin, kMax, percent(many_fail), percent(few_fail))};
   const bool limited = many_fail > few_fail;
   if (best >= kFair && best <= kMax) finding.verdict = Verdict::kWithinLimits;

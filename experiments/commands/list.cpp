@@ -63,7 +63,9 @@ void listStrategies(std::ostream& out) {
   listAxis<ErrorEstimate>(out);
   listAxis<StepControl>(out);
   listAxis<NormKind>(out);
+  listAxis<JacobianTerms>(out);
   listAxis<JacobianPoint>(out);
+  listAxis<Discontinuity>(out);
 }
 
 struct List {

@@ -162,7 +162,7 @@ StartReport PeerIntegrator::locatedSwitch(double t_end, const Monitor<double>& m
   if (i == switches_.g().size()) i = switches_.due();
   if (i < 0) return {};
   ++counters_.located_events;
-  if (chatter_.event(state_.t, length_)) {
+  if (chatter_.event(state_.t, length_, 0)) {
     ++counters_.chattering;
     return failed(Outcome::kChattering, switches_.describe(i));
   }

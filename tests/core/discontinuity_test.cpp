@@ -3,11 +3,8 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "core/integrator.h"
-#include "tableaus/catalogue.h"
-#include "tests/core/support.h"
+#include "tests/core/switching_run.h"
 
 namespace irk::test {
 namespace {
@@ -53,39 +50,11 @@ double contactTime(double k) {
   return (2 * std::acos(-1.0) - 2 * std::atan2(2 / w, 2 / k)) / w;
 }
 
-struct Event {
-  double t;
-  Index index;
-};
-
-struct Result {
-  Solution<double> solution;
-  std::vector<Event> events;
-};
-
-template <class P>
-Result run(const P& problem, const State<double>& start, double t_end, Discontinuity mode,
-           const IntegratorOptions& options, const char* method = "radau_iia_3") {
-  Integrator<double> integrator(
-      makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn, mode}),
-      makeTableau<double>(method), options);
-  std::vector<Event> events;
-  Monitor<double> monitor;
-  monitor.switched = [&](const SwitchRecord<double>& s) { events.push_back({s.t, s.index}); };
-  return {integrator.integrate(start, t_end, monitor), events};
-}
-
-IntegratorOptions tolerance(double tol) {
-  IntegratorOptions options;
-  options.tolerances.rtol = options.tolerances.atol = tol;
-  return options;
-}
-
 TEST(Locate, FindsSwitchesToRoundOff) {
   const Bounce problem;
   for (const char* method : {"radau_iia_3", "radau_iia_7", "gauss_4", "lobatto_iiia_4"}) {
     const Result r =
-        run(problem, height(problem, 1), 3, Discontinuity::kLocate, tolerance(1e-10), method);
+        run(problem, height(problem, 1), 3, Discontinuity::kLocate, adaptive(1e-10), method);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << method << r.solution.detail;
     ASSERT_EQ(r.events.size(), 2u) << method;
     EXPECT_NEAR(r.events[0].t, 1, 1e-11) << method;
@@ -107,7 +76,7 @@ TEST(Modes, ConvergeWithTheTolerance) {
   const double flight = 2 - contactTime(problem.k);
   const double exact = 2 * flight - flight * flight;
   const auto errorOf = [&](Discontinuity mode, double tol) {
-    const Result r = run(problem, height(problem, 1), 3, mode, tolerance(tol));
+    const Result r = run(problem, height(problem, 1), 3, mode, adaptive(tol));
     EXPECT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(mode) << r.solution.detail;
     return std::abs(r.solution.state.u[0] - exact);
   };
@@ -121,7 +90,7 @@ TEST(Modes, ConvergeWithTheTolerance) {
 
 TEST(Iterate, CountsItsIterations) {
   const Bounce problem;
-  const Result r = run(problem, height(problem, 1), 3, Discontinuity::kIterate, tolerance(1e-6));
+  const Result r = run(problem, height(problem, 1), 3, Discontinuity::kIterate, adaptive(1e-6));
   EXPECT_GE(r.solution.counters.discontinuous_iterations, 2);
   EXPECT_EQ(r.solution.counters.switches, 2);
   EXPECT_EQ(r.solution.counters.located_events, 0);
@@ -144,34 +113,23 @@ TEST(Locate, FixedStepsAreSplit) {
 TEST(Locate, SwitchAtTheStartHappensThere) {
   const Bounce problem;
   State<double> start = height(problem, -1e-3);  // pressed in, but said to fly
-  const Result r = run(problem, start, 0.01, Discontinuity::kLocate, tolerance(1e-8));
+  const Result r = run(problem, start, 0.01, Discontinuity::kLocate, adaptive(1e-8));
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_GE(r.events.size(), 1u);
   EXPECT_EQ(r.events[0].t, 0);
   // Exactly on the switching surface, moving in.
   start = height(problem, 0);
   start.v[0] = -1;
-  const Result on = run(problem, start, 0.01, Discontinuity::kLocate, tolerance(1e-8));
+  const Result on = run(problem, start, 0.01, Discontinuity::kLocate, adaptive(1e-8));
   ASSERT_EQ(on.solution.outcome, Outcome::kSuccess) << on.solution.detail;
   ASSERT_GE(on.events.size(), 1u);
   EXPECT_NEAR(on.events[0].t, 0, 1e-14);
 }
 
-TEST(Locate, SwitchAtTheEnd) {
-  const Bounce problem;
-  for (const double end : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
-    const Result r =
-        run(problem, height(problem, 1), end, Discontinuity::kLocate, tolerance(1e-10));
-    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
-    EXPECT_EQ(r.solution.state.t, end);
-    EXPECT_NEAR(r.solution.state.u[0], 0, 1e-10);
-    EXPECT_LE(r.events.size(), 1u);
-  }
-}
-
-/// Two switches within one step: a signal that is on for a short time, t in (0.5, 0.5 + width).
+/// A signal that is on for a short time, t in (on, on + width).
 struct Pulse {
   double width;
+  double on = 0.5;
   Sizes sizes() const {
     return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
   }
@@ -181,8 +139,8 @@ struct Pulse {
   }
   template <class T>
   void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] == T(0.0) ? T((p.t - 0.5) * (0.5 + width - p.t)) : T(-1.0);
-    g[1] = p.d[0] == T(0.0) ? T(-1.0) : T(p.t - 0.5 - width);
+    g[0] = p.d[0] == T(0.0) ? T((p.t - on) * (on + width - p.t)) : T(-1.0);
+    g[1] = p.d[0] == T(0.0) ? T(-1.0) : T(p.t - on - width);
   }
   template <class T>
   void onSwitch(Index i, const Point<T>&, T* d) const {
@@ -190,10 +148,33 @@ struct Pulse {
   }
 };
 
+// On the switching surface at the start, due at once: g = t.
+TEST(Locate, SwitchDueRightAfterTheStart) {
+  const Pulse problem{0.2, 0};
+  const State<double> start(problem.sizes());
+  const Result r = run(problem, start, 1, Discontinuity::kLocate, adaptive(1e-8));
+  ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+  ASSERT_EQ(r.events.size(), 2u);
+  EXPECT_NEAR(r.events[0].t, 0, 1e-12);
+  EXPECT_NEAR(r.events[1].t, 0.2, 1e-12);
+  EXPECT_NEAR(r.solution.state.x[0], 0.2, 1e-12);
+}
+
+TEST(Locate, SwitchAtTheEnd) {
+  const Bounce problem;
+  for (const double end : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
+    const Result r = run(problem, height(problem, 1), end, Discontinuity::kLocate, adaptive(1e-10));
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+    EXPECT_EQ(r.solution.state.t, end);
+    EXPECT_NEAR(r.solution.state.u[0], 0, 1e-10);
+    EXPECT_LE(r.events.size(), 1u);
+  }
+}
+
 TEST(Locate, TwoSwitchesInOneStep) {
   const Pulse problem{0.2};
   State<double> start(problem.sizes());
-  IntegratorOptions options = tolerance(1e-8);
+  IntegratorOptions options = adaptive(1e-8);
   options.step.h = 1;  // the whole interval is the first step
   const Result r = run(problem, start, 1, Discontinuity::kLocate, options);
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
@@ -203,123 +184,15 @@ TEST(Locate, TwoSwitchesInOneStep) {
   EXPECT_NEAR(r.solution.state.x[0], 0.2, 1e-12);
 }
 
-/// x' = 1 - 2 sigma with sigma = [x > 0]: after x reaches 0 it can only slide, and no mode does.
-struct Sliding {
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
-  }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = 1.0 - 2.0 * p.d[0] - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] == T(0.0) ? T(p.x[0]) : T(-1.0);
-    g[1] = p.d[0] == T(0.0) ? T(-1.0) : T(-p.x[0]);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    d[0] = i == 0 ? T(1.0) : T(0.0);
-  }
-  std::string switchName(Index i) const { return i == 0 ? "rise" : "fall"; }
-};
-
-TEST(Chattering, IsNamed) {
-  const Sliding problem;
-  State<double> start(problem.sizes());
-  start.x[0] = -0.5;
-  const Result located = run(problem, start, 1, Discontinuity::kLocate, tolerance(1e-6));
-  EXPECT_EQ(located.solution.outcome, Outcome::kChattering);
-  EXPECT_NEAR(located.solution.state.t, 0.5, 1e-6);
-  EXPECT_NE(located.solution.detail.find("'"), std::string::npos) << located.solution.detail;
-  EXPECT_EQ(located.solution.counters.chattering, 1);
-
-  const Result iterated = run(problem, start, 1, Discontinuity::kIterate, tolerance(1e-6));
-  EXPECT_EQ(iterated.solution.outcome, Outcome::kChattering);
-  // The stage equations of the plain law have no solution there: a failure, not a wrong answer.
-  IntegratorOptions options = tolerance(1e-6);
-  options.step.max_steps = 2000;
-  const Result ignored = run(problem, start, 1, Discontinuity::kIgnore, options);
-  EXPECT_NE(ignored.solution.outcome, Outcome::kSuccess);
-  EXPECT_NEAR(ignored.solution.state.t, 0.5, 1e-2);
-}
-
-/// A relay that changes sides at every whole multiple of 1/1000.
-struct Ticker {
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 1};
-  }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = p.d[0] - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.t - p.d[1];
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>& p, T* d) const {
-    d[0] = -p.d[0];
-    d[1] = p.d[1] + 1e-3;
-  }
-  std::string switchName(Index) const { return "tick"; }
-};
-
-TEST(Chattering, SwitchesInEveryStepAreNoted) {
-  const Ticker problem;
-  State<double> start(problem.sizes());
-  start.d << 1, 0.5e-3;
-  IntegratorOptions options;
-  options.step.control = StepControl::kFixed;
-  options.step.h = 1e-3;
-  const Result r = run(problem, start, 0.1, Discontinuity::kIgnore, options);
-  ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
-  EXPECT_EQ(r.solution.counters.switches, 100);
-  EXPECT_EQ(r.events.size(), 100u);
-  EXPECT_EQ(r.solution.counters.chattering, 1);
-  EXPECT_NE(r.solution.detail.find("'tick'"), std::string::npos) << r.solution.detail;
-  options.step.h = 5e-2;  // 50 located switches in a step are no chattering
-  const Result located = run(problem, start, 0.1, Discontinuity::kLocate, options);
-  ASSERT_EQ(located.solution.outcome, Outcome::kSuccess) << located.solution.detail;
-  EXPECT_EQ(located.solution.counters.located_events, 100);
-  EXPECT_EQ(located.solution.counters.chattering, 0);
-}
-
-/// Both modes declare themselves invalid at once.
-struct NoMode : Sliding {
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.t > T(0.5) && p.d[0] == T(0.0) ? T(1.0) : T(-1.0);
-    g[1] = p.t > T(0.5) && p.d[0] != T(0.0) ? T(1.0) : T(-1.0);
-  }
-};
-
-TEST(Chattering, NoValidModeEndsTheRun) {
-  const NoMode problem;
-  const State<double> start(problem.sizes());
-  for (const Discontinuity mode : {Discontinuity::kLocate, Discontinuity::kIterate}) {
-    const Result r = run(problem, start, 1, mode, tolerance(1e-6));
-    EXPECT_EQ(r.solution.outcome, Outcome::kChattering) << idOf(mode);
-    EXPECT_NEAR(r.solution.state.t, 0.5, 1e-3) << idOf(mode);
-    EXPECT_NE(r.solution.detail.find("switching function"), std::string::npos);
-  }
-}
-
 TEST(SwitchingFunction, NotFiniteIsReported) {
   Bounce problem;
   problem.ground = std::numeric_limits<double>::quiet_NaN();
-  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate,
-                                   Discontinuity::kLocate}) {
-    const Result r = run(problem, height(problem, 1), 3, mode, tolerance(1e-6));
+  for (const Discontinuity mode :
+       {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
+    const Result r = run(problem, height(problem, 1), 3, mode, adaptive(1e-6));
     EXPECT_EQ(r.solution.outcome, Outcome::kNotFinite) << idOf(mode);
     EXPECT_NE(r.solution.detail.find("'contact'"), std::string::npos) << r.solution.detail;
   }
-}
-
-TEST(Smooth, RefusedWithoutRegularisation) {
-  EXPECT_THROW(makeSystem<double>(Sliding{}, {Formulation::kIndex2, ConstraintScaling::kOn,
-                                              Discontinuity::kSmooth}),
-               Misuse);
 }
 
 }  // namespace
