@@ -55,8 +55,8 @@ TEST(RootedTrees, BushyAndTallOnesHaveDensitiesNAndNFactorial) {
   }
 }
 
-// HNW I, II.2: the sum of alpha(t) = n! / (gamma(t) sigma(t)) / n over the trees of order n is
-// (n-1)!; sigma, the symmetry, is counted here.
+// HNW I, II.2: alpha(t) = n! / (gamma(t) sigma(t)) monotonic labellings, (n-1)! in all of order n.
+// sigma, the symmetry, is counted here.
 TEST(RootedTrees, MonotonicLabellingsAddUp) {
   const auto trees = rootedTrees(kMaxTreeOrder);
   std::vector<double> symmetry(trees.size(), 1), sums(kMaxTreeOrder, 0);
