@@ -21,6 +21,7 @@ const std::vector<SceneEntry>& sceneCatalogue() {
       hydraulicManipulatorEntry(),
       index1NonlinearEntry(),
       index2NonlinearEntry(),
+      index3NonlinearEntry(),
       kapsEntry(),
       keplerEntry(),
       mechanicalDaeEntry(),

@@ -17,6 +17,7 @@ SceneEntry hydraulicArmEntry();
 SceneEntry hydraulicManipulatorEntry();
 SceneEntry index1NonlinearEntry();
 SceneEntry index2NonlinearEntry();
+SceneEntry index3NonlinearEntry();
 SceneEntry kapsEntry();
 SceneEntry keplerEntry();
 SceneEntry mechanicalDaeEntry();

@@ -1,14 +1,20 @@
 // A nonlinear DAE of index 1 after Hairer, Lubich & Roche (LNM 1409, 1989); y = (exp t, exp -2t),
 // z = exp 2t.
-#include <cmath>
+#include <array>
 
-#include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/exponential_dae.h"
 
 namespace irk {
 namespace {
 
 struct Index1Nonlinear {
+  static constexpr int kAlgebraicIndex = 1;
+  static constexpr std::array kRates = {1, -2};
+  static constexpr std::array kNames = {"y1", "y2"};
+  static constexpr int kAlgebraicRate = 2;
+  static constexpr const char* kAlgebraicName = "z";
+
   Sizes sizes() const { return {.nu = 0, .nx = 2, .nz = 1, .constraints = 0}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -19,35 +25,8 @@ struct Index1Nonlinear {
   }
 };
 
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  scene.id = "index1_nonlinear";
-  setProblem(scene, Index1Nonlinear{});
-  scene.t_end = 1;
-  scene.names = componentNames({}, {"y1", "y2"}, {"z"});
-  scene.scale = scales({1, 1, 1});
-  scene.exact = [](const Real& t) {
-    using std::exp;
-    State<Real> s(Index1Nonlinear{}.sizes());
-    s.t = t;
-    s.x << exp(t), exp(-2 * t);
-    s.w << s.x[0], -2 * s.x[1], exp(2 * t);
-    return s;
-  };
-  scene.start = scene.exact(Real(0));
-  return scene;
-}
-
 }  // namespace
 
-SceneEntry index1NonlinearEntry() {
-  return {.id = "index1_nonlinear",
-          .title = "nonlinear DAE of index 1, exactly solvable",
-          .shows = "orders of differential and algebraic unknowns, index 1",
-          .parameters = {},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
+SceneEntry index1NonlinearEntry() { return ExponentialDae<Index1Nonlinear>::entry(); }
 
 }  // namespace irk

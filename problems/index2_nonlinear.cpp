@@ -1,14 +1,20 @@
 // A nonlinear DAE of index 2 after Hairer, Lubich & Roche (LNM 1409, 1989); y = (exp t, exp -2t),
 // z = exp 2t. z enters nonlinearly: no multiplier of a position constraint.
-#include <cmath>
+#include <array>
 
-#include "problems/build.h"
 #include "problems/entries.h"
+#include "problems/exponential_dae.h"
 
 namespace irk {
 namespace {
 
 struct Index2Nonlinear {
+  static constexpr int kAlgebraicIndex = 2;
+  static constexpr std::array kRates = {1, -2};
+  static constexpr std::array kNames = {"y1", "y2"};
+  static constexpr int kAlgebraicRate = 2;
+  static constexpr const char* kAlgebraicName = "z";
+
   Sizes sizes() const { return {.nu = 0, .nx = 2, .nz = 1, .constraints = 0}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -20,35 +26,8 @@ struct Index2Nonlinear {
   }
 };
 
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  scene.id = "index2_nonlinear";
-  setProblem(scene, Index2Nonlinear{});
-  scene.t_end = 1;
-  scene.names = componentNames({}, {"y1", "y2"}, {"z"});
-  scene.scale = scales({1, 1, 1});
-  scene.exact = [](const Real& t) {
-    using std::exp;
-    State<Real> s(Index2Nonlinear{}.sizes());
-    s.t = t;
-    s.x << exp(t), exp(-2 * t);
-    s.w << s.x[0], -2 * s.x[1], exp(2 * t);
-    return s;
-  };
-  scene.start = scene.exact(Real(0));
-  return scene;
-}
-
 }  // namespace
 
-SceneEntry index2NonlinearEntry() {
-  return {.id = "index2_nonlinear",
-          .title = "nonlinear DAE of index 2, exactly solvable",
-          .shows = "orders of differential and algebraic unknowns, index 2",
-          .parameters = {},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
+SceneEntry index2NonlinearEntry() { return ExponentialDae<Index2Nonlinear>::entry(); }
 
 }  // namespace irk

@@ -8,6 +8,7 @@
 #include "tableaus/catalogue.h"
 #include "tableaus/families.h"
 #include "tableaus/precise.h"
+#include "tableaus/rooted_trees.h"
 
 namespace irk {
 namespace {
@@ -162,9 +163,35 @@ void checkProof(const Subject& subject, Findings& findings) {
   }
 }
 
+std::string residualsText(const Vec<double>& residuals) {
+  std::string text = "worst residual per order:";
+  for (const double residual : residuals) text += fmt::format(" {:.1e}", residual);
+  return text;
+}
+
+// Necessary and sufficient, where B, C, D only suffice; blind beyond the largest trees.
+void checkTrees(const Subject& subject, Findings& findings) {
+  const int declared = subject.tableau.order;
+  const auto [order, residuals] = treeConditions(subject.tableau, subject.analysis);
+  const std::string numbers = residualsText(residuals);
+  if (order == kMaxTreeOrder) {
+    add(findings, Verdict::kHolds, Place::kOrder, "trees",
+        fmt::format("the conditions of all rooted trees hold up to order {}, the largest looked at"
+                    "; {}",
+                    order, numbers));
+  } else if (declared > order) {
+    add(findings, Verdict::kContradiction, Place::kOrder, "trees",
+        fmt::format("order {} is contradicted by a rooted tree of order {}: the order is {}; {}",
+                    declared, order + 1, order, numbers));
+  } else {
+    add(findings, declared == order ? Verdict::kHolds : Verdict::kNote, Place::kOrder, "trees",
+        fmt::format("by the conditions of all rooted trees the order is {}; {}", order, numbers));
+  }
+}
+
 // In the order of their printing; the first contradiction is the one that a file is refused for.
-constexpr Check kChecks[] = {checkWeights,    checkRowSums, checkQuadrature,
-                             checkStageOrder, checkFamily,  checkProof};
+constexpr Check kChecks[] = {checkWeights, checkRowSums, checkQuadrature, checkStageOrder,
+                             checkFamily,  checkProof,   checkTrees};
 
 std::string_view verdictName(Verdict verdict) {
   switch (verdict) {

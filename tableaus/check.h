@@ -23,7 +23,7 @@ struct Finding {
   Verdict verdict;
   Place place;
   Index row;         ///< of A, for Place::kRow
-  std::string name;  ///< "sum of b", "row sums", "B", "C", "family", "order"
+  std::string name;  ///< "sum of b", "row sums", "B", "C", "family", "order", "trees"
   std::string text;  ///< a sentence with the numbers
 };
 
@@ -36,8 +36,8 @@ struct TableauReport {
 };
 
 /// Checks sum b = 1, row sums (unless stage order 0 is declared), B(p), C(q), the family's numbers
-/// and coefficients if it is one of the suite's, and whether B, C, D prove the order. Real: double,
-/// mp50, mp80. Throws Misuse as analyzeTableau.
+/// and coefficients if it is one of the suite's, whether B, C, D prove the order, and which one the
+/// rooted trees give. Real: double, mp50, mp80. Throws Misuse as analyzeTableau.
 template <class Real>
 TableauReport checkTableau(const Tableau<Real>& tableau,
                            double tolerance = roundingTolerance<Real>());

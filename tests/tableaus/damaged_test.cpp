@@ -4,6 +4,7 @@
 
 #include "core/multiprecision.h"
 #include "tableaus/check.h"
+#include "tableaus/rooted_trees.h"
 #include "tests/tableaus/support.h"
 
 namespace irk {
@@ -82,6 +83,18 @@ TYPED_TEST(Damaged, EachIsCaughtByBCD) {
     EXPECT_TRUE(checkTableau(tableau).ok);
     damage.apply(tableau);
     EXPECT_FALSE(checkTableau(tableau).ok) << damage.name;
+  }
+}
+
+TYPED_TEST(Damaged, EachLowersTheOrderByTrees) {
+  const auto orderOf = [](const Tableau<TypeParam>& tableau) {
+    return treeConditions(tableau.template cast<mp80>(), analyzeTableau(tableau)).order;
+  };
+  EXPECT_EQ(orderOf(makeTableau<TypeParam>("radau_iia_3")), 5);
+  for (const auto& damage : this->damages) {
+    auto tableau = makeTableau<TypeParam>("radau_iia_3");
+    damage.apply(tableau);
+    EXPECT_LT(orderOf(tableau), 5) << damage.name;
   }
 }
 
