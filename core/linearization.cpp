@@ -37,10 +37,10 @@ Point<T> Differentiator<Real>::Buffers<T>::point(const Sizes& n, const T& t) con
 
 template <class Real>
 template <class T>
-T& Differentiator<Real>::Buffers<T>::component(const Direction& d, const Sizes& n) {
-  if (d.matrix == 0) return w[d.column];
-  if (d.matrix == 2) return u[d.column];
-  return d.column < n.nu ? v[d.column] : x[d.column - n.nu];
+T& Differentiator<Real>::Buffers<T>::component(const Direction& along, const Sizes& n) {
+  if (along.matrix == 0) return w[along.column];
+  if (along.matrix == 2) return u[along.column];
+  return along.column < n.nu ? v[along.column] : x[along.column - n.nu];
 }
 
 template <class Real>

@@ -76,7 +76,7 @@ class Differentiator {
     explicit Buffers(const Sizes& n);
     Point<T> point(const Sizes& n, const T& t) const;
     /// The component that a direction perturbs.
-    T& component(const Direction& d, const Sizes& n);
+    T& component(const Direction& along, const Sizes& n);
   };
   void evaluateGroup(const Directions& group, Level level, const Point<Real>& p,
                      Linearization<Real>& out);

@@ -73,7 +73,7 @@ level_tics = level_tics.")"
 
 columns = n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4
 lines = (n + columns - 1) / columns
-margin_left = columns == 1 ? 0.16 : columns == 2 ? 0.11 : 0.085; margin_right = columns == 1 ? 0.16 : 0.09
+margin_left = columns == 1 ? 0.16 : columns == 2 ? 0.13 : 0.1; margin_right = columns == 1 ? 0.16 : 0.09
 margin_top = lines == 1 ? 0.1 : 0.06
 height = 110 + 42 * lines + lines * (words(levels) < 9 ? 200 : 20 * words(levels))
 legend_height = 34.0 / height
@@ -94,7 +94,7 @@ do for [format in formats] {
     if (i <= n - columns) { unset xtics }
     set title panelTitle(i) offset 0,-0.6 noenhanced
     set xlabel when(i > n - columns, 'stages s') offset 0,0.4
-    set ylabel when((i - 1) % columns == 0, y_label) offset 0.5,0 textcolor rgb ink
+    set ylabel when((i - 1) % columns == 0, y_label) offset 0,0 textcolor rgb ink
     unset key
     if (i == n) { set colorbox user origin 1 - margin_right + 0.015, margin_bottom size 0.015, 1 - margin_top - margin_bottom
       set cblabel quantity_label textcolor rgb ink } else { unset colorbox }
