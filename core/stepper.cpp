@@ -37,10 +37,10 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       switches_(system),
       frozen_(system.sizes()),
       first_mode_(system.sizes()),
-      ones_(Vec<double>::Ones(system.sizes().components())),
       at_start_(scheme.s),
       defect_(system.sizes().n(), 1),
       sees_switches_(options.step.estimate == ErrorEstimate::kRichardson),
+      ones_(Vec<double>::Ones(system.sizes().components())),
       g_before_(system.sizes().switches) {
   stages_.W.setZero(system.sizes().n(), scheme.s);
   Vec<Real> p(scheme.s);

@@ -150,7 +150,7 @@ class Sweep {
   }
 
   RunRecord make(const RunSpec& spec) const {
-    const Watch watch{&interruptFlag(), {}};
+    const Watch watch{&interruptFlag(), {}, {}};
     return withoutMachine(orRefused(spec, [&] {
       return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(folder_, spec))
                                  : execute(spec, watch);

@@ -107,7 +107,7 @@ RunSpec solveSpec(const SolveOptions& options) {
 int solveCommand(const SolveOptions& options, Streams streams) {
   const RunSpec spec = solveSpec(options);
   const InterruptScope interrupts;
-  const Watch watch{&interruptFlag(), {}};
+  const Watch watch{&interruptFlag(), {}, {}};
   const RunRecord record = options.plot.empty()
                                ? execute(spec, watch)
                                : solveAndPlot(spec, watch, options.plot, streams.err);

@@ -107,7 +107,9 @@ TEST(Formulation, ProjectionKeepsTheVelocity) {
     Vec<double> r(3);
     system->evaluate(Level::kVelocity, pointOf(s.state), VecView<double>(r.data(), 3));
     EXPECT_LT(std::abs(r[2]), most);
-    if (formulation == Formulation::kIndex2) EXPECT_GT(std::abs(r[2]), 1e-9);
+    if (formulation == Formulation::kIndex2) {
+      EXPECT_GT(std::abs(r[2]), 1e-9);
+    }
   }
 }
 
