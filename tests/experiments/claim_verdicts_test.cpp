@@ -214,7 +214,7 @@ TEST(Claims, ReuseOfJacobiansAndFactorizations) {
 
 TEST(Claims, NewmarkIsLobattoIIIA) {
   EXPECT_LT(newmarkDifference(), 1000);  // in units of round-off
-  EXPECT_EQ(verdict("C10", {}), Verdict::kConfirmed);
+  EXPECT_EQ(verdict("C10", ResultTables{}), Verdict::kConfirmed);
 }
 
 }  // namespace

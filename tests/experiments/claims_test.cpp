@@ -42,7 +42,7 @@ TEST(Claims, WithoutResultsSayWhichStudyIsMissing) {
 }
 
 TEST(Claims, TableForThePage) {
-  const auto html = claimsHtml({}, "no/figures");
+  const auto html = claimsHtml(ResultTables{}, "no/figures");
   EXPECT_TRUE(containsAll(html, {"<table class=\"claims\">", "id=\"C7\"", "not_measurable",
                                  "irk run drift &amp;&amp; irk plot drift"}));
   EXPECT_EQ(html.find("href"), html.npos) << "no link to a figure that does not exist";

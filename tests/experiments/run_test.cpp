@@ -56,7 +56,7 @@ TEST(Run, FailuresAreRecords) {
 
 TEST(Run, StopsWhenAsked) {
   const std::atomic<bool> stop = true;
-  const RunRecord run = execute(spec("scene=kepler"), {&stop, {}});
+  const RunRecord run = execute(spec("scene=kepler"), {&stop, {}, {}});
   EXPECT_EQ(run.outcome, "interrupted");
 }
 
