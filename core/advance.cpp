@@ -142,6 +142,8 @@ Outcome Advance<Real>::acceptLocated(AttemptResult result, Real h, const Real& e
     return at.outcome;
   }
   if (at.found && at.h < h) {
+    // A shorter step with a larger error than the tolerance is no step (NaN: fixed steps).
+    if (at.attempt.error > 1) return Outcome::kNewtonFailed;
     result = at.attempt;
     h = at.h;
   } else {

@@ -24,7 +24,7 @@ class Advance {
                               const Monitor<Real>& monitor);
   /// Takes over `next()`, solved with step h towards `end`. With `locate` the step may be shortened
   /// to the first switch in it. kSuccess, or why the switch cannot be passed; kNewtonFailed and
-  /// kSingular: the shortened step could not be solved, and nothing was taken over.
+  /// kSingular: the shortened step could not be solved within the tolerance, and nothing was taken over.
   [[nodiscard]] Outcome accept(const AttemptResult& result, const Real& h, const Real& end);
 
   const State<Real>& state() const { return state_; }

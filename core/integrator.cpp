@@ -33,9 +33,11 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
                  " algebraic unknowns: A is singular, the stages do not "
                  "determine them");
   }
-  if (options.jacobian_point == JacobianPoint::kEachStage &&
-      options.solver != StageSolverKind::kCoupledDense) {
-    throw Misuse("illegal combination: jacobian_point 'each_stage' with solver '" +
+  const bool each_stage = options.jacobian_point == JacobianPoint::kEachStage;
+  const bool full = options.newton.kind == NewtonKind::kFull;
+  if ((each_stage || full) && options.solver != StageSolverKind::kCoupledDense) {
+    throw Misuse(std::string("illegal combination: ") +
+                 (full ? "newton 'full'" : "jacobian_point 'each_stage'") + " with solver '" +
                  std::string(idOf(options.solver)) +
                  "': stage-wise derivatives do not decouple; use solver 'coupled_dense'");
   }
@@ -43,12 +45,6 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
     throw Misuse("illegal combination: jacobian '" + std::string(idOf(options.jacobian)) +
                  "' with formulation 'ggl' or 'first_order': its accelerations are no unknowns of "
                  "their own");
-  }
-  if (options.newton.kind == NewtonKind::kFull &&
-      options.solver != StageSolverKind::kCoupledDense) {
-    throw Misuse("illegal combination: newton 'full' with solver '" +
-                 std::string(idOf(options.solver)) +
-                 "': stage-wise derivatives do not decouple; use solver 'coupled_dense'");
   }
 }
 

@@ -68,10 +68,7 @@ class StepSampler {
                                   systemScale(scene_.scale, system_->sizes()));
     const auto solution = integrator.integrate(step.from, step.from.t + step.h);
     if (solution.outcome != Outcome::kSuccess) return {};
-    const auto& s = solution.state;
-    Vec<double> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());
-    y << s.u, s.v, s.x, s.z();
-    return y;
+    return components(solution.state);
   }
 
  private:

@@ -31,14 +31,6 @@ double relativeError(const Real& value, const Real& reference, double scale) {
   return std::abs(static_cast<double>(Real(value - reference))) / magnitude;
 }
 
-// All components u, v, x, z of a state, one after the other.
-template <class Real>
-Vec<Real> components(const State<Real>& s) {
-  Vec<Real> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());
-  y << s.u, s.v, s.x, s.z();
-  return y;
-}
-
 // The most accurate reference of every component at time t.
 std::map<std::string, const Reference*> bestAt(const std::vector<Reference>& references, double t) {
   std::map<std::string, const Reference*> best;
@@ -107,6 +99,13 @@ double driftOf(const Scene<Real>& scene, const State<Real>& state) {
 }  // namespace
 
 template <class Real>
+Vec<Real> components(const State<Real>& s) {
+  Vec<Real> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());
+  y << s.u, s.v, s.x, s.z();
+  return y;
+}
+
+template <class Real>
 RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references,
                    const State<Real>& state) {
   RunErrors errors;
@@ -120,6 +119,8 @@ RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& refer
   return errors;
 }
 
+template Vec<double> components(const State<double>&);
+template Vec<mp50> components(const State<mp50>&);
 template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&,
                             const State<double>&);
 template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);

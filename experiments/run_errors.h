@@ -17,6 +17,10 @@ struct RunErrors {
   double drift = all;
 };
 
+/// All components u, v, x, z of a state, one after the other.
+template <class Real>
+Vec<Real> components(const State<Real>& s);
+
 /// Against Scene::exact if it knows anything at the state's time, else against references at that
 /// time. The references must be those of the scene's settings.
 template <class Real>

@@ -15,22 +15,16 @@
 namespace irk {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 struct CasePair {
   const char *scene, *smooth, *discontinuous;  // settings
 };
 
 double leastCost(const Table& costs, const Cells& cells, double least_stages, double most_stages) {
   const Table rows = where(costs, cells);
-  double least = kInfinity;
-  for (const auto& row : rows.rows) {
+  return leastCost(rows, [&](const TableRow& row) {
     const double s = numberAt(rows, row, "stages");
-    if (s >= least_stages && s <= most_stages && textAt(rows, row, "reached") == "1") {
-      least = std::min(least, numberAt(rows, row, "cpu_s"));
-    }
-  }
-  return least;
+    return s >= least_stages && s <= most_stages && textAt(rows, row, "reached") == "1";
+  });
 }
 
 // How much five and more stages save against two, at the smallest error that two stages reach.

@@ -67,6 +67,14 @@ std::vector<double> numbersOf(const Table& table, std::string_view column) {
   return numbers;
 }
 
+double leastCost(const Table& table, const std::function<bool(const TableRow&)>& test) {
+  double least = kInfinity;
+  for (const auto& row : table.rows) {
+    if (test(row)) least = std::min(least, numberAt(table, row, "cpu_s"));
+  }
+  return least;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return kUnknown;
   std::sort(values.begin(), values.end());

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +25,10 @@ Table where(const Table& table, const std::function<bool(const TableRow&)>& test
 std::vector<std::string> distinct(const Table& table, std::string_view column);
 /// The numbers of a column, NaN left out.
 std::vector<double> numbersOf(const Table& table, std::string_view column);
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The least `cpu_s` of the rows that the test accepts; infinity of none.
+double leastCost(const Table& table, const std::function<bool(const TableRow&)>& test);
 
 /// NaN of nothing.
 double median(std::vector<double> values);

@@ -13,8 +13,6 @@
 namespace irk {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double iterationsPerStep(const Table& runs) {
   std::vector<double> ratios;
   for (const auto& row : runs.rows) {

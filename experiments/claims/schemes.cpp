@@ -12,8 +12,6 @@
 namespace irk {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // The smooth scenes of the study cpu_time.
 const Cells kSmoothCases[] = {{{"scene", "slider_crank"}, {"settings", ""}},
                               {{"scene", "hydraulic_arm"}, {"settings", "reference=smooth"}},
@@ -33,14 +31,6 @@ Table atSmallestError(const Table& costs) {
 double classicalOrder(const Table& table, const TableRow& row) {
   const double s = numberAt(table, row, "stages");
   return textAt(table, row, "family") == "gauss" ? 2 * s : 2 * s - 1;
-}
-
-double leastCost(const Table& table, const std::function<bool(const TableRow&)>& test) {
-  double least = kInfinity;
-  for (const auto& row : table.rows) {
-    if (test(row)) least = std::min(least, numberAt(table, row, "cpu_s"));
-  }
-  return least;
 }
 
 double cheapestOrder(const Table& table) {
