@@ -53,6 +53,12 @@ class PaperController final : public StepController {
     last_h_ = 0;
     barred_ = 0;
   }
+  void changeOrder(int order) override {
+    p_ = order;
+    exponent_ = 1.0 / (damped_ ? order + 1 : order);
+    gamma_ = 1;
+    last_h_ = 0;
+  }
 
  private:
   static constexpr double kTinyError = 1e-300;
@@ -109,6 +115,10 @@ class PredictiveController final : public StepController {
   void forget() override {
     last_h_ = 0;
     barred_ = 0;
+  }
+  void changeOrder(int order) override {
+    exponent_ = 1.0 / (order + 1);
+    last_h_ = 0;
   }
 
  private:

@@ -24,25 +24,20 @@ Real integral(Index k, const P& p) {
 }  // namespace
 
 template <class Real>
-DenseOutput<Real>::DenseOutput(const Sizes& sizes, const Scheme<Real>& scheme)
-    : scheme_(scheme),
-      nu_(sizes.nu),
-      nx_(sizes.nx),
-      C_(sizes.n(), scheme.s),
-      p_(scheme.s + 2),
-      once_(scheme.s + 1),
-      twice_(scheme.s) {}
-
-template <class Real>
 void DenseOutput<Real>::begin(const State<Real>& from, const StagePolynomial<Real>& past) {
   from_ = &from;
   h_ = past.h;
-  C_.noalias() = past.W * scheme_.legendre_inverse.transpose();
+  const Index s = past.W.cols();
+  C_.resize(past.W.rows(), s);
+  C_.noalias() = past.W * past.scheme->legendre_inverse.transpose();
+  p_.resize(s + 2);
+  once_.resize(s + 1);
+  twice_.resize(s);
 }
 
 template <class Real>
 void DenseOutput<Real>::evaluate(const Real& theta, State<Real>& out) {
-  const Index s = scheme_.s;
+  const Index s = C_.cols();
   legendre<Real>(theta, p_);
   for (Index k = 0; k <= s; ++k) once_[k] = integral<Real>(k, p_);
   for (Index k = 0; k < s; ++k) twice_[k] = integral<Real>(k, once_);

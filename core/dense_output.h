@@ -12,8 +12,7 @@ namespace irk {
 template <class Real>
 class DenseOutput {
  public:
-  /// Keeps a reference to the scheme.
-  DenseOutput(const Sizes& sizes, const Scheme<Real>& scheme);
+  explicit DenseOutput(const Sizes& sizes) : nu_(sizes.nu), nx_(sizes.nx) {}
 
   /// For the step from `from` with the stages `past`; both must outlive the evaluations.
   void begin(const State<Real>& from, const StagePolynomial<Real>& past);
@@ -21,11 +20,10 @@ class DenseOutput {
   void evaluate(const Real& theta, State<Real>& out);
 
  private:
-  const Scheme<Real>& scheme_;
   const State<Real>* from_ = nullptr;
   Real h_{};
   Index nu_, nx_;
-  Mat<Real> C_;            // n x s
+  Mat<Real> C_;            // n x s, s that of the step
   Vec<Real> p_;            // P_0 .. P_{s+1} at theta
   Vec<Real> once_, twice_;  // integrals of P_0 .. P_s from 0 to theta
 };

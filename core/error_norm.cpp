@@ -40,7 +40,16 @@ void ErrorNorm<Real>::update(const State<Real>& y) {
 }
 
 namespace {
+
 double square(double x) { return x * x; }
+
+// h^power, power a small integer >= 0.
+double powerOf(double h, int power) {
+  double f = 1;
+  for (int i = 0; i < power; ++i) f *= h;
+  return f;
+}
+
 }  // namespace
 
 template <class Real>
@@ -50,7 +59,7 @@ double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, d
   const auto add = [&](Index offset, const auto& a, const auto& b, const std::vector<int>& power) {
     for (Index i = 0; i < a.size(); ++i) {
       const double e = static_cast<double>(Real(a[i] - b[i]));
-      const double f = std::pow(h, power[static_cast<std::size_t>(i)]);
+      const double f = powerOf(h, power[static_cast<std::size_t>(i)]);
       sum += square(factor[offset + i] * f * e / weight_[offset + i]);
     }
   };
@@ -58,28 +67,56 @@ double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, d
   add(sizes_.nu, p.v, q.v, powers_.v);
   add(2 * sizes_.nu, p.x, q.x, powers_.x);
   add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), powers_.z);
+  return total(sum);
+}
+
+template <class Real>
+double ErrorNorm<Real>::magnitude(const State<Real>& e, double h) const {
+  double sum = 0;
+  const auto add = [&](Index offset, const auto& a, const std::vector<int>& power) {
+    for (Index i = 0; i < a.size(); ++i) {
+      const double f = powerOf(h, power[static_cast<std::size_t>(i)]);
+      sum += square(f * static_cast<double>(a[i]) / weight_[offset + i]);
+    }
+  };
+  add(0, e.u, powers_.u);
+  add(sizes_.nu, e.v, powers_.v);
+  add(2 * sizes_.nu, e.x, powers_.x);
+  add(2 * sizes_.nu + sizes_.nx, e.z(), powers_.z);
+  return total(sum);
+}
+
+template <class Real>
+double ErrorNorm<Real>::total(double sum) const {
   if (tolerances_.norm == NormKind::kAbsolute) return std::sqrt(sum);
   return std::sqrt(sum / static_cast<double>(sizes_.components()));
 }
 
 template <class Real>
-double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, double h) const {
+void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
   const Index nu = sizes_.nu, nx = sizes_.nx, nz = sizes_.nz;
   const double* const wu = weight_.data();
   const double* const wv = wu + nu;
   const double* const wx = wv + nu;
   const double* const wz = wx + nx;
+  for (Index i = 0; i < nu; ++i) {
+    const double f = powerOf(h, powers_.v[static_cast<std::size_t>(i)]);
+    squares[i] = square(f * h / wv[i]) + square(h * h / wu[i]);
+  }
+  for (Index i = 0; i < nx; ++i) squares[nu + i] = square(h / wx[i]);
+  for (Index i = 0; i < nz; ++i) {
+    const double f = powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
+    squares[nu + nx + i] = square(f / wz[i]);
+  }
+}
+
+template <class Real>
+double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first,
+                                  const Vec<double>& squares) const {
   double sum = 0;
   for (Index j = first; j < dW.cols(); ++j) {
-    for (Index i = 0; i < nu; ++i) {
-      const double dv = h * static_cast<double>(dW(i, j));
-      const double f = std::pow(h, powers_.v[static_cast<std::size_t>(i)]);
-      sum += square(f * dv / wv[i]) + square(h * dv / wu[i]);
-    }
-    for (Index i = 0; i < nx; ++i) sum += square(h * static_cast<double>(dW(nu + i, j)) / wx[i]);
-    for (Index i = 0; i < nz; ++i) {
-      const double f = std::pow(h, powers_.z[static_cast<std::size_t>(i)]);
-      sum += square(f * static_cast<double>(dW(nu + nx + i, j)) / wz[i]);
+    for (Index i = 0; i < dW.rows(); ++i) {
+      sum += squares[i] * square(static_cast<double>(dW(i, j)));
     }
   }
   return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));

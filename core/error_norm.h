@@ -23,11 +23,18 @@ class ErrorNorm {
   double difference(const State<Real>& p, const State<Real>& q, double h,
                     const Vec<double>& factor) const;
 
-  /// Norm of a Newton increment dW (columns from `first`) by its effect on (u, v, x, z):
-  /// h^2 da, h da, h dk, dz. RMS whatever the error norm is.
-  double increment(const Mat<Real>& dW, Index first, double h) const;
+  /// Of an error e itself: the difference to zero.
+  double magnitude(const State<Real>& e, double h) const;
+
+  /// The square of what one unit in row i of (a, k, z) counts by its effect on (u, v, x, z): h^2 da,
+  /// h da, h dk, dz. n entries, for `increment`.
+  void rowWeights(double h, Vec<double>& squares) const;
+  /// Norm of a Newton increment dW (columns from `first`). RMS whatever the error norm is.
+  double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const;
 
  private:
+  double total(double sum_of_squares) const;
+
   Sizes sizes_;
   const ErrorPowers& powers_;
   Tolerances tolerances_;

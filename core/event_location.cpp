@@ -24,10 +24,9 @@ Real epsilon() {
 }  // namespace
 
 template <class Real>
-EventLocator<Real>::EventLocator(const System<Real>& system, const Scheme<Real>& scheme,
-                                 double tolerance)
+EventLocator<Real>::EventLocator(const System<Real>& system, double tolerance)
     : switches_(system),
-      dense_(system.sizes(), scheme),
+      dense_(system.sizes()),
       inside_(system.sizes()),
       due_(system.sizes().switches),
       tolerance_(tolerance) {}

@@ -24,7 +24,7 @@ template <class Real>
 class EventLocator {
  public:
   /// Keeps references.
-  EventLocator(const System<Real>& system, const Scheme<Real>& scheme, double tolerance);
+  EventLocator(const System<Real>& system, double tolerance);
 
   /// After a solved step of size h from `from` to `next`. Without a switch everything stays; with
   /// one, `next` is its state.

@@ -41,6 +41,14 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
                  std::string(idOf(options.solver)) +
                  "': stage-wise derivatives do not decouple; use solver 'coupled_dense'");
   }
+  if (options.order == OrderControl::kVariable &&
+      (options.step.estimate != ErrorEstimate::kEmbedded || each_stage)) {
+    throw Misuse(std::string("illegal combination: order 'variable' with ") +
+                 (each_stage ? "jacobian_point 'each_stage'"
+                             : "estimate '" + std::string(idOf(options.step.estimate)) + "'") +
+                 ": orders are compared by the embedded estimate with one Jacobian; use estimate "
+                 "'embedded' and jacobian_point 'start'");
+  }
   if (options.jacobian != JacobianTerms::kFull && !system.secondOrder()) {
     throw Misuse("illegal combination: jacobian '" + std::string(idOf(options.jacobian)) +
                  "' with formulation 'ggl' or 'first_order': its accelerations are no unknowns of "
@@ -53,18 +61,21 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
 template <class Real>
 class Integrator<Real>::Run {
  public:
-  Run(std::shared_ptr<const System<Real>> system, const Tableau<Real>& tableau,
+  Run(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
       const IntegratorOptions& options, const Vec<double>& scale)
       : system_(std::move(system)),
         options_(validated(options)),
         counted_(*system_, counters_),
-        scheme_(tableau),
+        schemes_(methods.members.begin(), methods.members.end()),
         norm_(counted_, options_.tolerances, scale) {
-    refuseIllegal(scheme_, *system_, options_);
-    jacobian_ = std::make_unique<SharedJacobian<Real>>(counted_, scheme_, options_, counters_);
-    attempt_ = makeStepAttempt<Real>(counted_, scheme_, options_, *jacobian_, norm_, counters_);
-    controller_ = makeController(options_.step, scheme_.tableau.order);
-    advance_ = std::make_unique<Advance<Real>>(counted_, scheme_, options_, *attempt_, *jacobian_,
+    const Scheme<Real>& scheme = schemes_.at(methods.start);
+    for (const auto& member : schemes_) refuseIllegal(member, *system_, options_);
+    jacobian_ = std::make_unique<SharedJacobian<Real>>(counted_, scheme, options_, counters_);
+    attempt_ = makeStepAttempt<Real>(counted_, schemes_, methods.start, options_, *jacobian_, norm_,
+                                     counters_);
+    order_ = attempt_->order();
+    controller_ = makeController(options_.step, order_);
+    advance_ = std::make_unique<Advance<Real>>(counted_, scheme, options_, *attempt_, *jacobian_,
                                                controller_.get(), counters_);
   }
 
@@ -178,6 +189,8 @@ class Integrator<Real>::Run {
         worst = result.outcome == Outcome::kNewtonFailed ? Outcome::kStepTooSmall : result.outcome;
         attempt_->forget();
         h = controller_->afterFailure(size);
+        attempt_->failed(size);
+        followOrder();
         continue;
       }
       const StepDecision decision = controller_->decide(result.error, size);
@@ -201,9 +214,18 @@ class Integrator<Real>::Run {
       if (outcome != Outcome::kSuccess) {
         return advance_->failed(outcome, size, "switch not passed");
       }
+      h = std::min(attempt_->accepted(result, size, h), options_.step.h_max);
+      followOrder();
       reach(t_end);
     }
     return advance_->success();
+  }
+
+  // The controller's exponent is that of the next attempt's estimate.
+  void followOrder() {
+    if (attempt_->order() == order_) return;
+    order_ = attempt_->order();
+    controller_->changeOrder(order_);
   }
 
   // `iterate`: after a rejection with a switch in the step, the next one ends just before it. What
@@ -225,7 +247,7 @@ class Integrator<Real>::Run {
   IntegratorOptions options_;
   Counters counters_;
   CountingSystem<Real> counted_;
-  Scheme<Real> scheme_;
+  std::vector<Scheme<Real>> schemes_;
   ErrorNorm<Real> norm_;
   std::unique_ptr<SharedJacobian<Real>> jacobian_;
   std::unique_ptr<StepAttempt<Real>> attempt_;
@@ -233,13 +255,14 @@ class Integrator<Real>::Run {
   std::unique_ptr<Advance<Real>> advance_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
+  int order_;
 };
 
 template <class Real>
 Integrator<Real>::Integrator(std::shared_ptr<const System<Real>> system,
-                             const Tableau<Real>& tableau, const IntegratorOptions& options,
+                             const Methods<Real>& methods, const IntegratorOptions& options,
                              const Vec<double>& scale)
-    : run_(std::make_unique<Run>(std::move(system), tableau, options, scale)) {}
+    : run_(std::make_unique<Run>(std::move(system), methods, options, scale)) {}
 template <class Real>
 Integrator<Real>::~Integrator() = default;
 template <class Real>

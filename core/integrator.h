@@ -55,9 +55,9 @@ template <class Real>
 class Integrator {
  public:
   /// `scale`: typical magnitudes of u, v, x, z (2 nu + nx + nz); empty = 1.
-  /// Throws Misuse for illegal combinations, naming both ids and the reason: a family that cannot
-  /// treat algebraic unknowns, `eigen` with a defective A, `full` with a decoupled solver, ...
-  Integrator(std::shared_ptr<const System<Real>> system, const Tableau<Real>& tableau,
+  /// Throws Misuse for illegal combinations, naming both ids and the reason: several methods but
+  /// with variable order and the estimate `embedded`, a family that cannot treat algebraic unknowns, `eigen` with a defective A, `full` with a decoupled solver, ...
+  Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
              const IntegratorOptions& options, const Vec<double>& scale = {});
   ~Integrator();
   Integrator(Integrator&&) noexcept;

@@ -36,7 +36,14 @@ class NewtonBase : public Newton<Real> {
         round_off_(unitRoundOff<Real>(options)),
         first_(scheme.first),
         R_(sizes.n(), scheme.s),
-        W0_(sizes.n(), scheme.s) {}
+        W0_(sizes.n(), scheme.s),
+        row_weights_(sizes.n()) {}
+
+  /// A new step: keeps its start values for restarts.
+  void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
+    W0_ = W;
+    c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
+  }
 
   /// A new Jacobian where one is asked for, and where there is none.
   void refresh(NewtonContext<Real>& c, const Mat<Real>& W) {
@@ -54,7 +61,7 @@ class NewtonBase : public Newton<Real> {
     auto implicit = R_.rightCols(R_.cols() - first_);
     matrix.solve(implicit);
     W.rightCols(W.cols() - first_) -= implicit;
-    return c.norm.increment(R_, first_, static_cast<double>(c.eq.h()));
+    return c.norm.increment(R_, first_, row_weights_);
   }
 
   const IntegratorOptions& options_;
@@ -62,6 +69,7 @@ class NewtonBase : public Newton<Real> {
   Index first_;
   Mat<Real> R_;   // residual, then increment
   Mat<Real> W0_;  // start values, for restarts
+  Vec<double> row_weights_;
 };
 
 /// HW II (IV.8): simplified Newton with the increment test
@@ -88,7 +96,7 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     auto& shared = c.matrix.shared();
     this->refresh(c, W);
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
-    this->W0_ = W;
+    this->begin(c, W);
     NewtonResult result = iterate(c, W);
     if (result.outcome != Outcome::kSuccess && had_old) {
       ++c.counters.newton_restarts;
@@ -158,7 +166,7 @@ class ResidualNewton final : public NewtonBase<Real> {
       : Base(options, sizes, scheme) {}
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
-    this->W0_ = W;
+    this->begin(c, W);
     if (this->options_.newton.kind == NewtonKind::kFull) {
       return iterate(c, W, kStagewise);
     }

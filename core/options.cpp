@@ -47,12 +47,19 @@ constexpr Named<ErrorEstimate> kEstimates[] = {
      "doubling, each component with its own order; sees switches"},
     {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
     {ErrorEstimate::kDoublingScalar, "doubling_scalar", "difference of the norms (HOTINT)"},
+    {ErrorEstimate::kEmbedded, "embedded", "an embedded method of order s: one real solve, HW II (IV.8)"},
     {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
 constexpr Named<StepControl> kControls[] = {
     {StepControl::kPaper, "paper", "section 6 of the paper"},
     {StepControl::kHotint, "hotint", "the paper's, as the later source has it"},
     {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
     {StepControl::kFixed, "fixed", "constant steps"}};
+constexpr Named<OrderControl> kOrders[] = {
+    {OrderControl::kFixed, "fixed", "one number of stages"},
+    {OrderControl::kVariable, "variable", "the method's family, up to max_stages: the least work per unit step"}};
+constexpr Named<Summation> kSummations[] = {
+    {Summation::kCompensated, "compensated", "additions of increments keep what they lose"},
+    {Summation::kPlain, "plain", "round-off accumulates"}};
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},
@@ -109,6 +116,8 @@ IRK_AXIS(StageSolverKind, kSolvers, "solver")
 IRK_AXIS(Predictor, kPredictors, "predictor")
 IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
 IRK_AXIS(StepControl, kControls, "control")
+IRK_AXIS(OrderControl, kOrders, "order")
+IRK_AXIS(Summation, kSummations, "summation")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
 IRK_AXIS(JacobianTerms, kTerms, "jacobian")
 IRK_AXIS(Discontinuity, kDiscontinuities, "discontinuity")

@@ -28,6 +28,7 @@ enum class ErrorEstimate {
   kRichardson,
   kDoubling,        ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
   kDoublingScalar,  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
+  kEmbedded,        ///< one solve with a real system: an embedded method of order s, HW II (IV.8)
   kNone,
 };
 enum class StepControl {
@@ -35,6 +36,15 @@ enum class StepControl {
   kHotint,      ///< the later source: s_min 2, s_max 4, exponent 1/p, no gamma
   kPredictive,  ///< Gustafsson's, HW II (IV.8.25)
   kFixed,
+};
+enum class OrderControl {
+  kFixed,     ///< one method
+  kVariable,  ///< members of a family by work per unit step and Newton's contraction
+};
+/// How a step's increments are added to u, v, x.
+enum class Summation {
+  kCompensated,  ///< what an addition loses is added to the next increment
+  kPlain,
 };
 enum class JacobianPoint { kStart, kMiddle, kEachStage };
 
@@ -122,6 +132,8 @@ struct IntegratorOptions {
   NewtonOptions newton;
   StageSolverKind solver = StageSolverKind::kSchur;
   Predictor predictor = Predictor::kExtrapolated;
+  Summation summation = Summation::kCompensated;
+  OrderControl order = OrderControl::kFixed;
   StepOptions step;
 };
 

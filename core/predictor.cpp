@@ -21,12 +21,14 @@ StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
 }
 
 template <class Real>
-const Mat<Real>& StartValues<Real>::weights(const Real& offset, const Real& ratio) {
+const Mat<Real>& StartValues<Real>::weights(const Scheme<Real>& past, const Real& offset,
+                                            const Real& ratio) {
   for (const Weights& w : weights_) {
-    if (w.offset == offset && w.ratio == ratio) return w.matrix;
+    if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix;
   }
   newest_ = 1 - newest_;
   Weights& w = weights_[newest_];
+  w.past = &past;
   w.offset = offset;
   w.ratio = ratio;
   compute(w);
@@ -37,21 +39,19 @@ const Mat<Real>& StartValues<Real>::weights(const Real& offset, const Real& rati
 // the largest degree whose amplification stays below the limit.
 template <class Real>
 void StartValues<Real>::compute(Weights& w) {
-  const Index s = scheme_.s;
+  const Index s = scheme_.s, degrees = w.past->s;
+  basis_.resize(degrees, s);
   for (Index i = 0; i < s; ++i) {
     legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis_.col(i));
   }
-  w.matrix.setZero();
-  for (Index k = 0; k < s; ++k) {
-    for (Index i = 0; i < s; ++i) {
-      w.matrix.col(i) += basis_(k, i) * scheme_.legendre_inverse.row(k).transpose();
-    }
+  w.matrix.setZero(degrees, s);
+  for (Index k = 0; k < degrees; ++k) {
+    const auto row = w.past->legendre_inverse.row(k).transpose();
+    for (Index i = 0; i < s; ++i) w.matrix.col(i) += basis_(k, i) * row;
     const double amplification =
         static_cast<double>(Real(w.matrix.cwiseAbs().colwise().sum().maxCoeff()));
     if (amplification > kAmplificationLimit && k > 0) {
-      for (Index i = 0; i < s; ++i) {
-        w.matrix.col(i) -= basis_(k, i) * scheme_.legendre_inverse.row(k).transpose();
-      }
+      for (Index i = 0; i < s; ++i) w.matrix.col(i) -= basis_(k, i) * row;
       return;
     }
   }
@@ -63,10 +63,11 @@ void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real
   const bool constant = kind_ == Predictor::kAcceleration || !past.valid;
   if (constant) {
     W.colwise() = from.w;
-  } else if (kind_ == Predictor::kPrevious) {
+  } else if (kind_ == Predictor::kPrevious && past.W.cols() == W.cols()) {
     W = past.W;
   } else {
-    const Mat<Real>& E = weights(Real((from.t - past.t) / past.h), Real(h / past.h));
+    const Mat<Real>& E =
+        weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h));
     W.noalias() = past.W * E;
   }
   for (Index i = 0; i < scheme_.first; ++i) W.col(i) = from.w;

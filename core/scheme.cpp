@@ -44,9 +44,11 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   Mat<Real> V(s, s);  // transposed: column i = stage i
   for (Index i = 0; i < s; ++i) legendre<Real>(c[i], V.col(i));
   legendre_inverse = V.transpose().fullPivLu().inverse();
-  Vec<Real> at_end(s);
-  legendre<Real>(Real(1), at_end);
-  end = legendre_inverse.transpose() * at_end;
+  Vec<Real> at(s);
+  legendre<Real>(Real(1), at);
+  end = legendre_inverse.transpose() * at;
+  legendre<Real>(Real(0), at);
+  start = legendre_inverse.transpose() * at;
 }
 
 template struct Scheme<double>;

@@ -19,8 +19,9 @@ struct Scheme {
   bool regular = false;           ///< A (without the explicit first stage) is invertible
   /// z1 = (1 - sum d) z0 + sum d_i z_i with d = A^-T b, paper (2.11) corrected. If regular.
   Vec<Real> d;
-  /// Weights of the stage polynomial of (a, k) at the step's end: start values, not results.
-  Vec<Real> end;
+  /// Weights of the stage polynomial of (a, k) at the step's end (start values, not results) and at
+  /// its start.
+  Vec<Real> end, start;
   /// V^-1 with V_ik = P_k(c_i), orthonormal shifted Legendre polynomials: coefficients of the
   /// polynomial through the stages. Stable for any s. HW II (IV.5).
   Mat<Real> legendre_inverse;

@@ -4,11 +4,28 @@
 #include "core/stage_solver.h"
 
 namespace irk {
+namespace {
+
+// y1 = y0 + (dy + carry0) and what the addition lost: Knuth's two-sum, exact whatever is larger.
+template <class Real>
+void addCompensated(const Vec<Real>& y0, const Real* carry0, Vec<Real>& y1, Real* carry1) {
+  for (Index i = 0; i < y0.size(); ++i) {
+    const Real a = y0[i], b = y1[i] + carry0[i];
+    const Real sum = a + b;
+    const Real rounded = sum - a;
+    carry1[i] = (a - (sum - rounded)) + (b - rounded);
+    y1[i] = sum;
+  }
+}
+
+}  // namespace
 
 template <class Real>
-StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Real>& scheme)
+StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Real>& scheme,
+                                     Summation summation)
     : system_(system),
       scheme_(scheme),
+      summation_(summation),
       sizes_(system.sizes()),
       U_(sizes_.nu, scheme.s),
       V_(sizes_.nu, scheme.s),
@@ -93,12 +110,21 @@ void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
   const auto z = W.bottomRows(sizes_.nz);
   to.t = from_->t + h_;
   to.d = from_->d;
-  to.u = from_->u + h_ * from_->v;
-  to.u.noalias() += ((h_ * h_) * a) * scheme_.bA;
-  to.v = from_->v;
-  to.v.noalias() += (h_ * a) * scheme_.b;
-  to.x = from_->x;
-  to.x.noalias() += (h_ * k) * scheme_.b;
+  to.u.noalias() = (h_ * h_) * (a * scheme_.bA);
+  to.u += h_ * from_->v;
+  to.v.noalias() = h_ * (a * scheme_.b);
+  to.x.noalias() = h_ * (k * scheme_.b);
+  if (summation_ == Summation::kCompensated) {
+    const Real* const before = from_->carry.data();
+    Real* const after = to.carry.data();
+    addCompensated(from_->u, before, to.u, after);
+    addCompensated(from_->v, before + sizes_.nu, to.v, after + sizes_.nu);
+    addCompensated(from_->x, before + 2 * sizes_.nu, to.x, after + 2 * sizes_.nu);
+  } else {
+    to.u += from_->u;
+    to.v += from_->v;
+    to.x += from_->x;
+  }
   if (scheme_.stiffly_accurate) {
     to.w = W.col(scheme_.s - 1);
     return;

@@ -1,6 +1,7 @@
 // The K-form: the residual of all stages of one step, and the step's end.
 #pragma once
 
+#include "core/options.h"
 #include "core/scheme.h"
 #include "core/system.h"
 
@@ -12,7 +13,7 @@ template <class Real>
 class StageEquations {
  public:
   /// Keeps references.
-  StageEquations(const System<Real>& system, const Scheme<Real>& scheme);
+  StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation);
 
   /// A step of size h from `from`, which must outlive the step.
   void begin(const State<Real>& from, const Real& h);
@@ -29,7 +30,8 @@ class StageEquations {
   Point<Real> start() const;
   Point<Real> middle();
 
-  /// End of the step, paper (2.10), (2.11) with d = A^-T b.
+  /// End of the step, paper (2.10), (2.11) with d = A^-T b. `compensated`: `to.carry` is what the
+  /// additions lost, `from.carry` what those before have lost.
   void finish(const Mat<Real>& W, State<Real>& to);
 
   const Scheme<Real>& scheme() const { return scheme_; }
@@ -40,6 +42,7 @@ class StageEquations {
  private:
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
+  Summation summation_;
   Sizes sizes_;
   const State<Real>* from_ = nullptr;
   Real h_{};

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/embedded.h"
 #include "core/multiprecision.h"
+#include "core/variable_order.h"
 
 namespace irk {
 namespace {
@@ -14,18 +16,21 @@ template <class Real>
 class Single final : public StepAttempt<Real> {
  public:
   template <class... Args>
-  explicit Single(Args&&... args) : stepper_(std::forward<Args>(args)...) {}
+  explicit Single(int order, Args&&... args)
+      : order_(order), stepper_(std::forward<Args>(args)...) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
     return {stepper_.attempt(stepper_.stages(), from, h, to),
             std::numeric_limits<double>::quiet_NaN()};
   }
   void forget() override { stepper_.forget(); }
+  int order() const override { return order_; }
   StepPieces<Real> pieces(const State<Real>& from) const override {
     return {{{{&from, &stepper_.stages()}, {nullptr, nullptr}}}, 1};
   }
 
  private:
+  int order_;
   Stepper<Real> stepper_;
 };
 
@@ -43,6 +48,7 @@ class Doubling final : public StepAttempt<Real> {
         norm_(norm),
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
+        order_(scheme.tableau.order),
         interpolate_(options.predictor == Predictor::kExtrapolated),
         keeps_pieces_(system.sizes().switches > 0 &&
                       system.discontinuity() == Discontinuity::kLocate),
@@ -76,6 +82,7 @@ class Doubling final : public StepAttempt<Real> {
     whole_.forget();
     half_.forget();
   }
+  int order() const override { return order_; }
   StepPieces<Real> pieces(const State<Real>& from) const override {
     return {{{{&from, &first_half_}, {&middle_, &half_.stages()}}}, 2};
   }
@@ -91,6 +98,7 @@ class Doubling final : public StepAttempt<Real> {
   const ErrorNorm<Real>& norm_;
   Vec<double> factor_;
   bool scalar_;
+  int order_;
   bool interpolate_;
   bool keeps_pieces_;  // for the dense output of `locate`
   StagePolynomial<Real> first_half_;
@@ -126,30 +134,32 @@ Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& syst
 
 template <class Real>
 std::unique_ptr<StepAttempt<Real>> makeStepAttempt(
-    const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
-    SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters) {
+    const System<Real>& system, const std::vector<Scheme<Real>>& schemes, std::size_t start,
+    const IntegratorOptions& options, SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
+    Counters& counters) {
+  const Scheme<Real>& scheme = schemes[start];
   switch (options.step.estimate) {
     case ErrorEstimate::kNone:
-      return std::make_unique<Single<Real>>(system, scheme, options, jacobian, norm, counters);
+      return std::make_unique<Single<Real>>(scheme.tableau.order, system, scheme, options, jacobian,
+                                            norm, counters);
     case ErrorEstimate::kDoubling:
     case ErrorEstimate::kRichardson:
     case ErrorEstimate::kDoublingScalar:
       return std::make_unique<Doubling<Real>>(system, scheme, options, jacobian, norm, counters);
+    case ErrorEstimate::kEmbedded:
+      return std::make_unique<VariableOrder<Real>>(system, schemes, start, options, jacobian, norm,
+                                                   counters);
   }
   return nullptr;
 }
 
-template Vec<double> doublingFactors(const Scheme<double>&, const System<double>&, ErrorEstimate);
-template Vec<double> doublingFactors(const Scheme<mp50>&, const System<mp50>&, ErrorEstimate);
-template std::unique_ptr<StepAttempt<double>> makeStepAttempt(const System<double>&,
-                                                              const Scheme<double>&,
-                                                              const IntegratorOptions&,
-                                                              SharedJacobian<double>&,
-                                                              const ErrorNorm<double>&, Counters&);
-template std::unique_ptr<StepAttempt<mp50>> makeStepAttempt(const System<mp50>&,
-                                                            const Scheme<mp50>&,
-                                                            const IntegratorOptions&,
-                                                            SharedJacobian<mp50>&,
-                                                            const ErrorNorm<mp50>&, Counters&);
+#define IRK_INSTANTIATE(Real)                                                                     \
+  template Vec<double> doublingFactors(const Scheme<Real>&, const System<Real>&, ErrorEstimate);  \
+  template std::unique_ptr<StepAttempt<Real>> makeStepAttempt(                                    \
+      const System<Real>&, const std::vector<Scheme<Real>>&, std::size_t,                         \
+      const IntegratorOptions&, SharedJacobian<Real>&, const ErrorNorm<Real>&, Counters&);
+IRK_INSTANTIATE(double)
+IRK_INSTANTIATE(mp50)
+#undef IRK_INSTANTIATE
 
 }  // namespace irk

@@ -33,6 +33,17 @@ class StepAttempt {
                                               State<Real>& to) = 0;
   /// What was solved predicts badly: the attempt was not accepted, or the mode has changed.
   virtual void forget() = 0;
+  /// The step of size h that was attempted last is taken over, and the controller asks for h_next:
+  /// the size of the next one, another where the order changes.
+  virtual double accepted(const AttemptResult& result, double h, double h_next) {
+    static_cast<void>(result);
+    static_cast<void>(h);
+    return h_next;
+  }
+  /// Newton failed with step h.
+  virtual void failed(double h) { static_cast<void>(h); }
+  /// p of the estimate's leading error h^(p+1) in the next attempt.
+  virtual int order() const = 0;
   /// The parts of which the last solved step is made, in order: their starts and stages. Valid
   /// while `from` of the attempt is.
   virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
@@ -46,9 +57,12 @@ template <class Real>
 Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
                             ErrorEstimate estimate);
 
+/// `schemes`: one or, with variable order, members of a family by ascending stages, of which
+/// `start` is the first. Keeps references. Throws Misuse for an estimate that a scheme does not have.
 template <class Real>
 std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const System<Real>& system,
-                                                   const Scheme<Real>& scheme,
+                                                   const std::vector<Scheme<Real>>& schemes,
+                                                   std::size_t start,
                                                    const IntegratorOptions& options,
                                                    SharedJacobian<Real>& jacobian,
                                                    const ErrorNorm<Real>& norm, Counters& counters);

@@ -26,7 +26,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
                        const ErrorNorm<Real>& norm, Counters& counters)
     : system_(system),
       counters_(counters),
-      eq_(system, scheme),
+      eq_(system, scheme, options.summation),
       matrix_(jacobian, std::make_unique<CountingStageSolver<Real>>(
                             makeStageSolver(options.solver, setupOf(system, scheme)), counters)),
       stagewise_(jacobian, setupOf(system, scheme), options.newton.kind, counters),
@@ -37,15 +37,13 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       switches_(system),
       frozen_(system.sizes()),
       first_mode_(system.sizes()),
-      at_start_(scheme.s),
       defect_(system.sizes().n(), 1),
+      row_weights_(system.sizes().n()),
       sees_switches_(options.step.estimate == ErrorEstimate::kRichardson),
       ones_(Vec<double>::Ones(system.sizes().components())),
       g_before_(system.sizes().switches) {
+  stages_.scheme = &scheme;
   stages_.W.setZero(system.sizes().n(), scheme.s);
-  Vec<Real> p(scheme.s);
-  legendre<Real>(Real(0), p);
-  at_start_ = scheme.legendre_inverse.transpose() * p;
   if (system.projectsVelocity()) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
@@ -59,6 +57,7 @@ void Stepper<Real>::solve(const StagePolynomial<Real>& past, const State<Real>& 
   NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
   const NewtonResult newton = newton_->solve(context, W_);
   result.newton_iterations += newton.iterations;
+  result.theta = std::max(result.theta, newton.theta);
   result.outcome = newton.outcome;
   if (newton.outcome != Outcome::kSuccess) return;
   eq_.finish(W_, to);
@@ -105,10 +104,11 @@ void Stepper<Real>::settle(const State<Real>& from, const Real& h, State<Real>& 
   if (!smooth) result.outcome = report.outcome;
   if (report.index >= 0) result.switched = report.index;
   if (report.count == 0 || !sees_switches_) return;
-  defect_.noalias() = W_ * at_start_;
+  defect_.noalias() = W_ * eq_.scheme().start;
   defect_ -= from.w;
   defect_.bottomRows(from.z().size()).setZero();  // multipliers jump, u, v, x do not
-  result.mode_error = norm_.increment(defect_, 0, static_cast<double>(h));
+  norm_.rowWeights(static_cast<double>(h), row_weights_);
+  result.mode_error = norm_.increment(defect_, 0, row_weights_);
 }
 
 // The discrete state is frozen over the step, updated at its end, and the step solved again with

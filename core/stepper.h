@@ -15,6 +15,7 @@ namespace irk {
 struct StepResult {
   Outcome outcome = Outcome::kSuccess;
   int newton_iterations = 0;
+  double theta = 0;     ///< Newton's last contraction, the worst of the attempt's solves
   Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
@@ -65,8 +66,8 @@ class Stepper {
   Switches<Real> switches_;
   State<Real> frozen_;      // `iterate`: the start with another discrete state
   State<Real> first_mode_;  // and the end in the first one
-  Vec<Real> at_start_;      // weights of the stages' polynomial at the step's start
   Mat<Real> defect_;        // n x 1
+  Vec<double> row_weights_;  // of the defect
   bool sees_switches_;
   Vec<double> ones_;
   Vec<Real> g_before_;

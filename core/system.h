@@ -43,13 +43,17 @@ struct State {
   Vec<Real> u, v, x;
   Vec<Real> w;
   Vec<Real> d;  ///< discrete state: constant between switches
+  /// What the additions of the steps' increments to (u, v, x) lost to round-off, 2 nu + nx:
+  /// compensated summation, Hairer, Lubich & Wanner, Geometric Numerical Integration, VIII.5.
+  Vec<Real> carry;
 
   explicit State(const Sizes& n = {})
       : u(Vec<Real>::Zero(n.nu)),
         v(Vec<Real>::Zero(n.nu)),
         x(Vec<Real>::Zero(n.nx)),
         w(Vec<Real>::Zero(n.n())),
-        d(Vec<Real>::Zero(n.discrete)) {}
+        d(Vec<Real>::Zero(n.discrete)),
+        carry(Vec<Real>::Zero(2 * n.nu + n.nx)) {}
   auto a() { return w.head(u.size()); }
   auto a() const { return w.head(u.size()); }
   auto k() { return w.segment(u.size(), x.size()); }

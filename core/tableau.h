@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/scalar.h"
 
@@ -26,6 +28,17 @@ struct Tableau {
     return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round),
             order, stage_order};
   }
+};
+
+/// One method, or with variable order members of a family by ascending stages.
+template <class Real>
+struct Methods {
+  std::vector<Tableau<Real>> members;
+  std::size_t start = 0;  ///< the member to start with
+
+  Methods(Tableau<Real> one) : members{std::move(one)} {}  // NOLINT: one method is a method
+  Methods(std::vector<Tableau<Real>> all, std::size_t first)
+      : members(std::move(all)), start(first) {}
 };
 
 }  // namespace irk

@@ -21,13 +21,6 @@ std::string optionName(std::string_view field) {
   return name;
 }
 
-// Axes of which this version knows one strategy only.
-constexpr std::pair<std::string_view, std::string_view> kSingleStrategies[] = {{"order", "fixed"}};
-
-void requireKnown(std::string_view axis, std::string_view only, const std::string& given) {
-  if (given != only) throw Misuse(unknownName(axis, given, {std::string(only)}));
-}
-
 /// The verbs, their options and what each one does when it is chosen.
 class Program {
  public:
@@ -123,16 +116,9 @@ class Program {
       if (special) continue;
       sub->add_option(optionName(field.name), fields_[std::string(field.name)], field.allowed());
     }
-    for (const auto& [axis, only] : kSingleStrategies) {
-      sub->add_option(optionName(axis), single_[std::string(axis)], "only: " + std::string(only));
-    }
   }
 
   int solve(Streams streams) {
-    for (const auto& [axis, only] : kSingleStrategies) {
-      const auto& given = single_[std::string(axis)];
-      if (!given.empty()) requireKnown(axis, only, given);
-    }
     for (const auto& [field, value] : fields_) {
       if (!value.empty()) solve_.fields.emplace_back(field, value);
     }
@@ -194,7 +180,7 @@ class Program {
   std::string study_, shard_, what_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::vector<std::string> folders_;
-  std::map<std::string, std::string> fields_, single_;
+  std::map<std::string, std::string> fields_;
   SolveOptions solve_;
 };
 

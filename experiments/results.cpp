@@ -11,6 +11,7 @@
 
 #include "core/misuse.h"
 #include "experiments/cost_at_error.h"
+#include "experiments/energy.h"
 #include "experiments/estimates.h"
 #include "experiments/numbers.h"
 #include "experiments/orders.h"
@@ -57,6 +58,7 @@ void writeSummaries(const Study& study, const Table& runs, const std::filesystem
     writeTable(folder / "cpu_at_error.csv", costTable(runs, study.targets));
   }
   if (study.estimates) writeTable(folder / "estimates.csv", estimateTable(study, runs));
+  if (study.energy) writeTable(folder / "energy.csv", energyTable(study, runs));
   if (study.phases) writeTable(folder / "phases.csv", phaseTable(study, runs, progress));
 }
 

@@ -20,12 +20,12 @@ template <class Real>
 class RungeKutta {
  public:
   RungeKutta(const Scene<Real>& scene, const RunSpec& spec)
-      : tableau_(makeTableau<Real>(spec.method)),
+      : methods_(methodsOf(spec)),
         system_(scene.system({spec.formulation, spec.scaling, spec.discontinuity})),
-        integrator_(system_, tableau_, spec.options, systemScale(scene.scale, system_->sizes())) {}
+        integrator_(system_, methods_, spec.options, systemScale(scene.scale, system_->sizes())) {}
 
-  const std::string& family() const { return tableau_.family; }
-  Index stages() const { return tableau_.stages(); }
+  const std::string& family() const { return methods_.members.front().family; }
+  Index stages() const { return methods_.members[methods_.start].stages(); }
   Solution<Real> integrate(const State<Real>& start, const Real& t_end,
                            const Monitor<Real>& monitor) {
     auto solution = integrator_.integrate(start, t_end, monitor);
@@ -37,7 +37,12 @@ class RungeKutta {
   }
 
  private:
-  Tableau<Real> tableau_;
+  static Methods<Real> methodsOf(const RunSpec& spec) {
+    if (spec.options.order == OrderControl::kFixed) return makeTableau<Real>(spec.method);
+    return makeMethods<Real>(spec.method, spec.max_stages);
+  }
+
+  Methods<Real> methods_;
   std::shared_ptr<const System<Real>> system_;
   Integrator<Real> integrator_;
 };

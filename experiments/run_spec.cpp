@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "experiments/build_info.h"
 #include "experiments/numbers.h"
+#include "tableaus/catalogue.h"
 
 namespace irk {
 namespace {
@@ -95,6 +96,13 @@ constexpr SpecField kFields[] = {
     axisField<IRK_MEMBER(options.predictor)>("predictor"),
     axisField<IRK_MEMBER(options.step.estimate)>("estimate"),
     axisField<IRK_MEMBER(options.step.control)>("control"),
+    axisField<IRK_MEMBER(options.order)>("order"),
+    {"max_stages", [](const RunSpec& s) { return std::to_string(s.max_stages); },
+     [](RunSpec& s, std::string_view value) {
+       s.max_stages = static_cast<int>(parseInteger("max_stages", value, 1, kMaxStages));
+     },
+     [] { return std::string("of variable order, 1 to 100; default 13"); }},
+    axisField<IRK_MEMBER(options.summation)>("summation"),
     axisField<IRK_MEMBER(options.tolerances.norm)>("norm"),
     axisField<IRK_MEMBER(options.jacobian)>("jacobian"),
     axisField<IRK_MEMBER(options.jacobian_point)>("jacobian_point"),

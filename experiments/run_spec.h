@@ -28,6 +28,8 @@ struct RunSpec {
   Discontinuity discontinuity = Discontinuity::kIgnore;
   ScalarKind scalar = ScalarKind::kDouble;
   IntegratorOptions options;
+  /// 1 .. kMaxStages. Variable order: the largest member of the method's family.
+  int max_stages = 13;
   /// NaN: the scene's own.
   double t_end = std::numeric_limits<double>::quiet_NaN();
   /// >= 0, seconds of the thread's CPU clock; 0 = no limit.

@@ -62,8 +62,8 @@ class FileReader {
 };
 
 constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
-                                           "phases", "timing", "targets",      "defaults",
-                                           "quick",  "block"};
+                                           "energy", "phases", "timing",       "targets",
+                                           "defaults", "quick", "block"};
 
 void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
                   StudyKeys& study) {

@@ -102,11 +102,34 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
   return file.tableau.cast<Real>();
 }
 
+template <class Real>
+Methods<Real> makeMethods(std::string_view id, Index max_stages) {
+  const Tableau<Real> first = makeTableau<Real>(id);
+  const auto member = splitId(id);
+  if (looksLikeFile(id) || !member || !findFamily(member->family)) {
+    throw Misuse(fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
+                             "a file is one method; use one of the families",
+                             id));
+  }
+  std::vector<Tableau<Real>> members;
+  std::size_t start = 0;
+  const Index most = std::max(max_stages, first.stages());
+  for (Index s = findFamily(member->family)->minStages(); s <= most; ++s) {
+    const bool given = s == first.stages();
+    if (s % 2 == 0 && s != 2 && !given) continue;
+    if (given) start = members.size();
+    members.push_back(given ? first : makeTableau<Real>(fmt::format("{}_{}", member->family, s)));
+  }
+  return {std::move(members), start};
+}
+
 int classicalOrder(std::string_view family, Index s) { return familyOf(family).orders(s).p; }
 
 int stageOrder(std::string_view family, Index s) { return familyOf(family).orders(s).q; }
 
 template Tableau<double> makeTableau(std::string_view);
 template Tableau<mp50> makeTableau(std::string_view);
+template Methods<double> makeMethods(std::string_view, Index);
+template Methods<mp50> makeMethods(std::string_view, Index);
 
 }  // namespace irk

@@ -28,6 +28,12 @@ inline constexpr Index kMaxStages = 100;
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file);
 
+/// For variable order: members of the family of `id`, which is the first used: 1, 2, 3 and odd
+/// numbers of stages up to `max_stages` (odd: A has a real eigenvalue), and that of `id`. Throws
+/// Misuse as makeTableau, and for a tableau file.
+template <class Real>
+Methods<Real> makeMethods(std::string_view id, Index max_stages);
+
 /// Classical order p and stage order q of a family's s-stage member.
 int classicalOrder(std::string_view family, Index s);
 int stageOrder(std::string_view family, Index s);

@@ -1,0 +1,131 @@
+#include "core/embedded.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/block_form.h"
+#include "core/multiprecision.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
+  return {Mat<Real>::Constant(1, 1, mu), Pattern::dense(system.sizes().n()), system.rowPowers(),
+          system.sizes()};
+}
+
+}  // namespace
+
+template <class Real>
+int EmbeddedEstimate<Real>::order(const Scheme<Real>& scheme) {
+  return std::min(static_cast<int>(scheme.s), scheme.tableau.stage_order + 1);
+}
+
+template <class Real>
+Real EmbeddedEstimate<Real>::weight(const Scheme<Real>& scheme) {
+  using std::pow;
+  if (!scheme.regular || scheme.first > 0) {
+    throw Misuse("illegal combination: estimate 'embedded' with method '" + scheme.tableau.id +
+                 "': its A is singular; use estimate 'richardson'");
+  }
+  Real determinant(1);
+  for (const auto& block : schurForm(scheme.A).blocks) {
+    if (block.size == 1 && block.mu.real() > Real(0)) return block.mu.real();
+    determinant *= block.mu.real() * block.mu.real() + block.mu.imag() * block.mu.imag();
+  }
+  return pow(determinant, Real(1) / Real(static_cast<double>(scheme.s)));
+}
+
+template <class Real>
+EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
+                                         const IntegratorOptions& options,
+                                         SharedJacobian<Real>& jacobian,
+                                         const ErrorNorm<Real>& norm, Counters& counters)
+    : system_(system),
+      scheme_(scheme),
+      norm_(norm),
+      sizes_(system.sizes()),
+      mu_(weight(scheme)),
+      matrix_(jacobian,
+              std::make_unique<CountingStageSolver<Real>>(
+                  makeStageSolver(options.solver, filterSetup(system, mu_)), counters)),
+      row_powers_(system.rowPowers()),
+      scales_(sizes_.n()),
+      basis_(scheme.s),
+      lower_(scheme.s),
+      defect_(sizes_.n()),
+      slip_(sizes_.nu),
+      at_(sizes_),
+      error_(sizes_),
+      e_(sizes_.n(), 1) {}
+
+// The residual at `at_` with w = K(0), solved for e; the error it means.
+template <class Real>
+Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
+  at_.t = from.t;
+  at_.d = from.d;
+  at_.w = defect_;
+  system_.evaluate(Level::kFormulated, pointOf(at_), VecView<Real>(e_.data(), e_.rows()));
+  e_.col(0).array() *= scales_.array();
+  if (!e_.allFinite()) return Outcome::kNotFinite;
+  matrix_.solve(e_);
+  const Real step = h * mu_;
+  error_.v = -step * e_.col(0).head(sizes_.nu);
+  error_.u = slip_ + step * error_.v;
+  error_.x = -step * e_.col(0).segment(sizes_.nu, sizes_.nx);
+  error_.z() = -e_.col(0).tail(sizes_.nz);
+  return Outcome::kSuccess;
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                      const Vec<Real>& at_start, bool again) -> Result {
+  const Real& h = stages.h;
+  Result result;
+  result.outcome = matrix_.prepare(h);
+  if (result.outcome != Outcome::kSuccess) return result;
+  rowScales(row_powers_, h, scales_);
+  defect_.noalias() = stages.W * at_start;
+  // v0 - V(0) = -h sum_j (A^T l)_j a_j, l the weights of the polynomial at the start.
+  slip_.setZero();
+  for (Index j = 0; j < scheme_.s && sizes_.nu > 0; ++j) {
+    const Real f = -mu_ * h * h * at_start.dot(scheme_.A.col(j));
+    slip_ += f * stages.W.col(j).head(sizes_.nu);
+  }
+  at_.u = from.u + slip_;
+  at_.v = from.v;
+  at_.x = from.x;
+  result.outcome = filter(from, h);
+  if (result.outcome != Outcome::kSuccess) return result;
+  result.error = norm_.magnitude(error_, static_cast<double>(h));
+  if (again && result.error > 1) {
+    slip_ += (h * mu_) * error_.v;
+    at_.u = from.u + error_.u + slip_;
+    at_.v = from.v + error_.v;
+    at_.x = from.x + error_.x;
+    result.outcome = filter(from, h);
+    if (result.outcome != Outcome::kSuccess) return result;
+    result.error = norm_.magnitude(error_, static_cast<double>(h));
+  }
+  if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
+  return result;
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                      bool again) -> Result {
+  return estimate(from, stages, scheme_.start, again);
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from,
+                                           const StagePolynomial<Real>& stages, Index q) -> Result {
+  legendre<Real>(Real(0), basis_);
+  lower_.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
+  return estimate(from, stages, lower_, false);
+}
+
+IRK_INSTANTIATE_CLASS(EmbeddedEstimate)
+
+}  // namespace irk

@@ -1,0 +1,61 @@
+// Steps with the embedded estimate, by one method or by the members of a family: that with the least
+// work per unit step.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/embedded.h"
+#include "core/step_attempt.h"
+
+namespace irk {
+
+/// Members of a family share the Jacobian; each keeps its own factors and scratch. After an accepted
+/// step the errors e_q of the members below and above are known or guessed: below, by the stages'
+/// polynomial cut to their degree; above, by the same ratio again, as the coefficients of a smooth
+/// solution decay. They give the steps h_q = h e_q^(-1/(q+1)); the member with the largest h_q per
+/// work is next. A member above is taken only while Newton's contraction is small (Hairer & Wanner,
+/// J. Comput. Appl. Math. 111, 1999), a member below after Newton has failed.
+template <class Real>
+class VariableOrder final : public StepAttempt<Real> {
+ public:
+  VariableOrder(const System<Real>& system, const std::vector<Scheme<Real>>& schemes,
+                std::size_t start, const IntegratorOptions& options,
+                SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
+
+  AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
+  void forget() override;
+  double accepted(const AttemptResult& result, double h, double h_next) override;
+  void failed(double h) override;
+  int order() const override;
+  StepPieces<Real> pieces(const State<Real>& from) const override {
+    return {{{{&from, &member().stepper.stages()}, {nullptr, nullptr}}}, 1};
+  }
+
+ private:
+  struct Member {
+    Member(const System<Real>& system, const Scheme<Real>& s, const IntegratorOptions& options,
+           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
+        : scheme(s),
+          stepper(system, s, options, jacobian, norm, counters),
+          estimate(system, s, options, jacobian, norm, counters),
+          order(EmbeddedEstimate<Real>::order(s)) {}
+    const Scheme<Real>& scheme;
+    Stepper<Real> stepper;
+    EmbeddedEstimate<Real> estimate;
+    int order;
+  };
+  Member& member() { return *members_[at_]; }
+  const Member& member() const { return *members_[at_]; }
+  double progress(double error, const Member& member, double h) const;
+  void changeTo(std::size_t next);
+
+  std::vector<std::unique_ptr<Member>> members_;
+  std::size_t at_;
+  const StagePolynomial<Real>* past_;  // of the last solved step
+  bool again_ = true;                  // filter twice: after a start and a rejection
+  int since_change_ = 0;               // accepted steps
+  double lower_error_;                 // of the member below, NaN if not known
+};
+
+}  // namespace irk

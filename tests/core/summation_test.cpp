@@ -1,0 +1,52 @@
+// Compensated summation of the increments.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// x' = 0.1, u'' = 0: every step adds the same small number to a large one.
+struct Ramp {
+  Sizes sizes() const { return {.nu = 1, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.a[0];
+    r.x[0] = 0.1 - p.k[0];
+  }
+};
+
+State<double> afterManySteps(Summation summation) {
+  State<double> start(Ramp{}.sizes());
+  start.u[0] = 1000;
+  start.v[0] = 0.1;
+  start.x[0] = 1000;
+  auto options = fixedSteps(1e-3);
+  options.summation = summation;
+  const auto s = integrate<double>(Ramp{}, start, 100, makeTableau<double>("gauss_2"), options);
+  EXPECT_EQ(s.outcome, Outcome::kSuccess);
+  EXPECT_EQ(s.counters.steps_accepted, 100'000);
+  return s.state;
+}
+
+TEST(Summation, CompensatedKeepsWhatAdditionsLose) {
+  // 1000 + 0.1 * 100, the decimal 0.1 as a double: to half an ulp of 1010.
+  const double exact = 1010, ulp = 1010 * std::numeric_limits<double>::epsilon();
+  const auto compensated = afterManySteps(Summation::kCompensated);
+  const auto plain = afterManySteps(Summation::kPlain);
+  EXPECT_NEAR(compensated.x[0], exact, ulp);
+  EXPECT_NEAR(compensated.u[0], exact, ulp);
+  EXPECT_GT(std::abs(plain.x[0] - exact), 100 * ulp);
+  EXPECT_GT(std::abs(plain.u[0] - exact), 100 * ulp);
+}
+
+TEST(Summation, CarryIsWhatTheStateLacks) {
+  const auto s = afterManySteps(Summation::kCompensated);
+  EXPECT_LT(std::abs(s.carry[2]), 1010 * std::numeric_limits<double>::epsilon());
+  EXPECT_EQ(afterManySteps(Summation::kPlain).carry.cwiseAbs().maxCoeff(), 0);
+}
+
+}  // namespace
+}  // namespace irk::test

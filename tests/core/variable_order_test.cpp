@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+IntegratorOptions variable(double tol) {
+  IntegratorOptions o = adaptive(tol);
+  o.order = OrderControl::kVariable;
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  o.step.control = StepControl::kPredictive;
+  return o;
+}
+
+template <class P>
+Solution<double> run(P problem, const State<double>& start, double t_end,
+                     const Methods<double>& methods, const IntegratorOptions& options) {
+  return Integrator<double>(makeSystem<double>(problem), methods, options).integrate(start, t_end);
+}
+
+TEST(VariableOrder, KeepsItsTolerance) {
+  for (const double tol : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const auto s = run(Riccati{}, riccatiStart<double>(), 10,
+                       makeMethods<double>("radau_iia_3", 13), variable(tol));
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+    EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(10.0))), 20 * tol) << tol;
+  }
+}
+
+TEST(VariableOrder, TakesFewerStepsThanALowOrderAtATightTolerance) {
+  auto fixed = variable(1e-11);
+  fixed.order = OrderControl::kFixed;
+  const auto start = oscillatorsStart<double>();
+  const auto low = run(Oscillators{}, start, 10, makeTableau<double>("radau_iia_3"), fixed);
+  const auto s = run(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13),
+                     variable(1e-11));
+  ASSERT_EQ(low.outcome, Outcome::kSuccess);
+  ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+  EXPECT_LT(s.counters.steps_accepted, low.counters.steps_accepted / 5);
+}
+
+TEST(VariableOrder, OfOneMemberIsThatMethod) {
+  auto fixed = variable(1e-8);
+  fixed.order = OrderControl::kFixed;
+  const auto start = oscillatorsStart<double>();
+  const auto method = makeTableau<double>("radau_iia_5");
+  const auto a = run(Oscillators{}, start, 3, method, fixed);
+  const auto b = run(Oscillators{}, start, 3, Methods<double>({method}, 0), variable(1e-8));
+  EXPECT_EQ(a.counters.steps_accepted, b.counters.steps_accepted);
+  EXPECT_EQ(a.state.u, b.state.u);
+}
+
+TEST(VariableOrder, GoesThroughConstraintsAndIsReproducible) {
+  const auto methods = makeMethods<double>("radau_iia_3", 13);
+  const auto a = run(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
+  const auto b = run(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
+  ASSERT_EQ(a.outcome, Outcome::kSuccess) << a.detail;
+  EXPECT_EQ(a.state.u, b.state.u);
+  EXPECT_EQ(a.state.w, b.state.w);
+}
+
+TEST(VariableOrder, RefusesOtherEstimatesAndFiles) {
+  IntegratorOptions o = variable(1e-6);
+  o.step.estimate = ErrorEstimate::kRichardson;
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
+                                  makeMethods<double>("radau_iia_3", 13), o),
+               Misuse);
+  EXPECT_THROW(makeMethods<double>(IRK_SOURCE_DIR "/tableaus/data/radau_iia_3.txt", 13), Misuse);
+}
+
+TEST(VariableOrder, LadderOfAFamily) {
+  const auto methods = makeMethods<double>("radau_iia_4", 9);
+  std::vector<Index> stages;
+  for (const auto& tableau : methods.members) stages.push_back(tableau.stages());
+  EXPECT_EQ(stages, (std::vector<Index>{1, 2, 3, 4, 5, 7, 9}));
+  EXPECT_EQ(methods.members[methods.start].stages(), 4);
+}
+
+}  // namespace
+}  // namespace irk::test
