@@ -57,7 +57,7 @@ EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
   monitor.accepted = [&](const StepRecord<double>& step) {
     if (++steps % stride != 0) return;
     errors.t.push_back(step.t);
-    const mp50 error = (energy.value(exactly(step.state)) - start) / abs(start);
+    const mp50 error = energy.value(exactly(step.state)) - start;
     errors.error.push_back(static_cast<double>(error));
   };
   monitor.interrupt = [] { return interruptFlag() ? Outcome::kInterrupted : Outcome::kSuccess; };

@@ -18,7 +18,7 @@ struct EnergyDrift {
 EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>& error);
 
 /// For every run of the study with fixed steps that succeeded, on a scene with the output "energy":
-/// the run again, the relative error of the energy after every k-th step, k such that about 2000 are
+/// the run again, the error of the energy (in the scene's unit) after every k-th step, k such that about 2000 are
 /// seen. The energy is computed in 50 digits from u + carry, v + carry: the evaluation adds no
 /// round-off of its own. Columns: those of a series, h, t, energy_error, drift, scatter,
 /// largest (the last three of the whole run).

@@ -1,4 +1,4 @@
-# The relative error of a conserved energy over time: one panel per scene and method, one line per summation.
+# The error of a conserved energy over time: one panel per scene and method, one line per summation.
 #   gnuplot -e "data='results/round_off'; out='energy'; cases='kepler:gauss_8 ancf_pendulum:gauss_4'" energy.gp
 # Reads energy.csv. Options: cases (scene:method), titles, unit (what the axes count: 1e-16 as it is).
 load system('dirname "'.ARG0.'"')."/style.gp"
@@ -21,7 +21,7 @@ scatter = ""
 do for [i = 1 : columns] { do for [k = 1 : 2] {
   found = 0
   stats file using (at(i, k) ? (found = column("scatter")) : 0) name "S" nooutput
-  scatter = scatter.sprintf(" %.2g", found / unit)
+  scatter = scatter.sprintf(found / unit < 10 ? " %.1f" : " %.0f", found / unit)
 } }
 margin_left = columns == 1 ? 0.13 : 0.075; margin_top = 0.1; margin_bottom = 0.27; gap_x = 0.08
 do for [format in formats] {
@@ -32,7 +32,7 @@ do for [format in formats] {
     eval panel(i, columns, 1)
     set title caseTitle(i) noenhanced offset 0,-0.5
     set xlabel 't in s' offset 0,0.3
-    set ylabel when(i == 1, 'relative error of the energy / 10^{-16}') offset 0.5,0
+    set ylabel when(i == 1, 'error of the energy / 10^{-16}') offset 0.5,0
     set label 1 sprintf('RMS about the trend: %s plain, %s compensated', word(scatter, 2 * i - 1), word(scatter, 2 * i)) \
       at graph 0.03, graph 0.95 left textcolor rgb ink font ',10' noenhanced
     set xrange [*:*] noextend; set yrange [*:*]; set offsets 0, 0, graph 0.12, 0
