@@ -53,11 +53,12 @@ class PaperController final : public StepController {
     last_h_ = 0;
     barred_ = 0;
   }
-  void changeOrder(int order) override {
+  void changeOrder(int order, double error, double h) override {
     p_ = order;
     exponent_ = 1.0 / (damped_ ? order + 1 : order);
     gamma_ = 1;
-    last_h_ = 0;
+    last_error_ = std::max(error, kTinyError);
+    last_h_ = h;
   }
 
  private:
@@ -116,9 +117,10 @@ class PredictiveController final : public StepController {
     last_h_ = 0;
     barred_ = 0;
   }
-  void changeOrder(int order) override {
+  void changeOrder(int order, double error, double h) override {
     exponent_ = 1.0 / (order + 1);
-    last_h_ = 0;
+    last_error_ = std::max(error, kErrorFloor);
+    last_h_ = h;
   }
 
  private:

@@ -21,8 +21,8 @@ class StepController {
   virtual double afterFailure(double h) = 0;
   /// A restart: what came before says nothing.
   virtual void forget() = 0;
-  /// Errors are h^(order+1) from now on.
-  virtual void changeOrder(int order) = 0;
+  /// Errors are h^(order+1) from now on; that of the last step h would have been `error`.
+  virtual void changeOrder(int order, double error, double h) = 0;
 };
 
 /// `order`: p of the estimate's leading error h^(p+1).

@@ -190,7 +190,7 @@ class Integrator<Real>::Run {
         attempt_->forget();
         h = controller_->afterFailure(size);
         attempt_->failed(size);
-        followOrder();
+        followOrder(1, 0);
         continue;
       }
       const StepDecision decision = controller_->decide(result.error, size);
@@ -214,18 +214,19 @@ class Integrator<Real>::Run {
       if (outcome != Outcome::kSuccess) {
         return advance_->failed(outcome, size, "switch not passed");
       }
-      h = std::min(attempt_->accepted(result, size, h), options_.step.h_max);
-      followOrder();
+      const NextStep next = attempt_->accepted(result, size, h);
+      h = std::min(next.h, options_.step.h_max);
+      followOrder(next.error, size);
       reach(t_end);
     }
     return advance_->success();
   }
 
   // The controller's exponent is that of the next attempt's estimate.
-  void followOrder() {
+  void followOrder(double error, double h) {
     if (attempt_->order() == order_) return;
     order_ = attempt_->order();
-    controller_->changeOrder(order_);
+    controller_->changeOrder(order_, error, h);
   }
 
   // `iterate`: after a rejection with a switch in the step, the next one ends just before it. What

@@ -11,6 +11,12 @@ struct AttemptResult : StepResult {
   double error = 0;  ///< estimate in the error norm; NaN without one
 };
 
+/// What an accepted step means for the next one.
+struct NextStep {
+  double h;
+  double error;  ///< that the accepted step would have had with the next step's order
+};
+
 /// A solved step inside an attempt.
 template <class Real>
 struct StepPiece {
@@ -35,10 +41,9 @@ class StepAttempt {
   virtual void forget() = 0;
   /// The step of size h that was attempted last is taken over, and the controller asks for h_next:
   /// the size of the next one, another where the order changes.
-  virtual double accepted(const AttemptResult& result, double h, double h_next) {
-    static_cast<void>(result);
+  virtual NextStep accepted(const AttemptResult& result, double h, double h_next) {
     static_cast<void>(h);
-    return h_next;
+    return {h_next, result.error};
   }
   /// Newton failed with step h.
   virtual void failed(double h) { static_cast<void>(h); }

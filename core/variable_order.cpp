@@ -13,11 +13,13 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kLeastStay = 3;
 // Progress per work must grow by this factor: new factors, worse start values.
 constexpr double kGain = 1.1;
-// Newton's contraction above which no more stages are tried.
-constexpr double kContractionToRaise = 0.1;
-// What a step costs besides its stages, in stages: Jacobian, estimate, control.
-constexpr double kOverhead = 2;
-constexpr double kSafety = 0.9;
+// Newton's contraction: a step beyond the upper bound is not planned.
+constexpr double kLeastContraction = 1e-4, kMostContraction = 0.3;
+// What a step costs besides its stages: Jacobian, estimate, control.
+constexpr double kOverhead = 6;
+constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError = 1e-300;
+// Stages at which a Newton iteration's transformations cost as much as its residuals and solves.
+constexpr double kTransform = 16;
 
 }  // namespace
 
@@ -27,7 +29,9 @@ VariableOrder<Real>::VariableOrder(const System<Real>& system,
                                    const IntegratorOptions& options,
                                    SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
                                    Counters& counters)
-    : at_(start), lower_error_(kUnknown) {
+    : at_(start),
+      lower_error_(kUnknown),
+      unknowns_(static_cast<double>(system.sizes().n())) {
   for (const auto& scheme : schemes) {
     members_.push_back(
         std::make_unique<Member>(system, scheme, options, jacobian, norm, counters));
@@ -61,46 +65,56 @@ void VariableOrder<Real>::forget() {
   again_ = true;
 }
 
-// The step that the controller would like, per work.
+// The step that the member would take next, and its progress per work.
 template <class Real>
-double VariableOrder<Real>::progress(double error, const Member& m, double h) const {
-  const double factor = std::pow(std::max(error, 1e-300), -1.0 / (m.order + 1));
-  return h * factor / (static_cast<double>(m.scheme.s) + kOverhead);
+auto VariableOrder<Real>::plan(double error, const Member& m, const AttemptResult& now, double h,
+                               double trend) const -> Plan {
+  const double s = static_cast<double>(m.scheme.s);
+  const double wish =
+      kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
+  const double ratio = std::clamp(wish, kShrinkAtMost, kGrowAtMost);
+  Plan plan{h * ratio, error, 0};
+  // Newton's contraction grows with the step.
+  const double before = std::max(now.theta, kLeastContraction);
+  const double theta = before * ratio;
+  if (theta > kMostContraction) return plan;
+  const double decades = now.newton_iterations * std::log(1 / before);
+  const double iterations =
+      now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
+  const double work = iterations * s * (1 + s / kTransform) + s * (1 + unknowns_ / 8) + kOverhead;
+  plan.progress = plan.h / work;
+  return plan;
 }
 
 template <class Real>
-double VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
+NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
   again_ = false;
   ++since_change_;
-  if (std::isnan(lower_error_) && at_ > 0) return h_next;
-  if (members_.size() == 1 || since_change_ < kLeastStay) return h_next;
-  const double error = std::max(result.error, 1e-300);
-  const double here = progress(error, member(), h);
-  std::size_t best = at_;
-  double best_progress = kGain * here, best_error = error;
+  if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
+  if (members_.size() == 1 || since_change_ < kLeastStay) return {h_next, result.error};
+  const double error = std::max(result.error, kTinyError);
+  // What the controller has learnt of the error's trend holds for all members.
+  const double untrended = h * kSafety * std::pow(error, -1.0 / (member().order + 1));
+  const double trend = std::min(1.0, h_next / untrended);
+  Plan best = plan(error, member(), result, h, trend);
+  best.progress *= kGain;
+  std::size_t next = at_;
   const auto consider = [&](std::size_t i, double e) {
-    const double p = progress(e, *members_[i], h);
-    if (p > best_progress) best = i, best_progress = p, best_error = e;
+    const Plan p = plan(e, *members_[i], result, h, trend);
+    if (p.progress > best.progress) next = i, best = p;
   };
   if (at_ > 0) consider(at_ - 1, lower_error_);
-  if (at_ + 1 < members_.size() && result.theta < kContractionToRaise) {
+  if (at_ + 1 < members_.size()) {
     const Member& above = *members_[at_ + 1];
-    const double stages = static_cast<double>(member().scheme.s);
-    double ratio = 1;
-    if (at_ > 0) {
-      const double span = stages - static_cast<double>(members_[at_ - 1]->scheme.s);
-      ratio = std::pow(std::min(error / lower_error_, 1.0), 1 / span);
-    } else {
-      ratio = 0.1;
-    }
-    const double more = static_cast<double>(above.scheme.s) - stages;
+    const double s = static_cast<double>(member().scheme.s);
+    const double below = at_ > 0 ? static_cast<double>(members_[at_ - 1]->scheme.s) : s - 1;
+    const double ratio = at_ > 0 ? std::min(error / lower_error_, 1.0) : 0.1;
+    const double more = (static_cast<double>(above.scheme.s) - s) / (s - below);
     consider(at_ + 1, error * std::pow(ratio, more) * above.estimate.mu() / member().estimate.mu());
   }
-  if (best == at_) return h_next;
-  changeTo(best);
-  const double factor =
-      kSafety * std::pow(best_error, -1.0 / (member().order + 1));
-  return h * std::clamp(factor, 0.2, 8.0);
+  if (next == at_) return {h_next, result.error};
+  changeTo(next);
+  return {best.h, best.error};
 }
 
 template <class Real>

@@ -13,9 +13,10 @@ namespace irk {
 /// Members of a family share the Jacobian; each keeps its own factors and scratch. After an accepted
 /// step the errors e_q of the members below and above are known or guessed: below, by the stages'
 /// polynomial cut to their degree; above, by the same ratio again, as the coefficients of a smooth
-/// solution decay. They give the steps h_q = h e_q^(-1/(q+1)); the member with the largest h_q per
-/// work is next. A member above is taken only while Newton's contraction is small (Hairer & Wanner,
-/// J. Comput. Appl. Math. 111, 1999), a member below after Newton has failed.
+/// solution decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which
+/// grows with the step, its iterations and the work. The member with the most progress per work is
+/// next; none is with a step for which Newton would contract badly (Hairer & Wanner, J. Comput.
+/// Appl. Math. 111, 1999, decide by the contraction alone). After Newton has failed: the one below.
 template <class Real>
 class VariableOrder final : public StepAttempt<Real> {
  public:
@@ -25,7 +26,7 @@ class VariableOrder final : public StepAttempt<Real> {
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
   void forget() override;
-  double accepted(const AttemptResult& result, double h, double h_next) override;
+  NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   void failed(double h) override;
   int order() const override;
   StepPieces<Real> pieces(const State<Real>& from) const override {
@@ -47,7 +48,12 @@ class VariableOrder final : public StepAttempt<Real> {
   };
   Member& member() { return *members_[at_]; }
   const Member& member() const { return *members_[at_]; }
-  double progress(double error, const Member& member, double h) const;
+  struct Plan {
+    double h, error;
+    double progress;  ///< h per work; 0: not to be taken
+  };
+  Plan plan(double error, const Member& member, const AttemptResult& now, double h,
+            double trend) const;
   void changeTo(std::size_t next);
 
   std::vector<std::unique_ptr<Member>> members_;
@@ -56,6 +62,7 @@ class VariableOrder final : public StepAttempt<Real> {
   bool again_ = true;                  // filter twice: after a start and a rejection
   int since_change_ = 0;               // accepted steps
   double lower_error_;                 // of the member below, NaN if not known
+  double unknowns_;
 };
 
 }  // namespace irk
