@@ -103,7 +103,10 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
     const double f = powerOf(h, powers_.v[static_cast<std::size_t>(i)]);
     squares[i] = square(f * h / wv[i]) + square(h * h / wu[i]);
   }
-  for (Index i = 0; i < nx; ++i) squares[nu + i] = square(h / wx[i]);
+  for (Index i = 0; i < nx; ++i) {
+    const double f = powerOf(h, powers_.x[static_cast<std::size_t>(i)]);
+    squares[nu + i] = square(f * h / wx[i]);
+  }
   for (Index i = 0; i < nz; ++i) {
     const double f = powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
     squares[nu + nx + i] = square(f / wz[i]);

@@ -103,6 +103,9 @@ class ProblemSystem final : public System<Real> {
     error_powers_ = {all(sizes_.nu, 0),
                      all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
                      all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
+    for (Index i = 0; i < sizes_.nx; ++i) {
+      error_powers_.x[static_cast<std::size_t>(i)] = differentialIndex(i) - 1;
+    }
     for (Index i = 0; i < sizes_.nz; ++i) {
       const bool constraint = i < sizes_.constraints;
       const int power = (constraint ? index : algebraicIndex()) - 1;
@@ -199,6 +202,15 @@ class ProblemSystem final : public System<Real> {
   /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.
   static int algebraicIndex() {
     if constexpr (requires { P::kAlgebraicIndex; }) return P::kAlgebraicIndex;
+    return 1;
+  }
+  /// 1 where a problem does not say that some of its x are of index 2: those whose derivatives the
+  /// algebraic unknowns of index 3 determine.
+  static int differentialIndex(Index i) {
+    if constexpr (requires { P::kDifferentialIndices; }) {
+      return P::kDifferentialIndices[static_cast<std::size_t>(i)];
+    }
+    static_cast<void>(i);
     return 1;
   }
   int constraintIndex() const {

@@ -122,8 +122,10 @@ Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& syst
     if (!own || index == 0) return p;
     if (i < n.nu) return index < 3 ? p : differential;
     if (i < 2 * n.nu) return index == 3 ? stage : index == 2 ? differential : p;
-    if (i < 2 * n.nu + n.nx) return index == 1 ? p : differential;
-    const int power = powers.z[static_cast<std::size_t>(i - 2 * n.nu - n.nx)];
+    const auto at = static_cast<std::size_t>(i - 2 * n.nu);
+    const bool algebraic = i >= 2 * n.nu + n.nx;
+    if (!algebraic && powers.x[at] == 0) return index == 1 ? p : differential;
+    const int power = algebraic ? powers.z[at - static_cast<std::size_t>(n.nx)] : powers.x[at];
     if (power == 0) return index == 1 && scheme.stiffly_accurate ? p : stage;
     return std::max(stage - (power - 1), 1);
   };

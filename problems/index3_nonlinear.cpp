@@ -10,6 +10,7 @@ namespace {
 
 struct Index3Nonlinear {
   static constexpr int kAlgebraicIndex = 3;
+  static constexpr std::array kDifferentialIndices = {1, 1, 2, 2};
   static constexpr std::array kRates = {2, -1, 2, -1};
   static constexpr std::array kNames = {"y1", "y2", "z1", "z2"};
   static constexpr int kAlgebraicRate = 1;
