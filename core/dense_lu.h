@@ -16,6 +16,7 @@ class DenseLu {
 
   /// To be filled before `factorize`.
   Mat<T>& matrix() { return matrix_; }
+  T* values() { return matrix_.data(); }
 
   [[nodiscard]] Outcome factorize() {
     if (!matrix_.allFinite()) return Outcome::kNotFinite;
@@ -26,13 +27,13 @@ class DenseLu {
     return Outcome::kSuccess;
   }
 
-  /// In place; x has n entries.
-  template <class X>
-  void solve(X&& x) {
-    scratch_.noalias() = lu_.permutationP() * x;
+  /// In place; x has n entries, contiguous.
+  void solve(T* x) {
+    VecView<T> view(x, matrix_.rows());
+    scratch_.noalias() = lu_.permutationP() * view;
     lu_.matrixLU().template triangularView<Eigen::UnitLower>().solveInPlace(scratch_);
     lu_.matrixLU().template triangularView<Eigen::Upper>().solveInPlace(scratch_);
-    x = scratch_;
+    view = scratch_;
   }
 
  private:
