@@ -65,7 +65,7 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
 
 template <class Real>
 bool Differentiator<Real>::detects() const {
-  return sizes_.n() >= kDetectFrom || storage_ == Storage::kSparse;
+  return sizes_.n() >= kSparseFrom || storage_ == Storage::kSparse;
 }
 
 template <class Real>

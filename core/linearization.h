@@ -45,13 +45,12 @@ enum class JacobianTerms {
 /// Which matrices a Differentiator evaluates; the others stay zero.
 enum class Matrices { kAll, kOnlyD0 };
 
-/// Below this many unknowns no pattern is looked for: every column is a direction of its own.
-inline constexpr Index kDetectFrom = 16;
-/// `automatic` storage is sparse from this many unknowns on where no more than this part of the
-/// pattern is filled. Measured on beam_chain (5 entries a row) and ANCF elements (12 a row): sparse
-/// and dense factorization and solve cost the same near here. experiments/kernels/.
-inline constexpr Index kSparseFrom = 40;
-inline constexpr double kSparseFill = 0.3;
+/// Below this many unknowns no pattern is looked for: every column is a direction of its own. From
+/// it on `automatic` storage is sparse where no more than kSparseFill of the pattern is filled.
+/// Measured: at n = 16 a sparse factorization takes two fifths of the dense one's time on
+/// beam_chain (5 entries a row), at n = 18 three fifths on ANCF elements (12 a row).
+inline constexpr Index kSparseFrom = 16;
+inline constexpr double kSparseFill = 0.5;
 
 /// Evaluates a Linearization. Its first evaluation finds the pattern, and colours it: then a
 /// Jacobian takes as many directions as the fullest row needs, whatever n. Every evaluation

@@ -10,7 +10,7 @@ namespace irk {
 
 /// How D0, D1, D2 and the Newton matrices are kept.
 enum class Storage {
-  kAutomatic,  ///< sparse from `kSparseFrom` unknowns on where the pattern is sparse enough
+  kAutomatic,  ///< sparse where the system is large and its pattern sparse enough; linearization.h
   kDense,
   kSparse,
 };
