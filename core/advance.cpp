@@ -46,6 +46,7 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
   start_detail_.clear();
   blamed_ = -1;
   note_.clear();
+  jacobian_.forgetPattern();
   restart();
   state_ = system_.fromScene(start);
   const Outcome modes = settle();

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/multiprecision.h"
+#include "core/rate_lu.h"
 
 namespace irk {
 namespace {
@@ -18,6 +19,20 @@ StartReport report(Outcome outcome, double t, Index row, const char* what, doubl
   text << "at the start, t = " << t << ": row " << row << ": " << what << " = " << value;
   if (outcome == Outcome::kInconsistentStart) text << ", allowed " << kConstraintTolerance;
   return {outcome, text.str()};
+}
+
+// x := D0^-1 x. False where D0 is singular; a dense one is asked with full pivoting.
+template <class Real>
+bool divide(const Linearization<Real>& D, RateLu<Real>& sparse, Vec<Real>& x) {
+  if (D.pattern->full) {
+    const Eigen::FullPivLU<Mat<Real>> lu(D.dense0());
+    if (!lu.isInvertible()) return false;
+    x = lu.solve(x).eval();
+    return true;
+  }
+  if (sparse.factorize(D) != Outcome::kSuccess) return false;
+  sparse.solve(x);
+  return true;
 }
 
 }  // namespace
@@ -48,20 +63,22 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
     }
   }
 
-  Differentiator<Real> differentiator(system, source);
-  Linearization<Real> D(Pattern::dense(n.n()));
+  Differentiator<Real> differentiator(system, source, JacobianTerms::kFull, Storage::kAutomatic,
+                                      Matrices::kOnlyD0);
+  Linearization<Real> D;
+  RateLu<Real> sparse;
   const Vec<Real> given = state.w;
+  Vec<Real> dw(n.n());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   for (int i = 0; i < kIterations; ++i) {
     system.evaluate(Level::kAcceleration, pointOf(state), rows);
     differentiator.evaluate(Level::kAcceleration, pointOf(state), D);
-    const Mat<Real> D0 = D.dense0();
-    if (!r.allFinite() || !D0.allFinite()) {
+    if (!r.allFinite() || !D.d0.allFinite()) {
       return report(Outcome::kNotFinite, t, -1, "residual or derivative",
                     static_cast<double>(r.sum()));
     }
-    const Eigen::FullPivLU<Mat<Real>> lu(D0);
-    if (!lu.isInvertible()) {
+    dw = r;
+    if (!divide(D, sparse, dw)) {
       state.w = given;
       system.evaluate(Level::kFormulated, pointOf(state), rows);
       Index worst = 0;
@@ -72,7 +89,6 @@ StartReport makeConsistent(const System<Real>& system, DerivativeSource source, 
                     "the residual",
                     value);
     }
-    const Vec<Real> dw = lu.solve(r);
     state.w -= dw;
     if (dw.norm() <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
   }

@@ -1,24 +1,27 @@
 // Decorators that count: no strategy can forget it.
 #pragma once
 
+#include <atomic>
+
 #include "core/statistics.h"
 #include "core/system.h"
 
 namespace irk {
 
-/// Forwards to another system and counts its evaluations. One per integrator.
+/// Forwards to another system and counts its evaluations. One per integrator; several threads may
+/// evaluate it where that is said at its construction.
 template <class Real>
 class CountingSystem final : public System<Real> {
  public:
-  CountingSystem(const System<Real>& inner, Counters& counters)
-      : inner_(inner), counters_(counters) {}
+  CountingSystem(const System<Real>& inner, Counters& counters, int threads = 1)
+      : inner_(inner), counters_(counters), threads_(threads) {}
   Sizes sizes() const override { return inner_.sizes(); }
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
-    ++counters_.residuals;
+    count(counters_.residuals);
     inner_.evaluate(level, p, r);
   }
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
-    ++counters_.dual_residuals;
+    count(counters_.dual_residuals);
     inner_.evaluate(level, p, r);
   }
   const std::vector<int>& rowPowers() const override { return inner_.rowPowers(); }
@@ -36,8 +39,17 @@ class CountingSystem final : public System<Real> {
   State<Real> toScene(const State<Real>& state) const override { return inner_.toScene(state); }
 
  private:
+  void count(std::int64_t& counter) const {
+    if (threads_ == 1) {
+      ++counter;
+    } else {
+      std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
+    }
+  }
+
   const System<Real>& inner_;
   Counters& counters_;
+  int threads_;
 };
 
 }  // namespace irk

@@ -1,73 +1,87 @@
 #include "core/decoupled.h"
 
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+
 #include "core/multiprecision.h"
 
 namespace irk {
 
-template <class Real>
-Decoupled<Real>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form)
+template <class Real, template <class> class Lu>
+Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form)
     : setup_(setup),
       form_(std::move(form)),
       T2_(form_.T * form_.T),
+      outcomes_(form_.blocks.size()),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, setup.A.rows()),
       D2Y_(setup.pattern->n, setup.A.rows()),
       eta_(setup.pattern->n) {
-  for (const auto& block : form_.blocks) {
-    if (block.size == 1) {
-      lu_index_.push_back(real_lu_.size());
-      real_lu_.emplace_back(setup.pattern->n);
-    } else {
-      lu_index_.push_back(complex_lu_.size());
-      complex_lu_.emplace_back(setup.pattern->n);
+  const auto add = [&](const auto& shape) {
+    for (const auto& block : form_.blocks) {
+      lu_index_.push_back(block.size == 1 ? real_lu_.size() : complex_lu_.size());
+      if (block.size == 1) {
+        real_lu_.emplace_back(shape);
+      } else {
+        complex_lu_.emplace_back(shape);
+      }
     }
+  };
+  if constexpr (std::is_same_v<Lu<Real>, SparseLu<Real>>) {
+    add(std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row));
+  } else {
+    add(setup.pattern->n);
   }
 }
 
-template <class Real>
-Outcome Decoupled<Real>::factorize(std::span<const Linearization<Real>> at, const Real& h) {
-  const Linearization<Real>& D = at.front();
-  const Index n = setup_.pattern->n;
-  at_ = &D;
+// The blocks are independent of each other: any number of threads gives the same bits.
+template <class Real, template <class> class Lu>
+Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, const Real& h) {
+  at_ = &at.front();
   h_ = h;
   rowScales(setup_.row_powers, h, scales_);
-  for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
-    const auto& block = form_.blocks[k];
-    Outcome outcome = Outcome::kSuccess;
-    if (block.size == 1) {
-      auto& lu = real_lu_[lu_index_[k]];
-      const Real m1 = h * block.mu.real();
-      const Real m2 = m1 * m1;
-      for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-          const Index e = j * n + i;
-          lu.matrix()(i, j) = scales_[i] * (D.d0[e] + m1 * D.d1[e] + m2 * D.d2[e]);
-        }
-      }
-      outcome = lu.factorize();
-    } else {
-      auto& lu = complex_lu_[lu_index_[k]];
-      const Complex m1 = h * block.mu;
-      const Complex m2 = m1 * m1;
-      for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-          const Index e = j * n + i;
-          lu.matrix()(i, j) =
-              Complex(scales_[i] * (D.d0[e] + m1.real() * D.d1[e] + m2.real() * D.d2[e]),
-                      scales_[i] * (m1.imag() * D.d1[e] + m2.imag() * D.d2[e]));
-        }
-      }
-      outcome = lu.factorize();
-    }
-    if (outcome != Outcome::kSuccess) return outcome;
+  const std::size_t blocks = form_.blocks.size();
+  if (setup_.threads > 1) {
+#pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
+    for (std::size_t k = 0; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
+  } else {
+    for (std::size_t k = 0; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   }
-  return Outcome::kSuccess;
+  const auto failed = std::find_if(outcomes_.begin(), outcomes_.end(),
+                                   [](Outcome o) { return o != Outcome::kSuccess; });
+  return failed == outcomes_.end() ? Outcome::kSuccess : *failed;
+}
+
+template <class Real, template <class> class Lu>
+Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
+  const auto& block = form_.blocks[index];
+  const Linearization<Real>& D = *at_;
+  if (block.size == 1) {
+    auto& lu = real_lu_[lu_index_[index]];
+    const Real m1 = h_ * block.mu.real();
+    const Real m2 = m1 * m1;
+    Real* const values = lu.values();
+    setup_.pattern->forEach([&](Index k, Index row) {
+      values[k] = scales_[row] * (D.d0[k] + m1 * D.d1[k] + m2 * D.d2[k]);
+    });
+    return lu.factorize();
+  }
+  auto& lu = complex_lu_[lu_index_[index]];
+  const Complex m1 = h_ * block.mu;
+  const Complex m2 = m1 * m1;
+  Complex* const values = lu.values();
+  setup_.pattern->forEach([&](Index k, Index row) {
+    values[k] = Complex(scales_[row] * (D.d0[k] + m1.real() * D.d1[k] + m2.real() * D.d2[k]),
+                        scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k]));
+  });
+  return lu.factorize();
 }
 
 // Subtracts what the blocks right of this one, already solved, contribute to its rows.
-template <class Real>
-void Decoupled<Real>::coupleRows(const typename BlockForm<Real>::Block& block) {
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& block) {
   for (Index i = block.start; i < block.start + block.size; ++i) {
     for (Index m = block.start + block.size; m < Y_.cols(); ++m) {
       const Real f1 = h_ * form_.T(i, m);
@@ -77,46 +91,66 @@ void Decoupled<Real>::coupleRows(const typename BlockForm<Real>::Block& block) {
   }
 }
 
-template <class Real>
-void Decoupled<Real>::solveBlock(std::size_t index) {
+// D1 and D2 times a column of Y. D1 acts on (v, x), D2 on u: their other columns are zero.
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::multiply(Index column) {
+  const Index nu = setup_.sizes.nu, rates = nu + setup_.sizes.nx;
+  auto D1y = D1Y_.col(column);
+  auto D2y = D2Y_.col(column);
+  const auto y = Y_.col(column);
+  if constexpr (std::is_same_v<Lu<Real>, SparseLu<Real>>) {
+    const Pattern& pattern = *setup_.pattern;
+    D1y.setZero();
+    D2y.setZero();
+    for (Index j = 0; j < rates; ++j) {
+      const auto c = static_cast<std::size_t>(j);
+      for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+        const Index row = pattern.row[static_cast<std::size_t>(k)];
+        D1y[row] += at_->d1[k] * y[j];
+        D2y[row] += at_->d2[k] * y[j];
+      }
+    }
+  } else {
+    D1y.noalias() = at_->dense1().leftCols(rates) * y.head(rates);
+    D2y.noalias() = at_->dense2().leftCols(nu) * y.head(nu);
+  }
+  D1y.array() *= scales_.array();
+  D2y.array() *= scales_.array();
+}
+
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
   const auto& block = form_.blocks[index];
   const Index i = block.start;
   if (block.size == 1) {
-    real_lu_[lu_index_[index]].solve(Y_.col(i));
+    real_lu_[lu_index_[index]].solve(Y_.col(i).data());
     return;
   }
   for (Index k = 0; k < Y_.rows(); ++k) {
     eta_[k] = Complex(Y_(k, i), Real(block.sigma * Y_(k, i + 1)));
   }
-  complex_lu_[lu_index_[index]].solve(eta_);
+  complex_lu_[lu_index_[index]].solve(eta_.data());
   for (Index k = 0; k < Y_.rows(); ++k) {
     Y_(k, i) = eta_[k].real();
     Y_(k, i + 1) = eta_[k].imag() / block.sigma;
   }
 }
 
-template <class Real>
-void Decoupled<Real>::solve(Eigen::Ref<Mat<Real>> rhs) {
-  const Sizes& n = setup_.sizes;
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
   Y_.noalias() = rhs * form_.Q_inverse.transpose();
   for (std::size_t k = form_.blocks.size(); k-- > 0;) {
     const auto& block = form_.blocks[k];
     if (!form_.diagonal) coupleRows(block);
     solveBlock(k);
     if (form_.diagonal || k == 0) continue;
-    // D1 acts on (v, x), D2 on u: their other columns are zero.
-    const auto D1 = at_->dense1().leftCols(n.nu + n.nx);
-    const auto D2 = at_->dense2().leftCols(n.nu);
-    for (Index j = block.start; j < block.start + block.size; ++j) {
-      D1Y_.col(j).noalias() = D1 * Y_.col(j).head(n.nu + n.nx);
-      D1Y_.col(j).array() *= scales_.array();
-      D2Y_.col(j).noalias() = D2 * Y_.col(j).head(n.nu);
-      D2Y_.col(j).array() *= scales_.array();
-    }
+    for (Index j = block.start; j < block.start + block.size; ++j) multiply(j);
   }
   rhs.noalias() = Y_ * form_.Q.transpose();
 }
 
-IRK_INSTANTIATE_CLASS(Decoupled)
+template class Decoupled<double, DenseLu>;
+template class Decoupled<mp50, DenseLu>;
+template class Decoupled<double, SparseLu>;
 
 }  // namespace irk

@@ -7,11 +7,13 @@
 
 #include "core/block_form.h"
 #include "core/dense_lu.h"
+#include "core/sparse_lu.h"
 #include "core/stage_solver.h"
 
 namespace irk {
 
-template <class Real>
+/// Lu: DenseLu, or SparseLu with one analysis for all blocks and step sizes.
+template <class Real, template <class> class Lu>
 class Decoupled final : public StageSolver<Real> {
  public:
   Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form);
@@ -21,15 +23,18 @@ class Decoupled final : public StageSolver<Real> {
 
  private:
   using Complex = std::complex<Real>;
+  Outcome factorizeBlock(std::size_t index);
   void coupleRows(const typename BlockForm<Real>::Block& block);
+  void multiply(Index column);
   void solveBlock(std::size_t index);
 
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;
   Mat<Real> T2_;
-  std::vector<DenseLu<Real>> real_lu_;        // by block, in order of the real ones
-  std::vector<DenseLu<Complex>> complex_lu_;  // by block, in order of the pairs
+  std::vector<Lu<Real>> real_lu_;        // by block, in order of the real ones
+  std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
   std::vector<std::size_t> lu_index_;
+  std::vector<Outcome> outcomes_;  // by block
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;

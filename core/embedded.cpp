@@ -11,8 +11,7 @@ namespace {
 
 template <class Real>
 StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
-  return {Mat<Real>::Constant(1, 1, mu), Pattern::dense(system.sizes().n()), system.rowPowers(),
-          system.sizes()};
+  return {Mat<Real>::Constant(1, 1, mu), nullptr, system.rowPowers(), system.sizes()};
 }
 
 }  // namespace
@@ -47,9 +46,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       norm_(norm),
       sizes_(system.sizes()),
       mu_(weight(scheme)),
-      matrix_(jacobian,
-              std::make_unique<CountingStageSolver<Real>>(
-                  makeStageSolver(options.solver, filterSetup(system, mu_)), counters)),
+      matrix_(jacobian, options.solver, filterSetup(system, mu_), counters),
       row_powers_(system.rowPowers()),
       scales_(sizes_.n()),
       basis_(scheme.s),

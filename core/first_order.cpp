@@ -207,7 +207,7 @@ void FirstOrderForm<Real>::divideByMatrix(Vec<Real>& x) const {
   if (rates_ == Rates::kDiagonal) {
     x.array() /= diagonal_.array();
   } else {
-    lu_.solve(x);
+    lu_.solve(x.data());
   }
 }
 

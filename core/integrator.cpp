@@ -35,11 +35,17 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
   }
   const bool each_stage = options.jacobian_point == JacobianPoint::kEachStage;
   const bool full = options.newton.kind == NewtonKind::kFull;
-  if ((each_stage || full) && options.solver != StageSolverKind::kCoupledDense) {
+  const bool decoupled =
+      options.solver == StageSolverKind::kSchur || options.solver == StageSolverKind::kEigen;
+  if ((each_stage || full) && decoupled) {
     throw Misuse(std::string("illegal combination: ") +
                  (full ? "newton 'full'" : "jacobian_point 'each_stage'") + " with solver '" +
                  std::string(idOf(options.solver)) +
-                 "': stage-wise derivatives do not decouple; use solver 'coupled_dense'");
+                 "': stage-wise derivatives do not decouple; use solver 'coupled_dense' or 'coupled_sparse'");
+  }
+  if (options.threads > 1 && dynamic_cast<const FirstOrderForm<Real>*>(&system)) {
+    throw Misuse("illegal combination: threads = " + std::to_string(options.threads) +
+                 " with formulation 'first_order': it keeps factors, one thread at a time");
   }
   if (options.order == OrderControl::kVariable &&
       (options.step.estimate != ErrorEstimate::kEmbedded || each_stage)) {
@@ -65,7 +71,7 @@ class Integrator<Real>::Run {
       const IntegratorOptions& options, const Vec<double>& scale)
       : system_(std::move(system)),
         options_(validated(options)),
-        counted_(*system_, counters_),
+        counted_(*system_, counters_, options_.threads),
         schemes_(methods.members.begin(), methods.members.end()),
         norm_(counted_, options_.tolerances, scale) {
     const Scheme<Real>& scheme = schemes_.at(methods.start);

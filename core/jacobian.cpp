@@ -1,17 +1,32 @@
 #include "core/jacobian.h"
 
+#include "core/block_form.h"
 #include "core/multiprecision.h"
 
 namespace irk {
+namespace {
+
+// The pattern can grow at any of the stages; they have to share one.
+template <class Real, class PointOf>
+void evaluateStages(Differentiator<Real>& differentiator, std::vector<Linearization<Real>>& at,
+                    Counters& counters, const PointOf& point) {
+  for (std::size_t i = 0; i < at.size();) {
+    const auto before = differentiator.pattern();
+    ++counters.jacobians;
+    differentiator.evaluate(Level::kFormulated, point(static_cast<Index>(i)), at[i]);
+    i = i > 0 && !sameShape(differentiator.pattern(), before) ? 0 : i + 1;
+  }
+}
+
+}  // namespace
 
 template <class Real>
 SharedJacobian<Real>::SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
                                      const IntegratorOptions& options, Counters& counters)
-    : differentiator_(system, options.derivatives, options.jacobian),
+    : differentiator_(system, options.derivatives, options.jacobian, storageOf(options)),
       at_(options.jacobian_point == JacobianPoint::kEachStage
               ? static_cast<std::size_t>(scheme.implicitStages())
-              : 1,
-          Linearization<Real>(Pattern::dense(system.sizes().n()))),
+              : 1),
       point_(options.jacobian_point),
       counters_(counters) {}
 
@@ -19,11 +34,8 @@ template <class Real>
 void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq, const Mat<Real>& W) {
   if (point_ == JacobianPoint::kEachStage) {
     eq.place(W);
-    for (std::size_t i = 0; i < at_.size(); ++i) {
-      ++counters_.jacobians;
-      const Index stage = eq.scheme().first + static_cast<Index>(i);
-      differentiator_.evaluate(Level::kFormulated, eq.stage(W, stage), at_[i]);
-    }
+    evaluateStages(differentiator_, at_, counters_,
+                   [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
   } else {
     ++counters_.jacobians;
     const bool middle = point_ == JacobianPoint::kMiddle;
@@ -41,8 +53,33 @@ void SharedJacobian<Real>::forget() {
 }
 
 template <class Real>
+void SharedJacobian<Real>::forgetPattern() {
+  stale_ = true;
+  differentiator_.forgetPattern();
+}
+
+template <class Real>
+NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind,
+                                 StageSolverSetup<Real> setup, Counters& counters)
+    : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters) {
+  if (shared_.differentiator().pattern()) {
+    adopt(shared_.differentiator().pattern());
+  } else if (kind == StageSolverKind::kEigen) {
+    static_cast<void>(eigenForm(setup_.A));  // throws
+  }
+}
+
+template <class Real>
+void NewtonMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
+  setup_.pattern = std::move(pattern);
+  solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
+}
+
+template <class Real>
 Outcome NewtonMatrix<Real>::prepare(const Real& h) {
   if (version_ == shared_.version() && h_ == h) return Outcome::kSuccess;
+  const auto& pattern = shared_.at().front().pattern;
+  if (!sameShape(pattern, setup_.pattern)) adopt(pattern);
   const Outcome outcome = solver_->factorize(shared_.at(), h);
   version_ = outcome == Outcome::kSuccess ? shared_.version() : 0;
   h_ = h;
@@ -56,27 +93,36 @@ constexpr Index kEagerSize = 300;
 template <class Real>
 StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup,
                                        NewtonKind newton, Counters& counters)
-    : shared_(shared), setup_(std::move(setup)), counters_(counters) {
-  const bool used = newton != NewtonKind::kSimplified;
-  if (used && setup_.A.rows() * setup_.pattern->n <= kEagerSize) allocate();
+    : shared_(shared),
+      setup_(std::move(setup)),
+      used_(newton != NewtonKind::kSimplified),
+      counters_(counters),
+      at_(static_cast<std::size_t>(setup_.A.rows())) {
+  reserve();
 }
 
 template <class Real>
-void StagewiseMatrix<Real>::allocate() {
-  at_.assign(static_cast<std::size_t>(setup_.A.rows()), Linearization<Real>(setup_.pattern));
-  solver_ = std::make_unique<CountingStageSolver<Real>>(
-      makeStageSolver(StageSolverKind::kCoupledDense, setup_), counters_);
+void StagewiseMatrix<Real>::reserve() {
+  const auto& pattern = shared_.differentiator().pattern();
+  if (!used_ || !pattern || sameShape(pattern, setup_.pattern)) return;
+  if (pattern->full && setup_.A.rows() * pattern->n > kEagerSize) return;
+  at_.assign(at_.size(), Linearization<Real>(pattern));
+  adopt(pattern);
+}
+
+template <class Real>
+void StagewiseMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
+  setup_.pattern = std::move(pattern);
+  const StageSolverKind kind = setup_.pattern->full ? StageSolverKind::kCoupledDense
+                                                    : StageSolverKind::kCoupledSparse;
+  solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind, setup_), counters_);
 }
 
 template <class Real>
 Outcome StagewiseMatrix<Real>::prepare(const StageEquations<Real>& eq, const Mat<Real>& W) {
-  const Index first = eq.scheme().first;
-  if (!solver_) allocate();
-  for (Index i = 0; i < eq.scheme().implicitStages(); ++i) {
-    ++counters_.jacobians;
-    shared_.differentiator().evaluate(Level::kFormulated, eq.stage(W, first + i),
-                                      at_[static_cast<std::size_t>(i)]);
-  }
+  evaluateStages(shared_.differentiator(), at_, counters_,
+                 [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
+  if (!sameShape(at_.front().pattern, setup_.pattern)) adopt(at_.front().pattern);
   return solver_->factorize(at_, eq.h());
 }
 

@@ -20,8 +20,10 @@ class SharedJacobian {
 
   /// Evaluates at the start or middle of the step that `eq` has begun, or at the stages W.
   void evaluate(StageEquations<Real>& eq, const Mat<Real>& W);
-  /// A new integration.
+  /// A new mode.
   void forget();
+  /// A new integration.
+  void forgetPattern();
   /// Ask for a new evaluation at the next step's start.
   void markStale() { stale_ = true; }
   bool stale() const { return stale_; }
@@ -42,12 +44,14 @@ class SharedJacobian {
   bool stale_ = true;
 };
 
-/// A factorization for one step size; refactorized when the shared Jacobian or h has changed.
+/// A factorization for one step size; refactorized when the shared Jacobian or h has changed. Its
+/// solver is made when the pattern is known.
 template <class Real>
 class NewtonMatrix {
  public:
-  NewtonMatrix(SharedJacobian<Real>& shared, std::unique_ptr<StageSolver<Real>> solver)
-      : shared_(shared), solver_(std::move(solver)) {}
+  /// The setup has no pattern. Throws Misuse for `eigen` with a defective A.
+  NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup,
+               Counters& counters);
 
   /// Factors of the shared Jacobian for step h.
   [[nodiscard]] Outcome prepare(const Real& h);
@@ -55,29 +59,37 @@ class NewtonMatrix {
   SharedJacobian<Real>& shared() { return shared_; }
 
  private:
+  void adopt(std::shared_ptr<const Pattern> pattern);
+
   SharedJacobian<Real>& shared_;
+  StageSolverKind kind_;
+  StageSolverSetup<Real> setup_;
+  Counters& counters_;
   std::unique_ptr<StageSolver<Real>> solver_;
   int version_ = 0;
   Real h_{};
 };
 
-/// A Newton matrix with the derivatives of each stage: full Newton. A large one (s n above 300) is
-/// allocated when it is first needed: as the fallback of `modified` it usually never is.
+/// A Newton matrix with the derivatives of each stage: full Newton. A large dense one (s n above
+/// 300) is allocated when it is first needed: as the fallback of `modified` it usually never is.
 template <class Real>
 class StagewiseMatrix {
  public:
   StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, NewtonKind newton,
                   Counters& counters);
 
+  /// Allocates what the first use would, where it is not too large and the pattern is known.
+  void reserve();
   /// Evaluates and factorizes at the stages of the last residual of `eq`.
   [[nodiscard]] Outcome prepare(const StageEquations<Real>& eq, const Mat<Real>& W);
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
 
  private:
-  void allocate();
+  void adopt(std::shared_ptr<const Pattern> pattern);
 
   SharedJacobian<Real>& shared_;
   StageSolverSetup<Real> setup_;
+  bool used_;
   Counters& counters_;
   std::vector<Linearization<Real>> at_;
   std::unique_ptr<StageSolver<Real>> solver_;

@@ -2,97 +2,155 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
+#include "core/misuse.h"
 #include "core/multiprecision.h"
 
 namespace irk {
+namespace {
 
-std::shared_ptr<const Pattern> Pattern::dense(Index n) {
-  auto p = std::make_shared<Pattern>();
-  p->n = n;
-  for (Index j = 0; j <= n; ++j) p->column_start.push_back(static_cast<int>(j * n));
-  for (Index j = 0; j < n; ++j) {
-    for (Index i = 0; i < n; ++i) p->row.push_back(static_cast<int>(i));
+// Of the rows' terms: round-off for exact derivatives, truncation for differences.
+constexpr double kDualCheck = 1e-8, kDifferenceCheck = 1e-3;
+// A failed check that no new entry explains was round-off.
+constexpr double kLooser = 10;
+
+template <class F>
+void forEachEntry(const Pattern& pattern, Index first_column, Index columns, Index first_row,
+                  Index rows, F&& f) {
+  for (Index j = first_column; j < first_column + columns; ++j) {
+    const auto c = static_cast<std::size_t>(j);
+    for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+      const Index i = pattern.row[static_cast<std::size_t>(k)];
+      if (i >= first_row && i < first_row + rows) f(static_cast<Index>(k));
+    }
   }
-  return p;
 }
 
-template <class Real>
-template <class T>
-Differentiator<Real>::Buffers<T>::Buffers(const Sizes& n)
-    : u(n.nu), v(n.nu), x(n.nx), w(n.n()), d(n.discrete), r(n.n()) {}
-
-template <class Real>
-template <class T>
-Point<T> Differentiator<Real>::Buffers<T>::point(const Sizes& n, const T& t) const {
-  return {t,
-          {u.data(), n.nu},
-          {v.data(), n.nu},
-          {x.data(), n.nx},
-          {w.data(), n.nu},
-          {w.data() + n.nu, n.nx},
-          {w.data() + n.nu + n.nx, n.nz},
-          {d.data(), n.discrete}};
-}
-
-template <class Real>
-template <class T>
-T& Differentiator<Real>::Buffers<T>::component(const Direction& along, const Sizes& n) {
-  if (along.matrix == 0) return w[along.column];
-  if (along.matrix == 2) return u[along.column];
-  return along.column < n.nu ? v[along.column] : x[along.column - n.nu];
-}
+}  // namespace
 
 template <class Real>
 Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source,
-                                     JacobianTerms terms)
+                                     JacobianTerms terms, Storage storage, Matrices matrices)
     : system_(system),
       source_(source),
       sizes_(system.sizes()),
       terms_(terms),
+      storage_(storage),
       dual_(sizes_),
       real_(sizes_),
       base_(sizes_.n()),
-      zero_a_(Vec<Real>::Zero(sizes_.nu)) {
-  const Index nu = sizes_.nu, nx = sizes_.nx, n = sizes_.n();
+      zero_a_(Vec<Real>::Zero(sizes_.nu)),
+      expected_(sizes_.n()),
+      magnitude_(sizes_.n()) {
+  if (!std::is_same_v<Real, double>) {
+    if (storage == Storage::kSparse) {
+      throw Misuse("illegal combination: storage 'sparse' with scalar 'mp50': KLU is for double");
+    }
+    storage_ = Storage::kDense;
+  }
   const bool no_mass = terms == JacobianTerms::kNoMass;
   const bool no_vxz = no_mass || terms == JacobianTerms::kNoMassVxz;
-  for (Index j = 0; j < nu + nx; ++j) at_a_.push_back({0, j});
-  for (Index j = nu + nx; j < n; ++j) (no_vxz ? at_zero_ : at_a_).push_back({0, j});
-  for (Index j = 0; j < nu + nx; ++j) (no_vxz ? at_zero_ : at_a_).push_back({1, j});
   // Other rows than F2 have no constant stiffness: with them D2 has to be evaluated anyway.
-  const bool once = terms == JacobianTerms::kConstantStiffness && n == nu;
-  for (Index j = 0; j < nu; ++j) {
-    (no_mass ? at_zero_ : once ? stiffness_ : at_a_).push_back({2, j});
+  const bool once = terms == JacobianTerms::kConstantStiffness && sizes_.n() == sizes_.nu;
+  const Index rates = sizes_.nu + sizes_.nx;
+  for (const Direction& d : allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1)) {
+    const bool vxz = d.matrix == 1 || (d.matrix == 0 && d.column >= rates);
+    const bool at_zero = (no_vxz && vxz) || (no_mass && d.matrix == 2);
+    (at_zero ? at_zero_ : once && d.matrix == 2 ? stiffness_ : at_a_).directions.push_back(d);
+  }
+  forgetPattern();
+}
+
+template <class Real>
+bool Differentiator<Real>::detects() const {
+  return sizes_.n() >= kSparseFrom || storage_ == Storage::kSparse;
+}
+
+template <class Real>
+void Differentiator<Real>::forgetPattern() {
+  forget();
+  looked_ = false;
+  check_tolerance_ = source_ == DerivativeSource::kAutomatic ? kDualCheck : kDifferenceCheck;
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    group->rows = detects() ? RowSets(group->directions.size())
+                            : fullRows(group->directions.size(), sizes_.n());
+  }
+  const bool dense =
+      storage_ == Storage::kDense || (storage_ == Storage::kAutomatic && sizes_.n() < kSparseFrom);
+  if (!dense) {
+    pattern_ = nullptr;
+  } else if (!pattern_) {
+    pattern_ = Pattern::dense(sizes_.n());
+  }
+  if (!detects()) setPattern();
+}
+
+/// Looks at p. Returns whether there is anything new.
+template <class Real>
+bool Differentiator<Real>::look(Level level, const Point<Real>& p) {
+  bool grown = !looked_;
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    if (group->directions.empty()) continue;
+    const RowSets rows = detectRows(system_, level, p, group->directions);
+    if (unite(rows, group->rows)) grown = true;
+  }
+  looked_ = true;
+  if (grown) setPattern();
+  return grown;
+}
+
+template <class Real>
+void Differentiator<Real>::setPattern() {
+  const Index n = sizes_.n();
+  if (!pattern_ || !pattern_->full) {
+    Directions all;
+    RowSets rows;
+    for (const Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+      all.insert(all.end(), group->directions.begin(), group->directions.end());
+      rows.insert(rows.end(), group->rows.begin(), group->rows.end());
+    }
+    pattern_ = unionPattern(all, rows, n);
+    const double fill =
+        static_cast<double>(pattern_->nonzeros()) / (static_cast<double>(n) * static_cast<double>(n));
+    if (storage_ == Storage::kAutomatic && fill > kSparseFill) pattern_ = Pattern::dense(n);
+  }
+  std::size_t most = 0;
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    group->coloured = ColouredDirections(group->directions, group->rows, *pattern_);
+    most = std::max(most, group->directions.size());
+  }
+  y_.resize(static_cast<Index>(most));
+  delta_.resize(static_cast<Index>(most));
+  stiffness_known_ = false;
+}
+
+template <class Real>
+std::size_t Differentiator<Real>::directions() const {
+  return at_a_.coloured.colours() + at_zero_.coloured.colours() + stiffness_.coloured.colours();
+}
+
+template <class Real>
+void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
+  if (detects() && !looked_) look(level, p);
+  differentiate(level, p, out);
+  if (!incomplete_) return;
+  if (look(level, p)) {
+    differentiate(level, p, out);
+  } else {
+    check_tolerance_ *= kLooser;
   }
 }
 
 template <class Real>
-void Differentiator<Real>::store(const Direction& d, Index row, const Real& value,
-                                 Linearization<Real>& out) const {
-  Vec<Real>& values = d.matrix == 0 ? out.d0 : d.matrix == 1 ? out.d1 : out.d2;
-  values[d.column * sizes_.n() + row] = value;
-}
-
-namespace {
-// Copies the numbers below a point into buffers of another scalar.
-template <class Buffers, class Real>
-void copyPoint(const Point<Real>& p, const Sizes& n, Buffers& to) {
-  for (Index i = 0; i < n.nu; ++i) to.u[i] = p.u[i];
-  for (Index i = 0; i < n.nu; ++i) to.v[i] = p.v[i];
-  for (Index i = 0; i < n.nx; ++i) to.x[i] = p.x[i];
-  for (Index i = 0; i < n.nu; ++i) to.w[i] = p.a[i];
-  for (Index i = 0; i < n.nx; ++i) to.w[n.nu + i] = p.k[i];
-  for (Index i = 0; i < n.nz; ++i) to.w[n.nu + n.nx + i] = p.z[i];
-  for (Index i = 0; i < n.discrete; ++i) to.d[i] = p.d[i];
-}
-}  // namespace
-
-template <class Real>
-void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
+void Differentiator<Real>::differentiate(Level level, const Point<Real>& p,
+                                         Linearization<Real>& out) {
+  if (!sameShape(out.pattern, pattern_)) out = Linearization<Real>(pattern_);
+  incomplete_ = false;
   evaluateGroup(at_a_, level, p, out);
   if (!stiffness_known_) evaluateGroup(stiffness_, level, p, out);
-  if (!at_zero_.empty()) {
+  if (!at_zero_.directions.empty()) {
     const ConstVec<Real> zero(zero_a_.data(), sizes_.nu);
     evaluateGroup(at_zero_, level, {p.t, p.u, p.v, p.x, zero, p.k, p.z, p.d}, out);
   }
@@ -101,54 +159,97 @@ void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Lineariza
 }
 
 template <class Real>
-void Differentiator<Real>::evaluateGroup(const Directions& group, Level level,
-                                         const Point<Real>& p, Linearization<Real>& out) {
-  if (group.empty()) return;
+void Differentiator<Real>::evaluateGroup(const Group& group, Level level, const Point<Real>& p,
+                                         Linearization<Real>& out) {
+  if (group.directions.empty()) return;
   t_ = p.t;
+  expected_.setZero();
+  magnitude_.setZero();
   if (source_ == DerivativeSource::kAutomatic) {
-    copyPoint(p, sizes_, dual_);
-    evaluateDual(group, level, out);
+    dual_.copy(p);
+    evaluateDual(group.coloured, level, out);
   } else {
-    copyPoint(p, sizes_, real_);
-    evaluateDifferences(group, level, out);
+    real_.copy(p);
+    evaluateDifferences(group.coloured, level, out);
   }
 }
 
 template <class Real>
 void Differentiator<Real>::dropConstraintXz(Linearization<Real>& out) const {
-  const Index n = sizes_.n();
-  Eigen::Map<Mat<Real>> D0(out.d0.data(), n, n), D1(out.d1.data(), n, n);
-  D0.bottomRightCorner(sizes_.nz, sizes_.nz).setZero();
-  D1.block(n - sizes_.nz, sizes_.nu, sizes_.nz, sizes_.nx).setZero();
+  const Index nz = sizes_.nz, first = sizes_.nu + sizes_.nx;
+  forEachEntry(*out.pattern, first, nz, first, nz, [&](Index k) { out.d0[k] = Real(0); });
+  forEachEntry(*out.pattern, sizes_.nu, sizes_.nx, first, nz, [&](Index k) { out.d1[k] = Real(0); });
 }
 
 template <class Real>
 void Differentiator<Real>::keepStiffness(Linearization<Real>& out) {
-  Eigen::Map<Mat<Real>> D2(out.d2.data(), sizes_.n(), sizes_.n());
-  auto F2_u = D2.topLeftCorner(sizes_.nu, sizes_.nu);
-  if (stiffness_known_) {
-    F2_u = kept_stiffness_;
-  } else {
-    kept_stiffness_ = F2_u;
+  if (!stiffness_known_) {
+    kept_stiffness_ = out.d2;
     stiffness_known_ = true;
+    return;
+  }
+  forEachEntry(*out.pattern, 0, sizes_.nu, 0, sizes_.nu,
+               [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
+}
+
+/// Takes the changes along a colour, by row, to their matrices.
+template <class Real>
+template <class Change>
+void Differentiator<Real>::take(const ColouredDirections& group, std::size_t colour,
+                                const Change& change, Linearization<Real>& out) {
+  using std::abs;
+  if (colour == group.colours()) return check(change, out);
+  const bool exact = source_ == DerivativeSource::kAutomatic;
+  Real* const values[] = {out.d0.data(), out.d1.data(), out.d2.data()};
+  for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
+    const auto& entry = group.entries[e];
+    const Real value = change(entry.row);
+    values[entry.matrix][entry.slot] =
+        exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
+    if (!looked_) continue;
+    const Real part = Real(group.weights[entry.direction]) * value;
+    expected_[entry.row] += part;
+    magnitude_[entry.row] += abs(part);
   }
 }
 
+/// The rows' changes along the combination of all directions against what was stored.
 template <class Real>
-void Differentiator<Real>::evaluateDual(const Directions& group, Level level,
+template <class Change>
+void Differentiator<Real>::check(const Change& change, Linearization<Real>& out) {
+  using std::abs;
+  using std::isfinite;
+  for (Index row = 0; row < sizes_.n(); ++row) {
+    const Real all = change(row);
+    if (!isfinite(all)) {  // in an entry that the pattern may not have
+      out.d0.setConstant(std::numeric_limits<Real>::quiet_NaN());
+      return;
+    }
+    const Real difference = abs(Real(all - expected_[row]));
+    if (difference > Real(check_tolerance_) * magnitude_[row]) incomplete_ = true;
+  }
+}
+
+// The colour after the last one is the check.
+template <class Real>
+void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level,
                                         Linearization<Real>& out) {
-  const auto at = dual_.point(sizes_, Dual<Real>(t_));
-  const VecView<Dual<Real>> r(dual_.r.data(), sizes_.n());
-  for (std::size_t first = 0; first < group.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, group.size() - first);
+  const auto at = dual_.at(Dual<Real>(t_));
+  const VecView<Dual<Real>> r = dual_.residual();
+  const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
+  for (std::size_t first = 0; first < colours; first += kChunk) {
+    const std::size_t count = std::min(kChunk, colours - first);
     for (std::size_t c = 0; c < count; ++c) {
-      dual_.component(group[first + c], sizes_).d[c] = Real(1);
+      for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
+        dual_.component(group.directions[i]).d[c] = Real(group.weight(first + c, i));
+      }
     }
     system_.evaluate(level, at, r);
     for (std::size_t c = 0; c < count; ++c) {
-      const Direction& d = group[first + c];
-      for (Index i = 0; i < sizes_.n(); ++i) store(d, i, r[i].d[c], out);
-      dual_.component(d, sizes_).d[c] = Real(0);
+      take(group, first + c, [&](Index row) -> const Real& { return r[row].d[c]; }, out);
+      for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
+        dual_.component(group.directions[i]).d[c] = Real(0);
+      }
     }
   }
 }
@@ -156,7 +257,7 @@ void Differentiator<Real>::evaluateDual(const Directions& group, Level level,
 // Increments: eps^(1/2) (forward) and eps^(1/3) (central) times max(|y|, 1) balance truncation and
 // round-off; Dennis & Schnabel, section 5.4.
 template <class Real>
-void Differentiator<Real>::evaluateDifferences(const Directions& group, Level level,
+void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, Level level,
                                                Linearization<Real>& out) {
   using std::abs;
   using std::cbrt;
@@ -164,29 +265,42 @@ void Differentiator<Real>::evaluateDifferences(const Directions& group, Level le
   const bool central = source_ == DerivativeSource::kCentral;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   const Real relative = central ? Real(cbrt(eps)) : Real(sqrt(eps));
-  const auto at = real_.point(sizes_, t_);
-  const VecView<Real> r(real_.r.data(), sizes_.n());
+  const auto at = real_.at(t_);
+  const VecView<Real> r = real_.residual();
+  const auto move = [&](std::size_t colour, double side) {
+    for (std::size_t i = group.begin(colour); i < group.end(colour); ++i) {
+      const Real& y = y_[static_cast<Index>(i)];
+      const Real magnitude = abs(y) > Real(1) ? Real(abs(y)) : Real(1);
+      real_.component(group.directions[i]) =
+          y + Real(side * group.weight(colour, i)) * relative * magnitude;
+    }
+  };
+  for (std::size_t i = 0; i < group.directions.size(); ++i) {
+    y_[static_cast<Index>(i)] = real_.component(group.directions[i]);
+  }
   if (!central) {
     system_.evaluate(level, at, r);
     base_ = r;
   }
-  for (const Direction& d : group) {
-    Real& y = real_.component(d, sizes_);
-    const Real y0 = y;
-    const Real magnitude = abs(y0) > Real(1) ? Real(abs(y0)) : Real(1);
-    const Real upper = y0 + relative * magnitude;
-    const Real lower = central ? Real(y0 - relative * magnitude) : y0;
+  const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
+  for (std::size_t colour = 0; colour < colours; ++colour) {
+    const bool check = colour == group.colours();
+    const auto keep = [&](auto&& f) {
+      for (std::size_t i = group.begin(colour); i < group.end(colour) && !check; ++i) {
+        f(delta_[static_cast<Index>(i)], real_.component(group.directions[i]));
+      }
+    };
     if (central) {
-      y = lower;
+      move(colour, -1);
       system_.evaluate(level, at, r);
       base_ = r;
     }
-    y = upper;
+    keep([](Real& delta, const Real& lower) { delta = lower; });
+    move(colour, 1);
     system_.evaluate(level, at, r);
-    y = y0;
-    for (Index i = 0; i < sizes_.n(); ++i) {
-      store(d, i, Real((r[i] - base_[i]) / (upper - lower)), out);
-    }
+    keep([](Real& delta, const Real& upper) { delta = upper - delta; });
+    move(colour, 0);
+    take(group, colour, [&](Index row) { return Real(r[row] - base_[row]); }, out);
   }
 }
 

@@ -4,22 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "core/point_buffers.h"
+#include "core/sparsity.h"
 #include "core/system.h"
 
 namespace irk {
-
-/// Compressed columns shared by D0, D1 and D2 (the union of their patterns), so that
-/// D0 + mu D1 + mu^2 D2 is one combination of three value arrays. A full pattern is the dense case:
-/// its value array is the column-major n x n matrix itself.
-struct Pattern {
-  Index n = 0;
-  bool full = true;
-  std::vector<int> column_start;  ///< n + 1
-  std::vector<int> row;           ///< column_start[n]
-
-  static std::shared_ptr<const Pattern> dense(Index n);
-  Index nonzeros() const { return static_cast<Index>(row.size()); }
-};
 
 /// The three matrices at one point, values in the order of the pattern.
 template <class Real>
@@ -27,6 +16,8 @@ struct Linearization {
   std::shared_ptr<const Pattern> pattern;
   Vec<Real> d0, d1, d2;
 
+  /// Without a pattern: the first evaluation brings it.
+  Linearization() = default;
   explicit Linearization(std::shared_ptr<const Pattern> p)
       : pattern(std::move(p)),
         d0(Vec<Real>::Zero(pattern->nonzeros())),
@@ -51,54 +42,84 @@ enum class JacobianTerms {
   kConstantStiffness,  ///< (4.7): dF2/du evaluated once
 };
 
-/// Evaluates a Linearization. Owns scratch: one per thread. Allocates only in its constructor.
+/// Which matrices a Differentiator evaluates; the others stay zero.
+enum class Matrices { kAll, kOnlyD0 };
+
+/// Below this many unknowns no pattern is looked for: every column is a direction of its own. From
+/// it on `automatic` storage is sparse where no more than kSparseFill of the pattern is filled.
+/// Measured: at n = 16 a sparse factorization takes two fifths of the dense one's time on
+/// beam_chain (5 entries a row), at n = 18 three fifths on ANCF elements (12 a row).
+inline constexpr Index kSparseFrom = 16;
+inline constexpr double kSparseFill = 0.5;
+
+/// Evaluates a Linearization. Its first evaluation finds the pattern, and colours it: then a
+/// Jacobian takes as many directions as the fullest row needs, whatever n. Every evaluation
+/// compares one random combination of the directions with the assembled matrices; where they
+/// differ, as after a switch of modes, the pattern is looked for again and grows. Owns scratch: one
+/// per thread. Allocates when its pattern changes, never else.
 template <class Real>
 class Differentiator {
  public:
-  /// Keeps a reference to the system.
+  /// Keeps a reference to the system. Throws Misuse for storage `sparse` in multiprecision.
   Differentiator(const System<Real>& system, DerivativeSource source,
-                 JacobianTerms terms = JacobianTerms::kFull);
+                 JacobianTerms terms = JacobianTerms::kFull, Storage storage = Storage::kDense,
+                 Matrices matrices = Matrices::kAll);
 
-  /// All three matrices at p; the pattern of `out` must be full (dense) here.
+  /// The matrices at p. `out` takes the present pattern where it has another one.
   void evaluate(Level level, const Point<Real>& p, Linearization<Real>& out);
-  /// Forgets what `constant_stiffness` keeps: a new integration.
+  /// Forgets what `constant_stiffness` keeps: a new mode.
   void forget() { stiffness_known_ = false; }
+  /// Forgets the pattern as well: a new integration.
+  void forgetPattern();
+
+  /// Null as long as it is unknown: where it may be sparse, before the first evaluation.
+  const std::shared_ptr<const Pattern>& pattern() const { return pattern_; }
+  /// Directional derivatives in one evaluation; 0 before the first one.
+  std::size_t directions() const;
 
  private:
-  struct Direction {
-    int matrix;    // 0, 1, 2: which D the column belongs to
-    Index column;  // in 0..n-1
+  struct Group {
+    Directions directions;
+    RowSets rows;
+    ColouredDirections coloured;
   };
-  using Directions = std::vector<Direction>;
-  template <class T>
-  struct Buffers {  // the numbers below a Point, and the residual
-    Vec<T> u, v, x, w, d, r;
-    explicit Buffers(const Sizes& n);
-    Point<T> point(const Sizes& n, const T& t) const;
-    /// The component that a direction perturbs.
-    T& component(const Direction& along, const Sizes& n);
-  };
-  void evaluateGroup(const Directions& group, Level level, const Point<Real>& p,
+  bool detects() const;
+  bool look(Level level, const Point<Real>& p);
+  void setPattern();
+  void differentiate(Level level, const Point<Real>& p, Linearization<Real>& out);
+  void evaluateGroup(const Group& group, Level level, const Point<Real>& p,
                      Linearization<Real>& out);
-  void evaluateDual(const Directions& group, Level level, Linearization<Real>& out);
-  void evaluateDifferences(const Directions& group, Level level, Linearization<Real>& out);
+  void evaluateDual(const ColouredDirections& group, Level level, Linearization<Real>& out);
+  void evaluateDifferences(const ColouredDirections& group, Level level,
+                           Linearization<Real>& out);
+  template <class Change>
+  void take(const ColouredDirections& group, std::size_t colour, const Change& change,
+            Linearization<Real>& out);
+  template <class Change>
+  void check(const Change& change, Linearization<Real>& out);
   void dropConstraintXz(Linearization<Real>& out) const;
   void keepStiffness(Linearization<Real>& out);
-  void store(const Direction& d, Index row, const Real& value, Linearization<Real>& out) const;
 
   const System<Real>& system_;
   DerivativeSource source_;
   Sizes sizes_;
   JacobianTerms terms_;
-  Directions at_a_, at_zero_;  // differentiated at the point's a, at a = 0
-  Directions stiffness_;       // D2, where `constant_stiffness` may evaluate it only once
-  Mat<Real> kept_stiffness_;   // nu x nu
+  Storage storage_;
+  Group at_a_, at_zero_;  // differentiated at the point's a, at a = 0
+  Group stiffness_;       // D2, where `constant_stiffness` may evaluate it only once
+  std::shared_ptr<const Pattern> pattern_;
+  bool looked_ = false;
+  bool incomplete_ = false;  // the last evaluation's check has failed
+  double check_tolerance_ = 0;
+  Vec<Real> kept_stiffness_;  // values of D2
   bool stiffness_known_ = false;
   Real t_{};
-  Buffers<Dual<Real>> dual_;
-  Buffers<Real> real_;
+  PointBuffers<Dual<Real>> dual_;
+  PointBuffers<Real> real_;
   Vec<Real> base_;
   Vec<Real> zero_a_;
+  Vec<Real> y_, delta_;             // of the directions: the component, its increment
+  Vec<Real> expected_, magnitude_;  // of the check, by row
 };
 
 }  // namespace irk

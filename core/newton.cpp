@@ -172,6 +172,7 @@ class ResidualNewton final : public NewtonBase<Real> {
     }
     auto& shared = c.matrix.shared();
     this->refresh(c, W);
+    c.stagewise.reserve();
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     NewtonResult result = iterate(c, W, kKept);
     int before = result.iterations;

@@ -37,7 +37,12 @@ constexpr Named<NewtonKind> kNewtons[] = {
 constexpr Named<StageSolverKind> kSolvers[] = {
     {StageSolverKind::kSchur, "schur", "real Schur form of A: s/2 complex n x n systems"},
     {StageSolverKind::kEigen, "eigen", "eigenvectors of A: s/2 complex n x n systems, cheapest"},
-    {StageSolverKind::kCoupledDense, "coupled_dense", "one LU of the s n x s n matrix (paper)"}};
+    {StageSolverKind::kCoupledDense, "coupled_dense", "one LU of the s n x s n matrix (paper)"},
+    {StageSolverKind::kCoupledSparse, "coupled_sparse", "one sparse LU of the s n x s n matrix"}};
+constexpr Named<Storage> kStorages[] = {
+    {Storage::kAutomatic, "automatic", "sparse where the system is large and sparse enough"},
+    {Storage::kDense, "dense", "dense matrices, their derivatives coloured all the same"},
+    {Storage::kSparse, "sparse", "compressed columns, KLU; scalar double only"}};
 constexpr Named<Predictor> kPredictors[] = {
     {Predictor::kExtrapolated, "extrapolated", "collocation polynomial of the step before"},
     {Predictor::kPrevious, "previous", "stages of the step before (paper)"},
@@ -73,6 +78,8 @@ constexpr Named<JacobianTerms> kTerms[] = {
 constexpr Named<NormKind> kNorms[] = {
     {NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
     {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
+
+constexpr int kMostThreads = 1024;
 
 std::string text(double x) {
   std::ostringstream s;
@@ -113,6 +120,7 @@ IRK_AXIS(ConstraintScaling, kScalings, "scaling")
 IRK_AXIS(DerivativeSource, kSources, "derivatives")
 IRK_AXIS(NewtonKind, kNewtons, "newton")
 IRK_AXIS(StageSolverKind, kSolvers, "solver")
+IRK_AXIS(Storage, kStorages, "storage")
 IRK_AXIS(Predictor, kPredictors, "predictor")
 IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
 IRK_AXIS(StepControl, kControls, "control")
@@ -123,6 +131,19 @@ IRK_AXIS(JacobianTerms, kTerms, "jacobian")
 IRK_AXIS(Discontinuity, kDiscontinuities, "discontinuity")
 IRK_AXIS(NormKind, kNorms, "norm")
 #undef IRK_AXIS
+
+Storage storageOf(const IntegratorOptions& options) {
+  switch (options.solver) {
+    case StageSolverKind::kCoupledDense:
+      return Storage::kDense;
+    case StageSolverKind::kCoupledSparse:
+      return Storage::kSparse;
+    case StageSolverKind::kSchur:
+    case StageSolverKind::kEigen:
+      break;
+  }
+  return options.storage;
+}
 
 void validate(const IntegratorOptions& o) {
   const auto& tol = o.tolerances;
@@ -151,6 +172,14 @@ void validate(const IntegratorOptions& o) {
   require(step.s_min > 1, "s_min", step.s_min, "s_min > 1");
   require(step.change_at_least > 1, "change_at_least", step.change_at_least, "> 1");
   require(step.growth_at_most > 1, "growth_at_most", step.growth_at_most, "> 1");
+  require(o.threads >= 1 && o.threads <= kMostThreads, "threads", o.threads,
+          "an integer in [1, 1024]");
+  const bool own = o.solver == StageSolverKind::kCoupledDense ||
+                   o.solver == StageSolverKind::kCoupledSparse;
+  if (own && o.storage != Storage::kAutomatic && o.storage != storageOf(o)) {
+    throw Misuse("illegal combination: solver '" + std::string(idOf(o.solver)) +
+                 "' with storage '" + std::string(idOf(o.storage)) + "'");
+  }
   if (!fixed && step.estimate == ErrorEstimate::kNone) {
     throw Misuse("illegal combination: control '" + std::string(idOf(step.control)) +
                  "' with estimate 'none': a step controller needs an error estimate");

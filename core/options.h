@@ -16,7 +16,7 @@ enum class NewtonKind {
   kModified,    ///< the paper's: stop on the residual, its restart and fallback rules, section 3
   kFull,        ///< a new stage-wise Jacobian in every iteration, stop on the residual
 };
-enum class StageSolverKind { kCoupledDense, kSchur, kEigen };
+enum class StageSolverKind { kCoupledDense, kCoupledSparse, kSchur, kEigen };
 enum class Predictor {
   kExtrapolated,  ///< collocation polynomial of the step before
   kPrevious,      ///< the stages of the step before, stage by stage (paper)
@@ -131,11 +131,19 @@ struct IntegratorOptions {
   JacobianTerms jacobian = JacobianTerms::kFull;
   NewtonOptions newton;
   StageSolverKind solver = StageSolverKind::kSchur;
+  /// Of `schur` and `eigen`; the coupled solvers have their own.
+  Storage storage = Storage::kAutomatic;
+  /// [1, 1024]. Residuals of the stages and factorizations of the blocks at a time, inside one
+  /// integration; the numbers do not depend on it. In a parallel region of the caller: 1.
+  int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
   Summation summation = Summation::kCompensated;
   OrderControl order = OrderControl::kFixed;
   StepOptions step;
 };
+
+/// What the solver needs: the coupled ones have a storage of their own.
+Storage storageOf(const IntegratorOptions& options);
 
 /// Throws Misuse naming field, value and range.
 void validate(const IntegratorOptions& options);

@@ -10,9 +10,8 @@ VelocityProjection<Real>::VelocityProjection(const System<Real>& system, Derivat
     : system_(system),
       sizes_(system.sizes()),
       counters_(counters),
-      differentiator_(system, source),
-      D_(Pattern::dense(sizes_.n())),
-      lu_(sizes_.n()),
+      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic,
+                      Matrices::kOnlyD0),
       r_(sizes_.n()) {}
 
 template <class Real>
@@ -23,8 +22,7 @@ Outcome VelocityProjection<Real>::apply(State<Real>& state) {
   system_.evaluate(Level::kVelocity, pointOf(state), VecView<Real>(r_.data(), r_.size()));
   r_.head(first).setZero();
   r_.tail(sizes_.nz - sizes_.constraints).setZero();
-  lu_.matrix() = D_.dense0();
-  const Outcome outcome = lu_.factorize();
+  const Outcome outcome = lu_.factorize(D_);
   if (outcome != Outcome::kSuccess) return outcome;
   lu_.solve(r_);
   if (!r_.allFinite()) return Outcome::kNotFinite;

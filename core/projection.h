@@ -1,9 +1,9 @@
 // Velocities on dg/dt = 0 after a step: the formulation `index2_projected`.
 #pragma once
 
-#include "core/dense_lu.h"
 #include "core/linearization.h"
 #include "core/outcome.h"
+#include "core/rate_lu.h"
 #include "core/statistics.h"
 
 namespace irk {
@@ -25,7 +25,7 @@ class VelocityProjection {
   Counters& counters_;
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
-  DenseLu<Real> lu_;
+  RateLu<Real> lu_;
   Vec<Real> r_;
 };
 

@@ -22,11 +22,12 @@ void addCompensated(const Vec<Real>& y0, const Real* carry0, Vec<Real>& y1, Real
 
 template <class Real>
 StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Real>& scheme,
-                                     Summation summation)
+                                     Summation summation, int threads)
     : system_(system),
       scheme_(scheme),
       summation_(summation),
       sizes_(system.sizes()),
+      threads_(threads),
       U_(sizes_.nu, scheme.s),
       V_(sizes_.nu, scheme.s),
       X_(sizes_.nx, scheme.s),
@@ -64,12 +65,20 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
 }
 
 template <class Real>
+void StageEquations<Real>::evaluate(const Mat<Real>& W, Index i, Mat<Real>& R) const {
+  system_.evaluate(Level::kFormulated, stage(W, i), VecView<Real>(R.col(i).data(), R.rows()));
+  R.col(i).array() *= scales_.array();
+}
+
+template <class Real>
 bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   place(W);
   for (Index i = 0; i < scheme_.first; ++i) R.col(i).setZero();
-  for (Index i = scheme_.first; i < scheme_.s; ++i) {
-    system_.evaluate(Level::kFormulated, stage(W, i), VecView<Real>(R.col(i).data(), R.rows()));
-    R.col(i).array() *= scales_.array();
+  if (threads_ > 1) {
+#pragma omp parallel for num_threads(threads_) schedule(static)
+    for (Index i = scheme_.first; i < scheme_.s; ++i) evaluate(W, i, R);
+  } else {
+    for (Index i = scheme_.first; i < scheme_.s; ++i) evaluate(W, i, R);
   }
   return R.allFinite();
 }

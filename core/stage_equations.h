@@ -13,7 +13,8 @@ template <class Real>
 class StageEquations {
  public:
   /// Keeps references.
-  StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation);
+  StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation,
+                 int threads);
 
   /// A step of size h from `from`, which must outlive the step.
   void begin(const State<Real>& from, const Real& h);
@@ -40,10 +41,13 @@ class StageEquations {
   const Sizes& sizes() const { return sizes_; }
 
  private:
+  void evaluate(const Mat<Real>& W, Index i, Mat<Real>& R) const;
+
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
   Summation summation_;
   Sizes sizes_;
+  int threads_;
   const State<Real>* from_ = nullptr;
   Real h_{};
   Mat<Real> U_, V_, X_;

@@ -1,21 +1,48 @@
 #include "core/stage_solver.h"
 
-#include "core/coupled_dense.h"
+#include <type_traits>
+
+#include "core/coupled.h"
 #include "core/decoupled.h"
 #include "core/multiprecision.h"
 
 namespace irk {
+namespace {
+
+template <class Real>
+std::unique_ptr<StageSolver<Real>> decoupled(const StageSolverSetup<Real>& setup,
+                                             BlockForm<Real> form) {
+  if constexpr (std::is_same_v<Real, double>) {
+    if (!setup.pattern->full) {
+      return std::make_unique<Decoupled<Real, SparseLu>>(setup, std::move(form));
+    }
+  }
+  return std::make_unique<Decoupled<Real, DenseLu>>(setup, std::move(form));
+}
+
+template <class Real>
+std::unique_ptr<StageSolver<Real>> coupledSparse(const StageSolverSetup<Real>& setup) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return std::make_unique<Coupled<Real, SparseLu>>(setup);
+  }
+  throw Misuse("illegal combination: solver 'coupled_sparse' with scalar 'mp50': KLU is for double");
+}
+
+}  // namespace
 
 template <class Real>
 std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
                                                    const StageSolverSetup<Real>& setup) {
   switch (kind) {
     case StageSolverKind::kCoupledDense:
-      return std::make_unique<CoupledDense<Real>>(setup);
+      if (!setup.pattern->full) throw Misuse("solver 'coupled_dense' with a sparse pattern");
+      return std::make_unique<Coupled<Real, DenseLu>>(setup);
+    case StageSolverKind::kCoupledSparse:
+      return coupledSparse(setup);
     case StageSolverKind::kSchur:
-      return std::make_unique<Decoupled<Real>>(setup, schurForm(setup.A));
+      return decoupled(setup, schurForm(setup.A));
     case StageSolverKind::kEigen:
-      return std::make_unique<Decoupled<Real>>(setup, eigenForm(setup.A));
+      return decoupled(setup, eigenForm(setup.A));
   }
   return nullptr;
 }

@@ -19,6 +19,7 @@ struct StageSolverSetup {
   std::shared_ptr<const Pattern> pattern;
   std::vector<int> row_powers;  ///< row i of every block is multiplied by h^-power[i]
   Sizes sizes;
+  int threads = 1;  ///< for the factorizations of independent blocks
 };
 
 /// Owns its factors and scratch: one per thread. Allocates only in its constructor.
@@ -39,7 +40,8 @@ class StageSolver {
   virtual bool stagewise() const = 0;
 };
 
-/// Throws Misuse where the kind cannot treat A (`eigen` with a defective A).
+/// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the
+/// kind cannot treat A (`eigen` with a defective A) or the pattern.
 template <class Real>
 std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
                                                    const StageSolverSetup<Real>& setup);

@@ -13,9 +13,9 @@ constexpr int kDiscontinuousIterations = 10;
 constexpr double kUnseenSwitch = 1e3;
 
 template <class Real>
-StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& scheme) {
-  return {scheme.implicitA(), Pattern::dense(system.sizes().n()), system.rowPowers(),
-          system.sizes()};
+StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& scheme,
+                               const IntegratorOptions& options) {
+  return {scheme.implicitA(), nullptr, system.rowPowers(), system.sizes(), options.threads};
 }
 
 }  // namespace
@@ -26,10 +26,9 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
                        const ErrorNorm<Real>& norm, Counters& counters)
     : system_(system),
       counters_(counters),
-      eq_(system, scheme, options.summation),
-      matrix_(jacobian, std::make_unique<CountingStageSolver<Real>>(
-                            makeStageSolver(options.solver, setupOf(system, scheme)), counters)),
-      stagewise_(jacobian, setupOf(system, scheme), options.newton.kind, counters),
+      eq_(system, scheme, options.summation, options.threads),
+      matrix_(jacobian, options.solver, setupOf(system, scheme, options), counters),
+      stagewise_(jacobian, setupOf(system, scheme, options), options.newton.kind, counters),
       newton_(makeNewton(options, system.sizes(), scheme)),
       norm_(norm),
       start_values_(options.predictor, scheme),

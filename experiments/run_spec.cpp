@@ -93,6 +93,7 @@ constexpr SpecField kFields[] = {
     axisField<IRK_MEMBER(options.derivatives)>("derivatives"),
     axisField<IRK_MEMBER(options.newton.kind)>("newton"),
     axisField<IRK_MEMBER(options.solver)>("solver"),
+    axisField<IRK_MEMBER(options.storage)>("storage"),
     axisField<IRK_MEMBER(options.predictor)>("predictor"),
     axisField<IRK_MEMBER(options.step.estimate)>("estimate"),
     axisField<IRK_MEMBER(options.step.control)>("control"),
@@ -139,6 +140,11 @@ constexpr SpecField kFields[] = {
        s.options.step.max_steps = parseInteger("max_steps", value, 1, kMostSteps);
      },
      [] { return std::string("attempted steps, an integer > 0"); }},
+    {"threads", [](const RunSpec& s) { return std::to_string(s.options.threads); },
+     [](RunSpec& s, std::string_view value) {
+       s.options.threads = static_cast<int>(parseInteger("threads", value, 1, 1024));
+     },
+     [] { return std::string("inside one integration, 1 to 1024"); }},
     IRK_NUMBER("time_limit", time_limit, kNotNegative),
 };
 #undef IRK_NUMBER

@@ -163,7 +163,7 @@ Scene<Real> make(const Settings& settings) {
 }  // namespace
 
 SceneEntry beamChainEntry() {
-  Parameter points = numberParameter("m", "", "interior points = unknowns", "25", 3, 4000);
+  Parameter points = numberParameter("m", "", "interior points = unknowns", "25", 3, 40000);
   points.whole = true;
   return {.id = "beam_chain",
           .title = "simply supported beam in finite differences, damped and driven",

@@ -59,6 +59,7 @@ void listStrategies(std::ostream& out) {
   listAxis<DerivativeSource>(out);
   listAxis<NewtonKind>(out);
   listAxis<StageSolverKind>(out);
+  listAxis<Storage>(out);
   listAxis<Predictor>(out);
   listAxis<ErrorEstimate>(out);
   listAxis<StepControl>(out);

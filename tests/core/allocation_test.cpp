@@ -56,9 +56,9 @@ TEST(Allocation, TheCounterSeesAnAllocation) {
 TEST(Allocation, StepsAllocateNothing) {
   for (const auto& solver : named<StageSolverKind>()) {
     for (const auto& newton : named<NewtonKind>()) {
-      if (newton.value == NewtonKind::kFull && solver.value != StageSolverKind::kCoupledDense) {
-        continue;
-      }
+      const bool coupled = solver.value == StageSolverKind::kCoupledDense ||
+                           solver.value == StageSolverKind::kCoupledSparse;
+      if (newton.value == NewtonKind::kFull && !coupled) continue;
       for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiia_3", "radau_iia_20"}) {
         IntegratorOptions o = adaptive(1e-5);
         o.solver = solver.value;

@@ -2,14 +2,16 @@
 #pragma once
 
 #include "core/dense_lu.h"
+#include "core/sparse_lu.h"
 #include "core/stage_solver.h"
 
 namespace irk {
 
-template <class Real>
-class CoupledDense final : public StageSolver<Real> {
+/// Lu: DenseLu or SparseLu.
+template <class Real, template <class> class Lu>
+class Coupled final : public StageSolver<Real> {
  public:
-  explicit CoupledDense(const StageSolverSetup<Real>& setup);
+  explicit Coupled(const StageSolverSetup<Real>& setup);
   Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
   void solve(Eigen::Ref<Mat<Real>> rhs) override;
   bool stagewise() const override { return true; }
@@ -19,7 +21,7 @@ class CoupledDense final : public StageSolver<Real> {
   Mat<Real> A2_;
   Vec<Real> scales_;
   Vec<Real> flat_;
-  DenseLu<Real> lu_;
+  Lu<Real> lu_;
 };
 
 }  // namespace irk

@@ -1,0 +1,271 @@
+#include "core/sparsity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <random>
+
+#include "core/multiprecision.h"
+#include "core/point_buffers.h"
+
+namespace irk {
+
+std::shared_ptr<const Pattern> Pattern::dense(Index n) {
+  auto p = std::make_shared<Pattern>();
+  p->n = n;
+  for (Index j = 0; j <= n; ++j) p->column_start.push_back(static_cast<int>(j * n));
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) p->row.push_back(static_cast<int>(i));
+  }
+  return p;
+}
+
+bool sameShape(const std::shared_ptr<const Pattern>& a, const std::shared_ptr<const Pattern>& b) {
+  return a == b || (a && b && a->full && b->full && a->n == b->n);
+}
+
+Directions allDirections(const Sizes& n, int matrices) {
+  const Index columns[] = {n.n(), n.nu + n.nx, n.nu};
+  Directions all;
+  for (int matrix = 0; matrix < matrices; ++matrix) {
+    for (Index j = 0; j < columns[matrix]; ++j) all.push_back({matrix, j});
+  }
+  return all;
+}
+
+RowSets fullRows(std::size_t directions, Index n) {
+  std::vector<int> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  return RowSets(directions, all);
+}
+
+bool unite(const RowSets& more, RowSets& into) {
+  bool grown = false;
+  std::vector<int> both;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    both.clear();
+    std::set_union(into[i].begin(), into[i].end(), more[i].begin(), more[i].end(),
+                   std::back_inserter(both));
+    grown = grown || both.size() > into[i].size();
+    into[i] = both;
+  }
+  return grown;
+}
+
+std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
+                                            Index n) {
+  RowSets columns(static_cast<std::size_t>(n));
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    auto& column = columns[static_cast<std::size_t>(directions[i].column)];
+    column.insert(column.end(), rows[i].begin(), rows[i].end());
+  }
+  auto p = std::make_shared<Pattern>();
+  p->n = n;
+  p->full = false;
+  p->column_start.push_back(0);
+  for (auto& column : columns) {
+    std::sort(column.begin(), column.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
+    p->row.insert(p->row.end(), column.begin(), column.end());
+    p->column_start.push_back(static_cast<int>(p->row.size()));
+  }
+  return p;
+}
+
+std::vector<int> colour(const RowSets& sets, Index rows) {
+  std::vector<int> colours(sets.size(), 0);
+  std::vector<std::vector<int>> at_row(static_cast<std::size_t>(rows));  // colours in use
+  std::vector<std::size_t> used_by;  // by colour: the last set + 1 for which it is in use
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const int row : sets[i]) {
+      for (const int c : at_row[static_cast<std::size_t>(row)]) {
+        used_by[static_cast<std::size_t>(c)] = i + 1;
+      }
+    }
+    std::size_t free = 0;
+    while (free < used_by.size() && used_by[free] == i + 1) ++free;
+    if (free == used_by.size()) used_by.push_back(0);
+    colours[i] = static_cast<int>(free);
+    for (const int row : sets[i]) at_row[static_cast<std::size_t>(row)].push_back(colours[i]);
+  }
+  return colours;
+}
+
+ColouredDirections::ColouredDirections(const Directions& group, const RowSets& rows,
+                                       const Pattern& pattern) {
+  const std::vector<int> colours = colour(rows, pattern.n);
+  std::vector<std::size_t> order(group.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return colours[a] < colours[b]; });
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> around_one(0.5, 1.5);
+  int last = -1;
+  for (const std::size_t i : order) {
+    if (rows[i].empty()) continue;
+    if (colours[i] != last) {
+      first_direction.push_back(directions.size());
+      first_entry.push_back(entries.size());
+      last = colours[i];
+    }
+    directions.push_back(group[i]);
+    weights.push_back(around_one(random));
+    const auto column = static_cast<std::size_t>(group[i].column);
+    auto at = pattern.row.begin() + pattern.column_start[column];
+    for (const int row : rows[i]) {
+      at = std::lower_bound(at, pattern.row.begin() + pattern.column_start[column + 1], row);
+      entries.push_back({row, group[i].matrix, at - pattern.row.begin(), weights.size() - 1});
+    }
+  }
+  first_direction.push_back(directions.size());
+  first_entry.push_back(entries.size());
+  for (const std::size_t i : order) {  // what reaches nothing takes part in the check only
+    if (!rows[i].empty()) continue;
+    directions.push_back(group[i]);
+    weights.push_back(around_one(random));
+  }
+}
+
+namespace {
+
+// Points near p at which the pattern is looked at, besides p itself, and how far away: a part of
+// 1 + |y|, a tenth of it after each point where the residual is not finite.
+constexpr int kPointsNearby = 2;
+constexpr double kDistance = 0.01;
+constexpr int kCloser = 6;
+
+/// Finds the rows of each direction at one point by halving intervals of directions.
+template <class Real>
+class RowSearch {
+ public:
+  RowSearch(const System<Real>& system, Level level, const Directions& directions)
+      : system_(system), level_(level), directions_(directions), at_(system.sizes()) {}
+
+  RowSets search(const PointBuffers<Real>& p, const Real& t, std::minstd_rand& random) {
+    at_.copy(p.at(t));
+    t_ = t;
+    std::vector<Interval> level = whole();
+    while (std::any_of(level.begin(), level.end(),
+                       [](const Interval& i) { return i.end - i.begin > 1; })) {
+      level = split(level, random);
+    }
+    RowSets rows(directions_.size());
+    for (Interval& i : level) rows[i.begin] = std::move(i.rows);
+    return rows;
+  }
+
+ private:
+  struct Interval {
+    std::size_t begin, end;  // of the directions
+    std::vector<int> rows;   // that they reach, or may reach
+  };
+
+  // One interval per matrix, so that neighbours in one are not neighbours of another matrix' columns.
+  std::vector<Interval> whole() const {
+    std::vector<int> all = fullRows(1, system_.sizes().n()).front();
+    std::vector<Interval> intervals;
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      if (i == 0 || directions_[i].matrix != directions_[i - 1].matrix) {
+        intervals.push_back({i, i, all});
+      }
+      ++intervals.back().end;
+    }
+    return intervals;
+  }
+
+  // Every interval in kChunk parts, the parts of intervals that share no row together.
+  std::vector<Interval> split(const std::vector<Interval>& parents, std::minstd_rand& random) {
+    RowSets sets;
+    for (const Interval& i : parents) sets.push_back(i.rows);
+    const std::vector<int> colours = colour(sets, system_.sizes().n());
+    const int count = 1 + *std::max_element(colours.begin(), colours.end());
+    std::vector<Interval> children;
+    for (int c = 0; c < count; ++c) {
+      std::vector<const Interval*> together;
+      for (std::size_t i = 0; i < parents.size(); ++i) {
+        if (colours[i] == c) together.push_back(&parents[i]);
+      }
+      seed(together, &random);
+      system_.evaluate(level_, at_.at(Dual<Real>(t_)), at_.residual());
+      for (const Interval* parent : together) appendChildren(*parent, children);
+      seed(together, nullptr);
+    }
+    return children;
+  }
+
+  static std::size_t part(const Interval& i, std::size_t c) {
+    return i.begin + (i.end - i.begin) * c / kChunk;
+  }
+
+  void seed(const std::vector<const Interval*>& intervals, std::minstd_rand* random) {
+    std::uniform_real_distribution<double> around_one(0.5, 1.5);
+    for (const Interval* i : intervals) {
+      for (std::size_t c = 0; c < kChunk; ++c) {
+        for (std::size_t k = part(*i, c); k < part(*i, c + 1); ++k) {
+          at_.component(directions_[k]).d[c] = random ? Real(around_one(*random)) : Real(0);
+        }
+      }
+    }
+  }
+
+  void appendChildren(const Interval& parent, std::vector<Interval>& children) const {
+    using std::isfinite;
+    for (std::size_t c = 0; c < kChunk; ++c) {
+      Interval child{part(parent, c), part(parent, c + 1), {}};
+      if (child.begin == child.end) continue;
+      for (const int row : parent.rows) {
+        const Real& slope = at_.r[row].d[c];
+        if (isfinite(slope) && slope != Real(0)) child.rows.push_back(row);
+      }
+      if (!child.rows.empty()) children.push_back(std::move(child));
+    }
+  }
+
+  const System<Real>& system_;
+  Level level_;
+  const Directions& directions_;
+  PointBuffers<Dual<Real>> at_;
+  Real t_{};
+};
+
+template <class Real>
+void moveNearby(double distance, std::minstd_rand& random, PointBuffers<Real>& p, Real& t) {
+  std::uniform_real_distribution<double> either_way(-1, 1);
+  const auto move = [&](Real& y) {
+    using std::abs;
+    y += Real(distance * either_way(random)) * (Real(1) + Real(abs(y)));
+  };
+  move(t);
+  for (auto* part : {&p.u, &p.v, &p.x, &p.w}) std::for_each(part->begin(), part->end(), move);
+}
+
+}  // namespace
+
+template <class Real>
+RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
+                   const Directions& directions) {
+  RowSearch<Real> search(system, level, directions);
+  std::minstd_rand random(1);
+  PointBuffers<Real> near(system.sizes());
+  near.copy(p);
+  RowSets rows = search.search(near, p.t, random);
+  double distance = kDistance;
+  for (int i = 0; i < kPointsNearby; ++i) {
+    for (int closer = 0; closer < kCloser; ++closer, distance /= 10) {
+      Real t = p.t;
+      near.copy(p);
+      moveNearby(distance, random, near, t);
+      system.evaluate(level, near.at(t), near.residual());
+      if (!near.r.allFinite()) continue;
+      unite(search.search(near, t, random), rows);
+      break;
+    }
+  }
+  return rows;
+}
+
+template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&);
+template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&);
+
+}  // namespace irk
