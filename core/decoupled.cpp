@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/multiprecision.h"
+#include "core/small_product.h"
 
 namespace irk {
 
@@ -13,6 +14,8 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
     : setup_(setup),
       form_(std::move(form)),
       T2_(form_.T * form_.T),
+      to_basis_(form_.Q_inverse.transpose()),
+      from_basis_(form_.Q.transpose()),
       outcomes_(form_.blocks.size()),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
@@ -82,11 +85,14 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
 // Subtracts what the blocks right of this one, already solved, contribute to its rows.
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& block) {
+  const Index n = Y_.rows();
   for (Index i = block.start; i < block.start + block.size; ++i) {
+    Real* const y = Y_.data() + i * n;
     for (Index m = block.start + block.size; m < Y_.cols(); ++m) {
       const Real f1 = h_ * form_.T(i, m);
       const Real f2 = h_ * h_ * T2_(i, m);
-      Y_.col(i) -= f1 * D1Y_.col(m) + f2 * D2Y_.col(m);
+      const Real *const d1 = D1Y_.data() + m * n, *const d2 = D2Y_.data() + m * n;
+      for (Index k = 0; k < n; ++k) y[k] -= f1 * d1[k] + f2 * d2[k];
     }
   }
 }
@@ -111,8 +117,13 @@ void Decoupled<Real, Lu>::multiply(Index column) {
       }
     }
   } else {
-    D1y.noalias() = at_->dense1().leftCols(rates) * y.head(rates);
-    D2y.noalias() = at_->dense2().leftCols(nu) * y.head(nu);
+    const Index n = Y_.rows();
+    const auto times = [n, &y](const Vec<Real>& D, Index columns, Real* out) {
+      std::fill_n(out, n, Real(0));
+      for (Index j = 0; j < columns; ++j) detail::subtract(out, D.data() + j * n, Real(-y[j]), n);
+    };
+    times(at_->d1, rates, D1y.data());
+    times(at_->d2, nu, D2y.data());
   }
   D1y.array() *= scales_.array();
   D2y.array() *= scales_.array();
@@ -138,7 +149,7 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
 
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
-  Y_.noalias() = rhs * form_.Q_inverse.transpose();
+  smallProduct<Real>(rhs, to_basis_, Y_);
   for (std::size_t k = form_.blocks.size(); k-- > 0;) {
     const auto& block = form_.blocks[k];
     if (!form_.diagonal) coupleRows(block);
@@ -146,7 +157,7 @@ void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
     if (form_.diagonal || k == 0) continue;
     for (Index j = block.start; j < block.start + block.size; ++j) multiply(j);
   }
-  rhs.noalias() = Y_ * form_.Q.transpose();
+  smallProduct<Real>(Y_, from_basis_, rhs);
 }
 
 template class Decoupled<double, DenseLu>;

@@ -31,6 +31,7 @@ class Decoupled final : public StageSolver<Real> {
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;
   Mat<Real> T2_;
+  Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
   std::vector<Lu<Real>> real_lu_;        // by block, in order of the real ones
   std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
   std::vector<std::size_t> lu_index_;

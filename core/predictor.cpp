@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/multiprecision.h"
+#include "core/small_product.h"
 
 namespace irk {
 namespace {
@@ -68,7 +69,7 @@ void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real
   } else {
     const Mat<Real>& E =
         weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h));
-    W.noalias() = past.W * E;
+    smallProduct<Real>(past.W, E, W);
   }
   for (Index i = 0; i < scheme_.first; ++i) W.col(i) = from.w;
 }

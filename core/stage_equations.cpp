@@ -1,6 +1,7 @@
 #include "core/stage_equations.h"
 
 #include "core/multiprecision.h"
+#include "core/small_product.h"
 #include "core/stage_solver.h"
 
 namespace irk {
@@ -33,6 +34,7 @@ StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Re
       X_(sizes_.nx, scheme.s),
       hA_(scheme.s, scheme.s),
       hhA2_(scheme.s, scheme.s),
+      hc_(scheme.s),
       scales_(sizes_.n()),
       middle_(sizes_) {}
 
@@ -42,25 +44,23 @@ void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
   h_ = h;
   hA_ = h * scheme_.A.transpose();
   hhA2_ = (h * h) * scheme_.A2.transpose();
+  hc_ = h * scheme_.c;
   rowScales(system_.rowPowers(), h, scales_);
 }
 
 // (2.5), (2.6): V = v0 + h A a, U = u0 + h c v0 + h^2 A^2 a, X = x0 + h A k.
 template <class Real>
 void StageEquations<Real>::place(const Mat<Real>& W) {
-  const auto a = W.topRows(sizes_.nu);
-  const auto k = W.middleRows(sizes_.nu, sizes_.nx);
-  if (sizes_.nu > 0) {
-    V_.noalias() = a * hA_;
-    U_.noalias() = a * hhA2_;
-    for (Index i = 0; i < scheme_.s; ++i) {
-      V_.col(i) += from_->v;
-      U_.col(i) += from_->u + (h_ * scheme_.c[i]) * from_->v;
-    }
+  const Index nu = sizes_.nu, nx = sizes_.nx;
+  const Real *const u = from_->u.data(), *const v = from_->v.data(), *const x = from_->x.data();
+  if (nu > 0) {
+    smallProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, [&](Index i, Index) { return v[i]; });
+    smallProduct(W.data(), W.rows(), nu, hhA2_, U_.data(), nu,
+                 [&](Index i, Index j) { return Real(u[i] + hc_[j] * v[i]); });
   }
-  if (sizes_.nx > 0) {
-    X_.noalias() = k * hA_;
-    for (Index i = 0; i < scheme_.s; ++i) X_.col(i) += from_->x;
+  if (nx > 0) {
+    smallProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx,
+                 [&](Index i, Index) { return x[i]; });
   }
 }
 

@@ -52,6 +52,7 @@ class StageEquations {
   Real h_{};
   Mat<Real> U_, V_, X_;
   Mat<Real> hA_, hhA2_;  // (h A)^T and (h^2 A^2)^T
+  Vec<Real> hc_;
   Vec<Real> scales_;
   State<Real> middle_;
 };

@@ -16,6 +16,7 @@
 #include "experiments/numbers.h"
 #include "experiments/orders.h"
 #include "experiments/phases.h"
+#include "experiments/profile.h"
 #include "experiments/run_table.h"
 
 namespace irk {
@@ -55,7 +56,9 @@ void writeSummaries(const Study& study, const Table& runs, const std::filesystem
                     std::ostream& progress) {
   if (study.orders) writeTable(folder / "orders.csv", orderTable(runs));
   if (!study.targets.empty()) {
-    writeTable(folder / "cpu_at_error.csv", costTable(runs, study.targets));
+    const Table costs = costTable(runs, study.targets);
+    writeTable(folder / "cpu_at_error.csv", costs);
+    if (study.profile) writeTable(folder / "profile.csv", profileTable(costs));
   }
   if (study.estimates) writeTable(folder / "estimates.csv", estimateTable(study, runs));
   if (study.energy) writeTable(folder / "energy.csv", energyTable(study, runs));

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "experiments/build_info.h"
 #include "experiments/numbers.h"
+#include "experiments/peers/catalogue.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
@@ -22,6 +23,48 @@ namespace {
 constexpr Named<ScalarKind> kScalars[] = {
     {ScalarKind::kDouble, "double", "53 bits"},
     {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"}};
+
+constexpr Configuration kConfigurations[] = {
+    {"default", "Richardson's estimate, the paper's step control, simplified Newton, Schur basis", ""},
+    {"paper", "Gerstmayr & Stangl: modified Newton, difference quotients, one LU, step doubling",
+     "newton=modified;derivatives=difference_forward;solver=coupled_dense;predictor=previous;"
+     "estimate=doubling;control=paper;norm=absolute;summation=plain"},
+    {"embedded", "embedded estimate, predictive control, eigenvectors of A",
+     "estimate=embedded;control=predictive;solver=eigen"},
+    {"variable", "the same with variable order",
+     "estimate=embedded;control=predictive;solver=eigen;order=variable"}};
+
+// Each `field=value` of a text, items separated by ';'.
+void setFields(RunSpec& spec, std::string_view text) {
+  while (!text.empty()) {
+    const auto item = text.substr(0, text.find(';'));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    const auto equals = item.find('=');
+    if (equals == std::string_view::npos) {
+      throw Misuse(fmt::format("'{}' in a run's text is not of the form field=value", item));
+    }
+    findField(item.substr(0, equals)).set(spec, item.substr(equals + 1));
+  }
+}
+
+void setConfiguration(RunSpec& spec, std::string_view id) {
+  std::vector<std::string> known;
+  for (const auto& configuration : kConfigurations) {
+    known.emplace_back(configuration.id);
+    if (configuration.id != id) continue;
+    spec.configuration = id;
+    return setFields(spec, configuration.fields);
+  }
+  throw Misuse(unknownName("configuration", id, known));
+}
+
+std::string configurationIds() {
+  std::string ids;
+  for (const auto& configuration : kConfigurations) {
+    ids += fmt::format("{}{}", ids.empty() ? "" : " | ", configuration.id);
+  }
+  return ids;
+}
 
 // Text that would break the canonical form apart.
 void requirePlain(std::string_view field, std::string_view value, std::string_view forbidden) {
@@ -80,6 +123,8 @@ constexpr SpecField kFields[] = {
        }
      },
      [] { return std::string("name=value name=value"); }},
+    {"configuration", [](const RunSpec& s) { return s.configuration; }, setConfiguration,
+     configurationIds},
     {"method", [](const RunSpec& s) { return s.method; },
      [](RunSpec& s, std::string_view value) {
        requirePlain("method", value, ";\n");
@@ -175,6 +220,8 @@ ScalarKind parseId<ScalarKind>(std::string_view id) {
   throw Misuse(unknownName("scalar", id, known));
 }
 
+std::span<const Configuration> configurations() { return kConfigurations; }
+
 std::span<const SpecField> specFields() { return kFields; }
 
 const SpecField& findField(std::string_view name) {
@@ -215,15 +262,7 @@ std::string canonicalText(const RunSpec& spec) {
 
 RunSpec parseSpec(std::string_view text) {
   RunSpec spec;
-  while (!text.empty()) {
-    const auto item = text.substr(0, text.find(';'));
-    text.remove_prefix(std::min(item.size() + 1, text.size()));
-    const auto equals = item.find('=');
-    if (equals == std::string_view::npos) {
-      throw Misuse(fmt::format("'{}' in a run's text is not of the form field=value", item));
-    }
-    findField(item.substr(0, equals)).set(spec, item.substr(equals + 1));
-  }
+  setFields(spec, text);
   if (spec.scene.empty()) throw Misuse("a run's text names no scene");
   return spec;
 }
@@ -233,6 +272,12 @@ std::string specKey(const RunSpec& spec) {
   auto text = fmt::format("irk {};{}", buildInfo().version, canonicalText(full));
   if (std::filesystem::is_regular_file(full.method)) text += fileContents(full.method);
   return hexText(fnv1a(text));
+}
+
+std::string solverName(const RunSpec& spec) {
+  if (findPeer(spec.method)) return spec.method;
+  if (spec.options.order == OrderControl::kVariable) return spec.configuration;
+  return spec.configuration + ":" + spec.method;
 }
 
 Index stagesInId(std::string_view method) {

@@ -19,8 +19,19 @@ ScalarKind parseId<ScalarKind>(std::string_view id);
 template <>
 std::string_view axisName<ScalarKind>();
 
+/// A named choice of strategies. Setting it sets all of its fields; fields set later override them.
+struct Configuration {
+  std::string_view id;
+  std::string_view meaning;
+  std::string_view fields;  ///< `field=value;field=value`
+};
+/// `default`, `paper`, `embedded`, `variable`: the first is what a spec starts with.
+std::span<const Configuration> configurations();
+
 struct RunSpec {
   std::string scene;
+  /// Of `configurations`: a name for tables and figures.
+  std::string configuration = "default";
   Settings settings;
   std::string method = "radau_iia_5";  ///< an id, of a peer also, or a tableau file
   Formulation formulation = Formulation::kIndex2;
@@ -61,6 +72,10 @@ RunSpec parseSpec(std::string_view text);
 
 /// 16 hexadecimal digits from the resolved spec, the version and the contents of a method file.
 std::string specKey(const RunSpec& spec);
+
+/// What a user would call the solver: a peer's id, `variable` or another configuration with variable
+/// order, else `configuration:method`.
+std::string solverName(const RunSpec& spec);
 
 /// The number of stages that a method's id ends with; 0 for a file.
 Index stagesInId(std::string_view method);

@@ -123,7 +123,11 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
 // All combinations of the block's spec fields.
 std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   std::vector<RunSpec> specs(1);
-  for (const auto& [key, value] : keys) {
+  // A configuration sets fields that others override.
+  std::vector<std::pair<std::string, StudyValue>> ordered(keys.begin(), keys.end());
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const auto& key) { return key.first == "configuration"; });
+  for (const auto& [key, value] : ordered) {
     if (std::find(std::begin(kSweepKeys), std::end(kSweepKeys), key) != std::end(kSweepKeys)) {
       continue;
     }
@@ -243,6 +247,7 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   if (const auto* targets = find(text.study, "targets")) {
     study.targets = numbers(*targets, "targets", kPositive);
   }
+  study.profile = flag(text.study, "profile");
   study.timing = timingOptions(text.study);
   for (const auto& block : text.blocks) appendBlock(block, study.series);
   const bool quick = variant == StudyVariant::kQuick;

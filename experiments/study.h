@@ -45,6 +45,7 @@ struct Study {
   bool energy = false;          ///< what round-off does to an energy: energy.csv
   bool phases = false;          ///< shares of the parts of Newton's method: phases.csv
   std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv
+  bool profile = false;         ///< performance profiles at the targets: profile.csv
   TimingOptions timing;
 };
 

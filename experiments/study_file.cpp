@@ -63,7 +63,7 @@ class FileReader {
 
 constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
                                            "energy", "phases", "timing",       "targets",
-                                           "defaults", "quick", "block"};
+                                           "profile", "defaults", "quick", "block"};
 
 void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
                   StudyKeys& study) {

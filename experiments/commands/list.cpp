@@ -52,7 +52,16 @@ void listAxis(std::ostream& out) {
   }
 }
 
+void listConfigurations(std::ostream& out) {
+  out << "configuration\n";
+  for (const auto& configuration : configurations()) {
+    fmt::print(out, "    {:<20} {}{}{}\n", configuration.id, configuration.meaning,
+               configuration.fields.empty() ? "" : ": ", configuration.fields);
+  }
+}
+
 void listStrategies(std::ostream& out) {
+  listConfigurations(out);
   listAxis<Formulation>(out);
   listAxis<ConstraintScaling>(out);
   listAxis<ScalarKind>(out);
@@ -63,6 +72,8 @@ void listStrategies(std::ostream& out) {
   listAxis<Predictor>(out);
   listAxis<ErrorEstimate>(out);
   listAxis<StepControl>(out);
+  listAxis<OrderControl>(out);
+  listAxis<Summation>(out);
   listAxis<NormKind>(out);
   listAxis<JacobianTerms>(out);
   listAxis<JacobianPoint>(out);

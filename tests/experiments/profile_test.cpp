@@ -1,0 +1,37 @@
+#include "experiments/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "experiments/numbers.h"
+#include "experiments/run_table.h"
+
+namespace irk {
+namespace {
+
+// Two problems; `variable` takes 1 and 4, `cvode_bdf` 2 and 2 with another formulation 8, `paper`
+// solves only the second, in 6.
+TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
+  Table costs;
+  costs.columns = {"scene", "settings", "solver", "target_error", "cpu_s"};
+  costs.rows = {{"a", "", "variable", "1e-6", "1"},           {"b", "", "variable", "1e-6", "4"},
+                {"a", "", "cvode_bdf", "1e-6", "8"},          {"a", "", "cvode_bdf", "1e-6", "2"},
+                {"b", "", "cvode_bdf", "1e-6", "2"},          {"a", "", "paper:radau_iia_5", "1e-6", "nan"},
+                {"b", "", "paper:radau_iia_5", "1e-6", "6"}};
+  const Table profile = profileTable(costs);
+  std::map<std::string, std::vector<std::pair<double, double>>> curves;
+  for (const auto& row : profile.rows) {
+    if (textAt(profile, row, "target_error") != "all") continue;
+    curves[textAt(profile, row, "solver")].emplace_back(numberAt(profile, row, "ratio"),
+                                                        numberAt(profile, row, "fraction"));
+  }
+  using Curve = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(curves["variable"], (Curve{{1, 0.5}, {2, 1}}));
+  EXPECT_EQ(curves["cvode_bdf"], (Curve{{1, 0.5}, {2, 1}}));
+  EXPECT_EQ(curves["paper:radau_iia_5"], (Curve{{3, 0.5}}));
+  EXPECT_EQ(curves.size(), 3);
+}
+
+}  // namespace
+}  // namespace irk
