@@ -8,6 +8,15 @@
 namespace irk {
 namespace {
 
+// x^n by squaring, n >= 0.
+double power(double x, int n) {
+  double result = 1;
+  for (; n > 0; n /= 2, x *= x) {
+    if (n % 2 == 1) result *= x;
+  }
+  return result;
+}
+
 template <class Real>
 double epsilon() {
   return static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
@@ -132,7 +141,7 @@ class SimplifiedNewton final : public NewtonBase<Real> {
         if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
         if (result.theta >= 0.99) return fail(result, Outcome::kNewtonFailed);
         eta = result.theta / (1 - result.theta);
-        if (adaptive_ && std::pow(result.theta, limit - 1 - m) * eta * norm > kappa_) {
+        if (adaptive_ && power(result.theta, limit - 1 - m) * eta * norm > kappa_) {
           return fail(result, Outcome::kNewtonFailed);
         }
       }

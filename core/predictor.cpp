@@ -45,14 +45,18 @@ void StartValues<Real>::compute(Weights& w) {
   for (Index i = 0; i < s; ++i) {
     legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis_.col(i));
   }
-  w.matrix.setZero(degrees, s);
+  const auto amplification = [&w] {
+    return static_cast<double>(Real(w.matrix.cwiseAbs().colwise().sum().maxCoeff()));
+  };
+  const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
+  w.matrix.resize(degrees, s);
+  smallProduct<Real>(to_stages, basis_, w.matrix);
+  if (amplification() <= kAmplificationLimit) return;
+  w.matrix.setZero();
   for (Index k = 0; k < degrees; ++k) {
-    const auto row = w.past->legendre_inverse.row(k).transpose();
-    for (Index i = 0; i < s; ++i) w.matrix.col(i) += basis_(k, i) * row;
-    const double amplification =
-        static_cast<double>(Real(w.matrix.cwiseAbs().colwise().sum().maxCoeff()));
-    if (amplification > kAmplificationLimit && k > 0) {
-      for (Index i = 0; i < s; ++i) w.matrix.col(i) -= basis_(k, i) * row;
+    for (Index i = 0; i < s; ++i) w.matrix.col(i) += basis_(k, i) * to_stages.col(k);
+    if (amplification() > kAmplificationLimit && k > 0) {
+      for (Index i = 0; i < s; ++i) w.matrix.col(i) -= basis_(k, i) * to_stages.col(k);
       return;
     }
   }

@@ -32,6 +32,8 @@ Scheme<Real>::Scheme(Tableau<Real> t)
     : tableau(std::move(t)), s(tableau.stages()), A(tableau.A), b(tableau.b), c(tableau.c) {
   A2.noalias() = A * A;
   bA.noalias() = A.transpose() * b;
+  A_transposed = A.transpose();
+  A2_transposed = A2.transpose();
   // Round-off of a sum of s coefficients of size <= 1.
   const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();
   const auto small = [&](const auto& x) { return x.cwiseAbs().maxCoeff() <= tiny; };
@@ -44,6 +46,7 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   Mat<Real> V(s, s);  // transposed: column i = stage i
   for (Index i = 0; i < s; ++i) legendre<Real>(c[i], V.col(i));
   legendre_inverse = V.transpose().fullPivLu().inverse();
+  legendre_inverse_transposed = legendre_inverse.transpose();
   Vec<Real> at(s);
   legendre<Real>(Real(1), at);
   end = legendre_inverse.transpose() * at;

@@ -24,7 +24,8 @@ struct Scheme {
   Vec<Real> end, start;
   /// V^-1 with V_ik = P_k(c_i), orthonormal shifted Legendre polynomials: coefficients of the
   /// polynomial through the stages. Stable for any s. HW II (IV.5).
-  Mat<Real> legendre_inverse;
+  Mat<Real> legendre_inverse, legendre_inverse_transposed;
+  Mat<Real> A_transposed, A2_transposed;
 
   explicit Scheme(Tableau<Real> t);
 

@@ -42,8 +42,8 @@ template <class Real>
 void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
   from_ = &from;
   h_ = h;
-  hA_ = h * scheme_.A.transpose();
-  hhA2_ = (h * h) * scheme_.A2.transpose();
+  hA_ = h * scheme_.A_transposed;
+  hhA2_ = (h * h) * scheme_.A2_transposed;
   hc_ = h * scheme_.c;
   rowScales(system_.rowPowers(), h, scales_);
 }
