@@ -127,7 +127,7 @@ std::string stabilityText(const Stability& stability) {
 
 std::string spectrumText(const Spectrum& spectrum) {
   const auto real = std::ranges::count_if(spectrum.values, [](const auto& x) { return x.im == 0; });
-  std::string text = fmt::format("  {} eigenvalues of A, {} real, ", spectrum.values.size(), real);
+  std::string text = fmt::format("  eigenvalues of A: {}, {} of them real, ", spectrum.values.size(), real);
   if (spectrum.defective) {
     return text + "repeated and DEFECTIVE: A has no basis of eigenvectors (use Schur's form)\n";
   }
