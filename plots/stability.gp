@@ -21,6 +21,7 @@ collected = ""
 stats table using (row = int($0) + 1, collect(strcol("method")), M[row] = strcol("method"), \
   W[row] = strcol("root") eq 'zero' ? 1 : -1, Q[row] = column("re") + {0,1} * column("im"), abs(Q[row])) name "Root" nooutput
 all = collected
+set datafile separator whitespace; unset datafile columnheaders   # of the blocks below
 first(m) = (found = 0, sum [i = 1:rows] (found == 0 && M[i] eq m ? (found = i, 0) : 0), found)
 last(m) = (found = 0, sum [i = 1:rows] (M[i] eq m ? (found = i, 0) : 0), found)
 
@@ -67,7 +68,7 @@ do for [p = 1 : panels] {
   unset table
 }
 
-margin_left = columns == 1 ? 0.14 : 0.05; margin_right = 0.015
+margin_left = columns == 1 ? 0.14 : 0.062; margin_right = 0.015
 height = 90 + (columns == 1 ? 460 : 1080 / columns - 20) * lines
 margin_top = 34.0 / height; margin_bottom = 96.0 / height; gap_x = 0.03; gap_y = 62.0 / height
 legend_names = families eq '' ? all : listed(word(families, 1))
@@ -85,6 +86,7 @@ do for [format in formats] {
     names = inPanel(p)
     eval panel(p, columns, lines)
     set xrange [-extent : extent]; set yrange [-extent : extent]
+    if (families ne '') { set xtics extent / 2; set ytics extent / 2 }
     set title panelTitle(p) offset 0,-0.6
     set xlabel when(p > panels - columns, 'Re z') offset 0,0.6
     set ylabel when(p % columns == 1 || columns == 1, 'Im z') offset 1.2,0
