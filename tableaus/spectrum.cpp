@@ -111,8 +111,15 @@ Spectrum spectrum(const Mat<mp80>& matrix, double tolerance) {
   const Eigen::EigenSolver<Mat<mp80>> eigen(matrix);
   if (eigen.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not end");
   Spectrum result;
-  for (const auto& value : eigen.eigenvalues()) {
-    result.values.push_back({value.real(), value.imag()});
+  // The diagonal of a triangular matrix is exact: the iteration would split the s equal eigenvalues
+  // of an SDIRK method by the s-th root of its rounding.
+  const Mat<mp80> above = matrix.triangularView<Eigen::StrictlyUpper>();
+  if (above.isZero(0)) {
+    for (const mp80& value : matrix.diagonal()) result.values.push_back({value, 0});
+  } else {
+    for (const auto& value : eigen.eigenvalues()) {
+      result.values.push_back({value.real(), value.imag()});
+    }
   }
   const double split = std::sqrt(tolerance);
   result.gap = smallestGap(result.values);

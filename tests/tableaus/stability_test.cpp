@@ -238,6 +238,10 @@ TEST(Spectrum, RepeatedEigenvaluesWithAndWithoutEigenvectors) {
   EXPECT_FALSE(spectrum(diagonal, 5e-48).defective);
   EXPECT_EQ(spectrum(diagonal, 5e-48).eigenvector_condition, 1);
   EXPECT_TRUE(spectrum(sdirk2(mp80(1) / 4).A, 5e-48).defective);
+  Mat<mp80> sdirk = Mat<mp80>::Ones(6, 6).triangularView<Eigen::Lower>();
+  sdirk.diagonal().setConstant(mp80(1) / 3);
+  EXPECT_TRUE(spectrum(sdirk, 5e-48).defective);
+  EXPECT_EQ(spectrum(sdirk, 5e-48).gap, 0);
   // Not triangular, and rounded to double: both eigenvalues are 1.
   Mat<mp80> full(2, 2);
   full << 3, 4, -1, -1;
