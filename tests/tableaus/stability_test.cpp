@@ -195,13 +195,14 @@ TEST(Stability, OfTwoStageSdirk) {
   EXPECT_NEAR(other.R.atInfinity(), 1 + std::sqrt(3.0), 1e-14);
 }
 
-// The sector's edge is a ray on which |R| touches 1: larger angles are unstable somewhere, smaller
-// ones nowhere. R = (1 + z/4)^3 / (1 - z/4)^3 damped in its numerator is looked at by sampling.
+// Alexander's L-stable method with a wrong sign: R(inf) = 0 still, but the imaginary axis is not
+// stable. Angles just above alpha are unstable somewhere, just below nowhere.
 TEST(Stability, AngleAgreesWithSampling) {
-  const auto properties = propertiesOf(method({{mp80(1) / 4, 0, 0},
-                                               {mp80(1) / 2, mp80(1) / 4, 0},
-                                               {mp80(1) / 4, mp80(1) / 2, mp80(1) / 4},
-                                               {mp80(1) / 3, mp80(1) / 3, mp80(1) / 3}}));
+  const mp80 gamma("0.435866521508458999416019451194"), tau = (1 + gamma) / 2;
+  const mp80 b1 = -(6 * gamma * gamma - 16 * gamma + 1) / 4;
+  const mp80 b2 = (6 * gamma * gamma - 20 * gamma + 5) / 4;
+  const auto properties = propertiesOf(
+      method({{gamma, 0, 0}, {tau - gamma, gamma, 0}, {b1, -b2, gamma}, {b1, -b2, gamma}}));
   const auto& [a_stable, l_stable, i_stable, alpha, real_limit, imaginary_limit] =
       properties.stability;
   ASSERT_FALSE(a_stable);
