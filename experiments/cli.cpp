@@ -140,13 +140,21 @@ class Program {
       return tableauShow(method_, static_cast<int>(digits), s);
     });
     show->add_option("--digits", digits_, "significant digits")->capture_default_str();
-    auto* check = verb(*tableau, "check", "does it keep what it declares?",
+    auto* check = verb(*tableau, "check", "does it keep what it declares, and what is it?",
                        [this](Streams s) { return tableauCheck(method_, s); });
     auto* write = verb(*tableau, "export", "as a tableau file",
                        [this](Streams s) { return tableauExport(method_, s); });
     for (auto* sub : {show, check, write}) {
       sub->add_option("method", method_, "id or file")->required();
     }
+    auto* plot = verb(*tableau, "plot", "regions of stability and order stars",
+                      [this](Streams s) { return tableauPlot(methods_, out_, s); });
+    plot->add_option("methods", methods_, "ids or files")->required();
+    plot->add_option("--out", out_, "draw to FILE.svg and FILE.png, with the numbers in FILE.csv")
+        ->capture_default_str();
+    auto* table = verb(*tableau, "table", "properties of all families, 1 to 20 stages",
+                       [this](Streams s) { return tableauTable(results_, s); });
+    addResults(*table);
   }
 
   void addPlots() {
@@ -179,7 +187,8 @@ class Program {
   bool quick_ = false, fresh_ = false;
   std::string study_, shard_, what_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
-  std::vector<std::string> folders_;
+  std::string out_ = "stability";
+  std::vector<std::string> folders_, methods_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
 };

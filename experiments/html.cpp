@@ -77,6 +77,38 @@ std::string ordersHtml(const std::string& study, const Table& orders) {
   return html + "</tbody></table>\n";
 }
 
+std::string tableausHtml(const Table& tableaus) {
+  struct Column {
+    const char *name, *title;
+    int digits;  ///< 0: yes or no
+  };
+  constexpr Column kColumns[] = {{"order", "order", 4},
+                                 {"C", "stage order", 4},
+                                 {"numerator_degree", "deg N", 4},
+                                 {"denominator_degree", "deg D", 4},
+                                 {"R_infinity", "R(∞)", 4},
+                                 {"error_constant", "error constant", 3},
+                                 {"a_stable", "A-stable", 0},
+                                 {"l_stable", "L-stable", 0},
+                                 {"algebraically_stable", "algebraically stable", 0},
+                                 {"symplectic", "symplectic", 0},
+                                 {"symmetric", "symmetric", 0},
+                                 {"condition_A", "cond A", 3},
+                                 {"condition_eigenvectors", "cond eigenvectors", 3}};
+  std::string html = "<table><thead><tr><th>method</th>";
+  for (const auto& column : kColumns) html += fmt::format("<th>{}</th>", column.title);
+  html += "</tr></thead><tbody>\n";
+  for (const auto& row : tableaus.rows) {
+    html += "<tr>" + cell(textAt(tableaus, row, "method"));
+    for (const auto& [name, title, digits] : kColumns) {
+      html += digits > 0 ? numberCell(tableaus, row, name, digits)
+                         : cell(numberAt(tableaus, row, name) > 0 ? "yes" : "no");
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
 std::string environmentHtml(const std::string& study, const Table& runs) {
   std::map<std::string, int> outcomes;
   for (const auto& row : runs.rows) ++outcomes[textAt(runs, row, "outcome")];

@@ -23,6 +23,9 @@
 namespace irk {
 namespace {
 
+// Results that are no study's runs, see experiments/tableau_table.h.
+constexpr std::string_view kTableaus = "tableaus";
+
 std::filesystem::path figureFolder(const ReportOptions& options) {
   return options.results / "report" / "figures";
 }
@@ -91,6 +94,7 @@ std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
 }
 
 std::string studyTitle(const std::string& id) {
+  if (id == kTableaus) return "Tableaus: stability, order stars, conditioning";
   try {
     return loadStudy(id, StudyVariant::kQuick).title;
   } catch (const Misuse&) {  // not built in: its figures stand in a list of the user's own
@@ -166,8 +170,9 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
     if (!study.empty() && figure.study != study) continue;
     if (!hasResults(figure, options)) {
       if (!study.empty()) ++failures;
-      fmt::print(err, "figure {}: no results of study '{}' yet: irk run {}\n", figure.name,
-                 figure.study, figure.study);
+      const auto command = figure.study == kTableaus ? "tableau table" : "run " + figure.study;
+      fmt::print(err, "figure {}: no results of study '{}' yet: irk {}\n", figure.name,
+                 figure.study, command);
       continue;
     }
     if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) {
@@ -194,6 +199,10 @@ std::filesystem::path writeReport(const ReportOptions& options) {
                      claimsHtml(ResultTables(options.results), figureFolder(options)));
   replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
   replacePlaceholder(page, "@TABLES@", orders);
+  const auto tableaus = options.results / "tableaus" / "tableaus.csv";
+  replacePlaceholder(page, "@TABLEAUS@",
+                     std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus))
+                                                       : "<p>None yet: irk tableau table.</p>");
   replacePlaceholder(page, "@ENVIRONMENT@", environment);
   replacePlaceholder(page, "@DATE@", dateText());
   const auto path = options.results / "report" / "index.html";

@@ -207,8 +207,6 @@ std::string_view verdictName(Verdict verdict) {
   return "";
 }
 
-std::string_view yesNo(bool value) { return value ? "yes" : "no"; }
-
 std::string analysisText(const TableauAnalysis& analysis) {
   const auto condition = [&](char name, const Vec<double>& residuals, int holds) {
     std::string text = fmt::format("  {}({})", name, holds);
@@ -220,14 +218,7 @@ std::string analysisText(const TableauAnalysis& analysis) {
   };
   return condition('B', analysis.residuals.B, analysis.p) +
          condition('C', analysis.residuals.C, analysis.q) +
-         condition('D', analysis.residuals.D, analysis.r) +
-         fmt::format("  R(inf) = {:.6g}\n", analysis.r_infinity) +
-         fmt::format("  A {}, reciprocal condition {:.2g}{}\n",
-                     analysis.regular ? "regular" : "singular", analysis.reciprocal_condition,
-                     analysis.explicit_first_stage ? ", first stage explicit" : "") +
-         fmt::format("  stiffly accurate: {}, symplectic: {}, algebraically stable: {}\n",
-                     yesNo(analysis.stiffly_accurate), yesNo(analysis.symplectic),
-                     yesNo(analysis.algebraically_stable));
+         condition('D', analysis.residuals.D, analysis.r);
 }
 
 std::string reportText(const Tableau<mp80>& tableau, const TableauReport& report) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/misuse.h"
+#include "tableaus/properties.h"
 #include "tableaus/source.h"
 
 namespace irk {
@@ -48,7 +49,16 @@ std::string showTableau(std::string_view id_or_file, int digits) {
 }
 
 TableauReport checkTableau(std::string_view id_or_file) {
-  return checkTableau(findUncheckedTableau(id_or_file));
+  const TableauFile file = findUncheckedTableau(id_or_file);
+  TableauReport report = checkTableau(file);
+  if (file.tableau.stages() > kMostAnalyzedStages) {
+    report.text += fmt::format("  stability and eigenvalues: analysed up to {} stages only\n",
+                               kMostAnalyzedStages);
+    return report;
+  }
+  const auto properties = analyzeProperties(file.tableau, report.analysis.tolerance);
+  report.text += propertiesText(properties);
+  return report;
 }
 
 std::string exportTableau(std::string_view id_or_file) {

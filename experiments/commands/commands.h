@@ -46,6 +46,10 @@ int listCommand(const std::string& what, Streams streams);
 int tableauShow(const std::string& id_or_file, int digits, Streams streams);
 int tableauCheck(const std::string& id_or_file, Streams streams);
 int tableauExport(const std::string& id_or_file, Streams streams);
+/// `out`.csv, .svg and .png: regions of stability and order stars of the methods, ids or files.
+int tableauPlot(const std::vector<std::string>& methods, const std::string& out, Streams streams);
+/// results/tableaus/: the families up to 20 stages.
+int tableauTable(const std::string& results, Streams streams);
 
 int plotCommand(const std::string& study, const std::string& results, Streams streams);
 int reportCommand(const std::string& results, Streams streams);

@@ -71,6 +71,7 @@ int runCommand(const RunOptions& options, Streams streams) {
 
 int paperCommand(const RunOptions& options, Streams streams) {
   const InterruptScope interrupts;
+  tableauTable(options.runner.results.string(), streams);
   for (const auto id : kPaperStudies) {
     const int status = runOne(loadStudy(id, options.variant), options.runner, streams);
     if (status != 0) return status;

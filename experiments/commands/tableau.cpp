@@ -1,4 +1,10 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
 #include "experiments/commands/commands.h"
+#include "experiments/environment.h"
+#include "experiments/report.h"
+#include "experiments/tableau_table.h"
 #include "tableaus/report.h"
 
 namespace irk {
@@ -16,6 +22,26 @@ int tableauCheck(const std::string& id_or_file, Streams streams) {
 
 int tableauExport(const std::string& id_or_file, Streams streams) {
   streams.out << exportTableau(id_or_file);
+  return 0;
+}
+
+int tableauPlot(const std::vector<std::string>& methods, const std::string& out, Streams streams) {
+  const std::string table = out + ".csv";
+  writeTable(table, tableauTables(methods).stability);
+  const auto commands = fmt::format("table='{}'; out='{}'; views='region star'", table, out);
+  if (!drawFigure("stability.gp", commands, homeFolder(), streams.err)) return 1;
+  fmt::print(streams.out, "{0}.svg, {0}.png, {0}.csv\n", out);
+  return 0;
+}
+
+int tableauTable(const std::string& results, Streams streams) {
+  constexpr int kMostStages = 20;
+  const auto folder = std::filesystem::path(results) / "tableaus";
+  const TableauTables tables = tableauTables(familyMembers(kMostStages));
+  writeTable(folder / "tableaus.csv", tables.properties);
+  writeTable(folder / "stability.csv", tables.stability);
+  fmt::print(streams.out, "tableaus: {} methods in {}\n", tables.properties.rows.size(),
+             folder.string());
   return 0;
 }
 

@@ -53,8 +53,12 @@ TEST(Cli, SolveJsonListsSwitches) {
                                "--discontinuity", "locate", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  const double times[] = {15, 18.536383773289554, 28.536383773289554,
-                          32.07276754657911, 42.07276754657911, 45.609151319868666};
+  const double times[] = {15,
+                          18.536383773289554,
+                          28.536383773289554,
+                          32.07276754657911,
+                          42.07276754657911,
+                          45.609151319868666};
   ASSERT_EQ(json["switches"].size(), std::size(times));
   for (std::size_t i = 0; i < std::size(times); ++i) {
     EXPECT_NEAR(json["switches"][i]["t"].get<double>(), times[i], 1e-10);
@@ -165,6 +169,43 @@ TEST(Cli, ADamagedTableauFileIsStatusTwo) {
   const auto not_a_number = solveWith(nan);
   EXPECT_EQ(not_a_number.status, 2);
   EXPECT_TRUE(containsAll(not_a_number.err, {"method.txt:", "nan"}));
+}
+
+// Alexander's SDIRK of order 3, and the same with the wrong sign at one place.
+TEST(Cli, ATableauCheckSaysWhatIsTrue) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "method.txt";
+  const auto check = [&](const std::string& sign) {
+    std::ofstream(path) << "stages: 3\norder: 3\nstage_order: 1\ndigits: 30\nA\n"
+                           "0.435866521508458999416019451194 0 0\n"
+                           "0.282066739245770500291990274403 0.435866521508458999416019451194 0\n"
+                           "1.208496649176010070336477684063 "
+                        << sign
+                        << "0.644363170684469069752497135257 0.435866521508458999416019451194\nb\n"
+                           "1.208496649176010070336477684063 -0.644363170684469069752497135257 "
+                           "0.435866521508458999416019451194\nc\n"
+                           "0.435866521508458999416019451194 0.717933260754229499708009725597 1\n";
+    return irkProgram({"tableau", "check", path});
+  };
+  const auto right = check("-");
+  EXPECT_EQ(right.status, 0);
+  EXPECT_TRUE(containsAll(right.out, {"SDIRK", "degrees (2, 3)", "A-stable: yes, L-stable: yes",
+                                      "0.0258971 z^4", "DEFECTIVE", "keeps what it declares"}));
+  const auto wrong = check("+");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_TRUE(containsAll(wrong.out, {"row 3 of A does not sum up", "L-stable: no"}));
+}
+
+TEST(Cli, ATableauPlotDrawsAndKeepsItsNumbers) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "figure";
+  const auto run = irkProgram({"tableau", "plot", "radau_iia_2", "gauss_1", "--out", out});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  for (const auto* ending : {".svg", ".png", ".csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(out + ending)) << ending;
+  }
+  EXPECT_EQ(irkProgram({"tableau", "plot", "gauss_41", "--out", out}).status, 2);
 }
 
 TEST(Cli, ListsNameEverything) {
