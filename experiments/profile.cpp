@@ -12,6 +12,8 @@
 namespace irk {
 namespace {
 
+constexpr double kEnd = 1e6;  // where the curves end
+
 // Solver -> problem -> time.
 using Costs = std::map<std::string, std::map<std::string, double>>;
 
@@ -29,9 +31,10 @@ void appendProfile(const std::string& target, const Costs& costs, Table& table) 
     for (const auto& [problem, time] : times) ratios.push_back(time / best.at(problem));
     std::sort(ratios.begin(), ratios.end());
     if (ratios.empty()) table.rows.push_back({target, solver, "1", "0"});
+    ratios.push_back(kEnd);
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       table.rows.push_back({target, solver, numberText(ratios[i]),
-                            numberText(static_cast<double>(i + 1) / problems)});
+                            numberText(static_cast<double>(std::min(i + 1, times.size())) / problems)});
     }
   }
 }

@@ -10,7 +10,7 @@ namespace irk {
 /// treatment of discontinuities: the cheaper of two runs counts. From the rows of cpu_at_error.csv.
 /// Columns: target_error (`all`: every target), solver, ratio, fraction: on `fraction` of the
 /// problems the solver takes at most `ratio` times the time of the best. One row per step of the
-/// curve, from its first one on; a solver that never gets there has the row ratio 1, fraction 0.
+/// curve, the last at ratio 1e6; a solver that never gets there begins with ratio 1, fraction 0.
 Table profileTable(const Table& costs);
 
 }  // namespace irk

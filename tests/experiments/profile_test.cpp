@@ -27,9 +27,9 @@ TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
                                                         numberAt(profile, row, "fraction"));
   }
   using Curve = std::vector<std::pair<double, double>>;
-  EXPECT_EQ(curves["variable"], (Curve{{1, 0.5}, {2, 1}}));
-  EXPECT_EQ(curves["cvode_bdf"], (Curve{{1, 0.5}, {2, 1}}));
-  EXPECT_EQ(curves["paper:radau_iia_5"], (Curve{{3, 0.5}}));
+  EXPECT_EQ(curves["variable"], (Curve{{1, 0.5}, {2, 1}, {1e6, 1}}));
+  EXPECT_EQ(curves["cvode_bdf"], (Curve{{1, 0.5}, {2, 1}, {1e6, 1}}));
+  EXPECT_EQ(curves["paper:radau_iia_5"], (Curve{{3, 0.5}, {1e6, 0.5}}));
   EXPECT_EQ(curves.size(), 3);
 }
 
