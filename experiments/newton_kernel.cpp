@@ -13,9 +13,10 @@ NewtonKernel::NewtonKernel(const RunSpec& spec, double h)
       h_(h),
       differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull,
                       storageOf(spec.options)),
+      at_(1),
+      scheme_(makeTableau<double>(spec.method)),
+      equations_(*system_, scheme_, spec.options.summation, spec.options.threads),
       r_(Vec<double>::Zero(system_->sizes().n())) {
-  const Sizes n = system_->sizes();
-  at_.emplace_back();
   Counters counters;
   const CountingSystem<double> counted(*system_, counters);
   Differentiator<double> counting(counted, spec.options.derivatives, JacobianTerms::kFull,
@@ -24,15 +25,17 @@ NewtonKernel::NewtonKernel(const RunSpec& spec, double h)
   counters = {};
   counting.evaluate(Level::kFormulated, point(), at_.front());
   residuals_per_jacobian_ = counters.residuals;
-  differentiator_.evaluate(Level::kFormulated, point(), at_.front());
+  jacobian();
 
-  const Scheme<double> scheme(makeTableau<double>(spec.method));
-  const Mat<double> A = scheme.implicitA();
+  const Mat<double> A = scheme_.implicitA();
+  const Index n = system_->sizes().n();
   solver_ = makeStageSolver<double>(spec.options.solver,
-                                    {A, at_.front().pattern, system_->rowPowers(), n,
-                                     spec.options.threads});
+                                    {A, at_.front().pattern, system_->rowPowers(),
+                                     system_->sizes(), spec.options.threads});
   if (solver_->stagewise()) at_.resize(static_cast<std::size_t>(A.rows()), at_.front());
-  rhs_ = ones_ = Mat<double>::Ones(n.n(), A.rows());
+  rhs_ = ones_ = Mat<double>::Ones(n, A.rows());
+  W_ = R_ = start_.w.replicate(1, scheme_.s);
+  equations_.begin(start_, h_);
 }
 
 void NewtonKernel::residual() {
@@ -47,6 +50,11 @@ void NewtonKernel::factorize() {
   if (solver_->factorize(at_, h_) != Outcome::kSuccess) {
     throw Misuse("the Newton matrix cannot be factorized at the scene's start");
   }
+}
+
+void NewtonKernel::iteration() {
+  if (!equations_.residual(W_, R_)) throw Misuse("a residual at the scene's start is not finite");
+  solver_->solve(R_.rightCols(scheme_.implicitStages()));
 }
 
 void NewtonKernel::solve() {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/stage_equations.h"
 #include "core/stage_solver.h"
 #include "experiments/run_spec.h"
 
@@ -15,12 +16,15 @@ class NewtonKernel {
   NewtonKernel(const RunSpec& spec, double h);
 
   Index unknowns() const { return rhs_.rows(); }  ///< n, of one stage
+  Index nonzeros() const { return at_.front().pattern->nonzeros(); }  ///< of D0, D1, D2 together
+  std::size_t directions() const { return differentiator_.directions(); }  ///< of a Jacobian
   Index stages() const { return rhs_.cols(); }
 
   void residual();   ///< r at one point
   void jacobian();   ///< D0, D1, D2 at one point
   void factorize();  ///< the Newton matrix of all stages. Throws Misuse if it is singular
   void solve();      ///< with its factors, which must be there
+  void iteration();  ///< residuals of all stages and a solve
 
   /// Evaluations of r, over the plain scalar, in one `jacobian`.
   std::int64_t residualsPerJacobian() const { return residuals_per_jacobian_; }
@@ -33,9 +37,11 @@ class NewtonKernel {
   double h_;
   Differentiator<double> differentiator_;
   std::vector<Linearization<double>> at_;
+  Scheme<double> scheme_;
+  StageEquations<double> equations_;
   std::unique_ptr<StageSolver<double>> solver_;
   Vec<double> r_;
-  Mat<double> ones_, rhs_;
+  Mat<double> ones_, rhs_, W_, R_;
   std::int64_t residuals_per_jacobian_ = 0;
 };
 

@@ -1,24 +1,40 @@
-// The parts of Newton's method, per stage solver, number of stages and number of unknowns:
-// residual, Jacobian, factorization and solve of the ANCF pendulum at its start.
+// The parts of a step, per scene, stage solver, number of stages and number of unknowns, at the start
+// of the scene: residual, Jacobian, factorization, solve, Newton iteration, a whole step.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
+#include "core/stepper.h"
 #include "experiments/newton_kernel.h"
+#include "tableaus/catalogue.h"
 
 namespace irk {
 namespace {
 
-constexpr double kStep = 1e-3;  // s: about what an accurate run takes
+struct Chain {
+  const char* scene;
+  const char* size;  // its parameter
+  int unknowns;      // for each of it
+  double h;          // s: about what an accurate run takes
+};
+constexpr Chain kChains[] = {{"beam_chain", "m", 1, 1e-3}, {"ancf_pendulum", "elements", 4, 1e-4}};
 
-NewtonKernel makeKernel(StageSolverKind solver, const benchmark::State& state) {
+// Above, one dense factorization takes seconds.
+constexpr int kMostDense = 400, kMostCoupledDense = 1500;
+
+RunSpec specOf(const Chain& chain, StageSolverKind solver, Storage storage,
+               const benchmark::State& state) {
   RunSpec spec;
-  spec.scene = "ancf_pendulum";
-  spec.settings = {{"elements", std::to_string(state.range(1))}};
+  spec.scene = chain.scene;
+  spec.settings = {{chain.size, std::to_string(state.range(1) / chain.unknowns)}};
   spec.method = "radau_iia_" + std::to_string(state.range(0));
   spec.options.solver = solver;
-  return {spec, kStep};
+  spec.options.storage = storage;
+  spec.options.threads = static_cast<int>(state.range(2));
+  spec.options.tolerances.rtol = spec.options.tolerances.atol = 1e-6;
+  return spec;
 }
 
 struct Part {
@@ -28,20 +44,90 @@ struct Part {
 constexpr Part kSystemParts[] = {{"residual", &NewtonKernel::residual},
                                  {"jacobian", &NewtonKernel::jacobian}};
 constexpr Part kSolverParts[] = {{"factorize", &NewtonKernel::factorize},
-                                 {"solve", &NewtonKernel::solve}};
+                                 {"solve", &NewtonKernel::solve},
+                                 {"iteration", &NewtonKernel::iteration}};
 
-void measure(benchmark::State& state, StageSolverKind solver, const Part& part) {
-  NewtonKernel kernel = makeKernel(solver, state);
+void measurePart(benchmark::State& state, const Chain& chain, StageSolverKind solver,
+                 Storage storage, const Part& part) {
+  NewtonKernel kernel(specOf(chain, solver, storage, state), chain.h);
   kernel.factorize();
   for ([[maybe_unused]] auto _ : state) (kernel.*part.call)();
   state.counters["n"] = static_cast<double>(kernel.unknowns());
+  state.counters["entries"] = static_cast<double>(kernel.nonzeros());
+  state.counters["directions"] = static_cast<double>(kernel.directions());
 }
 
-void add(const std::string& name, StageSolverKind solver, const Part& part) {
-  benchmark::RegisterBenchmark(name.c_str(), measure, solver, part)
-      ->ArgsProduct({{3, 5, 10}, {4, 24}})
-      ->ArgNames({"stages", "elements"})
-      ->Unit(benchmark::kMicrosecond);
+/// One step from the scene's start, with a new Jacobian.
+void measureStep(benchmark::State& state, const Chain& chain, StageSolverKind solver,
+                 Storage storage) {
+  const RunSpec spec = specOf(chain, solver, storage, state);
+  const auto scene = makeScene<double>(spec.scene, spec.settings);
+  const auto system = scene.system({});
+  const Scheme<double> scheme(makeTableau<double>(spec.method));
+  Counters counters;
+  ErrorNorm<double> norm(*system, spec.options.tolerances, scene.scale);
+  SharedJacobian<double> jacobian(*system, scheme, spec.options, counters);
+  Stepper<double> stepper(*system, scheme, spec.options, jacobian, norm, counters);
+  State<double> end(system->sizes());
+  norm.update(scene.start);
+  const auto step = [&] {
+    stepper.forget();
+    jacobian.markStale();
+    return stepper.attempt(stepper.stages(), scene.start, chain.h, end).outcome;
+  };
+  if (step() != Outcome::kSuccess) return state.SkipWithError("the step is not solved");
+  const std::int64_t before = counters.newton_iterations;
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(step());
+  state.counters["n"] = static_cast<double>(system->sizes().n());
+  state.counters["iterations_per_step"] =
+      static_cast<double>(counters.newton_iterations - before) /
+      static_cast<double>(state.iterations());
+}
+
+template <class... Args>
+void add(const std::string& name, bool dense, bool coupled, const std::vector<std::int64_t>& threads,
+         Args... args) {
+  auto* benchmark = benchmark::RegisterBenchmark(name.c_str(), args...);
+  benchmark->ArgNames({"stages", "n", "threads"})->Unit(benchmark::kMicrosecond);
+  for (const std::int64_t s : {3, 5, 8, 10}) {
+    for (const std::int64_t n : {12, 24, 100, 200, 400, 1000, 2000, 4000}) {
+      if (dense && (n > kMostDense || (coupled && s * n > kMostCoupledDense))) continue;
+      for (const std::int64_t t : threads) benchmark->Args({s, n, t});
+    }
+  }
+  if (threads.size() > 1) benchmark->UseRealTime();
+}
+
+void addAll() {
+  constexpr struct {
+    StageSolverKind kind;
+    Storage storage;
+  } kSolvers[] = {{StageSolverKind::kSchur, Storage::kSparse},
+                  {StageSolverKind::kEigen, Storage::kSparse},
+                  {StageSolverKind::kCoupledSparse, Storage::kSparse},
+                  {StageSolverKind::kSchur, Storage::kDense},
+                  {StageSolverKind::kEigen, Storage::kDense},
+                  {StageSolverKind::kCoupledDense, Storage::kDense}};
+  for (const Chain& chain : kChains) {
+    const std::string scene = std::string(chain.scene) + '/';
+    for (const Part& part : kSystemParts) {
+      add(scene + part.name, false, false, {1}, measurePart, chain, StageSolverKind::kSchur,
+          Storage::kSparse, part);
+    }
+    for (const auto& [kind, storage] : kSolvers) {
+      const bool dense = storage == Storage::kDense, coupled = kind == StageSolverKind::kCoupledDense;
+      const std::string solver = scene + std::string(idOf(kind)) + '/' +
+                                 std::string(idOf(storage)) + '/';
+      for (const Part& part : kSolverParts) {
+        add(solver + part.name, dense, coupled, {1}, measurePart, chain, kind, storage, part);
+      }
+      add(solver + "step", dense, coupled, {1}, measureStep, chain, kind, storage);
+      if (kind == StageSolverKind::kSchur) {
+        add(solver + "factorize_parallel", dense, false, {1, 2}, measurePart, chain, kind, storage,
+            kSolverParts[0]);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -49,14 +135,7 @@ void add(const std::string& name, StageSolverKind solver, const Part& part) {
 
 int main(int argc, char** argv) {
   try {
-    for (const auto& part : irk::kSystemParts) {
-      irk::add(part.name, irk::StageSolverKind::kSchur, part);
-    }
-    for (const auto& solver : irk::named<irk::StageSolverKind>()) {
-      for (const auto& part : irk::kSolverParts) {
-        irk::add(std::string(solver.id) + '/' + part.name, solver.value, part);
-      }
-    }
+    irk::addAll();
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::RunSpecifiedBenchmarks();
