@@ -10,8 +10,10 @@
 namespace irk {
 namespace {
 
-// Below this reciprocal growth of the pivots (of 1) the old ones lose too many digits.
-constexpr double kLeastGrowth = 1e-4;
+// Old pivots serve as long as the smallest of them, relative to the largest, is not this much
+// smaller than when they were chosen. (KLU's pivot growth says it sharper, and costs as much as the
+// refactorization.)
+constexpr double kSmallerPivot = 1e-3;
 
 klu_common defaults() {
   klu_common common;
@@ -26,7 +28,6 @@ template <>
 struct Klu<double> {
   static constexpr auto factor = klu_factor;
   static constexpr auto refactor = klu_refactor;
-  static constexpr auto growth = klu_rgrowth;
   static constexpr auto solve = klu_solve;
   static constexpr auto condition = klu_rcond;
   static constexpr auto release = klu_free_numeric;
@@ -35,7 +36,6 @@ template <>
 struct Klu<std::complex<double>> {
   static constexpr auto factor = klu_z_factor;
   static constexpr auto refactor = klu_z_refactor;
-  static constexpr auto growth = klu_z_rgrowth;
   static constexpr auto solve = klu_z_solve;
   static constexpr auto condition = klu_z_rcond;
   static constexpr auto release = klu_z_free_numeric;
@@ -73,6 +73,7 @@ template <class T>
 struct SparseLu<T>::Numeric {
   klu_common common = defaults();
   klu_numeric* value = nullptr;
+  double chosen_at = 0;  // reciprocal condition when the pivots were chosen
   ~Numeric() { release(); }
   void release() {
     if constexpr (kHasKlu<T>) {
@@ -112,8 +113,8 @@ bool SparseLu<T>::refactorize() {
     double* const values = numbers(values_.data());
     if (!Klu<T>::refactor(columns, rows, values, symbolic, numeric_->value, &common)) return false;
     if (common.status != KLU_OK) return false;
-    Klu<T>::growth(columns, rows, values, symbolic, numeric_->value, &common);
-    return common.rgrowth > kLeastGrowth;
+    Klu<T>::condition(symbolic, numeric_->value, &common);
+    return common.rcond >= kSmallerPivot * numeric_->chosen_at;
   }
   return false;
 }
@@ -126,7 +127,10 @@ bool SparseLu<T>::pivot() {
     numeric_->value = Klu<T>::factor(indices(analysis_->column_start), indices(analysis_->row),
                                      numbers(values_.data()), analysis_->symbolic_->value,
                                      &numeric_->common);
-    if (numeric_->value && numeric_->common.status == KLU_OK) return true;
+    if (numeric_->value && numeric_->common.status == KLU_OK) {
+      numeric_->chosen_at = reciprocalCondition();
+      return true;
+    }
     numeric_->release();
   }
   return false;

@@ -42,7 +42,7 @@ class SparseLu {
   /// To be filled before `factorize`, in the order of the pattern.
   T* values() { return values_.data(); }
 
-  /// With the pivots of the last factorization where they still serve (growth and condition), else
+  /// With the pivots of the last factorization where they still serve, else
   /// with new ones. kSuccess, kSingular, kNotFinite.
   [[nodiscard]] Outcome factorize();
 
