@@ -13,7 +13,7 @@ partPoint(k) = word("7 5 9 13", k) + 0
 partDash(k) = k == 1 ? 1 : k + 1
 partTitle(c) = c eq 'u' ? 'position u' : c eq 'v' ? 'velocity v' : c eq 'z' ? 'multiplier z' : 'state x'
 
-chosen(d) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+chosen(d) = is("scene", scene) && is("power_of", 'h') && is("settings", settings) && has("formulation", formulation) \
             && position(components, strcol("component"))
 row(family, k) = chosen(0) && is("family", family) && is("component", part(k))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
