@@ -163,6 +163,20 @@ void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
   }
 }
 
+// A method of which no run succeeded has rows, too: in the components that the system has.
+void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
+  const auto kind = kindOf(runs, run);
+  const Sizes n = makeScene<double>(textAt(runs, run, "scene")).sizes();
+  OrderFit fit;
+  fit.reason = "no run succeeded: " + textAt(runs, run, "outcome");
+  const std::string components = (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") +
+                                 std::string(n.nz > 0 ? "z" : "");
+  for (const char component : components) {
+    const Theory theory = theoryFor(runs, run, kind, component);
+    orders.rows.push_back(orderRow(runs, run, component, "h", fit, theory, fit.reason));
+  }
+}
+
 std::vector<const TableRow*> successes(const Table& runs, const RunSeries& series) {
   std::vector<const TableRow*> rows;
   for (const auto* row : series.rows) {
@@ -183,7 +197,11 @@ Table orderTable(const Table& runs) {
   for (const auto& series : seriesOf(runs)) {
     const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";
     const auto rows = successes(runs, series);
-    if (!fixed || rows.empty()) continue;
+    if (!fixed) continue;
+    if (rows.empty()) {
+      appendFailure(runs, *series.rows.back(), orders);
+      continue;
+    }
     appendOrders(runs, rows, orders);
     const auto& settings = textAt(runs, *rows.front(), "settings");
     if (!settings.ends_with("/h")) continue;

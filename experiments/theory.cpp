@@ -67,6 +67,7 @@ Order mechanical2(std::string_view family, Index s, char component) {
 
 Order projected(std::string_view family, Index s, char component) {
   const bool healed = family == "gauss" || family == "radau_ia";
+  if (healed && component == 'z') return {};
   return mechanical2(family, s, component == 'v' && healed ? 'u' : component);
 }
 
