@@ -53,7 +53,7 @@ do for [format in formats] {
   set multiplot
   set xrange [S_min - 0.7 : S_max + 0.7]; set yrange [y_min : y_max]
   x_step = S_max > 12 ? 5 : S_max > 8 ? 2 : 1
-  set xtics x_step; set ytics 0, y_step
+  set xtics x_step; set ytics y_step
   do for [i = 1 : n] {
     f = word(present, i)
     eval panel(i, columns, lines)

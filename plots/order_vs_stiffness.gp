@@ -1,6 +1,6 @@
 # Order reduction: observed order against the stiffness, one panel per family, one line per number of stages.
 #   gnuplot -e "data='results/order'; out='order_reduction'; scene='prothero_robinson'" order_vs_stiffness.gp
-# Reads orders.csv. Options: scene, parameter (the setting that is the stiffness), its default, stages_shown.
+# Reads orders.csv. Options: scene, parameter (the setting that is the stiffness), parameter_default, stages_shown.
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("scene")) scene = 'prothero_robinson'
 if (!exists("parameter")) parameter = 'lambda'
@@ -12,8 +12,12 @@ wide(settings) = strstrt(settings, '/h') > 0   # stiffness over step: no single 
 chosen(d) = is("scene", scene) && is("component", 'x') && !wide(strcol("settings")) \
             && position(stages_shown, sprintf("%d", column("stages")))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
-value(settings) = settings eq '' ? parameter_default : settings[strlen(parameter) + 2 : *]
-stiffness(d) = abs(real(value(strcol("settings"))))
+# gnuplot reads no exponents in text: mantissa and exponent apart.
+textOf(settings) = settings eq '' ? parameter_default : settings[strlen(parameter) + 2 : *]
+magnitude(text) = text[1:1] eq '-' ? text[2:*] : text
+valueOf(text) = strstrt(text, 'e') == 0 ? text + 0 \
+                : (text[1 : strstrt(text, 'e') - 1] + 0) * 10.0 ** (text[strstrt(text, 'e') + 1 : *] + 0)
+stiffness(d) = valueOf(magnitude(textOf(strcol("settings"))))
 row(family, s) = chosen(0) && is_measured(0) && is("family", family) && column("stages") == s
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
@@ -37,7 +41,7 @@ do for [format in formats] {
   set multiplot
   eval decades("x")
   set xrange [X_min / 3 : X_max * 3]; set yrange [O_min - 0.6 : O_max + 0.8]
-  set ytics 2
+  set ytics 2; set xtics 100
   do for [i = 1 : n] {
     f = word(present, i)
     eval panel(i, columns, lines)
@@ -51,7 +55,7 @@ do for [format in formats] {
   }
   eval legend(lines == 1 ? 0.13 : 0.07)
   plot 2 notitle, for [s in stages] keyentry with linespoints lw 1.2 dt stageDash(int(s)) pt stagePoint(int(s)) ps 0.8 \
-         lc rgb stageColour(int(s)) title s.' stages'
+         lc rgb stageColour(int(s)) title 's = '.s
   unset multiplot
   unset output
   unset logscale
