@@ -71,19 +71,31 @@ std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
   return points;
 }
 
-// Behind the smallest error the errors are noise, if that is small: their median is its level.
-// Larger errors that grow belong to a negative order.
-double noiseFloor(const std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
-  const double floor = 50 * options.epsilon;
+// Errors that no longer shrink, although they are small, are noise from where its level is reached
+// on: those points go, and the ones that noise of that level would bend. Larger errors that do not
+// shrink belong to an order of zero or less. Returns the floor below which points have been taken.
+double removeNoise(std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
+  constexpr double kLevel = 3;
+  double floor = 50 * options.epsilon;
   const double small = 100 * std::sqrt(options.epsilon);
-  const auto least = std::min_element(points.begin(), points.end(),
-                                      [](auto& a, auto& b) { return a.error < b.error; });
-  if (least == points.end() || least->error > small || points.end() - least < 3) return floor;
-  std::vector<double> tail;
-  for (auto p = least; p != points.end(); ++p) tail.push_back(p->error);
-  const auto middle = tail.begin() + static_cast<std::ptrdiff_t>(tail.size() / 2);
-  std::nth_element(tail.begin(), middle, tail.end());
-  return std::max(floor, options.above_noise * *middle);
+  const auto less = [](const ErrorPoint& a, const ErrorPoint& b) { return a.error < b.error; };
+  const auto least = std::min_element(points.begin(), points.end(), less);
+  if (least != points.end() && least->error <= small) {
+    const double level = kLevel * least->error;
+    const auto first = std::find_if(points.begin(), points.end(),
+                                    [level](const ErrorPoint& p) { return p.error <= level; });
+    const bool shrinks =
+        std::is_sorted(first, points.end(), [](auto& a, auto& b) { return a.error > b.error; });
+    if (!shrinks) {
+      std::vector<ErrorPoint> tail(first, points.end());
+      const auto middle = tail.begin() + static_cast<std::ptrdiff_t>(tail.size() / 2);
+      std::nth_element(tail.begin(), middle, tail.end(), less);
+      floor = std::max(floor, options.above_noise * middle->error);
+      points.erase(first, points.end());
+    }
+  }
+  std::erase_if(points, [floor](const ErrorPoint& p) { return p.error < floor; });
+  return floor;
 }
 
 OrderFit notMeasurable(std::string reason) {
@@ -98,8 +110,7 @@ double orderTolerance(double order) { return std::max(0.2, 0.01 * std::abs(order
 
 OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options) {
   std::vector<ErrorPoint> points = usable(std::move(given));
-  const double floor = noiseFloor(points, options);
-  std::erase_if(points, [floor](const ErrorPoint& p) { return p.error < floor; });
+  const double floor = removeNoise(points, options);
   const auto enough = static_cast<std::size_t>(options.min_points);
   if (points.size() < enough) {
     return notMeasurable(fmt::format("{} points above the floor {:.1e}, {} are needed",

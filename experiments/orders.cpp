@@ -31,7 +31,8 @@ constexpr double kStiffLimit = 1e3;
 double stiffness(const std::string& settings) {
   constexpr std::string_view kName = "lambda=";
   const auto at = settings.find(kName);
-  return at == settings.npos ? kUnknown : std::strtod(settings.c_str() + at + kName.size(), nullptr);
+  return at == settings.npos ? kUnknown
+                             : std::strtod(settings.c_str() + at + kName.size(), nullptr);
 }
 
 std::optional<SystemKind> stiffKind(const Table& runs, const TableRow& row) {
@@ -169,8 +170,8 @@ void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
   const Sizes n = makeScene<double>(textAt(runs, run, "scene")).sizes();
   OrderFit fit;
   fit.reason = "no run succeeded: " + textAt(runs, run, "outcome");
-  const std::string components = (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") +
-                                 std::string(n.nz > 0 ? "z" : "");
+  const std::string components =
+      (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") + std::string(n.nz > 0 ? "z" : "");
   for (const char component : components) {
     const Theory theory = theoryFor(runs, run, kind, component);
     orders.rows.push_back(orderRow(runs, run, component, "h", fit, theory, fit.reason));
@@ -190,9 +191,9 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
-  orders.columns = {"scene",  "settings",   "formulation", "scalar",  "family",  "stages",
-                    "component", "power_of", "order",      "confidence", "h_min", "h_max",
-                    "points", "theory",     "source",      "verdict", "reason"};
+  orders.columns = {"scene",     "settings", "formulation", "scalar",     "family", "stages",
+                    "component", "power_of", "order",       "confidence", "h_min",  "h_max",
+                    "points",    "theory",   "source",      "verdict",    "reason"};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {
     const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";

@@ -258,7 +258,8 @@ RunSpec resolved(RunSpec spec) {
       throw Misuse(unknownName("parameter of " + spec.scene, name, known));
     }
   }
-  if (std::isnan(spec.t_end)) spec.t_end = makeScene<double>(spec.scene, settingsAtStep(spec)).t_end;
+  if (std::isnan(spec.t_end))
+    spec.t_end = makeScene<double>(spec.scene, settingsAtStep(spec)).t_end;
   return spec;
 }
 

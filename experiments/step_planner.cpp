@@ -48,9 +48,8 @@ std::optional<std::size_t> StepPlanner::nextProbe() const {
   }
   if (any && all) return {};
   const double wanted = steps_[runs_.rbegin()->first] / 2;
-  const auto at = std::find_if(steps_.begin(), steps_.end(), [wanted](double h) {
-    return h <= wanted * (1 + 1e-9);
-  });
+  const auto at = std::find_if(steps_.begin(), steps_.end(),
+                               [wanted](double h) { return h <= wanted * (1 + 1e-9); });
   if (at == steps_.end()) return {};
   return static_cast<std::size_t>(at - steps_.begin());
 }

@@ -20,8 +20,8 @@ namespace irk {
 namespace {
 
 // Keys of a block that are no fields of a spec.
-constexpr std::string_view kSweepKeys[] = {"families", "stages",       "methods",    "tolerances",
-                                           "steps",    "refine_most"};
+constexpr std::string_view kSweepKeys[] = {"families",   "stages", "methods",
+                                           "tolerances", "steps",  "refine_most"};
 
 template <class F>
 auto atPlace(const StudyValue& value, F&& f) {
@@ -219,7 +219,8 @@ TimingOptions timingOptions(const StudyKeys& keys) {
 std::vector<int> divisions(int most) {
   constexpr double kRatio = 1.1;
   std::vector<int> all;
-  for (int n = 2; n <= most; n = std::max(n + 2, 2 * static_cast<int>(std::lround(n * kRatio / 2)))) {
+  for (int n = 2; n <= most;
+       n = std::max(n + 2, 2 * static_cast<int>(std::lround(n * kRatio / 2)))) {
     all.push_back(n);
   }
   return all;

@@ -103,8 +103,9 @@ Order mechanical3(std::string_view family, Index s, char component) {
 
 // The largest error of y and w is that of w.
 Order index3(std::string_view family, Index s, char component) {
-  return component == 'u' || component == 'v' ? Order()
-                                              : mechanical3(family, s, component == 'x' ? 'v' : 'z');
+  return component == 'u' || component == 'v'
+             ? Order()
+             : mechanical3(family, s, component == 'x' ? 'v' : 'z');
 }
 
 struct StiffOrder {

@@ -19,7 +19,7 @@ enum class SystemKind {
   kGgl,               ///< Gear, Gupta & Leimkuhler
   kStiffFixedZ,       ///< Prothero & Robinson, power of h at h lambda = z -> -infinity
   kStiffPowerOfZ,     ///< the same, power of |z|
-  kStiffFixedLambda, ///< the same, power of h at fixed lambda, |h lambda| >> 1
+  kStiffFixedLambda,  ///< the same, power of h at fixed lambda, |h lambda| >> 1
 };
 
 struct TheoreticalOrder {

@@ -138,8 +138,8 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
   }
 }
 
-// The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses orders
-// in every component but q, diverges in lambda, and is healed by a projection.
+// The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses
+// orders in every component but q, diverges in lambda, and is healed by a projection.
 TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {
   const Study study = parseStudy(R"(
 orders = true
@@ -155,9 +155,12 @@ refine_most = 128
   std::ostringstream quiet;
   const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
   const std::map<std::string, std::array<double, 3>> expected = {
-      {"index2 gauss", {4, 2, 0}},       {"index2 radau_iia", {3, 3, 2}},
-      {"index3 gauss", {2, 0, -2}},      {"index3 radau_iia", {3, 2, 1}},
-      {"index2_projected gauss", {4, 4, NAN}}, {"index2_projected radau_iia", {3, 3, 2}}};
+      {"index2 gauss", {4, 2, 0}},
+      {"index2 radau_iia", {3, 3, 2}},
+      {"index3 gauss", {2, 0, -2}},
+      {"index3 radau_iia", {3, 2, 1}},
+      {"index2_projected gauss", {4, 4, NAN}},
+      {"index2_projected radau_iia", {3, 3, 2}}};
   ASSERT_EQ(orders.rows.size(), 18u);
   for (const auto& row : orders.rows) {
     const auto name = textAt(orders, row, "formulation") + " " + textAt(orders, row, "family");
