@@ -44,11 +44,12 @@ void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
   h_ = h;
   hA_ = h * scheme_.A_transposed;
   hhA2_ = (h * h) * scheme_.A2_transposed;
-  hc_ = h * scheme_.c;
+  hc_ = hA_.colwise().sum().transpose();  // h A 1; h c but for stage order 0
   rowScales(system_.rowPowers(), h, scales_);
 }
 
-// (2.5), (2.6): V = v0 + h A a, U = u0 + h c v0 + h^2 A^2 a, X = x0 + h A k.
+// (2.5), (2.6): V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a (A 1 = c but for
+// stage order 0, as of Radau IA with one stage), X = x0 + h A k.
 template <class Real>
 void StageEquations<Real>::place(const Mat<Real>& W) {
   const Index nu = sizes_.nu, nx = sizes_.nx;

@@ -52,8 +52,8 @@ void replacePlaceholder(std::string& page, std::string_view placeholder, std::st
 
 std::string ordersHtml(const std::string& study, const Table& orders) {
   std::string html = fmt::format("<table><caption>Study {}</caption><thead><tr>", study);
-  for (const auto* title : {"scene", "formulation", "family", "stages", "component", "order",
-                            "± (95 %)", "theory", "verdict", "window", "points", "reason"}) {
+  for (const auto* title : {"scene", "formulation", "family", "stages", "component", "power of", "order",
+                            "± (95 %)", "theory", "source", "verdict", "window", "points", "reason"}) {
     html += fmt::format("<th>{}</th>", title);
   }
   html += "</tr></thead><tbody>\n";
@@ -62,11 +62,12 @@ std::string ordersHtml(const std::string& study, const Table& orders) {
     html += fmt::format("<tr class=\"{}\">", text("verdict"));
     const auto settings = text("settings");
     html += cell(text("scene") + (settings.empty() ? "" : " " + settings));
-    for (const auto* name : {"formulation", "family", "stages", "component"}) {
+    for (const auto* name : {"formulation", "family", "stages", "component", "power_of"}) {
       html += cell(text(name));
     }
     html += numberCell(orders, row, "order", 4) + numberCell(orders, row, "confidence", 1);
-    html += numberCell(orders, row, "theory", 4) + cell(text("verdict"));
+    html += numberCell(orders, row, "theory", 4) + cell(text("source"));
+    html += cell(text("verdict"));
     const bool measured = !std::isnan(numberAt(orders, row, "order"));
     html += measured ? cell(fmt::format("{:.3g} … {:.3g}", numberAt(orders, row, "h_min"),
                                         numberAt(orders, row, "h_max")))

@@ -71,16 +71,31 @@ std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
   return points;
 }
 
-// Behind the smallest error the errors are noise: their median is its level.
-double noiseFloor(const std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
-  const auto least = std::min_element(points.begin(), points.end(),
-                                      [](auto& a, auto& b) { return a.error < b.error; });
-  if (least == points.end() || points.end() - least < 3) return options.floor;
-  std::vector<double> tail;
-  for (auto p = least; p != points.end(); ++p) tail.push_back(p->error);
-  const auto middle = tail.begin() + static_cast<std::ptrdiff_t>(tail.size() / 2);
-  std::nth_element(tail.begin(), middle, tail.end());
-  return std::max(options.floor, options.above_noise * *middle);
+// Errors that no longer shrink, although they are small, are noise from where its level is reached
+// on: those points go, and the ones that noise of that level would bend. Larger errors that do not
+// shrink belong to an order of zero or less. Returns the floor below which points have been taken.
+double removeNoise(std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
+  constexpr double kLevel = 3;
+  double floor = 50 * options.epsilon;
+  const double small = 100 * std::sqrt(options.epsilon);
+  const auto less = [](const ErrorPoint& a, const ErrorPoint& b) { return a.error < b.error; };
+  const auto least = std::min_element(points.begin(), points.end(), less);
+  if (least != points.end() && least->error <= small) {
+    const double level = kLevel * least->error;
+    const auto first = std::find_if(points.begin(), points.end(),
+                                    [level](const ErrorPoint& p) { return p.error <= level; });
+    const bool shrinks =
+        std::is_sorted(first, points.end(), [](auto& a, auto& b) { return a.error > b.error; });
+    if (!shrinks) {
+      std::vector<ErrorPoint> tail(first, points.end());
+      const auto middle = tail.begin() + static_cast<std::ptrdiff_t>(tail.size() / 2);
+      std::nth_element(tail.begin(), middle, tail.end(), less);
+      floor = std::max(floor, options.above_noise * middle->error);
+      points.erase(first, points.end());
+    }
+  }
+  std::erase_if(points, [floor](const ErrorPoint& p) { return p.error < floor; });
+  return floor;
 }
 
 OrderFit notMeasurable(std::string reason) {
@@ -91,31 +106,31 @@ OrderFit notMeasurable(std::string reason) {
 
 }  // namespace
 
+double orderTolerance(double order) { return std::max(0.2, 0.01 * std::abs(order)); }
+
 OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options) {
   std::vector<ErrorPoint> points = usable(std::move(given));
-  const double floor = noiseFloor(points, options);
-  std::erase_if(points, [floor](const ErrorPoint& p) { return p.error < floor; });
+  const double floor = removeNoise(points, options);
   const auto enough = static_cast<std::size_t>(options.min_points);
   if (points.size() < enough) {
     return notMeasurable(fmt::format("{} points above the floor {:.1e}, {} are needed",
                                      points.size(), floor, enough));
   }
-  const auto [least, most] = std::minmax_element(
-      points.begin(), points.end(), [](auto& a, auto& b) { return a.error < b.error; });
-  if (most->error < options.min_ratio * least->error) {
-    return notMeasurable(fmt::format("errors only from {:.1e} to {:.1e}: less than a factor {:g}",
-                                     most->error, least->error, options.min_ratio));
+  const double coarsest = points.front().h, finest = points.back().h;
+  if (coarsest < options.min_span * finest * (1 - 1e-9)) {
+    return notMeasurable(fmt::format("steps only from {:.1e} to {:.1e}: less than a factor {:g}",
+                                     coarsest, finest, options.min_span));
   }
-  // Asymptotic is the fine end: a window must reach into the lowest quarter of the range of errors.
+  // Asymptotic is the fine end: a window must reach into the finest quarter of the range of steps.
   // Slopes can be stationary before that, at a wrong value.
-  const double reach = least->error * std::pow(most->error / least->error, 0.25);
+  const double reach = finest * std::pow(coarsest / finest, 0.25);
   OrderFit best = notMeasurable("");
   double best_uncertainty = INFINITY;
   for (std::size_t end = enough; end <= points.size(); ++end) {
-    if (points[end - 1].error > reach) continue;
+    if (points[end - 1].h > reach) continue;
     for (std::size_t begin = 0; begin + enough <= end; ++begin) {
       const auto window = std::span(points).subspan(begin, end - begin);
-      if (window.front().error < options.min_ratio * window.back().error) continue;
+      if (window.front().h < options.min_span * window.back().h * (1 - 1e-9)) continue;
       const Slope slope = fitSlope(window);
       if (!continues(std::span(points).subspan(end), slope)) continue;
       const double uncertainty = slope.confidence + drift(window, slope);
@@ -130,8 +145,9 @@ OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options)
               ""};
     }
   }
-  if (best_uncertainty <= options.max_uncertainty) return best;
-  if (!best.measurable) return notMeasurable("errors do not shrink with the step");
+  if (!best.measurable) return notMeasurable("no window in which the errors keep to a line");
+  const double scale = orderTolerance(best.order) / orderTolerance(0);
+  if (best_uncertainty <= options.max_uncertainty * scale) return best;
   return notMeasurable(
       fmt::format("no stable slope above the floor {:.1e}: at best {:.2f}, uncertain by {:.2f}",
                   floor, best.order, best_uncertainty));

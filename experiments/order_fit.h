@@ -13,15 +13,16 @@ struct ErrorPoint {
 };
 
 struct OrderFitOptions {
-  /// > 0. Errors below this are round-off whatever they look like: 50 eps of a relative error.
-  double floor = 50 * 2.220446049250313e-16;
+  /// > 0. Round-off of the numbers. Errors below 50 of it are round-off whatever they look like.
+  double epsilon = 2.220446049250313e-16;
   /// > 1. Where errors stop shrinking, the floor is this much above their level: noise of 1/10
   /// bends a slope over one decade by less than a tenth of itself.
   double above_noise = 10;
-  /// >= 3 points, and at least this ratio between the largest and the smallest error.
+  /// >= 3 points, and > 1: at least this ratio between the largest and the smallest step.
   int min_points = 3;
-  double min_ratio = 10;
-  /// > 0. Largest sum of confidence and drift that still is a measurement.
+  double min_span = 2;
+  /// > 0. Largest sum of confidence and drift that still is a measurement; for orders beyond 20
+  /// this much times order / 20.
   double max_uncertainty = 0.2;
 };
 
@@ -34,6 +35,10 @@ struct OrderFit {
   std::string reason;  ///< why it is not measurable
 };
 
+/// What counts as the same order: 0.2, or one percent of orders beyond 20.
+double orderTolerance(double order);
+
+/// Errors that stay or grow have orders, too: zero and negative ones.
 /// Points in any order; errors that are not positive and finite are left out.
 OrderFit fitOrder(std::vector<ErrorPoint> points, const OrderFitOptions& options = {});
 

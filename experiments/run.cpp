@@ -70,8 +70,8 @@ class Prepared final : public PreparedRun {
  public:
   explicit Prepared(const RunSpec& spec)
       : spec_(resolved(spec)),
-        scene_(makeScene<Real>(spec_.scene, spec_.settings)),
-        references_(references(spec_.scene, spec_.settings)),
+        scene_(makeScene<Real>(spec_.scene, settingsAtStep(spec_))),
+        references_(references(spec_.scene, settingsAtStep(spec_))),
         method_(scene_, spec_) {}
 
   RunRecord execute(const Watch& watch) override {
@@ -166,6 +166,16 @@ class Prepared final : public PreparedRun {
   Outcome last_ = Outcome::kSuccess;
 };
 
+// A setting `X/h` has a value only where the step is the same throughout.
+void requireKnownStep(const RunSpec& spec) {
+  if (spec.options.step.control == StepControl::kFixed) return;
+  for (const auto& [name, value] : spec.settings) {
+    if (value.ends_with("/h")) {
+      throw Misuse(name + " = '" + value + "': a value over h needs fixed steps, --step H");
+    }
+  }
+}
+
 }  // namespace
 
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
@@ -176,6 +186,7 @@ Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
 }
 
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
+  requireKnownStep(spec);
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
   switch (spec.scalar) {
     case ScalarKind::kDouble:

@@ -222,6 +222,16 @@ ScalarKind parseId<ScalarKind>(std::string_view id) {
 
 std::span<const Configuration> configurations() { return kConfigurations; }
 
+double epsilonOf(ScalarKind scalar) {
+  switch (scalar) {
+    case ScalarKind::kDouble:
+      return std::numeric_limits<double>::epsilon();
+    case ScalarKind::kMp50:
+      return 1e-50;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::span<const SpecField> specFields() { return kFields; }
 
 const SpecField& findField(std::string_view name) {
@@ -248,8 +258,20 @@ RunSpec resolved(RunSpec spec) {
       throw Misuse(unknownName("parameter of " + spec.scene, name, known));
     }
   }
-  if (std::isnan(spec.t_end)) spec.t_end = makeScene<double>(spec.scene, spec.settings).t_end;
+  if (std::isnan(spec.t_end))
+    spec.t_end = makeScene<double>(spec.scene, settingsAtStep(spec)).t_end;
   return spec;
+}
+
+Settings settingsAtStep(const RunSpec& spec) {
+  const double h = spec.options.step.h > 0 ? spec.options.step.h : 1;
+  Settings settings = spec.settings;
+  for (auto& [name, value] : settings) {
+    if (!value.ends_with("/h")) continue;
+    const auto factor = std::string_view(value).substr(0, value.size() - 2);
+    value = numberText(parseNumber(name, factor, kAnyNumber) / h);
+  }
+  return settings;
 }
 
 std::string canonicalText(const RunSpec& spec) {

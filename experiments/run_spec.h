@@ -28,6 +28,9 @@ struct Configuration {
 /// `default`, `paper`, `embedded`, `variable`: the first is what a spec starts with.
 std::span<const Configuration> configurations();
 
+/// Round-off of a number of this kind.
+double epsilonOf(ScalarKind scalar);
+
 struct RunSpec {
   std::string scene;
   /// Of `configurations`: a name for tables and figures.
@@ -65,6 +68,10 @@ const SpecField& findField(std::string_view name);
 /// The scene's t_end filled in, settings at their defaults left out, so that equal runs are equal
 /// specs. Throws Misuse for an unknown scene or setting.
 RunSpec resolved(RunSpec spec);
+
+/// The settings with every value `X/h` replaced by X / h: stiffness that grows as the step shrinks,
+/// `lambda=-1e8/h` for z = h lambda = -1e8. Where no step is known, h = 1.
+Settings settingsAtStep(const RunSpec& spec);
 
 /// `field=value;field=value;...`, all fields. parseSpec(canonicalText(s)) equals s.
 std::string canonicalText(const RunSpec& spec);

@@ -18,6 +18,7 @@
 #include "experiments/progress.h"
 #include "experiments/run_table.h"
 #include "experiments/series_rules.h"
+#include "experiments/step_planner.h"
 #include "experiments/trajectory.h"
 
 namespace irk {
@@ -29,6 +30,11 @@ std::string kindOf(const RunSpec& spec) {
   return fmt::format("{} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings),
                      idOf(spec.formulation), spec.options.step.h,
                      std::max(tolerances.rtol, tolerances.atol));
+}
+
+GroupErrors groupErrors(const Table& table, const TableRow& row) {
+  return {numberAt(table, row, "error_u"), numberAt(table, row, "error_v"),
+          numberAt(table, row, "error_x"), numberAt(table, row, "error_z")};
 }
 
 // The rows that a former run of the study left behind.
@@ -102,20 +108,36 @@ class Sweep {
 
  private:
   void runSeries(const Series& series) {
-    RoundOffRule round_off(series.runs.front().scalar);
+    if (series.end == SeriesEnd::kAsymptotic) return runPlanned(series);
     const TableRow* too_long = nullptr;
-    for (std::size_t i = 0; i < series.runs.size(); ++i) {
-      const TableRow* row = finishedOrMade(series.runs[i], too_long);
+    for (const auto& spec : series.runs) {
+      const TableRow* row = finishedOrMade(spec, too_long);
       if (!row) return;
       const auto& outcome = textAt(table_, *row, "outcome");
       if (series.end == SeriesEnd::kTooLong && ranTooLong(outcome)) too_long = row;
-      const bool done = series.end == SeriesEnd::kRoundOff &&
-                        (outcome == "refused" || round_off.reached(table_, *row));
-      if (done) {
-        const std::lock_guard lock(mutex_);
-        for (++i; i < series.runs.size(); ++i) progress_->skipped(kindOf(series.runs[i]));
-        return;
+    }
+  }
+
+  void runPlanned(const Series& series) {
+    std::vector<double> steps;
+    for (const auto& run : series.runs) steps.push_back(run.options.step.h);
+    StepPlanner planner(std::move(steps), epsilonOf(series.runs.front().scalar));
+    std::vector<bool> made(series.runs.size(), false);
+    while (const auto i = planner.next()) {
+      const TableRow* row = finishedOrMade(series.runs[*i], nullptr);
+      if (!row) return;
+      made[*i] = true;
+      const auto& outcome = textAt(table_, *row, "outcome");
+      if (succeededAt(table_, *row)) {
+        planner.record(*i, groupErrors(table_, *row));
+      } else {
+        planner.recordFailure(*i);
       }
+      if (outcome == "refused" || ranTooLong(outcome)) planner.endProbe();
+    }
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      if (!made[i]) progress_->skipped(kindOf(series.runs[i]));
     }
   }
 

@@ -1,27 +1,9 @@
 // When the later runs of a series need not be made.
 #pragma once
 
-#include <array>
-#include <limits>
-
 #include "experiments/run_table.h"
 
 namespace irk {
-
-/// Steps are refined until every component has reached round-off: three runs in a row in which no
-/// error has become smaller. Only where errors are small: before the asymptotic range they may
-/// grow.
-class RoundOffRule {
- public:
-  explicit RoundOffRule(ScalarKind scalar);
-  /// Takes the next run of the series; true: the rest is not needed.
-  bool reached(const Table& table, const TableRow& row);
-
- private:
-  double small_, epsilon_;
-  std::array<double, 4> least_;
-  std::array<int, 4> idle_{};
-};
 
 /// `max_steps` or `timeout`: a run that is harder would end in the same way.
 bool ranTooLong(std::string_view outcome);

@@ -20,8 +20,8 @@ namespace irk {
 namespace {
 
 // Keys of a block that are no fields of a spec.
-constexpr std::string_view kSweepKeys[] = {"families", "stages",       "methods",    "tolerances",
-                                           "steps",    "refine_ratio", "refine_most"};
+constexpr std::string_view kSweepKeys[] = {"families",   "stages", "methods",
+                                           "tolerances", "steps",  "refine_most"};
 
 template <class F>
 auto atPlace(const StudyValue& value, F&& f) {
@@ -168,13 +168,11 @@ Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
       append([h](RunSpec& run) { setFixedStep(run, h); });
     }
   } else if (find(keys, "refine_most")) {
-    series.end = SeriesEnd::kRoundOff;
-    constexpr NumberRange kRatio{[](double x) { return x > 1 && x <= 10; }, "1 < ratio <= 10"};
-    constexpr NumberRange kMost{[](double x) { return x >= 1 && x <= 1e9; }, "1 <= N <= 1e9"};
-    const double ratio = number(keys, "refine_ratio", 1.25, kRatio);
-    const double most = number(keys, "refine_most", 1, kMost);
-    const double start = makeScene<double>(spec.scene, spec.settings).start.t;
-    for (const int n : divisions(ratio, static_cast<int>(most))) {
+    series.end = SeriesEnd::kAsymptotic;
+    constexpr NumberRange kMost{[](double x) { return x >= 2 && x <= 1e9; }, "2 <= N <= 1e9"};
+    const double most = number(keys, "refine_most", 2, kMost);
+    const double start = makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+    for (const int n : divisions(static_cast<int>(most))) {
       append([&](RunSpec& run) { setFixedStep(run, (run.t_end - start) / n); });
     }
   } else {
@@ -218,9 +216,11 @@ TimingOptions timingOptions(const StudyKeys& keys) {
 
 }  // namespace
 
-std::vector<int> divisions(double ratio, int most) {
+std::vector<int> divisions(int most) {
+  constexpr double kRatio = 1.1;
   std::vector<int> all;
-  for (int n = 1; n <= most; n = std::max(n + 1, static_cast<int>(std::lround(n * ratio)))) {
+  for (int n = 2; n <= most;
+       n = std::max(n + 2, 2 * static_cast<int>(std::lround(n * kRatio / 2)))) {
     all.push_back(n);
   }
   return all;

@@ -13,9 +13,9 @@ namespace irk {
 
 /// When the runs of a series that come later need not be made.
 enum class SeriesEnd {
-  kAll,       ///< every run is made
-  kRoundOff,  ///< after three runs whose errors no longer shrink: steps refined to round-off
-  kTooLong,   ///< after one that ran out of steps or time, the harder ones are recorded as such
+  kAll,         ///< every run is made
+  kAsymptotic,  ///< a StepPlanner chooses among them, to measure orders
+  kTooLong,     ///< after one that ran out of steps or time, the harder ones are recorded as such
 };
 
 /// Runs of one method on one scene, from the easiest to the hardest: made in this order.
@@ -61,7 +61,8 @@ std::map<std::string, const RunSpec*> specsByKey(const Study& study);
 /// From TOML text; `file` names it in messages.
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);
 
-/// N = 1, 2, ... growing at least by one and by `ratio`, up to `most`: steps t_end / N.
-std::vector<int> divisions(double ratio, int most);
+/// N = 2, 4, ... growing by about a tenth, up to `most`: steps t_end / N. Even, because errors of
+/// methods with R(infinity) = -1 alternate.
+std::vector<int> divisions(int most);
 
 }  // namespace irk

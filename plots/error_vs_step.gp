@@ -33,7 +33,7 @@ stage(k) = int(word(stages, k))
 if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
 
 # The predicted slope through the middle of the points that the fit used.
-fit_row(family, s) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+fit_row(family, s) = is("scene", scene) && is("power_of", 'h') && is("settings", settings) && has("formulation", formulation) \
                      && has("component", component) && is("family", family) && column("stages") == s
 slots = n * words(stages) + 1
 array Lower[slots]; array Upper[slots]; array Level[slots]; array Slope[slots]; array Fitted[slots]; array Count[slots]

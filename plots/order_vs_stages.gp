@@ -13,7 +13,7 @@ partPoint(k) = word("7 5 9 13", k) + 0
 partDash(k) = k == 1 ? 1 : k + 1
 partTitle(c) = c eq 'u' ? 'position u' : c eq 'v' ? 'velocity v' : c eq 'z' ? 'multiplier z' : 'state x'
 
-chosen(d) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+chosen(d) = is("scene", scene) && is("power_of", 'h') && is("settings", settings) && has("formulation", formulation) \
             && position(components, strcol("component"))
 row(family, k) = chosen(0) && is("family", family) && is("component", part(k))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
@@ -53,7 +53,7 @@ do for [format in formats] {
   set multiplot
   set xrange [S_min - 0.7 : S_max + 0.7]; set yrange [y_min : y_max]
   x_step = S_max > 12 ? 5 : S_max > 8 ? 2 : 1
-  set xtics x_step; set ytics 0, y_step
+  set xtics x_step; set ytics y_step
   do for [i = 1 : n] {
     f = word(present, i)
     eval panel(i, columns, lines)

@@ -14,8 +14,8 @@ const std::vector<Claim>& catalogue() {
       {"C1",
        "Orders up to 20 (10-stage Gauss) are reached, and are even the most efficient at high "
        "accuracy.",
-       {"order_mp50", "cpu_time"},
-       {"order_ode_mp50", "stages_slider_crank", "stages_hydraulic_arm", "stages_other"},
+       {"order", "cpu_time"},
+       {"order_ode", "stages_slider_crank", "stages_hydraulic_arm", "stages_other"},
        highOrders},
       {"C2",
        "Up to about 10 stages speed the simulation up; then machine precision limits Newton.",

@@ -54,7 +54,7 @@ double highestMeasuredOrder(const Table& orders) {
 
 Finding highOrders(const ResultTables& tables) {
   constexpr double kWanted = 19.8, kHigh = 18, kNear = 1.1, kStillHigh = 9;
-  const double reached = highestMeasuredOrder(tables.table("order_mp50", "orders"));
+  const double reached = highestMeasuredOrder(tables.table("order", "orders"));
   const Table& costs = tables.table("cpu_time", "cpu_at_error");
   int cases = 0, efficient = 0, fairly = 0;
   std::string cheapest;

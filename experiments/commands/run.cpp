@@ -18,7 +18,6 @@ namespace {
 // In the order in which a reader wants them: what is computed, whether it is right, what it costs.
 constexpr std::string_view kPaperStudies[] = {"scenes",
                                               "order",
-                                              "order_mp50",
                                               "cpu_time",
                                               "families",
                                               "steps",

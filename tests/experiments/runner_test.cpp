@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "experiments/cost_at_error.h"
@@ -134,6 +136,63 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
         << textAt(orders, row, "family") << " " << textAt(orders, row, "stages") << ": "
         << textAt(orders, row, "order") << " " << textAt(orders, row, "reason");
   }
+}
+
+// The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses
+// orders in every component but q, diverges in lambda, and is healed by a projection.
+TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {
+  const Study study = parseStudy(R"(
+orders = true
+[[block]]
+scene = "mechanical_dae"
+scalar = "mp50"
+formulation = ["index2", "index3", "index2_projected"]
+methods = ["gauss_2", "radau_iia_2"]
+refine_most = 128
+)",
+                                 "mechanical.toml", StudyVariant::kFull);
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
+  const std::map<std::string, std::array<double, 3>> expected = {
+      {"index2 gauss", {4, 2, 0}},
+      {"index2 radau_iia", {3, 3, 2}},
+      {"index3 gauss", {2, 0, -2}},
+      {"index3 radau_iia", {3, 2, 1}},
+      {"index2_projected gauss", {4, 4, NAN}},
+      {"index2_projected radau_iia", {3, 3, 2}}};
+  ASSERT_EQ(orders.rows.size(), 18u);
+  for (const auto& row : orders.rows) {
+    const auto name = textAt(orders, row, "formulation") + " " + textAt(orders, row, "family");
+    const auto place = std::string("uvz").find(textAt(orders, row, "component"));
+    const double order = expected.at(name).at(place);
+    if (std::isnan(order)) continue;
+    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.15) << name << " " << place;
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << name << " " << place;
+  }
+}
+
+// z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
+TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
+  const Study study = parseStudy(R"(
+orders = true
+[[block]]
+scene = "prothero_robinson"
+scalar = "mp50"
+settings = ["lambda=-1e6/h", "lambda=-1e8/h", "lambda=-1e10/h"]
+methods = "radau_iia_2"
+refine_most = 64
+)",
+                                 "stiff.toml", StudyVariant::kFull);
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table orders = orderTable(runStudy(study, options(folder, 1), quiet));
+  ASSERT_EQ(orders.rows.size(), 4u);
+  for (const auto& row : orders.rows) {
+    const bool of_z = textAt(orders, row, "power_of") == "z";
+    EXPECT_NEAR(numberAt(orders, row, "order"), of_z ? -1 : 3, 0.15);
+  }
+  EXPECT_EQ(textAt(orders, orders.rows.back(), "power_of"), "z");
 }
 
 TEST(Timing, TimesSuccessfulRunsOnce) {

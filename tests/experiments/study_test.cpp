@@ -56,22 +56,20 @@ TEST(Study, QuickVariantReplacesKeys) {
   EXPECT_EQ(quick.other_variant.size(), 2u * 2 * 7);
 }
 
-TEST(Study, RefinesStepsByARatio) {
-  EXPECT_EQ(divisions(1.25, 20), (std::vector<int>{1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20}));
+TEST(Study, StepsForOrdersAreCandidatesOfThePlanner) {
   const Study study = parse(R"(
 [[block]]
 scene = "kepler"
 t_end = 6
 methods = "gauss_2"
-refine_ratio = 2
-refine_most = 4
+refine_most = 6
 )");
   ASSERT_EQ(study.series.size(), 1u);
   const auto& series = study.series[0];
-  EXPECT_EQ(series.end, SeriesEnd::kRoundOff);
+  EXPECT_EQ(series.end, SeriesEnd::kAsymptotic);
   ASSERT_EQ(series.runs.size(), 3u);
-  EXPECT_EQ(series.runs[2].options.step.h, 1.5);
-  EXPECT_EQ(series.runs[2].options.step.control, StepControl::kFixed);
+  EXPECT_EQ(series.runs[1].options.step.h, 1.5);
+  EXPECT_EQ(series.runs[1].options.step.control, StepControl::kFixed);
 }
 
 TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
@@ -84,7 +82,7 @@ TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
   EXPECT_TRUE(
       containsAll(misuse("tolerances = [1e-3, -1]"), {"mine.toml:4", "tolerances", "-1", "> 0"}));
   EXPECT_TRUE(
-      containsAll(misuse("refine_most = 0"), {"mine.toml:4", "refine_most", "0", "1 <= N"}));
+      containsAll(misuse("refine_most = 0"), {"mine.toml:4", "refine_most", "0", "2 <= N"}));
   EXPECT_TRUE(
       containsAll(misuse("families = \"gaus\"\nstages = 2"), {"mine.toml:4", "gaus", "'gauss'"}));
   EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = 200"),

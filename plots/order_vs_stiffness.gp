@@ -1,0 +1,63 @@
+# Order reduction: observed order against the stiffness, one panel per family, one line per number of stages.
+#   gnuplot -e "data='results/order'; out='order_reduction'; scene='prothero_robinson'" order_vs_stiffness.gp
+# Reads orders.csv. Options: scene, parameter (the setting that is the stiffness), parameter_default, stages_shown.
+load system('dirname "'.ARG0.'"')."/style.gp"
+if (!exists("scene")) scene = 'prothero_robinson'
+if (!exists("parameter")) parameter = 'lambda'
+if (!exists("parameter_default")) parameter_default = '-1e8'
+if (!exists("stages_shown")) stages_shown = '1 2 3 4 5'
+file = data.'/orders.csv'
+
+wide(settings) = strstrt(settings, '/h') > 0   # stiffness over step: no single stiffness
+chosen(d) = is("scene", scene) && is("component", 'x') && !wide(strcol("settings")) \
+            && position(stages_shown, sprintf("%d", column("stages")))
+is_measured(d) = strcol("verdict") ne 'not_measurable'
+# gnuplot reads no exponents in text: mantissa and exponent apart.
+textOf(settings) = settings eq '' ? parameter_default : settings[strlen(parameter) + 2 : *]
+magnitude(text) = text[1:1] eq '-' ? text[2:*] : text
+valueOf(text) = strstrt(text, 'e') == 0 ? text + 0 \
+                : (text[1 : strstrt(text, 'e') - 1] + 0) * 10.0 ** (text[strstrt(text, 'e') + 1 : *] + 0)
+stiffness(d) = valueOf(magnitude(textOf(strcol("settings"))))
+row(family, s) = chosen(0) && is_measured(0) && is("family", family) && column("stages") == s
+
+stats file using (chosen(0) ? 1 : 0) name "N" nooutput
+if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+stats file using (chosen(0) ? (collect(strcol("family")), stiffness(0)) : NaN) name "X" nooutput
+found = collected
+collected = ""
+stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), 0) : NaN) nooutput
+stages = sorted(collected)
+present = ""
+do for [f in families_known] { present = present.(position(found, f) ? " ".f : "") }
+n = words(present)
+columns = n <= 4 ? n : (n + 1) / 2
+lines = (n + columns - 1) / columns
+stats file using (chosen(0) && is_measured(0) ? column("order") : NaN) name "O" nooutput
+margin_left = 0.07; margin_bottom = lines == 1 ? 0.28 : 0.17; gap_y = 0.13; gap_x = 0.02; margin_right = 0.01
+
+do for [format in formats] {
+  eval open(format, 1080, lines == 1 ? 340 : 560)
+  unset key
+  set multiplot
+  eval decades("x")
+  set xrange [X_min / 3 : X_max * 3]; set yrange [O_min - 0.6 : O_max + 0.8]
+  set ytics 2; set xtics 100
+  do for [i = 1 : n] {
+    f = word(present, i)
+    eval panel(i, columns, lines)
+    set title familyTitle(f) offset 0,-0.5
+    set format y when((i - 1) % columns == 0, '%g')
+    set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 0.3,0
+    set xlabel when(i > n - columns, 'stiffness |λ| in 1/s') offset 0,0.5
+    plot for [s in stages] file using (row(f, int(s)) ? stiffness(0) : NaN):(row(f, int(s)) ? column("order") : NaN) \
+           smooth unique with linespoints lw 1.2 dt stageDash(int(s)) pt stagePoint(int(s)) ps 0.8 \
+           lc rgb stageColour(int(s)) notitle
+  }
+  eval legend(lines == 1 ? 0.13 : 0.07)
+  plot 2 notitle, for [s in stages] keyentry with linespoints lw 1.2 dt stageDash(int(s)) pt stagePoint(int(s)) ps 0.8 \
+         lc rgb stageColour(int(s)) title 's = '.s
+  unset multiplot
+  unset output
+  unset logscale
+  eval framed
+}
