@@ -42,13 +42,13 @@ void appendProfile(const std::string& target, const Costs& costs, Table& table) 
 }  // namespace
 
 Table profileTable(const Table& costs) {
-  Table table{costs.head, {"target_error", "solver", "ratio", "fraction"}, {}};
+  Table table{costs.head, {"target_error", "integrator", "ratio", "fraction"}, {}};
   std::map<std::string, Costs> by_target;
   for (const auto& row : costs.rows) {
     const auto& target = textAt(costs, row, "target_error");
     const std::string problem =
         textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
-    const auto& solver = textAt(costs, row, "solver");
+    const auto& solver = textAt(costs, row, "integrator");
     const double time = numberAt(costs, row, "cpu_s");
     for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {
       auto& times = by_target[key][solver];

@@ -296,7 +296,7 @@ std::string specKey(const RunSpec& spec) {
   return hexText(fnv1a(text));
 }
 
-std::string solverName(const RunSpec& spec) {
+std::string integratorName(const RunSpec& spec) {
   if (findPeer(spec.method)) return spec.method;
   if (spec.options.order == OrderControl::kVariable) return spec.configuration;
   return spec.configuration + ":" + spec.method;

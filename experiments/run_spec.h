@@ -80,9 +80,9 @@ RunSpec parseSpec(std::string_view text);
 /// 16 hexadecimal digits from the resolved spec, the version and the contents of a method file.
 std::string specKey(const RunSpec& spec);
 
-/// What a user would call the solver: a peer's id, `variable` or another configuration with variable
+/// What a user would call the integrator: a peer's id, `variable` or another configuration with variable
 /// order, else `configuration:method`.
-std::string solverName(const RunSpec& spec);
+std::string integratorName(const RunSpec& spec);
 
 /// The number of stages that a method's id ends with; 0 for a file.
 Index stagesInId(std::string_view method);

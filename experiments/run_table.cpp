@@ -50,7 +50,7 @@ void append(std::vector<std::string>& to, std::span<const std::string_view> name
 std::vector<std::string> runColumns() {
   std::vector<std::string> columns{"key", "study"};
   append(columns, kSpecBefore);
-  columns.insert(columns.end(), {"family", "stages", "solver"});
+  columns.insert(columns.end(), {"family", "stages", "integrator"});
   append(columns, kSpecAfter);
   columns.emplace_back("outcome");
   append(columns, kErrors);
@@ -63,7 +63,7 @@ std::vector<std::string> runColumns() {
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record) {
   TableRow row{key, study};
   for (const auto name : kSpecBefore) row.push_back(findField(name).get(record.spec));
-  row.insert(row.end(), {record.family, std::to_string(record.stages), solverName(record.spec)});
+  row.insert(row.end(), {record.family, std::to_string(record.stages), integratorName(record.spec)});
   for (const auto name : kSpecAfter) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
@@ -75,7 +75,7 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
 }
 
 std::vector<std::string> seriesColumns(const Table& table) {
-  std::vector<std::string> columns{"scene", "settings", "method", "family", "stages", "solver"};
+  std::vector<std::string> columns{"scene", "settings", "method", "family", "stages", "integrator"};
   for (const auto name : kSpecAfter) {
     const bool swept = std::find(std::begin(kSwept), std::end(kSwept), name) != std::end(kSwept);
     if (!swept) columns.emplace_back(name);

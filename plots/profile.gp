@@ -1,23 +1,23 @@
 # Performance profiles (Dolan and More): on which part of the problems a solver takes at most so many times
 # the time of the best one. One panel per target error.
 #   gnuplot -e "data='results/work_precision'; out='profile'; targets='-4 -8'" profile.gp
-# Reads profile.csv. Options: targets (powers of ten, or all), solvers (in this order).
+# Reads profile.csv. Options: targets (powers of ten, or all), integrators (in this order).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("targets")) targets = 'all'
-if (!exists("solvers")) solvers = ''
+if (!exists("integrators")) integrators = ''
 file = data.'/profile.csv'
 undefine N_*
 ofTarget(i) = word(targets, i) eq 'all' ? strcol("target_error") eq 'all' : strcol("target_error") ne 'all' && \
   abs(log10(column("target_error")) - int(word(targets, i))) < 0.01
-stats file using (ofTarget(1) ? (collect(strcol("solver")), 1) : 0) name "N" nooutput
+stats file using (ofTarget(1) ? (collect(strcol("integrator")), 1) : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(targets." in ".file) }
-if (words(solvers) == 0) { solvers = collected }
-count = words(solvers)
+if (words(integrators) == 0) { integrators = collected }
+count = words(integrators)
 columns = words(targets)
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
 curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
 curveDash(k) = (k - 1) % 4 + 1
-at(i, k) = ofTarget(i) && strcol("solver") eq word(solvers, k)
+at(i, k) = ofTarget(i) && strcol("integrator") eq word(integrators, k)
 targetTitle(i) = word(targets, i) eq 'all' ? 'all errors' : 'error 10^{'.word(targets, i).'}'
 legend_height = 0.08 * (1 + (count > 4) + (count > 8))
 margin_left = columns == 1 ? 0.13 : 0.075; margin_right = 0.03; margin_bottom = legend_height + 0.16; gap_x = 0.03
@@ -38,7 +38,7 @@ do for [format in formats] {
   }
   eval legend(legend_height)
   set key noenhanced maxrows (count > 8 ? 3 : count > 4 ? 2 : 1)
-  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.8 dt curveDash(k) lc rgb curveColour(k) title word(solvers, k)
+  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.8 dt curveDash(k) lc rgb curveColour(k) title word(integrators, k)
   unset multiplot
   unset output
   eval framed

@@ -14,7 +14,7 @@ namespace {
 // solves only the second, in 6.
 TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
   Table costs;
-  costs.columns = {"scene", "settings", "solver", "target_error", "cpu_s"};
+  costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s"};
   costs.rows = {{"a", "", "variable", "1e-6", "1"},           {"b", "", "variable", "1e-6", "4"},
                 {"a", "", "cvode_bdf", "1e-6", "8"},          {"a", "", "cvode_bdf", "1e-6", "2"},
                 {"b", "", "cvode_bdf", "1e-6", "2"},          {"a", "", "paper:radau_iia_5", "1e-6", "nan"},
@@ -23,7 +23,7 @@ TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
   std::map<std::string, std::vector<std::pair<double, double>>> curves;
   for (const auto& row : profile.rows) {
     if (textAt(profile, row, "target_error") != "all") continue;
-    curves[textAt(profile, row, "solver")].emplace_back(numberAt(profile, row, "ratio"),
+    curves[textAt(profile, row, "integrator")].emplace_back(numberAt(profile, row, "ratio"),
                                                         numberAt(profile, row, "fraction"));
   }
   using Curve = std::vector<std::pair<double, double>>;
