@@ -129,9 +129,10 @@ ColouredDirections::ColouredDirections(const Directions& group, const RowSets& r
 
 namespace {
 
-// Points near p at which the pattern is looked at, besides p itself, and how far away: a part of
-// 1 + |y|, a tenth of it after each point where the residual is not finite.
-constexpr int kPointsNearby = 2;
+// Points near p at which the pattern is looked at, besides p itself (what both miss, the check of
+// each evaluation finds), and how far away: a part of 1 + |y|, a tenth of it after each point where
+// the residual is not finite.
+constexpr int kPointsNearby = 1;
 constexpr double kDistance = 0.01;
 constexpr int kCloser = 6;
 

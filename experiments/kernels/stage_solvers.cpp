@@ -84,18 +84,18 @@ void measureStep(benchmark::State& state, const Chain& chain, StageSolverKind so
       static_cast<double>(state.iterations());
 }
 
-template <class... Args>
+template <class... What>
 void add(const std::string& name, bool dense, bool coupled, const std::vector<std::int64_t>& threads,
-         Args... args) {
-  auto* benchmark = benchmark::RegisterBenchmark(name.c_str(), args...);
-  benchmark->ArgNames({"stages", "n", "threads"})->Unit(benchmark::kMicrosecond);
+         What... what) {
+  auto* entry = benchmark::RegisterBenchmark(name.c_str(), what...);
+  entry->ArgNames({"stages", "n", "threads"})->Unit(benchmark::kMicrosecond);
   for (const std::int64_t s : {3, 5, 8, 10}) {
     for (const std::int64_t n : {12, 24, 100, 200, 400, 1000, 2000, 4000}) {
       if (dense && (n > kMostDense || (coupled && s * n > kMostCoupledDense))) continue;
-      for (const std::int64_t t : threads) benchmark->Args({s, n, t});
+      for (const std::int64_t t : threads) entry->Args({s, n, t});
     }
   }
-  if (threads.size() > 1) benchmark->UseRealTime();
+  if (threads.size() > 1) entry->UseRealTime();
 }
 
 void addAll() {
