@@ -120,6 +120,7 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     }
     return result;
   }
+  void forget() override { eta_ = 1; }
 
  private:
   NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W) {

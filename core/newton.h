@@ -37,6 +37,8 @@ class Newton {
   /// W (n x s): start values in, solution out (unspecified after a failure). The columns of explicit
   /// stages are not touched.
   [[nodiscard]] virtual NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) = 0;
+  /// What was learnt of the contraction says nothing of the next step: a start, a rejection.
+  virtual void forget() {}
 };
 
 /// With fixed steps no tolerance is known: iterates to round-off.

@@ -7,18 +7,18 @@ namespace irk {
 namespace detail {
 
 /// N rows: out(:, j) = start(j) + sum_k A(:, k) B(k, j), N accumulators in registers.
-template <int N, class Real, class Start>
+template <Index N, class Real, class Start>
 void productRows(const Real* A, Index stride, const Mat<Real>& B, Real* out, Index out_stride,
                  Index row, const Start& start) {
   const Index inner = B.rows();
   for (Index j = 0; j < B.cols(); ++j) {
-    Real sum[N];
-    for (int i = 0; i < N; ++i) sum[i] = start(row + i, j);
+    Real sum[static_cast<std::size_t>(N)];
+    for (Index i = 0; i < N; ++i) sum[i] = start(row + i, j);
     const Real* const b = B.data() + j * inner;
     for (Index k = 0; k < inner; ++k) {
-      for (int i = 0; i < N; ++i) sum[i] += A[k * stride + i] * b[k];
+      for (Index i = 0; i < N; ++i) sum[i] += A[k * stride + i] * b[k];
     }
-    for (int i = 0; i < N; ++i) out[j * out_stride + i] = sum[i];
+    for (Index i = 0; i < N; ++i) out[j * out_stride + i] = sum[i];
   }
 }
 
@@ -30,7 +30,7 @@ void productRows(const Real* A, Index stride, const Mat<Real>& B, Real* out, Ind
 template <class Real, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const Mat<Real>& B, Real* out,
                   Index out_stride, const Start& start) {
-  constexpr int kBlock = 8;
+  constexpr Index kBlock = 8;
   Index i = 0;
   for (; i + kBlock <= rows; i += kBlock) {
     detail::productRows<kBlock>(A + i, stride, B, out + i, out_stride, i, start);

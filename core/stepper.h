@@ -41,7 +41,10 @@ class Stepper {
 
   const StagePolynomial<Real>& stages() const { return stages_; }
   /// Forget the solved step: after a rejection or a discontinuity it predicts badly.
-  void forget() { stages_.valid = false; }
+  void forget() {
+    stages_.valid = false;
+    newton_->forget();
+  }
 
  private:
   void solve(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
