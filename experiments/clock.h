@@ -11,7 +11,7 @@ inline double threadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Seconds of a clock that never goes back: for progress and time left only.
+/// Seconds of a clock that never goes back: for progress, and where several threads work on one run.
 inline double wallSeconds() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

@@ -18,6 +18,7 @@
 #include "experiments/phases.h"
 #include "experiments/profile.h"
 #include "experiments/run_table.h"
+#include "experiments/scaling.h"
 
 namespace irk {
 namespace {
@@ -61,6 +62,11 @@ void writeSummaries(const Study& study, const Table& runs, const std::filesystem
     if (study.profile) writeTable(folder / "profile.csv", profileTable(costs));
   }
   if (study.estimates) writeTable(folder / "estimates.csv", estimateTable(study, runs));
+  if (study.scaling) {
+    const Table scaling = scalingTable(study, runs, progress);
+    writeTable(folder / "scaling.csv", scaling);
+    writeTable(folder / "scaling_slopes.csv", scalingSlopes(scaling));
+  }
   if (study.energy) writeTable(folder / "energy.csv", energyTable(study, runs));
   if (study.phases) writeTable(folder / "phases.csv", phaseTable(study, runs, progress));
 }

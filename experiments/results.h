@@ -10,7 +10,7 @@
 
 namespace irk {
 
-/// orders.csv, cpu_at_error.csv, estimates.csv, energy.csv, phases.csv and profile.csv, as the study asks.
+/// orders.csv, cpu_at_error.csv, estimates.csv, energy.csv, phases.csv, scaling.csv and profile.csv, as the study asks.
 void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
                     std::ostream& progress);
 

@@ -25,12 +25,18 @@ namespace irk {
 namespace {
 
 // What tells how long a run lasts, but for its number of stages: series come in their order.
-std::string kindOf(const RunSpec& spec) {
+// Of planned series the steps to come are not known.
+std::string kindOf(const RunSpec& spec, SeriesEnd end) {
   const auto& tolerances = spec.options.tolerances;
-  return fmt::format("{} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings),
-                     idOf(spec.formulation), spec.options.step.h,
+  const bool planned = end == SeriesEnd::kAsymptotic;
+  return fmt::format("{} {} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings),
+                     idOf(spec.formulation), planned ? spec.method : "",
+                     planned ? 0 : spec.options.step.h,
                      std::max(tolerances.rtol, tolerances.atol));
 }
+
+// A planned series has usually so many runs.
+constexpr std::size_t kPlannedRuns = 16;
 
 GroupErrors groupErrors(const Table& table, const TableRow& row) {
   return {numberAt(table, row, "error_u"), numberAt(table, row, "error_v"),
@@ -74,7 +80,10 @@ class Sweep {
     }
     progress_.emplace(out, study.id);
     for (const auto* series : work_) {
-      for (const auto& spec : series->runs) progress_->expect(kindOf(spec));
+      const auto& runs = series->runs;
+      const bool planned = series->end == SeriesEnd::kAsymptotic;
+      const std::size_t count = planned ? std::min(kPlannedRuns, runs.size()) : runs.size();
+      for (std::size_t i = 0; i < count; ++i) progress_->expect(kindOf(runs[i], series->end));
     }
     for (const auto& row : table_.rows) finished_[row.front()] = row;
   }
@@ -111,7 +120,7 @@ class Sweep {
     if (series.end == SeriesEnd::kAsymptotic) return runPlanned(series);
     const TableRow* too_long = nullptr;
     for (const auto& spec : series.runs) {
-      const TableRow* row = finishedOrMade(spec, too_long);
+      const TableRow* row = finishedOrMade(spec, kindOf(spec, series.end), too_long);
       if (!row) return;
       const auto& outcome = textAt(table_, *row, "outcome");
       if (series.end == SeriesEnd::kTooLong && ranTooLong(outcome)) too_long = row;
@@ -122,11 +131,17 @@ class Sweep {
     std::vector<double> steps;
     for (const auto& run : series.runs) steps.push_back(run.options.step.h);
     StepPlanner planner(std::move(steps), epsilonOf(series.runs.front().scalar));
-    std::vector<bool> made(series.runs.size(), false);
+    const std::string kind = kindOf(series.runs.front(), series.end);
+    std::size_t expected = std::min(kPlannedRuns, series.runs.size());
     while (const auto i = planner.next()) {
-      const TableRow* row = finishedOrMade(series.runs[*i], nullptr);
+      if (expected == 0) {
+        const std::lock_guard lock(mutex_);
+        progress_->expect(kind);
+      } else {
+        --expected;
+      }
+      const TableRow* row = finishedOrMade(series.runs[*i], kind, nullptr);
       if (!row) return;
-      made[*i] = true;
       const auto& outcome = textAt(table_, *row, "outcome");
       if (succeededAt(table_, *row)) {
         planner.record(*i, groupErrors(table_, *row));
@@ -136,20 +151,19 @@ class Sweep {
       if (outcome == "refused" || ranTooLong(outcome)) planner.endProbe();
     }
     const std::lock_guard lock(mutex_);
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      if (!made[i]) progress_->skipped(kindOf(series.runs[i]));
-    }
+    for (; expected > 0; --expected) progress_->skipped(kind);
   }
 
   // Null after an interrupt.
-  const TableRow* finishedOrMade(const RunSpec& spec, const TableRow* too_long) {
+  const TableRow* finishedOrMade(const RunSpec& spec, const std::string& kind,
+                                 const TableRow* too_long) {
     if (interruptFlag()) return nullptr;
     const std::string key = specKey(spec);
     {
       const std::lock_guard lock(mutex_);
       const auto found = finished_.find(key);
       if (found != finished_.end() && hasTrajectory(spec)) {
-        progress_->skipped(kindOf(spec));
+        progress_->skipped(kind);
         return &found->second;
       }
     }
@@ -160,9 +174,9 @@ class Sweep {
     TableRow& row = finished_[key] = runRow(key, study_.id, record);
     writer_.append(row);
     if (too_long) {
-      progress_->skipped(kindOf(spec));
+      progress_->skipped(kind);
     } else {
-      progress_->finished(kindOf(spec), wallSeconds() - start);
+      progress_->finished(kind, wallSeconds() - start);
     }
     return &row;
   }

@@ -242,6 +242,7 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   study.orders = flag(text.study, "orders");
   study.trajectories = flag(text.study, "trajectories");
   study.estimates = flag(text.study, "estimates");
+  study.scaling = flag(text.study, "scaling");
   study.energy = flag(text.study, "energy");
   study.phases = flag(text.study, "phases");
   if (const auto* targets = find(text.study, "targets")) {

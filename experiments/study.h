@@ -42,6 +42,7 @@ struct Study {
   bool orders = false;          ///< fit orders: orders.csv
   bool trajectories = false;    ///< write the solution over time of every run: <scene>.<method>.csv
   bool estimates = false;       ///< compare estimated with true errors of steps: estimates.csv
+  bool scaling = false;         ///< time of a step over n, stages, threads: scaling.csv
   bool energy = false;          ///< what round-off does to an energy: energy.csv
   bool phases = false;          ///< shares of the parts of Newton's method: phases.csv
   std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv

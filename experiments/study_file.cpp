@@ -63,7 +63,8 @@ class FileReader {
 
 constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
                                            "energy", "phases", "timing",       "targets",
-                                           "profile", "defaults", "quick", "block"};
+                                           "profile", "scaling", "defaults", "quick",
+                                           "block"};
 
 void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
                   StudyKeys& study) {

@@ -1,6 +1,6 @@
 // TOML text -> lists of texts by key. What the keys mean is the matter of study.cpp.
 //
-//   title = "..."                  orders, trajectories, estimates, energy, phases, profile = true
+//   title = "..."                  orders, trajectories, estimates, energy, phases, profile, scaling = true
 //   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...
 //   [defaults]                     keys of every block   [quick]        the same, --quick only
 //   [[block]]                      one sweep             [block.quick]  the same, --quick only
