@@ -97,8 +97,9 @@ void printSummary(const SceneReferences& references, std::ostream& out) {
   double worst = 0;
   const ReferenceValue* least = nullptr;
   for (const auto& value : references.values) {
-    const double relative = value.accuracy / std::abs(static_cast<double>(value.value));
-    if (!std::isfinite(relative) || relative <= worst) continue;
+    const double size = std::abs(static_cast<double>(value.value));
+    const double relative = value.accuracy / size;
+    if (size < value.accuracy || relative <= worst) continue;  // zero has no digits
     worst = relative;
     least = &value;
   }

@@ -34,7 +34,7 @@ AgreedValue agreed(std::span<const mp50> runs, double least) {
 }
 
 std::string decimalText(const mp50& value, double accuracy) {
-  if (value == 0) return "0";
+  if (abs(value) < mp50(accuracy) / 2) return "0";  // no digit of it is known
   constexpr int kGuard = 1;
   const int last = exponentOf(mp50(accuracy)) - kGuard;  // exponent of the last digit
   const int first = exponentOf(value);

@@ -41,6 +41,7 @@ TEST(Agreement, WritesTheDigitsThatItStatesAndOneMore) {
   EXPECT_EQ(decimalText(mp50("8.3333607703347e-14"), 1e-20), "8.333361e-14");
   EXPECT_EQ(decimalText(mp50("9.99999"), 1e-2), "10.000");
   EXPECT_EQ(decimalText(mp50(0), 1e-30), "0");
+  EXPECT_EQ(decimalText(mp50("-2.7e-50"), 1e-38), "0") << "round-off";
   // Fifty digits are not all good.
   EXPECT_EQ(decimalText(mp50(1) / 3, 1e-60).size(), std::string("0.").size() + 40);
 }
