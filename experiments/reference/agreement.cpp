@@ -12,11 +12,8 @@ namespace {
 
 constexpr int kMostDigits = 40;
 
-// floor(log10 |x|), from the digits of x: a logarithm is off by one next to a power of ten.
-int exponentOf(const mp50& x) {
-  const std::string text = x.str(kMostDigits, std::ios::scientific);
-  return std::atoi(text.c_str() + text.find('e') + 1);
-}
+// The exponent of a number in scientific notation. A logarithm is off by one next to a power of ten.
+int exponentOf(const std::string& text) { return std::atoi(text.c_str() + text.find('e') + 1); }
 
 }  // namespace
 
@@ -36,8 +33,8 @@ AgreedValue agreed(std::span<const mp50> runs, double least) {
 std::string decimalText(const mp50& value, double accuracy) {
   if (abs(value) < mp50(accuracy) / 2) return "0";  // no digit of it is known
   constexpr int kGuard = 1;
-  const int last = exponentOf(mp50(accuracy)) - kGuard;  // exponent of the last digit
-  const int first = exponentOf(value);
+  const int last = exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
+  const int first = exponentOf(value.str(kMostDigits, std::ios::scientific));
   const int digits = std::clamp(first - last + 1, 2, kMostDigits);
   const bool plain = first >= -3 && first < digits - 1;
   // Both count the digits behind the point; 0 would mean all of them.
