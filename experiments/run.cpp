@@ -98,7 +98,8 @@ class Prepared final : public PreparedRun {
       if (switches.size() < kMostRecordedSwitches) switches.push_back({t, change.name});
       if (watch.switched) watch.switched(t, change.name);
     };
-    const auto solution = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), monitor);
+    const auto t_end = decimalNumber<Real>(spec_.t_end);
+    const auto solution = method_.integrate(scene_.start, t_end, monitor);
     RunRecord result = record(solution, threadSeconds() - start);
     result.switches = std::move(switches);
     return result;

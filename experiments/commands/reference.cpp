@@ -56,8 +56,8 @@ struct SceneReferences {
   std::string scene;
   std::vector<ReferenceValue> values;
   std::vector<std::string> problems;
-  std::vector<ReferenceValue> independent;   // those of this scene
-  std::vector<std::string> disagreements;    // of independent values
+  std::vector<ReferenceValue> independent;  // those of this scene
+  std::vector<std::string> disagreements;   // of independent values
 };
 
 SceneReferences referencesOf(const std::string& scene,

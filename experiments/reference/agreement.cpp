@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kMostDigits = 40;
 
-// The exponent of a number in scientific notation. A logarithm is off by one next to a power of ten.
+// The exponent of a number in scientific notation. A logarithm is off by one next to a power of
+// ten.
 int exponentOf(const std::string& text) { return std::atoi(text.c_str() + text.find('e') + 1); }
 
 }  // namespace
@@ -33,7 +34,8 @@ AgreedValue agreed(std::span<const mp50> runs, double least) {
 std::string decimalText(const mp50& value, double accuracy) {
   if (abs(value) < mp50(accuracy) / 2) return "0";  // no digit of it is known
   constexpr int kGuard = 1;
-  const int last = exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
+  const int last =
+      exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
   const int first = exponentOf(value.str(kMostDigits, std::ios::scientific));
   const int digits = std::clamp(first - last + 1, 2, kMostDigits);
   const bool plain = first >= -3 && first < digits - 1;

@@ -63,9 +63,9 @@ Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times,
   for (const auto& t : times) {
     const auto solution = integrator.integrate(state, mp50(t), monitor);
     if (solution.outcome != Outcome::kSuccess) {
-      result.failure = fmt::format("{} at tol {:g}: {}, {}", spec.method,
-                                   spec.options.tolerances.rtol, name(solution.outcome),
-                                   solution.detail);
+      result.failure =
+          fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol,
+                      name(solution.outcome), solution.detail);
       return result;
     }
     state = solution.state;
@@ -132,8 +132,10 @@ class Assembly {
     const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
     const double size = std::max(std::abs(static_cast<double>(values.back())), scale);
     const AgreedValue found = agreed(values, task_.tolerance * kFiner * size);
-    ReferenceValue value{spec_.scene, settingsText(spec_.settings), times_[i], component(j),
-                         found.value, found.accuracy, howText(task_)};
+    ReferenceValue value{spec_.scene,   settingsText(spec_.settings),
+                         times_[i],     component(j),
+                         found.value,   found.accuracy,
+                         howText(task_)};
     if (isfinite(exact)) replace(value, exact, size);
     computed_.values.push_back(std::move(value));
   }

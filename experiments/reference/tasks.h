@@ -13,9 +13,9 @@ namespace irk {
 /// tolerances each, in 50 digits, its switches located.
 struct ReferenceTask {
   std::string_view scene;
-  std::string_view settings;            ///< `name=value name=value`
-  std::string_view times;               ///< decimal, ascending, besides the scene's end
-  double tolerance = 1e-25;             ///< rtol and atol; the finer one is kFiner of it
+  std::string_view settings;  ///< `name=value name=value`
+  std::string_view times;     ///< decimal, ascending, besides the scene's end
+  double tolerance = 1e-25;   ///< rtol and atol; the finer one is kFiner of it
   Formulation formulation = Formulation::kIndex2;
   std::string_view second = "lobatto_iiic_16";  ///< beside radau_iia_16
   NewtonKind newton = NewtonKind::kSimplified;

@@ -129,7 +129,8 @@ TEST(Compute, AStoppedRunIsNoValue) {
 }
 
 // Not exact: what is stated comes from the four runs alone. At 1e-12 it has to agree with what was
-// found at 1e-28 within the accuracy that it states, and to state about as many digits as asked for.
+// found at 1e-28 within the accuracy that it states, and to state about as many digits as asked
+// for.
 TEST(Compute, StatesWhatTheRunsAgreeOn) {
   ReferenceTask coarse{"mechanical_dae", "", ""}, fine = coarse;
   coarse.tolerance = 1e-12;

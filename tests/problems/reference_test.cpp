@@ -75,10 +75,10 @@ TEST(Reference, EverySceneHasItsEnd) {
     const auto scene = makeScene<double>(entry.id);
     const auto all = references(entry.id);
     for (const std::string& name : scene.names) {
-      EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Reference& r) {
-        return r.component == name && r.t == scene.t_end;
-      })) << entry.id << " "
-          << name;
+      EXPECT_TRUE(std::any_of(
+          all.begin(), all.end(),
+          [&](const Reference& r) { return r.component == name && r.t == scene.t_end; }))
+          << entry.id << " " << name;
     }
   }
 }
