@@ -38,7 +38,7 @@ TEST(Agreement, WritesTheDigitsThatItStatesAndOneMore) {
   EXPECT_EQ(decimalText(mp50("-1.23456789"), 3e-4), "-1.23457");
   EXPECT_EQ(decimalText(mp50("12345.678"), 1e-1), "12345.68");
   EXPECT_EQ(decimalText(mp50("0.0012345678"), 1e-6), "0.0012346");
-  EXPECT_EQ(decimalText(mp50("8.3333607703347e-14"), 1e-20), "8.333361e-14");
+  EXPECT_EQ(decimalText(mp50("8.3333607703347e-14"), 1e-20), "8.3333608e-14");
   EXPECT_EQ(decimalText(mp50("9.99999"), 1e-2), "10.000");
   EXPECT_EQ(decimalText(mp50(0), 1e-30), "0");
   EXPECT_EQ(decimalText(mp50("-2.7e-50"), 1e-38), "0") << "round-off";
