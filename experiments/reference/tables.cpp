@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "experiments/decimal.h"
 #include "experiments/numbers.h"
 #include "experiments/reference/agreement.h"
 
@@ -16,6 +17,14 @@ const std::vector<std::string> kColumns = {"scene", "settings", "t",     "compon
 mp50 parseDecimal(const std::string& place, const std::string& text) {
   parseNumber(place, text, kAnyNumber);  // its messages and its idea of a number
   return mp50(text);
+}
+
+// Runs know their times as doubles.
+void requireTime(const std::string& place, const std::string& text) {
+  const mp50 t = parseDecimal(place, text);
+  if (t != decimalNumber<mp50>(static_cast<double>(t))) {
+    throw Misuse(fmt::format("{} = {} has more digits than a double tells apart", place, text));
+  }
 }
 
 // Settings as `settingsText` writes them, defaults left out.
@@ -53,7 +62,7 @@ std::vector<ReferenceValue> referenceValues(const std::string& file, const Table
     };
     ReferenceValue value{cell("scene"), "", cell("t"), cell("component"), 0, 0, cell("source")};
     value.settings = canonicalSettings(value.scene, cell("settings"));
-    parseDecimal(place("t"), value.t);
+    requireTime(place("t"), value.t);
     value.value = parseDecimal(place("value"), cell("value"));
     value.accuracy = parseNumber(place("accuracy"), cell("accuracy"), kPositive);
     values.push_back(std::move(value));

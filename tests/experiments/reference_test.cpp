@@ -69,6 +69,7 @@ TEST(ReferenceTable, RefusesDamage) {
   EXPECT_TRUE(containsAll(message("value", "0.5x"), {"kaps.csv, row 1: value", "0.5x"}));
   EXPECT_TRUE(containsAll(message("value", ""), {"kaps.csv, row 1: value"}));
   EXPECT_TRUE(containsAll(message("t", "one"), {"kaps.csv, row 1: t", "one"}));
+  EXPECT_TRUE(containsAll(message("t", "0.314159265358979323"), {"row 1: t", "digits"}));
   EXPECT_TRUE(containsAll(message("accuracy", "0"), {"kaps.csv, row 1: accuracy", "> 0"}));
   EXPECT_TRUE(containsAll(message("scene", "kap"), {"kap", "did you mean 'kaps'"}));
   EXPECT_TRUE(containsAll(message("settings", "epsilon=1"), {"epsilon", "did you mean 'eps'"}));
