@@ -8,8 +8,8 @@
 namespace irk::test {
 namespace {
 
-// Flight is a parabola, so that steps are long: one that begins just before the contact may have
-// all its stages on the floor, and step doubling then sees nothing. The default estimate does.
+// Flight is a parabola, so that steps are long: one that begins just before the contact may have all
+// its stages on the floor, and step doubling then sees nothing. The default estimate does.
 TEST(Modes, OfTheBouncingMass) {
   const auto scene = makeScene<double>("bouncing_mass");
   const State<double> exact = scene.exact(0.5);
@@ -24,8 +24,8 @@ TEST(Modes, OfTheBouncingMass) {
       EXPECT_LT(error(mode.value, tolerance, "radau_iia_5"), 300 * tolerance) << mode.id;
     }
   }
-  for (const Discontinuity mode :
-       {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
+  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate,
+                                   Discontinuity::kLocate}) {
     EXPECT_LT(error(mode, 1e-10, "radau_iia_5"), 300 * 1e-10) << idOf(mode);
     EXPECT_LT(error(mode, 1e-10, "radau_iia_9"), 300 * 1e-10) << idOf(mode);
   }
