@@ -35,6 +35,7 @@ class Program {
     addTableau();
     addPlots();
     addMerging();
+    addReference();
   }
 
   int run(std::vector<std::string> arguments, Streams streams) {
@@ -76,12 +77,11 @@ class Program {
   }
 
   RunOptions runOptions() {
-    constexpr int kMostJobs = 1024;
     RunOptions options;
     options.study = study_;
     options.variant = quick_ ? StudyVariant::kQuick : StudyVariant::kFull;
     options.runner.results = results_;
-    options.runner.jobs = static_cast<int>(parseInteger("jobs", jobs_, 0, kMostJobs));
+    options.runner.jobs = parseJobs();
     options.runner.finished = fresh_ ? FinishedRuns::kRunAgain : FinishedRuns::kKeep;
     if (!shard_.empty()) parseShard(shard_, options.runner);
     return options;
@@ -182,6 +182,25 @@ class Program {
     compare->add_option("folders", folders_, "two folders")->required()->expected(2);
   }
 
+  void addReference() {
+    auto* sub = verb(app_, "reference",
+                     "reference values in 50 digits: two methods, two tolerances each",
+                     [this](Streams s) {
+                       reference_.jobs = parseJobs();
+                       return referenceCommand(reference_, s);
+                     });
+    sub->add_option("scenes", reference_.scenes, "see: irk list scenes; all if left out");
+    sub->add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    sub->add_flag("--check", reference_.check,
+                  "write nothing; status 1 if a file disagrees with what is computed");
+    sub->add_option("--out", reference_.out, "folder of the files (problems/reference)");
+  }
+
+  int parseJobs() const {
+    constexpr int kMostJobs = 1024;
+    return static_cast<int>(parseInteger("jobs", jobs_, 0, kMostJobs));
+  }
+
   CLI::App app_;
   Action action_;
   bool quick_ = false, fresh_ = false;
@@ -191,6 +210,7 @@ class Program {
   std::vector<std::string> folders_, methods_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
+  ReferenceOptions reference_;
 };
 
 }  // namespace

@@ -4,7 +4,8 @@ find_package(SUNDIALS REQUIRED COMPONENTS arkode cvode ida nvecserial sunlinsold
 irk_library(experiments)
 file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
-                                  ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp)
+                                  ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/reference/*.cpp)
 target_sources(irk_experiments PRIVATE ${parts})
 target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
                       PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark

@@ -5,6 +5,7 @@
 #include "core/integrator.h"
 #include "core/multiprecision.h"
 #include "experiments/clock.h"
+#include "experiments/decimal.h"
 #include "experiments/peers/peer_integrator.h"
 #include "tableaus/catalogue.h"
 
@@ -97,14 +98,15 @@ class Prepared final : public PreparedRun {
       if (switches.size() < kMostRecordedSwitches) switches.push_back({t, change.name});
       if (watch.switched) watch.switched(t, change.name);
     };
-    const auto solution = method_.integrate(scene_.start, Real(spec_.t_end), monitor);
+    const auto t_end = decimalNumber<Real>(spec_.t_end);
+    const auto solution = method_.integrate(scene_.start, t_end, monitor);
     RunRecord result = record(solution, threadSeconds() - start);
     result.switches = std::move(switches);
     return result;
   }
 
   void integrate() override {
-    last_ = method_.integrate(scene_.start, Real(spec_.t_end), {}).outcome;
+    last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
   }
 
   std::vector<std::string> columns() const override {

@@ -2,24 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <vector>
+
+#include "experiments/decimal.h"
 
 namespace irk {
 namespace {
 
 // References are given at times like 0.3, which a run reaches up to round-off.
 constexpr double kSameTime = 1e-12;
-
-template <class Real>
-Real parseReal(const std::string& text) {
-  if constexpr (std::is_same_v<Real, double>) {
-    return std::strtod(text.c_str(), nullptr);
-  } else {
-    return Real(text);
-  }
-}
 
 void raise(double& largest, double error) {
   if (!std::isnan(error) && !(largest >= error)) largest = error;
@@ -67,7 +59,7 @@ void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& s
 template <class Real>
 void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real>& state,
                       const Reference& reference, RunErrors& errors) {
-  const Real value = parseReal<Real>(reference.value);
+  const Real value = decimalNumber<Real>(reference.value);
   const auto at = std::find(scene.names.begin(), scene.names.end(), reference.component);
   if (at != scene.names.end()) {
     const Index i = at - scene.names.begin();

@@ -15,6 +15,7 @@ const std::vector<SceneEntry>& sceneCatalogue() {
       bouncingMassEntry(),
       dahlquistEntry(),
       dcMotorChopperEntry(),
+      elasticaEntry(),
       elastoplasticEntry(),
       hiresEntry(),
       hydraulicArmEntry(),

@@ -11,6 +11,7 @@ SceneEntry beamChainEntry();
 SceneEntry bouncingMassEntry();
 SceneEntry dahlquistEntry();
 SceneEntry dcMotorChopperEntry();
+SceneEntry elasticaEntry();
 SceneEntry elastoplasticEntry();
 SceneEntry hiresEntry();
 SceneEntry hydraulicArmEntry();

@@ -43,6 +43,16 @@ int paperCommand(const RunOptions& options, Streams streams);
 /// `what`: scenes, methods, studies, strategies, or empty for all. Throws Misuse.
 int listCommand(const std::string& what, Streams streams);
 
+struct ReferenceOptions {
+  std::vector<std::string> scenes;  ///< empty: all
+  int jobs = 0;                     ///< threads; 0 = one per processor
+  bool check = false;               ///< compare the files with what is computed, write nothing
+  std::string out;                  ///< folder of the files; empty: problems/reference
+};
+/// Computes references. 1: a run failed, an exact solution is contradicted, or (check) a file does
+/// not say what was computed.
+int referenceCommand(const ReferenceOptions& options, Streams streams);
+
 int tableauShow(const std::string& id_or_file, int digits, Streams streams);
 int tableauCheck(const std::string& id_or_file, Streams streams);
 int tableauExport(const std::string& id_or_file, Streams streams);

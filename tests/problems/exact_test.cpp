@@ -2,6 +2,8 @@
 #include <gsl/gsl_sf_elljac.h>
 #include <gtest/gtest.h>
 
+#include <boost/math/special_functions/jacobi_elliptic.hpp>
+
 #include "problems/elliptic.h"
 #include "tests/problems/scene_cases.h"
 
@@ -98,6 +100,19 @@ TEST(Exact, CoulombDecayComesToRest) {
     EXPECT_NEAR(scene.exact(t).u[0], -0.005, 100 * kEps);
     EXPECT_EQ(scene.exact(t).v[0], 0);
     EXPECT_EQ(scene.exact(t).w[0], 0);
+  }
+}
+
+TEST(Exact, EllipticFunctionsAgreeWithBoostToFortyFiveDigits) {
+  for (const char* m : {"0.1", "0.5", "0.99"}) {
+    for (const char* u : {"0.2", "1.7", "31.3"}) {
+      mp50 cn, dn;
+      const mp50 sn = boost::math::jacobi_elliptic(mp50(sqrt(mp50(m))), mp50(u), &cn, &dn);
+      const auto f = jacobiFunctions<mp50>(mp50(u), mp50(m));
+      EXPECT_LT(abs(f.sn - sn), mp50("1e-45")) << u << " " << m;
+      EXPECT_LT(abs(f.cn - cn), mp50("1e-45")) << u << " " << m;
+      EXPECT_LT(abs(f.dn - dn), mp50("1e-45")) << u << " " << m;
+    }
   }
 }
 

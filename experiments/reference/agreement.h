@@ -1,0 +1,26 @@
+// How many digits several computations of one number agree on.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/multiprecision.h"
+
+namespace irk {
+
+struct AgreedValue {
+  mp50 value;
+  double accuracy;  ///< > 0, absolute, one significant digit
+};
+
+/// The last of `runs` (at least two, the best last); its accuracy is the largest difference between
+/// any two, and not better than `least` (> 0), rounded up.
+AgreedValue agreed(std::span<const mp50> runs, double least);
+
+/// x > 0 rounded up to one significant digit: 2.3e-20 gives 3e-20.
+double roundedUp(double x);
+
+/// The digits that the accuracy states, and one more; at most 40 significant ones.
+std::string decimalText(const mp50& value, double accuracy);
+
+}  // namespace irk

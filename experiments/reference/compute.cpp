@@ -1,0 +1,207 @@
+#include "experiments/reference/compute.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <span>
+
+#include "core/integrator.h"
+#include "experiments/clock.h"
+#include "experiments/reference/agreement.h"
+#include "experiments/run.h"
+#include "tableaus/catalogue.h"
+
+namespace irk {
+namespace {
+
+constexpr std::string_view kFirstMethod = "radau_iia_16";
+constexpr std::size_t kRuns = 4;
+// Digits of an exact value: the closed forms lose some of their 50.
+constexpr double kExact = 1e-38;
+
+// Components and outputs, at each of a task's times.
+using Row = std::vector<mp50>;
+using Rows = std::vector<Row>;
+
+struct Integrated {
+  Rows rows;
+  std::string failure;  // empty: none
+};
+
+std::string nameOf(const ReferenceTask& task) {
+  return fmt::format("{}{}{}", task.scene, task.settings.empty() ? "" : " ", task.settings);
+}
+
+RunSpec specOf(const ReferenceTask& task, std::size_t run) {
+  return referenceSpec(task, run % 2 == 0 ? task.second : kFirstMethod,
+                       run < 2 ? Fineness::kCoarse : Fineness::kFine);
+}
+
+Row valuesOf(const Scene<mp50>& scene, const State<mp50>& state) {
+  const Vec<mp50> y = components(state);
+  Row row(y.begin(), y.end());
+  for (const auto& output : scene.outputs) row.push_back(output.value(state));
+  return row;
+}
+
+Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times,
+                     const std::atomic<bool>* stop) {
+  const auto scene = makeScene<mp50>(spec.scene, spec.settings);
+  const auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
+  Integrator<mp50> integrator(system, makeTableau<mp50>(spec.method), spec.options,
+                              systemScale(scene.scale, system->sizes()));
+  Monitor<mp50> monitor;
+  monitor.interrupt = [stop] {
+    return stop && stop->load(std::memory_order_relaxed) ? Outcome::kInterrupted
+                                                         : Outcome::kSuccess;
+  };
+  Integrated result;
+  State<mp50> state = scene.start;
+  for (const auto& t : times) {
+    const auto solution = integrator.integrate(state, mp50(t), monitor);
+    if (solution.outcome != Outcome::kSuccess) {
+      result.failure =
+          fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol,
+                      name(solution.outcome), solution.detail);
+      return result;
+    }
+    state = solution.state;
+    result.rows.push_back(valuesOf(scene, state));
+  }
+  return result;
+}
+
+// What the closed form says at each time; NaN where it says nothing.
+Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) {
+  Rows rows;
+  for (const auto& t : times) {
+    if (scene.exact) {
+      rows.push_back(valuesOf(scene, scene.exact(mp50(t))));
+    } else {
+      rows.emplace_back(scene.names.size() + scene.outputs.size(),
+                        std::numeric_limits<mp50>::quiet_NaN());
+    }
+  }
+  return rows;
+}
+
+std::string howText(const ReferenceTask& task) {
+  const bool fixed = task.step > 0;
+  const double coarse = fixed ? task.step : task.tolerance;
+  return fmt::format("mp50: {} and {}; {} {:g} and {:g}; locate; {}", kFirstMethod, task.second,
+                     fixed ? "step" : "tol", coarse, coarse * (fixed ? 0.5 : kFiner),
+                     idOf(task.formulation));
+}
+
+class Assembly {
+ public:
+  Assembly(const ReferenceTask& task, const std::vector<std::string>& times,
+           std::span<const Integrated> runs)
+      : task_(task),
+        times_(times),
+        runs_(runs),
+        spec_(specOf(task, 0)),
+        scene_(makeScene<mp50>(spec_.scene, spec_.settings)) {}
+
+  ComputedTask result() {
+    for (const auto& run : runs_) {
+      if (!run.failure.empty()) computed_.problems.push_back(nameOf(task_) + ": " + run.failure);
+    }
+    if (!computed_.problems.empty()) return computed_;
+    const Rows exact = exactRows(scene_, times_);
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      for (std::size_t j = 0; j < exact[i].size(); ++j) addValue(i, j, exact[i][j]);
+    }
+    return computed_;
+  }
+
+ private:
+  const std::string& component(std::size_t j) const {
+    const std::size_t n = scene_.names.size();
+    return j < n ? scene_.names[j] : scene_.outputs[j - n].name;
+  }
+
+  void addValue(std::size_t i, std::size_t j, const mp50& exact) {
+    std::array<mp50, kRuns> values;
+    for (std::size_t run = 0; run < kRuns; ++run) values[run] = runs_[run].rows[i][j];
+    if (!isfinite(values.back())) return;  // an output without meaning here
+    const auto at = static_cast<Index>(j);
+    const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
+    const double size = std::max(std::abs(static_cast<double>(values.back())), scale);
+    const AgreedValue found = agreed(values, task_.tolerance * kFiner * size);
+    ReferenceValue value{spec_.scene,   settingsText(spec_.settings),
+                         times_[i],     component(j),
+                         found.value,   found.accuracy,
+                         howText(task_)};
+    if (isfinite(exact)) replace(value, exact, size);
+    computed_.values.push_back(std::move(value));
+  }
+
+  // By the exact value, or by none if the integrations contradict it.
+  void replace(ReferenceValue& value, const mp50& exact, double size) {
+    const auto error = static_cast<double>(mp50(abs(exact - value.value)));
+    if (error > value.accuracy) {
+      computed_.problems.push_back(
+          fmt::format("{}: exact {}, integrated {}, which agree to {:g} among themselves",
+                      value.place(), exact.str(30), value.value.str(30), value.accuracy));
+    }
+    value.source = fmt::format("exact; {} agree to {:g}", value.source, value.accuracy);
+    value.value = exact;
+    value.accuracy = roundedUp(kExact * size);
+  }
+
+  const ReferenceTask& task_;
+  const std::vector<std::string>& times_;
+  std::span<const Integrated> runs_;
+  RunSpec spec_;
+  Scene<mp50> scene_;
+  ComputedTask computed_;
+};
+
+}  // namespace
+
+std::string ReferenceValue::place() const {
+  return fmt::format("{}{}{}, {} at t = {}", scene, settings.empty() ? "" : " ", settings,
+                     component, t);
+}
+
+bool samePlace(const ReferenceValue& a, const ReferenceValue& b) {
+  return a.scene == b.scene && a.settings == b.settings && a.component == b.component &&
+         mp50(a.t) == mp50(b.t);
+}
+
+void expectRuns(const ReferenceTask& task, Progress& progress) {
+  for (std::size_t run = 0; run < kRuns; ++run) progress.expect(nameOf(task));
+}
+
+std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
+                                  const std::vector<std::vector<std::string>>& times,
+                                  const ReferenceWatch& watch) {
+  std::vector<Integrated> runs(kRuns * tasks.size());
+  std::mutex mutex;
+  // The last runs of a task have the finer tolerance: the longest first.
+#pragma omp parallel for schedule(dynamic, 1) num_threads(watch.jobs)
+  for (std::size_t turn = 0; turn < runs.size(); ++turn) {
+    const std::size_t i = runs.size() - 1 - turn, task = i / kRuns;
+    const double start = threadSeconds();
+    try {
+      runs[i] = integrate(specOf(tasks[task], i % kRuns), times[task], watch.stop);
+    } catch (const std::exception& error) {
+      runs[i].failure = error.what();
+    }
+    const std::lock_guard lock(mutex);
+    if (watch.progress) watch.progress->finished(nameOf(tasks[task]), threadSeconds() - start);
+  }
+  std::vector<ComputedTask> computed;
+  for (std::size_t task = 0; task < tasks.size(); ++task) {
+    const std::span all(runs);
+    computed.push_back(
+        Assembly(tasks[task], times[task], all.subspan(kRuns * task, kRuns)).result());
+  }
+  return computed;
+}
+
+}  // namespace irk
