@@ -114,7 +114,9 @@ BlockForm<Real> eigenForm(const Mat<Real>& A) {
 
 template BlockForm<double> schurForm(const Mat<double>&);
 template BlockForm<mp50> schurForm(const Mat<mp50>&);
+template BlockForm<mp100> schurForm(const Mat<mp100>&);
 template BlockForm<double> eigenForm(const Mat<double>&);
 template BlockForm<mp50> eigenForm(const Mat<mp50>&);
+template BlockForm<mp100> eigenForm(const Mat<mp100>&);
 
 }  // namespace irk

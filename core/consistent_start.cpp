@@ -107,5 +107,7 @@ template StartReport makeConsistent(const System<double>&, DerivativeSource, boo
                                     StartCheck);
 template StartReport makeConsistent(const System<mp50>&, DerivativeSource, bool, State<mp50>&,
                                     StartCheck);
+template StartReport makeConsistent(const System<mp100>&, DerivativeSource, bool, State<mp100>&,
+                                    StartCheck);
 
 }  // namespace irk

@@ -162,6 +162,7 @@ void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
 
 template class Decoupled<double, DenseLu>;
 template class Decoupled<mp50, DenseLu>;
+template class Decoupled<mp100, DenseLu>;
 template class Decoupled<double, SparseLu>;
 
 }  // namespace irk

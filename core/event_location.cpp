@@ -155,6 +155,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
 
 template struct Location<double>;
 template struct Location<mp50>;
+template struct Location<mp100>;
 IRK_INSTANTIATE_CLASS(EventLocator)
 
 }  // namespace irk

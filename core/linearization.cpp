@@ -46,7 +46,7 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
       magnitude_(sizes_.n()) {
   if (!std::is_same_v<Real, double>) {
     if (storage == Storage::kSparse) {
-      throw Misuse("illegal combination: storage 'sparse' with scalar 'mp50': KLU is for double");
+      throw Misuse("illegal combination: storage 'sparse' in multiprecision: KLU is for double");
     }
     storage_ = Storage::kDense;
   }

@@ -262,5 +262,7 @@ template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, co
                                                     const Scheme<double>&);
 template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&,
                                                   const Scheme<mp50>&);
+template std::unique_ptr<Newton<mp100>> makeNewton(const IntegratorOptions&, const Sizes&,
+                                                   const Scheme<mp100>&);
 
 }  // namespace irk

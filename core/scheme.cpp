@@ -56,7 +56,9 @@ Scheme<Real>::Scheme(Tableau<Real> t)
 
 template struct Scheme<double>;
 template struct Scheme<mp50>;
+template struct Scheme<mp100>;
 template void legendre<double>(const double&, Eigen::Ref<Vec<double>>);
 template void legendre<mp50>(const mp50&, Eigen::Ref<Vec<mp50>>);
+template void legendre<mp100>(const mp100&, Eigen::Ref<Vec<mp100>>);
 
 }  // namespace irk

@@ -88,7 +88,7 @@ SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
       values_(static_cast<Index>(analysis_->row.size())),
       numeric_(std::make_unique<Numeric>()) {
   if (!kHasKlu<T>) {
-    throw Misuse("illegal combination: sparse systems with scalar 'mp50': KLU is for double");
+    throw Misuse("illegal combination: sparse systems in multiprecision: KLU is for double");
   }
 }
 template <class T>
@@ -157,5 +157,6 @@ double SparseLu<T>::reciprocalCondition() const {
 IRK_INSTANTIATE_CLASS(SparseLu)
 template class SparseLu<std::complex<double>>;
 template class SparseLu<std::complex<mp50>>;
+template class SparseLu<std::complex<mp100>>;
 
 }  // namespace irk

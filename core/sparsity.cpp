@@ -268,5 +268,6 @@ RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p
 
 template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&);
 template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&);
+template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&);
 
 }  // namespace irk

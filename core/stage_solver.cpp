@@ -25,7 +25,7 @@ std::unique_ptr<StageSolver<Real>> coupledSparse(const StageSolverSetup<Real>& s
   if constexpr (std::is_same_v<Real, double>) {
     return std::make_unique<Coupled<Real, SparseLu>>(setup);
   }
-  throw Misuse("illegal combination: solver 'coupled_sparse' with scalar 'mp50': KLU is for double");
+  throw Misuse("illegal combination: solver 'coupled_sparse' in multiprecision: KLU is for double");
 }
 
 }  // namespace
@@ -51,5 +51,7 @@ template std::unique_ptr<StageSolver<double>> makeStageSolver(StageSolverKind,
                                                               const StageSolverSetup<double>&);
 template std::unique_ptr<StageSolver<mp50>> makeStageSolver(StageSolverKind,
                                                             const StageSolverSetup<mp50>&);
+template std::unique_ptr<StageSolver<mp100>> makeStageSolver(StageSolverKind,
+                                                             const StageSolverSetup<mp100>&);
 
 }  // namespace irk

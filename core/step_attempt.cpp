@@ -162,6 +162,7 @@ std::unique_ptr<StepAttempt<Real>> makeStepAttempt(
       const IntegratorOptions&, SharedJacobian<Real>&, const ErrorNorm<Real>&, Counters&);
 IRK_INSTANTIATE(double)
 IRK_INSTANTIATE(mp50)
+IRK_INSTANTIATE(mp100)
 #undef IRK_INSTANTIATE
 
 }  // namespace irk

@@ -195,6 +195,8 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
       return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
     case ScalarKind::kMp50:
       return std::make_unique<Prepared<mp50, RungeKutta<mp50>>>(spec);
+    case ScalarKind::kMp100:
+      return std::make_unique<Prepared<mp100, RungeKutta<mp100>>>(spec);
   }
   return nullptr;
 }

@@ -113,8 +113,11 @@ RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& refer
 
 template Vec<double> components(const State<double>&);
 template Vec<mp50> components(const State<mp50>&);
+template Vec<mp100> components(const State<mp100>&);
 template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&,
                             const State<double>&);
 template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
+template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&,
+                            const State<mp100>&);
 
 }  // namespace irk

@@ -22,7 +22,8 @@ namespace {
 
 constexpr Named<ScalarKind> kScalars[] = {
     {ScalarKind::kDouble, "double", "53 bits"},
-    {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"}};
+    {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"},
+    {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on: riccati_tracking only"}};
 
 constexpr Configuration kConfigurations[] = {
     {"default", "Richardson's estimate, the paper's step control, simplified Newton, Schur basis", ""},
@@ -228,6 +229,8 @@ double epsilonOf(ScalarKind scalar) {
       return std::numeric_limits<double>::epsilon();
     case ScalarKind::kMp50:
       return 1e-50;
+    case ScalarKind::kMp100:
+      return 1e-100;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -11,7 +11,7 @@
 
 namespace irk {
 
-enum class ScalarKind { kDouble, kMp50 };
+enum class ScalarKind { kDouble, kMp50, kMp100 };
 template <>
 std::span<const Named<ScalarKind>> named<ScalarKind>();
 template <>

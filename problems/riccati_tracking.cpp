@@ -48,7 +48,8 @@ SceneEntry riccatiTrackingEntry() {
           .shows = "the order of a scheme: no damaged tableau passes it",
           .parameters = {},
           .make = make<double>,
-          .make_mp50 = make<mp50>};
+          .make_mp50 = make<mp50>,
+          .make_mp100 = make<mp100>};
 }
 
 }  // namespace irk

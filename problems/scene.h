@@ -57,6 +57,8 @@ struct SceneEntry {
   std::vector<Parameter> parameters;
   std::function<Scene<double>(const Settings&)> make;
   std::function<Scene<mp50>(const Settings&)> make_mp50;
+  /// Empty unless orders from 20 on are measured with the scene.
+  std::function<Scene<mp100>(const Settings&)> make_mp100 = {};
 };
 
 /// All scenes, sorted by id. Ids are stable for ever.
@@ -66,7 +68,8 @@ const std::vector<SceneEntry>& sceneCatalogue();
 const SceneEntry& findScene(std::string_view id);
 
 /// Checks settings against the entry's parameters (unknown name -> nearest known; out of range ->
-/// name, value, range), completes them with defaults, and builds. Throws Misuse.
+/// name, value, range), completes them with defaults, and builds. Throws Misuse, also for a scalar
+/// that the scene does not offer.
 template <class Real>
 Scene<Real> makeScene(std::string_view id, const Settings& settings = {});
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "core/misuse.h"
 #include "core/text.h"
@@ -44,7 +45,18 @@ bool isWholeNumber(std::string_view text) {
   throw Misuse(unknownName("tableau", id, known));
 }
 
-TableauFile constructMember(std::string_view id, const MemberId& member) {
+bool looksLikeFile(std::string_view text) {
+  return text.find('/') != std::string_view::npos || text.ends_with(".txt");
+}
+
+/// A member of a family, nothing for files and unknown ids.
+std::optional<MemberId> memberOf(std::string_view id_or_file) {
+  const auto member = splitId(id_or_file);
+  const bool known = member && !looksLikeFile(id_or_file) && findFamily(member->family);
+  return known ? member : std::nullopt;
+}
+
+Index stagesOf(std::string_view id, const MemberId& member) {
   const Family& family = familyOf(member.family);
   int s = 0;
   const char* const end = member.stages.data() + member.stages.size();
@@ -54,18 +66,15 @@ TableauFile constructMember(std::string_view id, const MemberId& member) {
     throw Misuse(fmt::format("tableau '{}': '{}' stages, but {} has {} to {}", id, member.stages,
                              family.id, family.minStages(), kMaxStages));
   }
-  return constructedFile(family.id, s);
-}
-
-bool looksLikeFile(std::string_view text) {
-  return text.find('/') != std::string_view::npos || text.ends_with(".txt");
+  return s;
 }
 
 TableauFile locate(std::string_view id_or_file, TableauFile (*read)(const std::string&)) {
   const std::string path(id_or_file);
   if (looksLikeFile(id_or_file)) return read(path);
-  const auto member = splitId(id_or_file);
-  if (member && findFamily(member->family)) return constructMember(id_or_file, *member);
+  if (const auto member = memberOf(id_or_file)) {
+    return constructedFile(member->family, stagesOf(id_or_file, *member));
+  }
   if (std::filesystem::is_regular_file(path)) return read(path);
   refuseId(id_or_file);
 }
@@ -92,8 +101,18 @@ TableauFile findUncheckedTableau(std::string_view id_or_file) {
 
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file) {
+  if (const auto member = memberOf(id_or_file)) {
+    using Precise = std::conditional_t<std::is_same_v<Real, mp100>, mp130, mp80>;
+    const Index s = stagesOf(id_or_file, *member);
+    return constructFamily<Precise>(familyOf(member->family), s).template cast<Real>();
+  }
   const TableauFile file = findTableau(id_or_file);
   constexpr int kWanted = std::numeric_limits<Real>::digits10;
+  if (kWanted > kFileDigits) {
+    throw Misuse(fmt::format("{}: a tableau file is not for this scalar of {} digits; use one of "
+                             "the families",
+                             id_or_file, kWanted));
+  }
   if (file.digits < kWanted) {
     throw Misuse(fmt::format(
         "{}: right to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
@@ -105,8 +124,8 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
 template <class Real>
 Methods<Real> makeMethods(std::string_view id, Index max_stages) {
   const Tableau<Real> first = makeTableau<Real>(id);
-  const auto member = splitId(id);
-  if (looksLikeFile(id) || !member || !findFamily(member->family)) {
+  const auto member = memberOf(id);
+  if (!member) {
     throw Misuse(fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
                              "a file is one method; use one of the families",
                              id));
@@ -129,7 +148,9 @@ int stageOrder(std::string_view family, Index s) { return familyOf(family).order
 
 template Tableau<double> makeTableau(std::string_view);
 template Tableau<mp50> makeTableau(std::string_view);
+template Tableau<mp100> makeTableau(std::string_view);
 template Methods<double> makeMethods(std::string_view, Index);
 template Methods<mp50> makeMethods(std::string_view, Index);
+template Methods<mp100> makeMethods(std::string_view, Index);
 
 }  // namespace irk

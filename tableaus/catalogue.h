@@ -24,7 +24,8 @@ const std::vector<FamilyEntry>& familyCatalogue();
 inline constexpr Index kMaxStages = 100;
 
 /// `radau_iia_5` or the path of a tableau file. Constructed in multiprecision, rounded once to Real
-/// (double, mp50). Throws Misuse: unknown family (names the nearest), s out of range, bad file.
+/// (double, mp50, mp100). Throws Misuse: unknown family (names the nearest), s out of range, bad file,
+/// a file with fewer digits than Real, any file for mp100.
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file);
 

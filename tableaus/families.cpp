@@ -12,8 +12,8 @@
 namespace irk {
 namespace {
 
-// Far above the construction's round-off (1e-72 at s = 100), far below any coefficient of a scheme.
-constexpr double kZeroThreshold = 1e-65;
+// In units of round-off: far above the construction's (1e8 at s = 100), far below any coefficient.
+constexpr double kZeroThreshold = 1e15;
 
 bool hasLeftEnd(Quadrature quadrature) {
   return quadrature == Quadrature::kRadauLeft || quadrature == Quadrature::kLobatto;
@@ -24,26 +24,28 @@ bool hasRightEnd(Quadrature quadrature) {
 }
 
 // An end that is a node puts its factor into the weight of the other nodes' polynomial.
-Vec<mp80> quadratureNodes(Quadrature quadrature, Index s) {
+template <class Real>
+Vec<Real> quadratureNodes(Quadrature quadrature, Index s) {
   const int left = hasLeftEnd(quadrature) ? 1 : 0;
   const int right = hasRightEnd(quadrature) ? 1 : 0;
-  Vec<mp80> c(s);
+  Vec<Real> c(s);
   if (left == 1) c[0] = 0;
   if (right == 1) c[s - 1] = 1;
-  c.segment(left, s - left - right) = jacobiZeros(s - left - right, right, left);
+  c.segment(left, s - left - right) = jacobiZeros<Real>(s - left - right, right, left);
   return c;
 }
 
 /// W_ik = P_k(c_i), orthonormal on [0, 1], k = 0 .. s-1.
-Mat<mp80> legendreBasis(const Vec<mp80>& c) {
+template <class Real>
+Mat<Real> legendreBasis(const Vec<Real>& c) {
   const Index s = c.size();
-  Mat<mp80> W(s, s);
+  Mat<Real> W(s, s);
   for (Index i = 0; i < s; ++i) {
-    const mp80 x = 2 * c[i] - 1;
-    mp80 L = 1, L_before = 0;
+    const Real x = 2 * c[i] - 1;
+    Real L = 1, L_before = 0;
     for (Index k = 0; k < s; ++k) {
-      W(i, k) = sqrt(mp80(2 * k + 1)) * L;
-      const mp80 L_next = ((2 * k + 1) * x * L - k * L_before) / (k + 1);
+      W(i, k) = sqrt(Real(2 * k + 1)) * L;
+      const Real L_next = ((2 * k + 1) * x * L - k * L_before) / (k + 1);
       L_before = L;
       L = L_next;
     }
@@ -52,25 +54,28 @@ Mat<mp80> legendreBasis(const Vec<mp80>& c) {
 }
 
 /// d_s: 1 unless the quadrature is too weak to integrate P_{s-1}^2 exactly.
-mp80 lastNorm(Quadrature quadrature, Index s) {
-  return quadrature == Quadrature::kLobatto ? 2 + mp80(1) / (s - 1) : mp80(1);
+template <class Real>
+Real lastNorm(Quadrature quadrature, Index s) {
+  return quadrature == Quadrature::kLobatto ? 2 + Real(1) / (s - 1) : Real(1);
 }
 
-mp80 cornerSize(Quadrature quadrature, Index s) {
-  return mp80(1) / (quadrature == Quadrature::kLobatto ? 2 * (s - 1) : 4 * s - 2);
+template <class Real>
+Real cornerSize(Quadrature quadrature, Index s) {
+  return Real(1) / (quadrature == Quadrature::kLobatto ? 2 * (s - 1) : 4 * s - 2);
 }
 
 /// X of Hairer & Wanner II, IV.5: integration in the basis W, last row and column by family.
-Mat<mp80> integrationMatrix(const Family& family, Index s) {
-  Mat<mp80> X = Mat<mp80>::Zero(s, s);
-  X(0, 0) = mp80(1) / 2;
+template <class Real>
+Mat<Real> integrationMatrix(const Family& family, Index s) {
+  Mat<Real> X = Mat<Real>::Zero(s, s);
+  X(0, 0) = Real(1) / 2;
   for (Index k = 1; k < s; ++k) {
-    const mp80 xi = 1 / (2 * sqrt(mp80(4 * k * k - 1)));
+    const Real xi = 1 / (2 * sqrt(Real(4 * k * k - 1)));
     const bool last = k == s - 1;
     X(k, k - 1) = last ? family.below * xi : xi;
-    X(k - 1, k) = last ? -family.above * xi * lastNorm(family.quadrature, s) : mp80(-xi);
+    X(k - 1, k) = last ? -family.above * xi * lastNorm<Real>(family.quadrature, s) : Real(-xi);
   }
-  if (family.corner != 0) X(s - 1, s - 1) += family.corner * cornerSize(family.quadrature, s);
+  if (family.corner != 0) X(s - 1, s - 1) += family.corner * cornerSize<Real>(family.quadrature, s);
   return X;
 }
 
@@ -108,27 +113,32 @@ const Family& familyOf(std::string_view id) {
   throw Misuse(unknownName("tableau family", id, known));
 }
 
-Tableau<mp80> constructFamily(const Family& family, Index s) {
+template <class Real>
+Tableau<Real> constructFamily(const Family& family, Index s) {
   if (s < family.minStages() || s > kMaxStages) {
     throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s,
                              family.minStages(), kMaxStages));
   }
-  const Vec<mp80> c = quadratureNodes(family.quadrature, s);
-  const Mat<mp80> W = legendreBasis(c);
-  Vec<mp80> d = Vec<mp80>::Ones(s);
-  d[s - 1] = lastNorm(family.quadrature, s);
+  const Vec<Real> c = quadratureNodes<Real>(family.quadrature, s);
+  const Mat<Real> W = legendreBasis<Real>(c);
+  Vec<Real> d = Vec<Real>::Ones(s);
+  d[s - 1] = lastNorm<Real>(family.quadrature, s);
 
   // W^T diag(b) W = D, hence diag(b)^-1 = W D^-1 W^T.
-  const Mat<mp80> W_scaled = W * d.cwiseInverse().asDiagonal();
-  const Vec<mp80> b = W_scaled.cwiseProduct(W).rowwise().sum().cwiseInverse();
+  const Mat<Real> W_scaled = W * d.cwiseInverse().asDiagonal();
+  const Vec<Real> b = W_scaled.cwiseProduct(W).rowwise().sum().cwiseInverse();
 
-  const Mat<mp80> X = integrationMatrix(family, s);
-  const Mat<mp80> WX = W * X;
-  Mat<mp80> A = WX * W_scaled.transpose() * b.asDiagonal();
-  A = A.unaryExpr([](const mp80& a) { return abs(a) < kZeroThreshold ? mp80(0) : a; }).eval();
+  const Mat<Real> X = integrationMatrix<Real>(family, s);
+  const Mat<Real> WX = W * X;
+  Mat<Real> A = WX * W_scaled.transpose() * b.asDiagonal();
+  const Real zero = kZeroThreshold * Eigen::NumTraits<Real>::epsilon();
+  A = A.unaryExpr([&zero](const Real& a) { return abs(a) < zero ? Real(0) : a; }).eval();
 
   const SimplifyingOrders orders = family.orders(s);
   return {fmt::format("{}_{}", family.id, s), family.id, A, b, c, orders.p, orders.q};
 }
+
+template Tableau<mp80> constructFamily(const Family&, Index);
+template Tableau<mp130> constructFamily(const Family&, Index);
 
 }  // namespace irk

@@ -41,7 +41,9 @@ const Family& familyOf(std::string_view id);
 
 /// The s-stage member; throws Misuse, naming the range, unless minStages() <= s <= kMaxStages.
 /// Hairer & Wanner II, IV.5 in the orthonormal Legendre basis W: A = W X D^-1 W^T diag(b).
-/// At least 60 digits are right; coefficients that are zero are exactly zero.
-Tableau<mp80> constructFamily(const Family& family, Index s);
+/// All but 20 digits of Real (mp80, mp130) are right at least; coefficients that are zero are exactly
+/// zero.
+template <class Real = mp80>
+Tableau<Real> constructFamily(const Family& family, Index s);
 
 }  // namespace irk

@@ -9,4 +9,8 @@ namespace irk {
 using mp80 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>,
                                            boost::multiprecision::et_off>;
 
+/// The same for mp100.
+using mp130 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<130>,
+                                            boost::multiprecision::et_off>;
+
 }  // namespace irk

@@ -73,7 +73,7 @@ Finding highOrders(const ResultTables& tables) {
   Finding finding{
       Verdict::kContradicted,
       fmt::format("order {:.2f} observed; cheapest orders {}", reached, cheapest),
-      fmt::format("In 50 digits Gauss schemes show orders up to {:.1f}. At the smallest "
+      fmt::format("In multiprecision Gauss schemes show orders up to {:.1f}. At the smallest "
                   "error reached, order {} or more is within 10 % of the cheapest on "
                   "{} of {} smooth scenes, and the cheapest has order {} or more on {}.",
                   reached, kHigh, efficient, cases, kStillHigh, fairly)};

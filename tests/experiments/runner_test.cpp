@@ -138,6 +138,29 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
   }
 }
 
+// Orders 40 and 39: errors keep to a line only below 1e-70. orderTolerance is 0.4 there; an order
+// more or less would be seen.
+TEST(Runner, OrdersOfTwentyStagesInHundredDigits) {
+  const Study study = parseStudy(R"(
+orders = true
+[[block]]
+scene = "riccati_tracking"
+scalar = "mp100"
+methods = ["gauss_20", "radau_iia_20"]
+refine_most = 64
+)",
+                                 "twenty.toml", StudyVariant::kFull);
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
+  ASSERT_EQ(orders.rows.size(), 2u);
+  for (const auto& row : orders.rows) {
+    const double order = textAt(orders, row, "family") == "gauss" ? 40 : 39;
+    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.5) << textAt(orders, row, "reason");
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees");
+  }
+}
+
 // The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses
 // orders in every component but q, diverges in lambda, and is healed by a projection.
 TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {

@@ -73,6 +73,13 @@ TEST(Catalogue, NamesTheNearestParameter) {
             std::string::npos);
 }
 
+TEST(Catalogue, RefusesAScalarThatTheSceneDoesNotOffer) {
+  const std::string message = misuseOf([] { makeScene<mp100>("kepler"); });
+  for (const char* part : {"mp100", "scene kepler", "double and mp50", "riccati_tracking"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
 TEST(Catalogue, RefusesValuesOutOfRange) {
   const std::string message = misuseOf([] { makeScene<mp50>("kepler", {{"e", "1.5"}}); });
   EXPECT_NE(message.find("e = '1.5'"), std::string::npos) << message;

@@ -175,6 +175,7 @@ TEST(File, RefusesFewerDigitsThanTheScalarHas) {
   EXPECT_TRUE(contains(refusal([&] { makeTableau<mp50>(file.path()); }), "add 'digits: 50'"));
   const TemporaryFile exact(changed({{6, "digits: 50"}}));
   EXPECT_EQ(makeTableau<mp50>(exact.path()).A, makeTableau<mp50>("radau_iia_2").A);
+  EXPECT_TRUE(contains(refusal([&] { makeTableau<mp100>(exact.path()); }), "100 digits"));
 }
 
 TEST(File, ACheckReportsWhatTheReaderRefuses) {
