@@ -1,4 +1,4 @@
-// Decimal text as a number of either scalar.
+// Decimal text as a number of any scalar.
 #pragma once
 
 #include <fmt/format.h>
