@@ -83,8 +83,8 @@ TEST(Integration, CoordinatesOfTheSliderCrankAgree) {
     rate.push_back(s.v[i]);
   }
   for (const std::size_t i : {1U, 2U}) {
-    EXPECT_NEAR(theta[i], theta[0], kGrowth * kTolerance);
-    EXPECT_NEAR(rate[i], rate[0], kGrowth * kTolerance * 10);
+    EXPECT_NEAR(theta[i], theta[0], growthOf("slider_crank") * kTolerance);
+    EXPECT_NEAR(rate[i], rate[0], growthOf("slider_crank") * kTolerance * 10);
   }
 }
 
