@@ -91,7 +91,11 @@ std::string verdictText(const OrderFit& fit, double theory) {
 // What theory says about components of algebraic and stiff systems is a bound for all of them.
 std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
   const bool differs = fit.measurable && std::abs(fit.order - theory) > orderTolerance(theory);
-  if (!differs || kind == SystemKind::kOde) return fit.reason;
+  if (!differs) return fit.reason;
+  if (std::abs(fit.order - std::round(fit.order)) > kAgreement) {
+    return "no integer: the steps are not yet asymptotic where round-off comes";
+  }
+  if (kind == SystemKind::kOde) return fit.reason;
   return fit.order > theory
              ? "higher than the general result: this system does not excite its worst term"
              : "lower than theory for this kind of system";
