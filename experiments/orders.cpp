@@ -88,11 +88,14 @@ std::string verdictText(const OrderFit& fit, double theory) {
   return std::abs(fit.order - theory) <= orderTolerance(theory) ? "agrees" : "differs";
 }
 
+// Farther than this from an integer a slope is that of no order.
+constexpr double kNoInteger = 0.2;
+
 // What theory says about components of algebraic and stiff systems is a bound for all of them.
 std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
   const bool differs = fit.measurable && std::abs(fit.order - theory) > orderTolerance(theory);
   if (!differs) return fit.reason;
-  if (std::abs(fit.order - std::round(fit.order)) > kAgreement) {
+  if (std::abs(fit.order - std::round(fit.order)) > kNoInteger) {
     return "no integer: the steps are not yet asymptotic where round-off comes";
   }
   if (kind == SystemKind::kOde) return fit.reason;
