@@ -4,12 +4,15 @@
 #include <fmt/ostream.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <ostream>
 #include <string_view>
 
@@ -42,12 +45,27 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return parts;
 }
 
+// What gnuplot has to say, but for curves of which a panel has no row: that is no fault.
+void forwardMessages(std::FILE* file, std::ostream& err) {
+  std::rewind(file);
+  for (char line[4096]; std::fgets(line, sizeof line, file);) {
+    const std::string_view text(line);
+    if (text != "\n" && text.find("no valid points") == text.npos) err << text;
+  }
+}
+
 // The exit status of `gnuplot -e commands script`, or -1 with errno if it cannot be started.
-int runGnuplot(const std::string& commands, const std::string& script) {
+int runGnuplot(const std::string& commands, const std::string& script, std::ostream& err) {
   std::string words[] = {"gnuplot", "-e", commands, script};
   char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(std::tmpfile(), std::fclose);
+  if (!messages) return -1;
+  posix_spawn_file_actions_t redirect;
+  posix_spawn_file_actions_init(&redirect);
+  posix_spawn_file_actions_adddup2(&redirect, fileno(messages.get()), STDERR_FILENO);
   pid_t child = 0;
-  const int error = posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ);
+  const int error = posix_spawnp(&child, "gnuplot", &redirect, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&redirect);
   if (error != 0) {
     errno = error;
     return -1;
@@ -55,6 +73,7 @@ int runGnuplot(const std::string& commands, const std::string& script) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  forwardMessages(messages.get(), err);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
@@ -153,7 +172,7 @@ std::vector<Figure> readFigures(const std::filesystem::path& file) {
 bool drawFigure(const std::string& script, const std::string& commands,
                 const std::filesystem::path& home, std::ostream& err) {
   const auto path = (home / "plots" / script).string();
-  const int status = runGnuplot(commands, path);
+  const int status = runGnuplot(commands, path, err);
   if (status < 0) {
     fmt::print(err, "cannot start gnuplot ({}): install the package gnuplot-nox\n",
                std::strerror(errno));
