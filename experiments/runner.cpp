@@ -36,7 +36,7 @@ std::string kindOf(const RunSpec& spec, SeriesEnd end) {
 }
 
 // A planned series has usually so many runs.
-constexpr std::size_t kPlannedRuns = 16;
+constexpr std::size_t kPlannedRuns = 11;
 
 GroupErrors groupErrors(const Table& table, const TableRow& row) {
   return {numberAt(table, row, "error_u"), numberAt(table, row, "error_v"),
