@@ -37,16 +37,17 @@ double centre(std::span<const ErrorPoint> window) {
   return std::sqrt(window.front().h * window.back().h);
 }
 
-// With error = C h^p (1 + c h) local slopes are p + c h: the difference of the slopes of the coarse
+// With error = C h^p (1 + c h^q) local slopes are p + q c h^q: the difference of the slopes of the coarse
 // and the fine half, extrapolated to h = 0, is what the fit still misses. Slopes of halves are
 // about 2^(3/2) times as uncertain as that of the whole, their difference four times.
-double drift(std::span<const ErrorPoint> window, const Slope& whole) {
+double drift(std::span<const ErrorPoint> window, const Slope& whole, int next_power) {
   constexpr double kHalves = 4;
   const std::size_t half = window.size() / 2;
   const auto coarse = window.first(half + 1);
   const auto fine = window.last(window.size() - half);
   const double change = std::abs(fitSlope(coarse).value - fitSlope(fine).value);
-  const double extrapolation = centre(window) / (centre(coarse) - centre(fine));
+  const auto at = [next_power](auto part) { return std::pow(centre(part), next_power); };
+  const double extrapolation = at(window) / (at(coarse) - at(fine));
   return (change + kHalves * whole.deviation) * extrapolation;
 }
 
@@ -133,7 +134,7 @@ OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options)
       if (window.front().h < options.min_span * window.back().h * (1 - 1e-9)) continue;
       const Slope slope = fitSlope(window);
       if (!continues(std::span(points).subspan(end), slope)) continue;
-      const double uncertainty = slope.confidence + drift(window, slope);
+      const double uncertainty = slope.confidence + drift(window, slope, options.next_power);
       if (uncertainty >= best_uncertainty) continue;
       best_uncertainty = uncertainty;
       best = {true,

@@ -24,6 +24,9 @@ struct OrderFitOptions {
   /// > 0. Largest sum of confidence and drift that still is a measurement; for orders beyond 20
   /// this much times order / 20.
   double max_uncertainty = 0.2;
+  /// q of error = C h^p (1 + c h^q + ...): 2 for symmetric methods, whose errors have even powers
+  /// only; HNW I (II.8).
+  int next_power = 1;
 };
 
 struct OrderFit {

@@ -107,6 +107,12 @@ std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
 OrderFitOptions fitOptions(const Table& runs, const TableRow& row) {
   OrderFitOptions options;
   options.epsilon = epsilonOf(parseId<ScalarKind>(textAt(runs, row, "scalar")));
+  // Of equations that are not stiff, where nothing is projected or damped.
+  const auto& scene = textAt(runs, row, "scene");
+  const auto& family = textAt(runs, row, "family");
+  const bool symmetric = family == "gauss" || family == "lobatto_iiia" ||
+                         family == "lobatto_iiib" || family == "lobatto_iiid";
+  if (scene == "riccati_tracking" && symmetric) options.next_power = 2;
   return options;
 }
 

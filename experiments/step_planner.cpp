@@ -12,9 +12,11 @@ constexpr double kAboveRoundOff = 1e3;
 // misses; each is half the one before.
 constexpr double kSettled = 0.04;
 constexpr int kSettledProbes = 4;
-// Steps of the measurement: this many over this range.
-constexpr int kPoints = 8;
+// Steps of the measurement: this many over this range, or over that in which the error falls by so
+// many decades: above, errors of high order have not settled.
+constexpr int kPoints = 12;
 constexpr double kRange = 4;
+constexpr double kDecades = 12;
 
 double slopeBetween(double h1, double e1, double h2, double e2) {
   return std::log(e1 / e2) / std::log(h1 / h2);
@@ -89,13 +91,24 @@ std::optional<double> StepPlanner::smallestUseful(std::size_t group) const {
   return std::clamp(last.h * std::pow(floor_ / last.error, 1 / slope), below->h, last.h);
 }
 
+// From the slope of the last two probes above the floor.
+double StepPlanner::rangeOf(std::size_t group) const {
+  auto probes = probesOf(group);
+  std::erase_if(probes, [this](const Probe& p) { return p.error <= floor_; });
+  if (probes.size() < 2) return kRange;
+  const Probe &before = *(probes.end() - 2), &last = probes.back();
+  const double slope = slopeBetween(before.h, before.error, last.h, last.error);
+  return slope > 0 ? std::min(kRange, std::pow(10, kDecades / slope)) : kRange;
+}
+
 void StepPlanner::plan() {
   planned_ = true;
   for (std::size_t group = 0; group < std::tuple_size_v<GroupErrors>; ++group) {
     const auto least = smallestUseful(group);
     if (!least) continue;
+    const double range = rangeOf(group);
     for (int k = 0; k < kPoints; ++k) {
-      const std::size_t index = nearest(*least * std::pow(kRange, k / (kPoints - 1.0)));
+      const std::size_t index = nearest(*least * std::pow(range, k / (kPoints - 1.0)));
       if (!runs_.contains(index)) plan_.push_back(index);
     }
   }

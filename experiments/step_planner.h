@@ -14,7 +14,8 @@ using GroupErrors = std::array<double, 4>;
 
 /// Plans a series of runs with constant steps h_0 > h_1 > ... First a probe: steps are halved until
 /// every component has settled on a slope or reached round-off. Then, for every component, a
-/// geometric series of steps over the last factor of four before that. Deterministic: the plan
+/// geometric series of steps over the last factor of four before that, for high orders over the last
+/// twelve decades of the error. Deterministic: the plan
 /// depends on errors only.
 class StepPlanner {
  public:
@@ -43,6 +44,7 @@ class StepPlanner {
   std::vector<Probe> probesOf(std::size_t group) const;
   bool finished(std::size_t group) const;
   std::optional<double> smallestUseful(std::size_t group) const;
+  double rangeOf(std::size_t group) const;
   void plan();
   std::size_t nearest(double h) const;
 

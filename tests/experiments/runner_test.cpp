@@ -147,9 +147,7 @@ orders = true
 scene = "riccati_tracking"
 scalar = "mp100"
 methods = ["gauss_20", "radau_iia_20"]
-steps = [0.1111111111111111, 0.1, 0.09090909090909091, 0.08333333333333333, 0.07692307692307693,
-         0.07142857142857142, 0.06666666666666667, 0.0625, 0.058823529411764705,
-         0.05555555555555555]
+refine_most = 40
 )",
                                  "twenty.toml", StudyVariant::kFull);
   const TemporaryFolder folder;
