@@ -14,7 +14,7 @@ constexpr double kSettled = 0.04;
 constexpr int kSettledProbes = 4;
 // Steps of the measurement: this many over this range, or over that in which the error falls by so
 // many decades: above, errors of high order have not settled.
-constexpr int kPoints = 12;
+constexpr int kPoints = 8;
 constexpr double kRange = 4;
 constexpr double kDecades = 12;
 
