@@ -46,6 +46,7 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
   start_detail_.clear();
   blamed_ = -1;
   note_.clear();
+  attempt_.begin();
   jacobian_.forgetPattern();
   restart();
   state_ = system_.fromScene(start);

@@ -116,6 +116,7 @@ class PredictiveController final : public StepController {
   void forget() override {
     last_h_ = 0;
     barred_ = 0;
+    rejected_ = false;
   }
   void changeOrder(int order, double error, double h) override {
     exponent_ = 1.0 / (order + 1);

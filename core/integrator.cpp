@@ -74,7 +74,14 @@ class Integrator<Real>::Run {
         counted_(*system_, counters_, options_.threads),
         schemes_(methods.members.begin(), methods.members.end()),
         norm_(counted_, options_.tolerances, scale) {
-    const Scheme<Real>& scheme = schemes_.at(methods.start);
+    const bool one = methods.members.size() == 1;
+    if (methods.start >= methods.members.size() ||
+        (!one && options_.order != OrderControl::kVariable)) {
+      throw Misuse("illegal combination: order '" + std::string(idOf(options_.order)) + "' with " +
+                   std::to_string(methods.members.size()) + " methods, starting with number " +
+                   std::to_string(methods.start) + ": several need order 'variable'");
+    }
+    const Scheme<Real>& scheme = schemes_[methods.start];
     for (const auto& member : schemes_) refuseIllegal(member, *system_, options_);
     jacobian_ = std::make_unique<SharedJacobian<Real>>(counted_, scheme, options_, counters_);
     attempt_ = makeStepAttempt<Real>(counted_, schemes_, methods.start, options_, *jacobian_, norm_,
@@ -95,6 +102,7 @@ class Integrator<Real>::Run {
     }
     length_ = static_cast<double>(Real(t_end - start.t));
     const Outcome outcome = advance_->begin(start, length_, monitor);
+    followOrder(1, 0);
     if (outcome != Outcome::kSuccess) return advance_->failed(outcome, 0, "no step taken");
     if (options_.step.control == StepControl::kFixed) return fixedSteps(t_end);
     return adaptiveSteps(t_end);

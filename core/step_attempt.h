@@ -37,6 +37,8 @@ class StepAttempt {
   /// One step of size h from `from` to `to` (not aliased).
   [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h,
                                               State<Real>& to) = 0;
+  /// A new integration: the same bits as of a new attempt.
+  virtual void begin() { forget(); }
   /// What was solved predicts badly: the attempt was not accepted, or the mode has changed.
   virtual void forget() = 0;
   /// The step of size h that was attempted last is taken over, and the controller asks for h_next:

@@ -29,7 +29,8 @@ VariableOrder<Real>::VariableOrder(const System<Real>& system,
                                    const IntegratorOptions& options,
                                    SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
                                    Counters& counters)
-    : at_(start),
+    : start_(start),
+      at_(start),
       lower_error_(kUnknown),
       unknowns_(static_cast<double>(system.sizes().n())) {
   for (const auto& scheme : schemes) {
@@ -53,16 +54,27 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
       since_change_ + 1 >= kLeastStay) {
     const Member& below = *members_[at_ - 1];
     estimate = member().estimate.evaluateLower(from, *past_, below.scheme.s);
-    result.outcome = estimate.outcome;
-    lower_error_ = estimate.error * below.estimate.mu() / member().estimate.mu();
+    // Where it cannot be computed the order stays; the step is good.
+    if (estimate.outcome == Outcome::kSuccess) {
+      lower_error_ = estimate.error * below.estimate.mu() / member().estimate.mu();
+    }
   }
+  again_ = !(result.error <= 1);
   return result;
+}
+
+template <class Real>
+void VariableOrder<Real>::begin() {
+  changeTo(start_);
+  past_ = &member().stepper.stages();
+  forget();
 }
 
 template <class Real>
 void VariableOrder<Real>::forget() {
   for (auto& m : members_) m->stepper.forget();
   again_ = true;
+  lower_error_ = kUnknown;
 }
 
 // The step that the member would take next, and its progress per work.
@@ -88,7 +100,6 @@ auto VariableOrder<Real>::plan(double error, const Member& m, const AttemptResul
 
 template <class Real>
 NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
-  again_ = false;
   ++since_change_;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ < kLeastStay) return {h_next, result.error};

@@ -25,6 +25,7 @@ class VariableOrder final : public StepAttempt<Real> {
                 SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
+  void begin() override;
   void forget() override;
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   void failed(double h) override;
@@ -57,7 +58,7 @@ class VariableOrder final : public StepAttempt<Real> {
   void changeTo(std::size_t next);
 
   std::vector<std::unique_ptr<Member>> members_;
-  std::size_t at_;
+  std::size_t start_, at_;
   const StagePolynomial<Real>* past_;  // of the last solved step
   bool again_ = true;                  // filter twice: after a start and a rejection
   int since_change_ = 0;               // accepted steps

@@ -104,15 +104,11 @@ std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
              : "lower than theory for this kind of system";
 }
 
-OrderFitOptions fitOptions(const Table& runs, const TableRow& row) {
+OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional<SystemKind> kind) {
   OrderFitOptions options;
   options.epsilon = epsilonOf(parseId<ScalarKind>(textAt(runs, row, "scalar")));
-  // Of equations that are not stiff, where nothing is projected or damped.
-  const auto& scene = textAt(runs, row, "scene");
-  const auto& family = textAt(runs, row, "family");
-  const bool symmetric = family == "gauss" || family == "lobatto_iiia" ||
-                         family == "lobatto_iiib" || family == "lobatto_iiid";
-  if (scene == "riccati_tracking" && symmetric) options.next_power = 2;
+  const bool ode = kind == SystemKind::kOde;
+  if (ode && isSymmetric(textAt(runs, row, "family"))) options.next_power = 2;
   return options;
 }
 
@@ -148,7 +144,7 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
       known = known || !std::isnan(points.back().error);
     }
     if (!known) continue;
-    const OrderFit fit = fitOrder(points, fitOptions(runs, finest));
+    const OrderFit fit = fitOrder(points, fitOptions(runs, finest, kind));
     const Theory theory = theoryFor(runs, finest, kind, component);
     const auto reason = reasonText(fit, theory.order, kind.value_or(SystemKind::kOde));
     orders.rows.push_back(orderRow(runs, finest, component, "h", fit, theory, reason));
@@ -169,7 +165,7 @@ void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
       points.push_back({1 / std::abs(z), numberAt(runs, *row, "error_x")});
     }
     const TableRow& run = *found.front().second;
-    OrderFit fit = fitOrder(points, fitOptions(runs, run));
+    OrderFit fit = fitOrder(points, fitOptions(runs, run, SystemKind::kStiffPowerOfZ));
     fit.order = -fit.order;
     const Theory theory = theoryFor(runs, run, SystemKind::kStiffPowerOfZ, 'x');
     orders.rows.push_back(orderRow(runs, run, 'x', "z", fit, theory, fit.reason));

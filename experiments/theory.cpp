@@ -161,4 +161,9 @@ std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index 
   return {};
 }
 
+bool isSymmetric(std::string_view family) {
+  return family == "gauss" || family == "lobatto_iiia" || family == "lobatto_iiib" ||
+         family == "lobatto_iiid";
+}
+
 }  // namespace irk

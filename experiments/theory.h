@@ -38,4 +38,8 @@ struct TheoreticalOrder {
 std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index s, SystemKind kind,
                                                  char component);
 
+/// Families whose methods are their own adjoints: for differential equations the global error has
+/// even powers of the step only. Hairer, Norsett & Wanner I, II.8 and II.9.
+bool isSymmetric(std::string_view family);
+
 }  // namespace irk

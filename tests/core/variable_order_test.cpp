@@ -60,6 +60,30 @@ TEST(VariableOrder, GoesThroughConstraintsAndIsReproducible) {
   EXPECT_EQ(a.state.w, b.state.w);
 }
 
+TEST(VariableOrder, AnIntegratorUsedAgainBeginsWithItsFirstMember) {
+  for (const bool fixed : {false, true}) {
+    auto options = variable(1e-10);
+    if (fixed) options.order = OrderControl::kFixed;
+    const auto methods = fixed ? Methods<double>(makeTableau<double>("radau_iia_3"))
+                               : makeMethods<double>("radau_iia_3", 13);
+    Integrator<double> integrator(makeSystem<double>(Oscillators{}), methods, options);
+    const auto start = oscillatorsStart<double>();
+    const auto first = integrator.integrate(start, 5);
+    const auto second = integrator.integrate(start, 5);
+    EXPECT_EQ(first.counters.steps_accepted, second.counters.steps_accepted);
+    EXPECT_EQ(first.counters.newton_iterations, second.counters.newton_iterations);
+    EXPECT_EQ(first.state.u, second.state.u);
+  }
+}
+
+TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
+  IntegratorOptions o = variable(1e-6);
+  o.order = OrderControl::kFixed;
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
+                                  makeMethods<double>("radau_iia_3", 13), o),
+               Misuse);
+}
+
 TEST(VariableOrder, RefusesOtherEstimatesAndFiles) {
   IntegratorOptions o = variable(1e-6);
   o.step.estimate = ErrorEstimate::kRichardson;

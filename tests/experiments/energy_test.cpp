@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "experiments/numbers.h"
 #include "experiments/run_table.h"
-#include "experiments/runner.h"
-#include "tests/experiments/support.h"
+#include "tests/experiments/study_runs.h"
 
 namespace irk {
 namespace {
@@ -28,8 +26,7 @@ TEST(Energy, DriftIsTheSlopeAndScatterTheDistanceFromIt) {
 }
 
 TEST(Energy, CompensatedSummationLowersItsScatterFivefold) {
-  const TemporaryFolder folder;
-  const Study study = parseStudy(R"(
+  const auto [study, runs] = runsOf(R"(
 energy = true
 [[block]]
 scene = "kepler"
@@ -39,11 +36,7 @@ stages = 8
 summation = ["compensated", "plain"]
 steps = [0.01256637061435917]
 t_end = 125.6637061435917
-)", "energy.toml", StudyVariant::kFull);
-  RunnerOptions options;
-  options.results = folder.path();
-  std::ostringstream progress;
-  const Table runs = runStudy(study, options, progress);
+)");
   const Table table = energyTable(study, runs);
   std::map<std::string, double> scatter;
   for (const auto& row : table.rows) {

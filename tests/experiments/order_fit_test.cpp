@@ -113,6 +113,21 @@ TEST(OrderFit, NoiseIsNoMeasurement) {
   EXPECT_TRUE(!fit.measurable || std::abs(fit.order - 2) < 0.3) << fit.order;
 }
 
+// h^20 (1 + 0.12 h^2) over a factor of two: read as 1 + c h the slope misses more than is allowed.
+TEST(OrderFit, EvenPowersAreNearerToTheirLimit) {
+  std::vector<ErrorPoint> points;
+  for (int k = 0; k <= 8; ++k) {
+    const double h = std::pow(2.0, -k / 8.0);
+    points.push_back({h, 1e-3 * std::pow(h, 20) * (1 + 0.12 * h * h)});
+  }
+  EXPECT_FALSE(fitOrder(points).measurable);
+  OrderFitOptions even;
+  even.next_power = 2;
+  const auto fit = fitOrder(points, even);
+  ASSERT_TRUE(fit.measurable) << fit.reason;
+  EXPECT_NEAR(fit.order, 20, 0.2);
+}
+
 TEST(OrderFit, OnePercentOfHighOrders) {
   EXPECT_EQ(orderTolerance(-2), 0.2);
   EXPECT_EQ(orderTolerance(19), 0.2);

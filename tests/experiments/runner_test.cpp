@@ -13,7 +13,7 @@
 #include "experiments/results.h"
 #include "experiments/run_table.h"
 #include "experiments/timing.h"
-#include "tests/experiments/support.h"
+#include "tests/experiments/study_runs.h"
 
 namespace irk {
 namespace {
@@ -141,18 +141,14 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
 // Orders 40 and 39, from t_end / N with N = 18 to 36: errors from 1e-86 to 1e-98. orderTolerance is
 // 0.4 there, so that an order more or less is seen.
 TEST(Runner, OrdersOfTwentyStagesInHundredDigits) {
-  const Study study = parseStudy(R"(
+  const Table orders = orderTable(runsOf(R"(
 orders = true
 [[block]]
 scene = "riccati_tracking"
 scalar = "mp100"
 methods = ["gauss_20", "radau_iia_20"]
 refine_most = 40
-)",
-                                 "twenty.toml", StudyVariant::kFull);
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
+)").runs);
   ASSERT_EQ(orders.rows.size(), 2u);
   for (const auto& row : orders.rows) {
     const double order = textAt(orders, row, "family") == "gauss" ? 40 : 39;
@@ -164,7 +160,7 @@ refine_most = 40
 // The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses
 // orders in every component but q, diverges in lambda, and is healed by a projection.
 TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {
-  const Study study = parseStudy(R"(
+  const Table orders = orderTable(runsOf(R"(
 orders = true
 [[block]]
 scene = "mechanical_dae"
@@ -172,11 +168,7 @@ scalar = "mp50"
 formulation = ["index2", "index3", "index2_projected"]
 methods = ["gauss_2", "radau_iia_2"]
 refine_most = 128
-)",
-                                 "mechanical.toml", StudyVariant::kFull);
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
+)").runs);
   const std::map<std::string, std::array<double, 3>> expected = {
       {"index2 gauss", {4, 2, 0}},
       {"index2 radau_iia", {3, 3, 2}},
@@ -197,7 +189,7 @@ refine_most = 128
 
 // z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
 TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
-  const Study study = parseStudy(R"(
+  const Table orders = orderTable(runsOf(R"(
 orders = true
 [[block]]
 scene = "prothero_robinson"
@@ -205,11 +197,7 @@ scalar = "mp50"
 settings = ["lambda=-1e6/h", "lambda=-1e8/h", "lambda=-1e10/h"]
 methods = "radau_iia_2"
 refine_most = 64
-)",
-                                 "stiff.toml", StudyVariant::kFull);
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  const Table orders = orderTable(runStudy(study, options(folder, 1), quiet));
+)").runs);
   ASSERT_EQ(orders.rows.size(), 4u);
   for (const auto& row : orders.rows) {
     const bool of_z = textAt(orders, row, "power_of") == "z";

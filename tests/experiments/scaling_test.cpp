@@ -7,8 +7,7 @@
 
 #include "experiments/numbers.h"
 #include "experiments/run_table.h"
-#include "experiments/runner.h"
-#include "tests/experiments/support.h"
+#include "tests/experiments/study_runs.h"
 
 namespace irk {
 namespace {
@@ -40,8 +39,7 @@ TEST(Scaling, SlopesOverUnknownsAndStages) {
 }
 
 TEST(Scaling, StepsOfASparseSystem) {
-  const TemporaryFolder folder;
-  const Study study = parseStudy(R"(
+  const auto [study, runs] = runsOf(R"(
 scaling = true
 [[block]]
 scene = "beam_chain"
@@ -50,11 +48,9 @@ storage = "sparse"
 methods = "radau_iia_3"
 steps = [1e-4]
 t_end = 1e-3
-)", "scaling.toml", StudyVariant::kFull);
-  RunnerOptions options;
-  options.results = folder.path();
-  std::ostringstream progress;
-  const Table table = scalingTable(study, runStudy(study, options, progress), progress);
+)");
+  std::ostringstream quiet;
+  const Table table = scalingTable(study, runs, quiet);
   ASSERT_EQ(table.rows.size(), 2);
   EXPECT_EQ(textAt(table, table.rows[0], "n"), "50");
   EXPECT_GT(numberAt(table, table.rows[0], "step_s"), 0);
