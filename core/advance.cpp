@@ -4,7 +4,6 @@
 #include <sstream>
 #include <utility>
 
-#include "core/consistent_start.h"
 #include "core/multiprecision.h"
 
 namespace irk {
@@ -24,8 +23,7 @@ Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
                        SharedJacobian<Real>& jacobian, StepController* controller,
                        Counters& counters)
     : system_(system),
-      source_(options.derivatives),
-      w_required_(scheme.first > 0),
+      start_(system, options.derivatives, scheme.first > 0, jacobian.differentiator()),
       attempt_(attempt),
       jacobian_(jacobian),
       controller_(controller),
@@ -52,7 +50,8 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
   state_ = system_.fromScene(start);
   const Outcome modes = settle();
   if (modes != Outcome::kSuccess) return modes;
-  const StartReport report = makeConsistent<Real>(system_, source_, w_required_, state_);
+  start_.forgetPattern();
+  const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
   return report.outcome;
 }
@@ -162,8 +161,7 @@ Outcome Advance<Real>::acceptLocated(AttemptResult result, Real h, const Real& e
   const Outcome modes = settle();
   if (modes != Outcome::kSuccess) return modes;
   restart();
-  const StartReport report =
-      makeConsistent<Real>(system_, source_, w_required_, state_, StartCheck::kNone);
+  const StartReport report = start_.apply(state_, StartCheck::kNone);
   start_detail_ = report.detail;
   return report.outcome;
 }

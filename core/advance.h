@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/consistent_start.h"
 #include "core/controller.h"
 #include "core/event_location.h"
 #include "core/integrator.h"
@@ -47,8 +48,7 @@ class Advance {
   void tell(Index i) const;
 
   const System<Real>& system_;
-  DerivativeSource source_;
-  bool w_required_;
+  ConsistentStart<Real> start_;
   StepAttempt<Real>& attempt_;
   SharedJacobian<Real>& jacobian_;
   StepController* controller_;

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "core/multiprecision.h"
-#include "core/rate_lu.h"
 
 namespace irk {
 namespace {
@@ -21,93 +20,112 @@ StartReport report(Outcome outcome, double t, Index row, const char* what, doubl
   return {outcome, text.str()};
 }
 
-// x := D0^-1 x. False where D0 is singular; a dense one is asked with full pivoting.
-template <class Real>
-bool divide(const Linearization<Real>& D, RateLu<Real>& sparse, Vec<Real>& x) {
-  if (D.pattern->full) {
-    const Eigen::FullPivLU<Mat<Real>> lu(D.dense0());
-    if (!lu.isInvertible()) return false;
-    x = lu.solve(x).eval();
-    return true;
-  }
-  if (sparse.factorize(D) != Outcome::kSuccess) return false;
-  sparse.solve(x);
-  return true;
-}
-
 }  // namespace
 
 template <class Real>
-StartReport makeConsistent(const System<Real>& system, DerivativeSource source, bool w_required,
-                           State<Real>& state, StartCheck check) {
+ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source,
+                                       bool w_required)
+    : system_(system),
+      w_required_(w_required),
+      own_(std::make_unique<Differentiator<Real>>(system, source, JacobianTerms::kFull,
+                                                  Storage::kAutomatic, Matrices::kOnlyD0)),
+      differentiator_(own_.get()),
+      r_(system.sizes().n()),
+      dw_(system.sizes().n()),
+      given_(system.sizes().n()) {}
+
+template <class Real>
+ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source,
+                                       bool w_required, Differentiator<Real>& shared)
+    : ConsistentStart(system, source, w_required) {
+  if (system.sizes().nz > 0 || system.sizes().n() < kSparseFrom) return;
+  differentiator_ = &shared;
+  own_.reset();
+}
+
+// dw := D0^-1 dw. False where D0 is singular; a dense one is asked with full pivoting.
+template <class Real>
+bool ConsistentStart<Real>::divide() {
+  if (D_.pattern->full) {
+    const Eigen::FullPivLU<Mat<Real>> lu(D_.dense0());
+    if (!lu.isInvertible()) return false;
+    dw_ = lu.solve(dw_).eval();
+    return true;
+  }
+  if (lu_.factorize(D_) != Outcome::kSuccess) return false;
+  lu_.solve(dw_);
+  return true;
+}
+
+// g = 0, dg/dt = 0, and nothing that is not finite.
+template <class Real>
+StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state, StartCheck check) {
   using std::abs;
-  const Sizes n = system.sizes();
+  const Sizes n = system_.sizes();
   const double t = static_cast<double>(state.t);
-  Vec<Real> r(n.n());
-  const VecView<Real> rows(r.data(), n.n());
+  const VecView<Real> rows(r_.data(), n.n());
   const Index first = n.nu + n.nx;
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
-    system.evaluate(level, pointOf(state), rows);
+    system_.evaluate(level, pointOf(state), rows);
     const Real size =
         Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
         (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>() : Real(0));
     for (Index i = 0; i < n.n(); ++i) {
-      const double value = static_cast<double>(r[i]);
+      const double value = static_cast<double>(r_[i]);
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, i, "residual", value);
       const bool constraint = i >= first && i < first + n.constraints;
       if (constraint && check == StartCheck::kConstraints &&
-          abs(r[i]) > Real(kConstraintTolerance) * size) {
+          abs(r_[i]) > Real(kConstraintTolerance) * size) {
         return report(Outcome::kInconsistentStart, t, i,
                       level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value);
       }
     }
   }
 
-  Differentiator<Real> differentiator(system, source, JacobianTerms::kFull, Storage::kAutomatic,
-                                      Matrices::kOnlyD0);
-  Linearization<Real> D;
-  RateLu<Real> sparse;
-  const Vec<Real> given = state.w;
-  Vec<Real> dw(n.n());
+  return {};
+}
+
+template <class Real>
+StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
+  const StartReport checked = checkConstraints(state, check);
+  if (checked.outcome != Outcome::kSuccess) return checked;
+  const double t = static_cast<double>(state.t);
+  const VecView<Real> rows(r_.data(), r_.size());
+  given_ = state.w;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   for (int i = 0; i < kIterations; ++i) {
-    system.evaluate(Level::kAcceleration, pointOf(state), rows);
-    differentiator.evaluate(Level::kAcceleration, pointOf(state), D);
-    if (!r.allFinite() || !D.d0.allFinite()) {
+    system_.evaluate(Level::kAcceleration, pointOf(state), rows);
+    differentiator_->evaluate(Level::kAcceleration, pointOf(state), D_);
+    if (!r_.allFinite() || !D_.d0.allFinite()) {
       return report(Outcome::kNotFinite, t, -1, "residual or derivative",
-                    static_cast<double>(r.sum()));
+                    static_cast<double>(r_.sum()));
     }
-    dw = r;
-    if (!divide(D, sparse, dw)) {
-      state.w = given;
-      system.evaluate(Level::kFormulated, pointOf(state), rows);
+    dw_ = r_;
+    if (!divide()) {
+      state.w = given_;
+      system_.evaluate(Level::kFormulated, pointOf(state), rows);
       Index worst = 0;
-      const double value = static_cast<double>(Real(r.cwiseAbs().maxCoeff(&worst)));
-      if (!w_required || value <= kConstraintTolerance) return {};
+      const double value = static_cast<double>(Real(r_.cwiseAbs().maxCoeff(&worst)));
+      if (!w_required_ || value <= kConstraintTolerance) return {};
       return report(Outcome::kInconsistentStart, t, worst,
                     "accelerations cannot be determined (D0 is singular) and the given ones leave "
                     "the residual",
                     value);
     }
-    state.w -= dw;
-    if (dw.norm() <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
+    state.w -= dw_;
+    if (dw_.norm() <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
   }
   // Linear problems end after two iterations; what is left at the level of the constraints'
   // tolerance serves as start values.
-  system.evaluate(Level::kAcceleration, pointOf(state), rows);
+  system_.evaluate(Level::kAcceleration, pointOf(state), rows);
   Index worst = 0;
-  const double value = static_cast<double>(Real(r.cwiseAbs().maxCoeff(&worst)));
+  const double value = static_cast<double>(Real(r_.cwiseAbs().maxCoeff(&worst)));
   const double size = 1 + static_cast<double>(Real(state.w.norm()));
   if (value <= kConstraintTolerance * size) return {};
   return report(Outcome::kInconsistentStart, t, worst,
                 "Newton for consistent accelerations does not converge; residual", value);
 }
 
-template StartReport makeConsistent(const System<double>&, DerivativeSource, bool, State<double>&,
-                                    StartCheck);
-template StartReport makeConsistent(const System<mp50>&, DerivativeSource, bool, State<mp50>&,
-                                    StartCheck);
-template StartReport makeConsistent(const System<mp100>&, DerivativeSource, bool, State<mp100>&,
-                                    StartCheck);
+IRK_INSTANTIATE_CLASS(ConsistentStart)
 
 }  // namespace irk

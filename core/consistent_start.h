@@ -1,10 +1,12 @@
 // Consistent starts: constraints hold, and (a, k, z) follow from (u, v, x).
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "core/linearization.h"
 #include "core/outcome.h"
+#include "core/rate_lu.h"
 
 namespace irk {
 
@@ -19,12 +21,38 @@ enum class StartCheck {
   kNone,         ///< a restart after a switch: the drift of the integration is no mistake
 };
 
-/// Checks g = 0 and dg/dt = 0 at `state`, then replaces state.w by the solution of the residual at
-/// Level::kAcceleration (Newton on w). Where that matrix is singular (algebraic unknowns of higher
-/// index that are no multipliers of position constraints) state.w is kept if `w_required` is false
-/// or it satisfies the residual; else kInconsistentStart. kNotFinite names the row.
+/// Owns its derivatives, factors and scratch: for any number of starts of one system.
 template <class Real>
-StartReport makeConsistent(const System<Real>& system, DerivativeSource source, bool w_required,
-                           State<Real>& state, StartCheck check = StartCheck::kConstraints);
+class ConsistentStart {
+ public:
+  /// Keeps a reference to the system. `w_required`: a (a, k, z) that cannot be determined has to
+  /// satisfy the residual as it is given.
+  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required);
+  /// With the derivatives of the integration itself, where its D0 is that of the start: a large
+  /// system without algebraic unknowns is looked at only once.
+  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required,
+                  Differentiator<Real>& shared);
+
+  /// A new integration: the same bits as of a new object.
+  void forgetPattern() { differentiator_->forgetPattern(); }
+
+  /// Checks g = 0 and dg/dt = 0 at `state`, then replaces state.w by the solution of the residual at
+  /// Level::kAcceleration (Newton on w). Where that matrix is singular (algebraic unknowns of higher
+  /// index that are no multipliers of position constraints) state.w is kept if it is not required or
+  /// satisfies the residual; else kInconsistentStart. kNotFinite names the row.
+  StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
+
+ private:
+  StartReport checkConstraints(const State<Real>& state, StartCheck check);
+  bool divide();
+
+  const System<Real>& system_;
+  bool w_required_;
+  std::unique_ptr<Differentiator<Real>> own_;
+  Differentiator<Real>* differentiator_;
+  Linearization<Real> D_;
+  RateLu<Real> lu_;
+  Vec<Real> r_, dw_, given_;
+};
 
 }  // namespace irk

@@ -24,6 +24,7 @@ class DenseOutput {
   Real h_{};
   Index nu_, nx_;
   Mat<Real> C_;            // n x s, s that of the step
+  Vec<Real> xi_;           // xi_0 (not used) .. xi_{s+1}
   Vec<Real> p_;            // P_0 .. P_{s+1} at theta
   Vec<Real> once_, twice_;  // integrals of P_0 .. P_s from 0 to theta
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include "core/multiprecision.h"
 
@@ -11,6 +14,8 @@ namespace {
 // Where a step is searched. A switching function that rises above 0 and returns between two of
 // these points is not seen.
 constexpr int kSamples = 8;
+// Of a switching function on the dense output, per root; ten are usual.
+constexpr std::uintmax_t kMostEvaluations = 200;
 // Re-solved steps per switch; four are usual.
 constexpr int kMostSolves = 25;
 // The part of the tolerance, times h, that the time of a switch may be off.
@@ -80,15 +85,20 @@ Real EventLocator<Real>::value(const Real& theta, Index i) {
   return switches_.evaluate(inside_).outcome == Outcome::kSuccess ? switches_.g()[i] : Real(1);
 }
 
-// Bisection on the dense output: its root is a first guess.
+// The root of the dense output: a first guess. `high`: where the switch is due.
 template <class Real>
 auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& offset, const Real& h)
     -> Root {
   const Real width = high - low;
   const Real g_low = value(low, i), g_high = value(high, i);
-  while (high - low > Real(4) * epsilon<Real>()) {
-    const Real middle = (low + high) / Real(2);
-    (value(middle, i) > Real(0) ? high : low) = middle;
+  if (g_low > Real(0)) {
+    high = low;
+  } else if (g_high > Real(0)) {
+    const auto close = [](const Real& a, const Real& b) { return b - a <= Real(4) * epsilon<Real>(); };
+    std::uintmax_t most = kMostEvaluations;
+    const auto bracket = boost::math::tools::toms748_solve(
+        [&](const Real& theta) { return value(theta, i); }, low, high, g_low, g_high, close, most);
+    high = bracket.second;
   }
   const Real near = width / Real(64);
   Real slope = (value(high, i) - value(Real(high - near), i)) / (near * h);

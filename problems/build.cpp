@@ -139,7 +139,7 @@ template <class Real>
 void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
   const StartReport report =
-      makeConsistent(*system, DerivativeSource::kAutomatic, true, scene.start);
+      ConsistentStart<Real>(*system, DerivativeSource::kAutomatic, true).apply(scene.start);
   if (report.outcome != Outcome::kSuccess) {
     throw std::logic_error("scene " + scene.id + " " + report.detail);
   }

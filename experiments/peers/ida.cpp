@@ -49,7 +49,7 @@ class Ida final : public Peer {
   }
 
   StartReport start(State<double>& state, double t_end, StartCheck check) override {
-    const StartReport report = makeConsistent<double>(system_, derivatives_, true, state, check);
+    const StartReport report = ConsistentStart<double>(system_, derivatives_, true).apply(state, check);
     if (report.outcome != Outcome::kSuccess) return report;
     VecView<double> y(workspace_.values(), sizes_.components());
     VecView<double> yp(N_VGetArrayPointer(yp_), sizes_.components());
