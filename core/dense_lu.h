@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/outcome.h"
-#include "core/scalar.h"
+#include "core/small_size.h"
 
 namespace irk {
 namespace detail {
@@ -90,7 +90,9 @@ class DenseLu {
 
   /// kSuccess, kSingular, kNotFinite.
   [[nodiscard]] Outcome factorize() {
-    if (plain()) return factorizePlain();
+    if (plain()) {
+      return withSize<kUnrolled>(matrix_.rows(), [this](auto n) { return factorizePlain(n); });
+    }
     if (!matrix_.allFinite()) return Outcome::kNotFinite;
     lu_.compute(matrix_);
     for (Index i = 0; i < matrix_.rows(); ++i) {
@@ -101,7 +103,9 @@ class DenseLu {
 
   /// In place; x has n entries, contiguous.
   void solve(T* x) {
-    if (plain()) return solvePlain(x);
+    if (plain()) {
+      return withSize<kUnrolled>(matrix_.rows(), [this, x](auto n) { solvePlain(x, n); });
+    }
     VecView<T> view(x, matrix_.rows());
     matrix_.col(0) = view;  // scratch
     view.noalias() = lu_.permutationP() * matrix_.col(0);
@@ -111,14 +115,15 @@ class DenseLu {
 
  private:
   static constexpr Index kPlainLu = 128;
+  static constexpr Index kUnrolled = std::is_floating_point_v<decltype(detail::magnitude(T()))> ? 4 : 0;
 
   bool plain() const { return matrix_.rows() <= kPlainLu; }
 
   // Diagonal: inverse pivots. What is not finite above the diagonal spreads below it, where the
   // search for the pivot meets it.
-  Outcome factorizePlain() {
+  template <class Size>
+  Outcome factorizePlain(Size n) {
     using std::isfinite;
-    const Index n = matrix_.rows();
     T* const a = matrix_.data();
     for (Index k = 0; k < n; ++k) {
       T* const column = a + k * n;
@@ -145,8 +150,8 @@ class DenseLu {
     return Outcome::kSuccess;
   }
 
-  void solvePlain(T* x) const {
-    const Index n = matrix_.rows();
+  template <class Size>
+  void solvePlain(T* x, Size n) const {
     const T* const a = matrix_.data();
     for (Index k = 0; k < n; ++k) {
       const Index pivot = pivots_[static_cast<std::size_t>(k)];

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/multiprecision.h"
+#include "core/small_size.h"
 
 namespace irk {
 
@@ -117,11 +118,12 @@ template <class Real>
 double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first,
                                   const Vec<double>& squares) const {
   double sum = 0;
-  for (Index j = first; j < dW.cols(); ++j) {
-    for (Index i = 0; i < dW.rows(); ++i) {
-      sum += squares[i] * square(static_cast<double>(dW(i, j)));
+  withSize<8>(dW.rows(), [&](auto n) {
+    for (Index j = first; j < dW.cols(); ++j) {
+      const Real* const column = dW.data() + j * n;
+      for (Index i = 0; i < n; ++i) sum += squares[i] * square(static_cast<double>(column[i]));
     }
-  }
+  });
   return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));
 }
 

@@ -1,5 +1,6 @@
 #include "core/predictor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/multiprecision.h"
@@ -12,20 +13,24 @@ namespace {
 // the polynomial's highest coefficients are left out: at s = 10 and equal steps the full polynomial
 // amplifies by 1e7.
 constexpr double kAmplificationLimit = 1e4;
+// Of the past step, without an allocation: those of variable order.
+constexpr Index kReservedStages = 13;
 
 }  // namespace
 
 template <class Real>
 StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
-    : kind_(kind), scheme_(scheme), basis_(scheme.s, scheme.s) {
-  for (Weights& w : weights_) w.matrix.setZero(scheme.s, scheme.s);
+    : kind_(kind), scheme_(scheme) {
+  const Index most = std::max(scheme.s, kReservedStages);
+  basis_.resize(most, scheme.s);
+  for (Weights& w : weights_) w.matrix.resize(most, scheme.s);
 }
 
 template <class Real>
-const Mat<Real>& StartValues<Real>::weights(const Scheme<Real>& past, const Real& offset,
-                                            const Real& ratio) {
-  for (const Weights& w : weights_) {
-    if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix;
+MatView<Real> StartValues<Real>::weights(const Scheme<Real>& past, const Real& offset,
+                                         const Real& ratio) {
+  for (Weights& w : weights_) {
+    if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix.view();
   }
   newest_ = 1 - newest_;
   Weights& w = weights_[newest_];
@@ -33,7 +38,7 @@ const Mat<Real>& StartValues<Real>::weights(const Scheme<Real>& past, const Real
   w.offset = offset;
   w.ratio = ratio;
   compute(w);
-  return w.matrix;
+  return w.matrix.view();
 }
 
 // w(t_past + tau h_past) = sum_k P_k(tau) (V^-1 W^T)_k at tau_i = offset + ratio c_i, truncated after
@@ -41,22 +46,22 @@ const Mat<Real>& StartValues<Real>::weights(const Scheme<Real>& past, const Real
 template <class Real>
 void StartValues<Real>::compute(Weights& w) {
   const Index s = scheme_.s, degrees = w.past->s;
-  basis_.resize(degrees, s);
+  MatView<Real> basis = basis_.resize(degrees, s);
+  MatView<Real> matrix = w.matrix.resize(degrees, s);
   for (Index i = 0; i < s; ++i) {
-    legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis_.col(i));
+    legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis.col(i));
   }
-  const auto amplification = [&w] {
-    return static_cast<double>(Real(w.matrix.cwiseAbs().colwise().sum().maxCoeff()));
+  const auto amplification = [&matrix] {
+    return static_cast<double>(Real(matrix.cwiseAbs().colwise().sum().maxCoeff()));
   };
   const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
-  w.matrix.resize(degrees, s);
-  smallProduct<Real>(to_stages, basis_, w.matrix);
+  smallProduct<Real>(to_stages, basis, matrix);
   if (amplification() <= kAmplificationLimit) return;
-  w.matrix.setZero();
+  matrix.setZero();
   for (Index k = 0; k < degrees; ++k) {
-    for (Index i = 0; i < s; ++i) w.matrix.col(i) += basis_(k, i) * to_stages.col(k);
+    for (Index i = 0; i < s; ++i) matrix.col(i) += basis(k, i) * to_stages.col(k);
     if (amplification() > kAmplificationLimit && k > 0) {
-      for (Index i = 0; i < s; ++i) w.matrix.col(i) -= basis_(k, i) * to_stages.col(k);
+      for (Index i = 0; i < s; ++i) matrix.col(i) -= basis(k, i) * to_stages.col(k);
       return;
     }
   }
@@ -71,9 +76,8 @@ void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real
   } else if (kind_ == Predictor::kPrevious && past.W.cols() == W.cols()) {
     W = past.W;
   } else {
-    const Mat<Real>& E =
-        weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h));
-    smallProduct<Real>(past.W, E, W);
+    smallProduct<Real>(
+        past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
   }
   for (Index i = 0; i < scheme_.first; ++i) W.col(i) = from.w;
 }

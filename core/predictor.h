@@ -1,6 +1,7 @@
 // Start values of Newton's iteration.
 #pragma once
 
+#include "core/buffer.h"
 #include "core/options.h"
 #include "core/scheme.h"
 #include "core/system.h"
@@ -34,16 +35,16 @@ class StartValues {
   struct Weights {
     const Scheme<Real>* past = nullptr;
     Real offset{-1}, ratio{-1};
-    Mat<Real> matrix;  // s of the past x s
+    Buffer<Real> matrix;  // s of the past x s
   };
-  const Mat<Real>& weights(const Scheme<Real>& past, const Real& offset, const Real& ratio);
+  MatView<Real> weights(const Scheme<Real>& past, const Real& offset, const Real& ratio);
   void compute(Weights& weights);
 
   Predictor kind_;
   const Scheme<Real>& scheme_;
   Weights weights_[2];
   int newest_ = 0;
-  Mat<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at the new stage i
+  Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at the new stage i
 };
 
 }  // namespace irk

@@ -1,5 +1,6 @@
 #include "core/scheme.h"
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -8,23 +9,52 @@
 
 namespace irk {
 
-// With X = 2x - 1: (k + 1) p_{k+1} = (2k + 1) X p_k - k p_{k-1}, P_k = sqrt(2k + 1) p_k.
+namespace {
+
+// With X = 2x - 1: k p_k = (2k - 1) X p_{k-1} - (k - 1) p_{k-2}, P_k = sqrt(2k + 1) p_k.
 template <class Real>
-void legendre(const Real& x, Eigen::Ref<Vec<Real>> p) {
-  using std::sqrt;
-  const Index count = p.size();
-  const Real X = Real(2) * x - Real(1);
-  for (Index k = 0; k < count; ++k) {
-    const Real j = Real(static_cast<double>(k));
-    if (k == 0) {
-      p[0] = Real(1);
-    } else if (k == 1) {
-      p[1] = X;
-    } else {
-      p[k] = ((Real(2) * j - Real(1)) * X * p[k - 1] - (j - Real(1)) * p[k - 2]) / j;
+struct LegendreCoefficients {
+  explicit LegendreCoefficients(Index k = 0) {
+    using std::sqrt;
+    const Real j(static_cast<double>(k));
+    normal = sqrt(Real(2) * j + Real(1));
+    if (k == 0) return;
+    up = (Real(2) * j - Real(1)) / j;
+    down = (j - Real(1)) / j;
+  }
+  Real up{}, down{}, normal{};
+};
+
+template <class Real>
+struct LegendreTable {
+  static constexpr Index kSize = 32;
+  LegendreTable() {
+    for (Index k = 0; k < kSize; ++k) {
+      row[static_cast<std::size_t>(k)] = LegendreCoefficients<Real>(k);
     }
   }
-  for (Index k = 0; k < count; ++k) p[k] *= sqrt(Real(static_cast<double>(2 * k + 1)));
+  LegendreCoefficients<Real> at(Index k) const {
+    return k < kSize ? row[static_cast<std::size_t>(k)] : LegendreCoefficients<Real>(k);
+  }
+  std::array<LegendreCoefficients<Real>, static_cast<std::size_t>(kSize)> row;
+};
+
+}  // namespace
+
+template <class Real>
+void legendre(const Real& x, Eigen::Ref<Vec<Real>> p) {
+  static const LegendreTable<Real> table;
+  const Real X = Real(2) * x - Real(1);
+  Real now(1), before(0);
+  for (Index k = 0; k < p.size(); ++k) {
+    const LegendreCoefficients<Real> c = table.at(k);
+    if (k > 0) {
+      const Real next = c.up * X * now - c.down * before;
+      before = now;
+      now = next;
+    }
+    p[k] = c.normal * now;
+  }
 }
 
 template <class Real>
@@ -33,6 +63,7 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   A2.noalias() = A * A;
   bA.noalias() = A.transpose() * b;
   A_transposed = A.transpose();
+  A1 = A.rowwise().sum();
   A2_transposed = A2.transpose();
   // Round-off of a sum of s coefficients of size <= 1.
   const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();

@@ -11,6 +11,7 @@ struct Scheme {
   Index s;
   Mat<Real> A, A2;  ///< A and A^2, s x s
   Vec<Real> b, c;
+  Vec<Real> A1;  ///< A 1: c but for stage order 0
   Vec<Real> bA;  ///< A^T b: weights of a in u1 = u0 + h v0 + h^2 sum (b^T A)_j a_j
   /// Stages that need no solve because they repeat the step's start: 1 for Lobatto IIIA (first row
   /// of A zero, last row b: the last stage is the next step's first), else 0.
