@@ -33,7 +33,9 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
     }
   };
   if constexpr (std::is_same_v<Lu<Real>, SparseLu<Real>>) {
-    add(std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row));
+    add(setup.analysis ? setup.analysis
+                       : std::make_shared<const SparseAnalysis>(setup.pattern->column_start,
+                                                                setup.pattern->row));
   } else {
     add(setup.pattern->n);
   }

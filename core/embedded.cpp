@@ -5,6 +5,7 @@
 
 #include "core/block_form.h"
 #include "core/multiprecision.h"
+#include "core/small_product.h"
 
 namespace irk {
 namespace {
@@ -83,7 +84,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
   result.outcome = matrix_.prepare(h);
   if (result.outcome != Outcome::kSuccess) return result;
   rowScales(row_powers_, h, scales_);
-  defect_.noalias() = stages.W * at_start;
+  smallProduct<Real>(stages.W, at_start, defect_);
   // v0 - V(0) = -h sum_j (A^T l)_j a_j, l the weights of the polynomial at the start.
   slip_.setZero();
   for (Index j = 0; j < scheme_.s && sizes_.nu > 0; ++j) {

@@ -35,6 +35,8 @@ class EmbeddedEstimate {
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages,
                                      Index q);
 
+  /// Allocates what the first evaluation would, where the pattern is known.
+  void reserve() { matrix_.reserve(); }
   double mu() const { return static_cast<double>(mu_); }
   /// p of the estimate's error h^(p+1): s, or one more than the stage order where that is less.
   static int order(const Scheme<Real>& scheme);

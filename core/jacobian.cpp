@@ -38,8 +38,11 @@ void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq, const Mat<Real>& W
                    [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
   } else {
     ++counters_.jacobians;
-    const bool middle = point_ == JacobianPoint::kMiddle;
-    differentiator_.evaluate(Level::kFormulated, middle ? eq.middle() : eq.start(), at_.front());
+    const auto point = [&] {
+      if (point_ == JacobianPoint::kPredicted) return eq.predicted(W);
+      return point_ == JacobianPoint::kMiddle ? eq.middle() : eq.start();
+    };
+    differentiator_.evaluate(Level::kFormulated, point(), at_.front());
   }
   t_ = eq.from().t;
   ++version_;
@@ -59,6 +62,17 @@ void SharedJacobian<Real>::forgetPattern() {
 }
 
 template <class Real>
+const std::shared_ptr<const SparseAnalysis>& SharedJacobian<Real>::analysis() {
+  const auto& pattern = differentiator_.pattern();
+  if (analysed_ == pattern) return analysis_;
+  analysed_ = pattern;
+  analysis_ = pattern && !pattern->full ? std::make_shared<const SparseAnalysis>(
+                                              pattern->column_start, pattern->row)
+                                        : nullptr;
+  return analysis_;
+}
+
+template <class Real>
 NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind,
                                  StageSolverSetup<Real> setup, Counters& counters)
     : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters) {
@@ -72,14 +86,20 @@ NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind k
 template <class Real>
 void NewtonMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
   setup_.pattern = std::move(pattern);
+  setup_.analysis = shared_.analysis();
   solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
+}
+
+template <class Real>
+void NewtonMatrix<Real>::reserve() {
+  const auto& pattern = shared_.at().front().pattern;
+  if (pattern && !sameShape(pattern, setup_.pattern)) adopt(pattern);
 }
 
 template <class Real>
 Outcome NewtonMatrix<Real>::prepare(const Real& h) {
   if (version_ == shared_.version() && h_ == h) return Outcome::kSuccess;
-  const auto& pattern = shared_.at().front().pattern;
-  if (!sameShape(pattern, setup_.pattern)) adopt(pattern);
+  reserve();
   const Outcome outcome = solver_->factorize(shared_.at(), h);
   version_ = outcome == Outcome::kSuccess ? shared_.version() : 0;
   h_ = h;
@@ -95,7 +115,7 @@ StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolver
                                        NewtonKind newton, Counters& counters)
     : shared_(shared),
       setup_(std::move(setup)),
-      used_(newton != NewtonKind::kSimplified),
+      used_(newton == NewtonKind::kModified || newton == NewtonKind::kFull),
       counters_(counters),
       at_(static_cast<std::size_t>(setup_.A.rows())) {
   reserve();

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/sparse_lu.h"
 #include "core/stage_equations.h"
 #include "core/stage_solver.h"
 
@@ -18,7 +19,7 @@ class SharedJacobian {
   SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
                  const IntegratorOptions& options, Counters& counters);
 
-  /// Evaluates at the start or middle of the step that `eq` has begun, or at the stages W.
+  /// Evaluates at the start or middle of the step that `eq` has begun, or at one or all stages W.
   void evaluate(StageEquations<Real>& eq, const Mat<Real>& W);
   /// A new mode.
   void forget();
@@ -33,8 +34,12 @@ class SharedJacobian {
   std::span<const Linearization<Real>> at() const { return at_; }
   int version() const { return version_; }
   Differentiator<Real>& differentiator() { return differentiator_; }
+  /// Of its pattern, for all that factorize one stage's matrices; null where that is dense.
+  const std::shared_ptr<const SparseAnalysis>& analysis();
 
  private:
+  std::shared_ptr<const SparseAnalysis> analysis_;
+  std::shared_ptr<const Pattern> analysed_;
   Differentiator<Real> differentiator_;
   std::vector<Linearization<Real>> at_;
   JacobianPoint point_;
@@ -55,6 +60,8 @@ class NewtonMatrix {
 
   /// Factors of the shared Jacobian for step h.
   [[nodiscard]] Outcome prepare(const Real& h);
+  /// Allocates what the first `prepare` would, where the pattern is known.
+  void reserve();
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
   SharedJacobian<Real>& shared() { return shared_; }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "core/broyden.h"
 #include "core/multiprecision.h"
 
 namespace irk {
@@ -26,6 +28,10 @@ double epsilon() {
 constexpr double kRoundOffUnits = 10;
 // Increments that stop contracting below this many units of round-off are round-off of the residual.
 constexpr double kStagnationUnits = 1e4;
+
+// Broyden's updates cost dot products: below this contraction of the last step there are too few
+// iterations for them.
+constexpr double kWorthUpdates = 0.1;
 
 // Fixed steps iterate to round-off and cannot be shortened: slow convergence is waited for.
 constexpr int kFixedStepFactor = 4;
@@ -66,11 +72,16 @@ class NewtonBase : public Newton<Real> {
 
   /// Solves for the increment, applies it, and returns its norm; NaN if not finite.
   template <class Matrix>
-  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W) {
-    auto implicit = R_.rightCols(R_.cols() - first_);
-    matrix.solve(implicit);
-    W.rightCols(W.cols() - first_) -= implicit;
+  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W,
+                BroydenUpdates<Real>* updates = nullptr) {
+    matrix.solve(R_.rightCols(R_.cols() - first_));
+    VecView<Real> increment = implicit();
+    if (updates) updates->apply(increment);
+    VecView<Real>(W.col(first_).data(), increment.size()) -= increment;
     return c.norm.increment(R_, first_, row_weights_);
+  }
+  VecView<Real> implicit() {
+    return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)};
   }
 
   const IntegratorOptions& options_;
@@ -84,6 +95,7 @@ class NewtonBase : public Newton<Real> {
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
 /// The last step's eta, raised to 0.8, stands in for the first iteration, where theta is unknown.
+/// With Broyden's updates the theta that is reported is the first one, the matrix' own.
 template <class Real>
 class SimplifiedNewton final : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
@@ -99,6 +111,9 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     const double kappa = options.newton.kappa;
     kappa_ = std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1))));
     adaptive_ = options.step.control != StepControl::kFixed;
+    if (options.newton.kind == NewtonKind::kBroyden) {
+      updates_.emplace(sizes.n(), scheme.implicitStages());
+    }
   }
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
@@ -120,7 +135,7 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     }
     return result;
   }
-  void forget() override { eta_ = 1; }
+  void forget() override { eta_ = theta_ = 1; }
 
  private:
   NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W) {
@@ -130,19 +145,21 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
     double eta = std::pow(std::max(eta_, epsilon<Real>()), 0.8);
     double previous = 0;
+    if (updates_) updates_->begin(theta_ > kWorthUpdates);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
       ++c.counters.newton_iterations;
       if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
-      const double norm = this->update(c, c.matrix, W);
+      const double norm = this->update(c, c.matrix, W, updates_ ? &*updates_ : nullptr);
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
-        result.theta = previous > 0 ? norm / previous : 0;
+        const double theta = previous > 0 ? norm / previous : 0;
+        if (!updates_ || m == 1) result.theta = theta_ = theta;
         // At round-off increments no longer contract; above it this is divergence.
-        if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
-        if (result.theta >= 0.99) return fail(result, Outcome::kNewtonFailed);
-        eta = result.theta / (1 - result.theta);
-        if (adaptive_ && power(result.theta, limit - 1 - m) * eta * norm > kappa_) {
+        if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+        if (theta >= 0.99) return fail(result, Outcome::kNewtonFailed);
+        eta = theta / (1 - theta);
+        if (adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa_) {
           return fail(result, Outcome::kNewtonFailed);
         }
       }
@@ -151,18 +168,20 @@ class SimplifiedNewton final : public NewtonBase<Real> {
         return result;
       }
       previous = norm;
+      if (updates_) updates_->learn(this->implicit(), this->row_weights_);
     }
     return fail(result, Outcome::kNewtonFailed);
   }
   NewtonResult fail(NewtonResult result, Outcome outcome) {
-    eta_ = 1;
+    forget();
     result.outcome = outcome;
     return result;
   }
 
   double kappa_;
   bool adaptive_;
-  double eta_ = 1;
+  std::optional<BroydenUpdates<Real>> updates_;
+  double eta_ = 1, theta_ = 1;
 };
 
 /// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
@@ -250,6 +269,7 @@ std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const
                                          const Scheme<Real>& scheme) {
   switch (options.newton.kind) {
     case NewtonKind::kSimplified:
+    case NewtonKind::kBroyden:
       return std::make_unique<SimplifiedNewton<Real>>(options, sizes, scheme);
     case NewtonKind::kModified:
     case NewtonKind::kFull:

@@ -32,6 +32,7 @@ constexpr Named<DerivativeSource> kSources[] = {
     {DerivativeSource::kForward, "difference_forward", "forward differences (paper)"}};
 constexpr Named<NewtonKind> kNewtons[] = {
     {NewtonKind::kSimplified, "simplified", "increment test in the error norm, HW II (IV.8)"},
+    {NewtonKind::kBroyden, "broyden", "simplified, the matrix corrected by Broyden's updates (QNERR)"},
     {NewtonKind::kModified, "modified", "the paper's, with its restart and fallback rules"},
     {NewtonKind::kFull, "full", "a new stage-wise Jacobian in every iteration"}};
 constexpr Named<StageSolverKind> kSolvers[] = {
@@ -68,6 +69,7 @@ constexpr Named<Summation> kSummations[] = {
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},
+    {JacobianPoint::kPredicted, "predicted", "at the start values' stage nearest to t0 + 0.6 h"},
     {JacobianPoint::kEachStage, "each_stage", "at the stages' start values; coupled solvers only"}};
 constexpr Named<JacobianTerms> kTerms[] = {
     {JacobianTerms::kFull, "full", "everything"},

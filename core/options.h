@@ -13,6 +13,7 @@ namespace irk {
 
 enum class NewtonKind {
   kSimplified,  ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
+  kBroyden,     ///< the same with rank-one corrections of the matrix, Deuflhard's QNERR
   kModified,    ///< the paper's: stop on the residual, its restart and fallback rules, section 3
   kFull,        ///< a new stage-wise Jacobian in every iteration, stop on the residual
 };
@@ -46,7 +47,12 @@ enum class Summation {
   kCompensated,  ///< what an addition loses is added to the next increment
   kPlain,
 };
-enum class JacobianPoint { kStart, kMiddle, kEachStage };
+enum class JacobianPoint {
+  kStart,
+  kMiddle,     ///< t0 + h/2, by Taylor's formula from the start
+  kPredicted,  ///< an inner stage of the start values
+  kEachStage,
+};
 
 enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
@@ -92,9 +98,9 @@ struct NewtonOptions {
   /// >= 1. Paper, section 3: 25 iterations without convergence are a failure.
   int max_iterations = 25;
   /// >= 0; 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
-  /// that shrinks with s. `simplified`: done when eta |dw| <= kappa in the error norm.
+  /// that shrinks with s. `simplified`, `broyden`: done when eta |dw| <= kappa in the error norm.
   double kappa = 0;
-  /// [0, 1). `simplified`: the Jacobian is kept for the next step while theta stays below this.
+  /// [0, 1). `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
   double keep_jacobian_below = 1e-3;
 };
 

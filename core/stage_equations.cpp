@@ -1,11 +1,18 @@
 #include "core/stage_equations.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/multiprecision.h"
 #include "core/small_product.h"
 #include "core/stage_solver.h"
 
 namespace irk {
 namespace {
+
+// Where in a step the derivatives stand for those of all stages: measured, 0.5 to 0.7 are equally good
+// and save a tenth to a third of the iterations of a start's.
+constexpr double kInner = 0.6;
 
 // y1 = y0 + (dy + carry0) and what the addition lost: Knuth's two-sum, exact whatever is larger.
 template <class Real>
@@ -29,23 +36,33 @@ StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Re
       summation_(summation),
       sizes_(system.sizes()),
       threads_(threads),
+      inner_(scheme.first),
       U_(sizes_.nu, scheme.s),
       V_(sizes_.nu, scheme.s),
       X_(sizes_.nx, scheme.s),
       hA_(scheme.s, scheme.s),
       hhA2_(scheme.s, scheme.s),
-      hc_(scheme.s),
+      hA1_(scheme.s),
       scales_(sizes_.n()),
-      middle_(sizes_) {}
+      middle_(sizes_) {
+  const auto& powers = system.rowPowers();
+  scaled_ = std::any_of(powers.begin(), powers.end(), [](int p) { return p != 0; });
+  const auto away = [&](Index i) { return std::abs(static_cast<double>(scheme.c[i]) - kInner); };
+  for (Index i = inner_; i < scheme.s; ++i) {
+    if (away(i) < away(inner_)) inner_ = i;
+  }
+}
 
 template <class Real>
 void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
   from_ = &from;
   h_ = h;
   hA_ = h * scheme_.A_transposed;
-  hhA2_ = (h * h) * scheme_.A2_transposed;
-  hc_ = hA_.colwise().sum().transpose();  // h A 1; h c but for stage order 0
-  rowScales(system_.rowPowers(), h, scales_);
+  if (sizes_.nu > 0) {
+    hhA2_ = (h * h) * scheme_.A2_transposed;
+    hA1_ = h * scheme_.A1;
+  }
+  if (scaled_) rowScales(system_.rowPowers(), h, scales_);
 }
 
 // (2.5), (2.6): V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a (A 1 = c but for
@@ -57,7 +74,7 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
   if (nu > 0) {
     smallProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, [&](Index i, Index) { return v[i]; });
     smallProduct(W.data(), W.rows(), nu, hhA2_, U_.data(), nu,
-                 [&](Index i, Index j) { return Real(u[i] + hc_[j] * v[i]); });
+                 [&](Index i, Index j) { return Real(u[i] + hA1_[j] * v[i]); });
   }
   if (nx > 0) {
     smallProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx,
@@ -68,7 +85,7 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
 template <class Real>
 void StageEquations<Real>::evaluate(const Mat<Real>& W, Index i, Mat<Real>& R) const {
   system_.evaluate(Level::kFormulated, stage(W, i), VecView<Real>(R.col(i).data(), R.rows()));
-  R.col(i).array() *= scales_.array();
+  if (scaled_) R.col(i).array() *= scales_.array();
 }
 
 template <class Real>
@@ -81,7 +98,7 @@ bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   } else {
     for (Index i = scheme_.first; i < scheme_.s; ++i) evaluate(W, i, R);
   }
-  return R.allFinite();
+  return (R.array() * Real(0)).sum() == Real(0);
 }
 
 template <class Real>
@@ -103,6 +120,12 @@ Point<Real> StageEquations<Real>::start() const {
 }
 
 template <class Real>
+Point<Real> StageEquations<Real>::predicted(const Mat<Real>& W) {
+  place(W);
+  return stage(W, inner_);
+}
+
+template <class Real>
 Point<Real> StageEquations<Real>::middle() {
   const Real half = h_ / Real(2);
   middle_ = *from_;
@@ -115,15 +138,19 @@ Point<Real> StageEquations<Real>::middle() {
 
 template <class Real>
 void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
-  const auto a = W.topRows(sizes_.nu);
-  const auto k = W.middleRows(sizes_.nu, sizes_.nx);
   const auto z = W.bottomRows(sizes_.nz);
   to.t = from_->t + h_;
   to.d = from_->d;
-  to.u.noalias() = (h_ * h_) * (a * scheme_.bA);
-  to.u += h_ * from_->v;
-  to.v.noalias() = h_ * (a * scheme_.b);
-  to.x.noalias() = h_ * (k * scheme_.b);
+  const Index n = sizes_.n();
+  const auto zero = [](Index, Index) { return Real(0); };
+  if (sizes_.nu > 0) {
+    smallProduct(W.data(), n, sizes_.nu, scheme_.bA, to.u.data(), n, zero);
+    smallProduct(W.data(), n, sizes_.nu, scheme_.b, to.v.data(), n, zero);
+    to.u = (h_ * h_) * to.u + h_ * from_->v;
+    to.v *= h_;
+  }
+  smallProduct(W.data() + sizes_.nu, n, sizes_.nx, scheme_.b, to.x.data(), n, zero);
+  to.x *= h_;
   if (summation_ == Summation::kCompensated) {
     const Real* const before = from_->carry.data();
     Real* const after = to.carry.data();

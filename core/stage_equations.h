@@ -30,6 +30,8 @@ class StageEquations {
   /// The step's start and its middle (u, v, x by Taylor's formula from the start), for derivatives.
   Point<Real> start() const;
   Point<Real> middle();
+  /// The stage of the start values W that is nearest to 0.6 h.
+  Point<Real> predicted(const Mat<Real>& W);
 
   /// End of the step, paper (2.10), (2.11) with d = A^-T b. `compensated`: `to.carry` is what the
   /// additions lost, `from.carry` what those before have lost.
@@ -48,11 +50,13 @@ class StageEquations {
   Summation summation_;
   Sizes sizes_;
   int threads_;
+  Index inner_;  // the stage of `predicted`
+  bool scaled_;
   const State<Real>* from_ = nullptr;
   Real h_{};
   Mat<Real> U_, V_, X_;
   Mat<Real> hA_, hhA2_;  // (h A)^T and (h^2 A^2)^T
-  Vec<Real> hc_;
+  Vec<Real> hA1_;
   Vec<Real> scales_;
   State<Real> middle_;
 };

@@ -8,6 +8,7 @@
 #include "core/linearization.h"
 #include "core/options.h"
 #include "core/outcome.h"
+#include "core/sparse_lu.h"
 #include "core/statistics.h"
 
 namespace irk {
@@ -20,6 +21,8 @@ struct StageSolverSetup {
   std::vector<int> row_powers;  ///< row i of every block is multiplied by h^-power[i]
   Sizes sizes;
   int threads = 1;  ///< for the factorizations of independent blocks
+  /// Of the pattern, where it is sparse; made anew where it is missing.
+  std::shared_ptr<const SparseAnalysis> analysis = nullptr;
 };
 
 /// Owns its factors and scratch: one per thread. Allocates only in its constructor.

@@ -39,6 +39,8 @@ class Stepper {
                                    const Real& h, State<Real>& to,
                                    JacobianUse use = JacobianUse::kRefreshIfStale);
 
+  /// Allocates what the first attempt would, where the pattern is known.
+  void reserve() { matrix_.reserve(); }
   const StagePolynomial<Real>& stages() const { return stages_; }
   /// Forget the solved step: after a rejection or a discontinuity it predicts badly.
   void forget() {

@@ -168,6 +168,7 @@ TEST(JacobianPoint, EachStageConvergesFasterAndNeedsACoupledSolver) {
     return s.counters.newton_iterations;
   };
   EXPECT_LT(iterations(JacobianPoint::kEachStage), iterations(JacobianPoint::kStart));
+  EXPECT_LT(iterations(JacobianPoint::kPredicted), iterations(JacobianPoint::kStart));
   options.solver = StageSolverKind::kSchur;
   options.jacobian_point = JacobianPoint::kEachStage;
   EXPECT_THROW(static_cast<void>(integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2,
