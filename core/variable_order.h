@@ -46,6 +46,7 @@ class VariableOrder final : public StepAttempt<Real> {
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
     int order;
+    double exigence = 1;  ///< of its estimate, so that all members err alike
   };
   Member& member() { return *members_[at_]; }
   const Member& member() const { return *members_[at_]; }
@@ -53,13 +54,14 @@ class VariableOrder final : public StepAttempt<Real> {
     double h, error;
     double progress;  ///< h per work; 0: not to be taken
   };
-  Plan plan(double error, const Member& member, const AttemptResult& now, double h,
+  Plan plan(double estimate, const Member& member, const AttemptResult& now, double h,
             double trend) const;
   void changeTo(std::size_t next);
 
   std::vector<std::unique_ptr<Member>> members_;
   std::size_t start_, at_;
   const StagePolynomial<Real>* past_;  // of the last solved step
+  bool reserved_ = false;              // every member has seen the pattern
   bool again_ = true;                  // filter twice: after a start and a rejection
   int since_change_ = 0;               // accepted steps
   double lower_error_;                 // of the member below, NaN if not known

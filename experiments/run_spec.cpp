@@ -30,10 +30,12 @@ constexpr Configuration kConfigurations[] = {
     {"paper", "Gerstmayr & Stangl: modified Newton, difference quotients, one LU, step doubling",
      "newton=modified;derivatives=difference_forward;solver=coupled_dense;predictor=previous;"
      "estimate=doubling;control=paper;norm=absolute;summation=plain"},
-    {"embedded", "embedded estimate, predictive control, eigenvectors of A",
-     "estimate=embedded;control=predictive;solver=eigen"},
-    {"variable", "the same with variable order",
-     "estimate=embedded;control=predictive;solver=eigen;order=variable"}};
+    {"embedded",
+     "embedded estimate, predictive control, eigenvectors of A, predicted Jacobians, Broyden's updates",
+     "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden"},
+    {"variable", "the same with variable order; the method is the first one",
+     "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;"
+     "order=variable"}};
 
 // Each `field=value` of a text, items separated by ';'.
 void setFields(RunSpec& spec, std::string_view text) {

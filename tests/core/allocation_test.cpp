@@ -35,8 +35,9 @@ namespace irk::test {
 namespace {
 
 long allocationsOf(const std::shared_ptr<const System<double>>& system, const State<double>& start,
-                   const char* method, const IntegratorOptions& options, double t_end = 1.0) {
-  Integrator<double> integrator(system, makeTableau<double>(method), options);
+                   const Methods<double>& methods, const IntegratorOptions& options,
+                   double t_end = 1.0) {
+  Integrator<double> integrator(system, methods, options);
   int steps = 0;
   long before_last_step = 0;
   Monitor<double> monitor;
@@ -71,16 +72,17 @@ TEST(Allocation, StepsAllocateNothing) {
                            solver.value == StageSolverKind::kCoupledSparse;
       if (newton.value == NewtonKind::kFull && !coupled) continue;
       for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiia_3", "radau_iia_20"}) {
+        const auto tableau = makeTableau<double>(method);
         IntegratorOptions o = adaptive(1e-5);
         o.solver = solver.value;
         o.newton.kind = newton.value;
         const std::string what = std::string(solver.id) + " " + std::string(newton.id) + " " + method;
-        EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), method, o), 0) << what;
+        EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), tableau, o), 0) << what;
       }
     }
   }
-  EXPECT_EQ(allocationsOf(makeSystem<double>(CartesianPendulum{}), pendulumStart<double>(), "radau_iia_5",
-                          fixedSteps(0.01)), 0);
+  EXPECT_EQ(allocationsOf(makeSystem<double>(CartesianPendulum{}), pendulumStart<double>(),
+                          makeTableau<double>("radau_iia_5"), fixedSteps(0.01)), 0);
 }
 
 // Whole adaptive runs: dense up to s n = 300, sparse at any size.
@@ -94,18 +96,38 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
     const Scene<double> scene =
         makeScene<double>("ancf_pendulum", {{"elements", std::to_string(c.elements)}});
     const auto system = scene.system({});
-    for (const NewtonKind newton : {NewtonKind::kSimplified, NewtonKind::kModified}) {
+    const auto one = Methods<double>(makeTableau<double>("radau_iia_5"));
+    for (const NewtonKind newton :
+         {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
       for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
         IntegratorOptions o = adaptive(1e-4);
         o.storage = c.storage;
         o.newton.kind = newton;
         o.step.estimate = estimate;
         o.step.h = 1e-5;
-        EXPECT_EQ(allocationsOf(system, scene.start, "radau_iia_5", o, 5e-4), 0)
+        EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
             << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " "
             << idOf(estimate);
       }
     }
+  }
+}
+
+// Orders change, and nothing is allocated for it.
+TEST(Allocation, VariableOrderAllocatesNothingAfterTheFirstStep) {
+  IntegratorOptions o = adaptive(1e-9);
+  o.order = OrderControl::kVariable;
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  o.step.control = StepControl::kPredictive;
+  o.newton.kind = NewtonKind::kBroyden;
+  const auto methods = makeMethods<double>("radau_iia_2", 13);
+  EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), methods, o,
+                          5.0),
+            0);
+  for (const Storage storage : {Storage::kDense, Storage::kSparse}) {
+    const Scene<double> scene = makeScene<double>("ancf_pendulum", {{"elements", "14"}});
+    o.storage = storage;
+    EXPECT_EQ(allocationsOf(scene.system({}), scene.start, methods, o, 2e-2), 0) << idOf(storage);
   }
 }
 
