@@ -17,6 +17,8 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
       to_basis_(form_.Q_inverse.transpose()),
       from_basis_(form_.Q.transpose()),
       outcomes_(form_.blocks.size()),
+      small_(std::is_same_v<Lu<double>, DenseLu<double>> && std::is_same_v<Real, double> &&
+             setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, setup.A.rows()),
@@ -32,6 +34,10 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
       }
     }
   };
+  for (const auto& block : form_.blocks) {
+    const Index size = small_ ? block.size * setup.pattern->n : 0;
+    inverses_.emplace_back(size * size);
+  }
   if constexpr (std::is_same_v<Lu<Real>, SparseLu<Real>>) {
     add(setup.analysis ? setup.analysis
                        : std::make_shared<const SparseAnalysis>(setup.pattern->column_start,
@@ -63,25 +69,57 @@ template <class Real, template <class> class Lu>
 Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
   const auto& block = form_.blocks[index];
   const Linearization<Real>& D = *at_;
+  const auto fill = [&](const auto& set) {
+    const Complex m1 = h_ * block.mu;
+    const Complex m2 = m1 * m1;
+    setup_.pattern->forEach([&](Index k, Index row) {
+      set(k, Real(scales_[row] * (D.d0[k] + m1.real() * D.d1[k] + m2.real() * D.d2[k])),
+          Real(scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k])));
+    });
+  };
+  if (small_) {
+    Real* const re = inverses_[index].data();
+    Real* const im = re + setup_.pattern->n * setup_.pattern->n;
+    if (block.size == 1) {
+      fill([re](Index k, const Real& x, const Real&) { re[k] = x; });
+    } else {
+      fill([re, im](Index k, const Real& x, const Real& y) { re[k] = x, im[k] = y; });
+    }
+    return invertBlock(index);
+  }
   if (block.size == 1) {
     auto& lu = real_lu_[lu_index_[index]];
-    const Real m1 = h_ * block.mu.real();
-    const Real m2 = m1 * m1;
-    Real* const values = lu.values();
-    setup_.pattern->forEach([&](Index k, Index row) {
-      values[k] = scales_[row] * (D.d0[k] + m1 * D.d1[k] + m2 * D.d2[k]);
-    });
+    fill([values = lu.values()](Index k, const Real& x, const Real&) { values[k] = x; });
     return lu.factorize();
   }
   auto& lu = complex_lu_[lu_index_[index]];
-  const Complex m1 = h_ * block.mu;
-  const Complex m2 = m1 * m1;
-  Complex* const values = lu.values();
-  setup_.pattern->forEach([&](Index k, Index row) {
-    values[k] = Complex(scales_[row] * (D.d0[k] + m1.real() * D.d1[k] + m2.real() * D.d2[k]),
-                        scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k]));
-  });
+  fill([values = lu.values()](Index k, const Real& x, const Real& y) { values[k] = Complex(x, y); });
   return lu.factorize();
+}
+
+// With M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
+// [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
+template <class Real, template <class> class Lu>
+Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) {
+  const auto& block = form_.blocks[index];
+  Real* const inverse = inverses_[index].data();
+  return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) {
+    if (block.size == 1) return invert<1>(inverse, n);
+    std::array<Real, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse)> split;
+    std::copy_n(inverse, 2 * n * n, split.data());
+    const Outcome outcome = invert<2>(split.data(), n);
+    const Real divided = Real(1) / block.sigma;
+    for (Index j = 0; j < n; ++j) {
+      const Real *const P = split.data() + j * n, *const Q = P + n * n;
+      Real *const left = inverse + j * 2 * n, *const right = left + 2 * n * n;
+      for (Index i = 0; i < n; ++i) {
+        left[i] = right[n + i] = P[i];
+        left[n + i] = divided * Q[i];
+        right[i] = -block.sigma * Q[i];
+      }
+    }
+    return outcome;
+  });
 }
 
 // Subtracts what the blocks right of this one, already solved, contribute to its rows.
@@ -135,6 +173,20 @@ template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
   const auto& block = form_.blocks[index];
   const Index i = block.start;
+  if (small_) {
+    withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
+      Real* const y = Y_.data() + i * n;
+      const Real* const inverse = inverses_[index].data();
+      if (block.size == 1) {
+        multiplySmall(inverse, y, n);
+      } else if constexpr (std::is_same_v<decltype(n), Index>) {
+        multiplySmall(inverse, y, 2 * n);
+      } else {
+        multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
+      }
+    });
+    return;
+  }
   if (block.size == 1) {
     real_lu_[lu_index_[index]].solve(Y_.col(i).data());
     return;

@@ -7,6 +7,7 @@
 
 #include "core/block_form.h"
 #include "core/dense_lu.h"
+#include "core/small_inverse.h"
 #include "core/sparse_lu.h"
 #include "core/stage_solver.h"
 
@@ -27,6 +28,7 @@ class Decoupled final : public StageSolver<Real> {
   void coupleRows(const typename BlockForm<Real>::Block& block);
   void multiply(Index column);
   void solveBlock(std::size_t index);
+  Outcome invertBlock(std::size_t index);
 
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;
@@ -36,6 +38,8 @@ class Decoupled final : public StageSolver<Real> {
   std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
   std::vector<std::size_t> lu_index_;
   std::vector<Outcome> outcomes_;  // by block
+  bool small_;  // blocks are inverted, see small_inverse.h; not worth it for one stage
+  std::vector<Vec<Real>> inverses_;  // by block: as real matrices of size n or 2n
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;
