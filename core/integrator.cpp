@@ -203,7 +203,6 @@ class Integrator<Real>::Run {
         worst = result.outcome == Outcome::kNewtonFailed ? Outcome::kStepTooSmall : result.outcome;
         attempt_->forget();
         h = controller_->afterFailure(size);
-        attempt_->failed(size);
         followOrder(1, 0);
         continue;
       }
@@ -214,7 +213,6 @@ class Integrator<Real>::Run {
       if (!decision.accept) {
         ++counters_.steps_rejected_error;
         worst = Outcome::kStepTooSmall;
-        attempt_->forget();
         h = recommended(result, size, h, least);
         continue;
       }

@@ -39,7 +39,8 @@ class StepAttempt {
                                               State<Real>& to) = 0;
   /// A new integration: the same bits as of a new attempt.
   virtual void begin() { forget(); }
-  /// What was solved predicts badly: the attempt was not accepted, or the mode has changed.
+  /// What was solved predicts badly: Newton has failed, or the mode has changed. (A step with too
+  /// large an error is a good prediction of a shorter one.)
   virtual void forget() = 0;
   /// The step of size h that was attempted last is taken over, and the controller asks for h_next:
   /// the size of the next one, another where the order changes.
@@ -47,8 +48,6 @@ class StepAttempt {
     static_cast<void>(h);
     return {h_next, result.error};
   }
-  /// Newton failed with step h.
-  virtual void failed(double h) { static_cast<void>(h); }
   /// p of the estimate's leading error h^(p+1) in the next attempt.
   virtual int order() const = 0;
   /// The parts of which the last solved step is made, in order: their starts and stages. Valid

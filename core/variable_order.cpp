@@ -18,8 +18,8 @@ constexpr double kLeastContraction = 1e-4, kMostContraction = 0.3;
 // Measured, in units of one stage in one iteration. What a step costs besides its iterations, per
 // stage: start values and end; the factorizations, by unknown; and for itself: Jacobian, estimate,
 // control.
-constexpr double kStepPerStage = 0.6, kFactors = 16, kStepAlone = 3;
-constexpr double kRoundOffUnits = 1e3;
+constexpr double kStepPerStage = 0.4, kFactors = 16, kStepAlone = 8;
+constexpr double kRoundOffUnits = 1e4;
 constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError = 1e-300;
 
 // A solution of order 2s - 1 is much better than its estimate of order s + 1, and the more so the
@@ -67,7 +67,11 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
     for (auto& m : members_) m->stepper.reserve(), m->estimate.reserve();
     reserved_ = true;
   }
-  if (result.outcome != Outcome::kSuccess) return result;
+  if (result.outcome != Outcome::kSuccess) {
+    if (++failures_ > 1 && at_ > 0) changeTo(at_ - 1);
+    return result;
+  }
+  failures_ = 0;
   past_ = &member().stepper.stages();
   auto estimate = member().estimate.evaluate(from, *past_, again_);
   result.outcome = estimate.outcome;
@@ -91,6 +95,7 @@ void VariableOrder<Real>::begin() {
   changeTo(start_);
   past_ = &member().stepper.stages();
   reserved_ = false;
+  failures_ = 0;
   forget();
 }
 
@@ -159,12 +164,6 @@ template <class Real>
 void VariableOrder<Real>::changeTo(std::size_t next) {
   at_ = next;
   since_change_ = 0;
-}
-
-template <class Real>
-void VariableOrder<Real>::failed(double) {
-  again_ = true;
-  if (at_ > 0) changeTo(at_ - 1);
 }
 
 template <class Real>

@@ -16,7 +16,8 @@ namespace irk {
 /// solution decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which
 /// grows with the step, its iterations and the work. The member with the most progress per work is
 /// next; none is with a step for which Newton would contract badly (Hairer & Wanner, J. Comput.
-/// Appl. Math. 111, 1999, decide by the contraction alone). After Newton has failed: the one below.
+/// Appl. Math. 111, 1999, decide by the contraction alone). A second failure of
+/// Newton in a row leads to the member below, whose equations have less round-off.
 template <class Real>
 class VariableOrder final : public StepAttempt<Real> {
  public:
@@ -28,7 +29,6 @@ class VariableOrder final : public StepAttempt<Real> {
   void begin() override;
   void forget() override;
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
-  void failed(double h) override;
   int order() const override;
   StepPieces<Real> pieces(const State<Real>& from) const override {
     return {{{{&from, &member().stepper.stages()}, {nullptr, nullptr}}}, 1};
@@ -61,6 +61,7 @@ class VariableOrder final : public StepAttempt<Real> {
   std::vector<std::unique_ptr<Member>> members_;
   std::size_t start_, at_;
   const StagePolynomial<Real>* past_;  // of the last solved step
+  int failures_ = 0;                   // of Newton, in a row
   bool reserved_ = false;              // every member has seen the pattern
   bool again_ = true;                  // filter twice: after a start and a rejection
   int since_change_ = 0;               // accepted steps
