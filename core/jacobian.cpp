@@ -76,11 +76,12 @@ template <class Real>
 NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind,
                                  StageSolverSetup<Real> setup, Counters& counters)
     : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters) {
-  if (shared_.differentiator().pattern()) {
-    adopt(shared_.differentiator().pattern());
-  } else if (kind == StageSolverKind::kEigen) {
-    static_cast<void>(eigenForm(setup_.A));  // throws
+  if (kind == StageSolverKind::kEigen) {
+    setup_.form = std::make_shared<const BlockForm<Real>>(eigenForm(setup_.A));
+  } else if (kind == StageSolverKind::kSchur) {
+    setup_.form = std::make_shared<const BlockForm<Real>>(schurForm(setup_.A));
   }
+  if (shared_.differentiator().pattern()) adopt(shared_.differentiator().pattern());
 }
 
 template <class Real>

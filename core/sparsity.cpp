@@ -129,10 +129,8 @@ ColouredDirections::ColouredDirections(const Directions& group, const RowSets& r
 
 namespace {
 
-// Points near p at which the pattern is looked at, besides p itself (what both miss, the check of
-// each evaluation finds), and how far away: a part of 1 + |y|, a tenth of it after each point where
-// the residual is not finite.
-constexpr int kPointsNearby = 1;
+// How far from p the pattern is looked at (what it misses, the check of each evaluation finds): a part
+// of 1 + |y|, a tenth of it after each point where the residual is not finite.
 constexpr double kDistance = 0.01;
 constexpr int kCloser = 6;
 
@@ -249,21 +247,16 @@ RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p
   RowSearch<Real> search(system, level, directions);
   std::minstd_rand random(1);
   PointBuffers<Real> near(system.sizes());
-  near.copy(p);
-  RowSets rows = search.search(near, p.t, random);
   double distance = kDistance;
-  for (int i = 0; i < kPointsNearby; ++i) {
-    for (int closer = 0; closer < kCloser; ++closer, distance /= 10) {
-      Real t = p.t;
-      near.copy(p);
-      moveNearby(distance, random, near, t);
-      system.evaluate(level, near.at(t), near.residual());
-      if (!near.r.allFinite()) continue;
-      unite(search.search(near, t, random), rows);
-      break;
-    }
+  for (int closer = 0; closer < kCloser; ++closer, distance /= 10) {
+    Real t = p.t;
+    near.copy(p);
+    moveNearby(distance, random, near, t);
+    system.evaluate(level, near.at(t), near.residual());
+    if (near.r.allFinite()) return search.search(near, t, random);
   }
-  return rows;
+  near.copy(p);
+  return search.search(near, p.t, random);
 }
 
 template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&);

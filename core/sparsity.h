@@ -64,10 +64,10 @@ bool unite(const RowSets& more, RowSets& into);
 std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
                                             Index n);
 
-/// The rows where derivatives differ from zero at p or at points near it, by dual numbers in random
+/// The rows where derivatives differ from zero at a point near p, by dual numbers in random
 /// combinations: intervals of columns are halved thrice at a time, those that share no row together,
-/// so that about log8(n) times the colours of the pattern are evaluated. Points near p: a derivative
-/// that happens to vanish at p is found. What is not finite is not counted.
+/// so that about log8(n) times the colours of the pattern are evaluated. Near p: a derivative that
+/// happens to vanish at p is found. What is not finite is not counted.
 template <class Real>
 RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
                    const Directions& directions);

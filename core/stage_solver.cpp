@@ -40,9 +40,9 @@ std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
     case StageSolverKind::kCoupledSparse:
       return coupledSparse(setup);
     case StageSolverKind::kSchur:
-      return decoupled(setup, schurForm(setup.A));
+      return decoupled(setup, setup.form ? *setup.form : schurForm(setup.A));
     case StageSolverKind::kEigen:
-      return decoupled(setup, eigenForm(setup.A));
+      return decoupled(setup, setup.form ? *setup.form : eigenForm(setup.A));
   }
   return nullptr;
 }

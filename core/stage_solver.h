@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/block_form.h"
 #include "core/linearization.h"
 #include "core/options.h"
 #include "core/outcome.h"
@@ -21,8 +22,9 @@ struct StageSolverSetup {
   std::vector<int> row_powers;  ///< row i of every block is multiplied by h^-power[i]
   Sizes sizes;
   int threads = 1;  ///< for the factorizations of independent blocks
-  /// Of the pattern, where it is sparse; made anew where it is missing.
+  /// Of the pattern, where it is sparse, and of A; each made anew where it is missing.
   std::shared_ptr<const SparseAnalysis> analysis = nullptr;
+  std::shared_ptr<const BlockForm<Real>> form = nullptr;
 };
 
 /// Owns its factors and scratch: one per thread. Allocates only in its constructor.
