@@ -23,7 +23,7 @@ Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
                        SharedJacobian<Real>& jacobian, StepController* controller,
                        Counters& counters)
     : system_(system),
-      start_(system, options.derivatives, scheme.first > 0, jacobian.differentiator()),
+      start_(system, options.derivatives, scheme.first > 0),
       attempt_(attempt),
       jacobian_(jacobian),
       controller_(controller),

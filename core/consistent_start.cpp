@@ -27,22 +27,11 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
                                        bool w_required)
     : system_(system),
       w_required_(w_required),
-      own_(std::make_unique<Differentiator<Real>>(system, source, JacobianTerms::kFull,
-                                                  Storage::kAutomatic, Matrices::kOnlyD0)),
-      differentiator_(own_.get()),
+      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic,
+                      Matrices::kOnlyD0),
       r_(system.sizes().n()),
       dw_(system.sizes().n()),
       given_(system.sizes().n()) {}
-
-template <class Real>
-ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source,
-                                       bool w_required, Differentiator<Real>& shared)
-    : ConsistentStart(system, source, w_required) {
-  if (system.sizes().nz > 0 || system.sizes().n() < kSparseFrom) return;
-  differentiator_ = &shared;
-  own_.reset();
-}
-
 // dw := D0^-1 dw. False where D0 is singular; a dense one is asked with full pivoting.
 template <class Real>
 bool ConsistentStart<Real>::divide() {
@@ -95,7 +84,7 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   for (int i = 0; i < kIterations; ++i) {
     system_.evaluate(Level::kAcceleration, pointOf(state), rows);
-    differentiator_->evaluate(Level::kAcceleration, pointOf(state), D_);
+    differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
     if (!r_.allFinite() || !D_.d0.allFinite()) {
       return report(Outcome::kNotFinite, t, -1, "residual or derivative",
                     static_cast<double>(r_.sum()));

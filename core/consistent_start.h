@@ -1,7 +1,6 @@
 // Consistent starts: constraints hold, and (a, k, z) follow from (u, v, x).
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "core/linearization.h"
@@ -28,13 +27,9 @@ class ConsistentStart {
   /// Keeps a reference to the system. `w_required`: a (a, k, z) that cannot be determined has to
   /// satisfy the residual as it is given.
   ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required);
-  /// With the derivatives of the integration itself, where its D0 is that of the start: a large
-  /// system without algebraic unknowns is looked at only once.
-  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required,
-                  Differentiator<Real>& shared);
 
   /// A new integration: the same bits as of a new object.
-  void forgetPattern() { differentiator_->forgetPattern(); }
+  void forgetPattern() { differentiator_.forgetPattern(); }
 
   /// Checks g = 0 and dg/dt = 0 at `state`, then replaces state.w by the solution of the residual at
   /// Level::kAcceleration (Newton on w). Where that matrix is singular (algebraic unknowns of higher
@@ -48,8 +43,7 @@ class ConsistentStart {
 
   const System<Real>& system_;
   bool w_required_;
-  std::unique_ptr<Differentiator<Real>> own_;
-  Differentiator<Real>* differentiator_;
+  Differentiator<Real> differentiator_;
   Linearization<Real> D_;
   RateLu<Real> lu_;
   Vec<Real> r_, dw_, given_;

@@ -25,6 +25,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
       D2Y_(setup.pattern->n, setup.A.rows()),
       eta_(setup.pattern->n) {
   const auto add = [&](const auto& shape) {
+    if (small_) return;
     for (const auto& block : form_.blocks) {
       lu_index_.push_back(block.size == 1 ? real_lu_.size() : complex_lu_.size());
       if (block.size == 1) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/block_form.h"
 #include "core/multiprecision.h"
@@ -78,7 +79,8 @@ Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
 
 template <class Real>
 auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      const Vec<Real>& at_start, bool again) -> Result {
+                                      const Vec<Real>& at_start, double again_above)
+    -> Result {
   const Real& h = stages.h;
   Result result;
   result.outcome = matrix_.prepare(h);
@@ -97,7 +99,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
   result.outcome = filter(from, h);
   if (result.outcome != Outcome::kSuccess) return result;
   result.error = norm_.magnitude(error_, static_cast<double>(h));
-  if (again && result.error > 1) {
+  if (result.error > again_above) {
     slip_ += (h * mu_) * error_.v;
     at_.u = from.u + error_.u + slip_;
     at_.v = from.v + error_.v;
@@ -112,8 +114,8 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
 
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      bool again) -> Result {
-  return estimate(from, stages, scheme_.start, again);
+                                      double again_above) -> Result {
+  return estimate(from, stages, scheme_.start, again_above);
 }
 
 template <class Real>
@@ -121,7 +123,7 @@ auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from,
                                            const StagePolynomial<Real>& stages, Index q) -> Result {
   legendre<Real>(Real(0), basis_);
   lower_.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
-  return estimate(from, stages, lower_, false);
+  return estimate(from, stages, lower_, std::numeric_limits<double>::infinity());
 }
 
 IRK_INSTANTIATE_CLASS(EmbeddedEstimate)

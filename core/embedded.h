@@ -26,10 +26,10 @@ class EmbeddedEstimate {
     Outcome outcome = Outcome::kSuccess;
     double error = 0;  ///< in the error norm
   };
-  /// Of the solved step from `from`. `again`: an estimate above 1 is filtered a second time, HW II
-  /// (IV.8.21): for a first step and after a rejection.
+  /// Of the solved step from `from`. An estimate above `again_above` is filtered a second time, HW
+  /// II (IV.8.21): in a first step and after a rejection; else infinity.
   [[nodiscard]] Result evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                bool again);
+                                double again_above);
   /// What the estimate would be with q < s stages: of the polynomial of degree q - 1 in K. After
   /// `evaluate` of the same step.
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages,
@@ -44,7 +44,7 @@ class EmbeddedEstimate {
 
  private:
   Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                  const Vec<Real>& at_start, bool again);
+                  const Vec<Real>& at_start, double again_above);
   Outcome filter(const State<Real>& from, const Real& h);
 
   const System<Real>& system_;

@@ -90,7 +90,12 @@ template <class Real>
 auto EventLocator<Real>::refined(Index i, Real low, Real high, const Real& offset, const Real& h)
     -> Root {
   const Real width = high - low;
-  const Real g_low = value(low, i), g_high = value(high, i);
+  Real g_low = value(low, i);
+  const Real g_high = value(high, i);
+  if (g_low == Real(0)) {  // where the step begins on the surface, that is not the root
+    low += width / Real(64);
+    g_low = value(low, i);
+  }
   if (g_low > Real(0)) {
     high = low;
   } else if (g_high > Real(0)) {

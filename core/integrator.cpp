@@ -43,6 +43,10 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
                  std::string(idOf(options.solver)) +
                  "': stage-wise derivatives do not decouple; use solver 'coupled_dense' or 'coupled_sparse'");
   }
+  if (full && options.step.estimate == ErrorEstimate::kEmbedded) {
+    throw Misuse("illegal combination: newton 'full' with estimate 'embedded': the estimate filters "
+                 "with the kept Jacobian, and 'full' keeps none; use estimate 'richardson'");
+  }
   if (options.threads > 1 && dynamic_cast<const FirstOrderForm<Real>*>(&system)) {
     throw Misuse("illegal combination: threads = " + std::to_string(options.threads) +
                  " with formulation 'first_order': it keeps factors, one thread at a time");
@@ -53,7 +57,7 @@ void refuseIllegal(const Scheme<Real>& scheme, const System<Real>& system,
                  (each_stage ? "jacobian_point 'each_stage'"
                              : "estimate '" + std::string(idOf(options.step.estimate)) + "'") +
                  ": orders are compared by the embedded estimate with one Jacobian; use estimate "
-                 "'embedded' and jacobian_point 'start'");
+                 "'embedded' and another jacobian_point");
   }
   if (options.jacobian != JacobianTerms::kFull && !system.secondOrder()) {
     throw Misuse("illegal combination: jacobian '" + std::string(idOf(options.jacobian)) +

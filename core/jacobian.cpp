@@ -6,6 +6,9 @@
 namespace irk {
 namespace {
 
+// Dense systems of this many unknowns, s n, are allocated before they are needed.
+constexpr Index kEagerSize = 300;
+
 // The pattern can grow at any of the stages; they have to share one.
 template <class Real, class PointOf>
 void evaluateStages(Differentiator<Real>& differentiator, std::vector<Linearization<Real>>& at,
@@ -62,11 +65,11 @@ void SharedJacobian<Real>::forgetPattern() {
 }
 
 template <class Real>
-const std::shared_ptr<const SparseAnalysis>& SharedJacobian<Real>::analysis() {
-  const auto& pattern = differentiator_.pattern();
+const std::shared_ptr<const SparseAnalysis>& SharedJacobian<Real>::analysis(
+    const std::shared_ptr<const Pattern>& pattern) {
   if (analysed_ == pattern) return analysis_;
   analysed_ = pattern;
-  analysis_ = pattern && !pattern->full ? std::make_shared<const SparseAnalysis>(
+  analysis_ = !pattern->full ? std::make_shared<const SparseAnalysis>(
                                               pattern->column_start, pattern->row)
                                         : nullptr;
   return analysis_;
@@ -87,29 +90,27 @@ NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind k
 template <class Real>
 void NewtonMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
   setup_.pattern = std::move(pattern);
-  setup_.analysis = shared_.analysis();
+  setup_.analysis = shared_.analysis(setup_.pattern);
   solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
 }
 
 template <class Real>
 void NewtonMatrix<Real>::reserve() {
   const auto& pattern = shared_.at().front().pattern;
-  if (pattern && !sameShape(pattern, setup_.pattern)) adopt(pattern);
+  if (!pattern || sameShape(pattern, setup_.pattern)) return;
+  if (!pattern->full || setup_.A.rows() * pattern->n <= kEagerSize) adopt(pattern);
 }
 
 template <class Real>
 Outcome NewtonMatrix<Real>::prepare(const Real& h) {
   if (version_ == shared_.version() && h_ == h) return Outcome::kSuccess;
-  reserve();
+  const auto& pattern = shared_.at().front().pattern;
+  if (!sameShape(pattern, setup_.pattern)) adopt(pattern);
   const Outcome outcome = solver_->factorize(shared_.at(), h);
   version_ = outcome == Outcome::kSuccess ? shared_.version() : 0;
   h_ = h;
   return outcome;
 }
-
-namespace {
-constexpr Index kEagerSize = 300;
-}  // namespace
 
 template <class Real>
 StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup,

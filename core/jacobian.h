@@ -34,8 +34,9 @@ class SharedJacobian {
   std::span<const Linearization<Real>> at() const { return at_; }
   int version() const { return version_; }
   Differentiator<Real>& differentiator() { return differentiator_; }
-  /// Of its pattern, for all that factorize one stage's matrices; null where that is dense.
-  const std::shared_ptr<const SparseAnalysis>& analysis();
+  /// Of a pattern of its own, for all that factorize one stage's matrices; null for a dense one.
+  const std::shared_ptr<const SparseAnalysis>& analysis(
+      const std::shared_ptr<const Pattern>& pattern);
 
  private:
   std::shared_ptr<const SparseAnalysis> analysis_;
@@ -60,7 +61,7 @@ class NewtonMatrix {
 
   /// Factors of the shared Jacobian for step h.
   [[nodiscard]] Outcome prepare(const Real& h);
-  /// Allocates what the first `prepare` would, where the pattern is known.
+  /// Allocates what the first `prepare` would, where the pattern is known and not large and dense.
   void reserve();
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
   SharedJacobian<Real>& shared() { return shared_; }

@@ -93,7 +93,7 @@ bool Differentiator<Real>::look(Level level, const Point<Real>& p) {
   bool grown = !looked_;
   for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
     if (group->directions.empty()) continue;
-    const RowSets rows = detectRows(system_, level, p, group->directions);
+    const RowSets rows = detectRows(system_, level, p, group->directions, looked_);
     if (unite(rows, group->rows)) grown = true;
   }
   looked_ = true;

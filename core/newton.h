@@ -15,7 +15,7 @@ enum class JacobianUse { kRefreshIfStale, kKeep };
 struct NewtonResult {
   Outcome outcome = Outcome::kSuccess;
   int iterations = 0;
-  double theta = 0;  ///< last contraction: of increments (simplified) or residuals
+  double theta = 0;  ///< contraction: of increments, the last (simplified) or first (broyden), or residuals
 };
 
 /// What a Newton strategy works with. All references outlive it; the step has been begun in `eq`.
@@ -37,7 +37,7 @@ class Newton {
   /// W (n x s): start values in, solution out (unspecified after a failure). The columns of explicit
   /// stages are not touched.
   [[nodiscard]] virtual NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) = 0;
-  /// What was learnt of the contraction says nothing of the next step: a start, a rejection.
+  /// What was learnt of the contraction says nothing of the next step: a start, a failure, a new mode.
   virtual void forget() {}
 };
 

@@ -43,7 +43,7 @@ constexpr Named<StageSolverKind> kSolvers[] = {
 constexpr Named<Storage> kStorages[] = {
     {Storage::kAutomatic, "automatic", "sparse where the system is large and sparse enough"},
     {Storage::kDense, "dense", "dense matrices, their derivatives coloured all the same"},
-    {Storage::kSparse, "sparse", "compressed columns, KLU; scalar double only"}};
+    {Storage::kSparse, "sparse", "compressed columns, pivots by KLU; scalar double only"}};
 constexpr Named<Predictor> kPredictors[] = {
     {Predictor::kExtrapolated, "extrapolated", "collocation polynomial of the step before"},
     {Predictor::kPrevious, "previous", "stages of the step before (paper)"},

@@ -73,14 +73,15 @@ struct Pivoting {
   void extract(klu_symbolic* symbolic, Factors& f) {
     fit(f.l_row, value->lnz);
     fit(f.u_row, value->unz);
-    fit(f.re, std::max(value->lnz, value->unz));
-    fit(f.im, std::max(value->lnz, value->unz));
+    const int most = std::max(value->lnz, value->unz);
+    fit(f.re, most);
     if constexpr (std::is_same_v<T, double>) {
       klu_sort(symbolic, value, &common);
       klu_extract(value, symbolic, f.l_start.data(), f.l_row.data(), f.re.data(), f.u_start.data(),
                   f.u_row.data(), f.re.data(), nullptr, nullptr, nullptr, f.p.data(), f.q.data(),
                   f.klu_scale.data(), nullptr, &common);
     } else {
+      fit(f.im, most);
       klu_z_sort(symbolic, value, &common);
       klu_z_extract(value, symbolic, f.l_start.data(), f.l_row.data(), f.re.data(), f.im.data(),
                     f.u_start.data(), f.u_row.data(), f.re.data(), f.im.data(), nullptr, nullptr,
@@ -132,7 +133,8 @@ SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
   f_.l.reserve(kRoom * l);
   f_.u_row.reserve(kRoom * u);
   f_.u.reserve(kRoom * u);
-  for (auto* each : {&f_.re, &f_.im}) each->reserve(kRoom * std::max(l, u));
+  f_.re.reserve(kRoom * std::max(l, u));
+  if (!std::is_same_v<T, double>) f_.im.reserve(kRoom * std::max(l, u));
   f_.inverse_pivot.resize(n);
 }
 

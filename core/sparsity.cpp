@@ -129,8 +129,8 @@ ColouredDirections::ColouredDirections(const Directions& group, const RowSets& r
 
 namespace {
 
-// How far from p the pattern is looked at (what it misses, the check of each evaluation finds): a part
-// of 1 + |y|, a tenth of it after each point where the residual is not finite.
+// How far from p the pattern is looked at: a part of 1 + |y|, a tenth of it after each point where the
+// residual is not finite. (What that misses, the check of an evaluation finds, and then p is looked at.)
 constexpr double kDistance = 0.01;
 constexpr int kCloser = 6;
 
@@ -243,24 +243,31 @@ void moveNearby(double distance, std::minstd_rand& random, PointBuffers<Real>& p
 
 template <class Real>
 RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
-                   const Directions& directions) {
+                   const Directions& directions, bool at_p) {
   RowSearch<Real> search(system, level, directions);
   std::minstd_rand random(1);
   PointBuffers<Real> near(system.sizes());
   double distance = kDistance;
-  for (int closer = 0; closer < kCloser; ++closer, distance /= 10) {
+  RowSets rows;
+  for (int closer = 0; closer < kCloser && rows.empty(); ++closer, distance /= 10) {
     Real t = p.t;
     near.copy(p);
     moveNearby(distance, random, near, t);
     system.evaluate(level, near.at(t), near.residual());
-    if (near.r.allFinite()) return search.search(near, t, random);
+    if (near.r.allFinite()) rows = search.search(near, t, random);
   }
+  if (!at_p && !rows.empty()) return rows;
   near.copy(p);
-  return search.search(near, p.t, random);
+  const RowSets here = search.search(near, p.t, random);
+  if (rows.empty()) return here;
+  unite(here, rows);
+  return rows;
 }
 
-template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&);
-template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&);
-template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&);
+template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&,
+                            bool);
+template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&, bool);
+template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&,
+                            bool);
 
 }  // namespace irk

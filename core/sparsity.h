@@ -67,10 +67,11 @@ std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const 
 /// The rows where derivatives differ from zero at a point near p, by dual numbers in random
 /// combinations: intervals of columns are halved thrice at a time, those that share no row together,
 /// so that about log8(n) times the colours of the pattern are evaluated. Near p: a derivative that
-/// happens to vanish at p is found. What is not finite is not counted.
+/// happens to vanish at p is found. `at_p`: and at p itself, which costs as much again. What is not
+/// finite is not counted.
 template <class Real>
 RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
-                   const Directions& directions);
+                   const Directions& directions, bool at_p);
 
 /// Greedy colouring of the column intersection graph: sets of one colour share no row. Gebremedhin,
 /// Manne & Pothen, SIAM Review 47 (2005). Returns the colour of each set.

@@ -8,7 +8,9 @@
 namespace irk {
 
 struct AttemptResult : StepResult {
-  double error = 0;  ///< estimate in the error norm; NaN without one
+  /// Estimate in the error norm, accepted up to 1; NaN without one. Of variable order: times what is
+  /// asked of the member.
+  double error = 0;
 };
 
 /// What an accepted step means for the next one.

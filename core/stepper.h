@@ -15,7 +15,7 @@ namespace irk {
 struct StepResult {
   Outcome outcome = Outcome::kSuccess;
   int newton_iterations = 0;
-  double theta = 0;     ///< Newton's last contraction, the worst of the attempt's solves
+  double theta = 0;     ///< Newton's contraction (see NewtonResult), the worst of the attempt's solves
   Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
@@ -42,7 +42,7 @@ class Stepper {
   /// Allocates what the first attempt would, where the pattern is known.
   void reserve() { matrix_.reserve(); }
   const StagePolynomial<Real>& stages() const { return stages_; }
-  /// Forget the solved step: after a rejection or a discontinuity it predicts badly.
+  /// Forget the solved step: after a failure of Newton or a discontinuity it predicts badly.
   void forget() {
     stages_.valid = false;
     newton_->forget();

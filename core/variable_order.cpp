@@ -73,7 +73,9 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   }
   failures_ = 0;
   past_ = &member().stepper.stages();
-  auto estimate = member().estimate.evaluate(from, *past_, again_);
+  const double limit =
+      again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
+  auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
   result.error = std::max(estimate.error * member().exigence, result.mode_error);
   lower_error_ = kUnknown;

@@ -10,8 +10,8 @@
 
 namespace irk {
 
-/// Members of a family share the Jacobian; each keeps its own factors and scratch. After an accepted
-/// step the errors e_q of the members below and above are known or guessed: below, by the stages'
+/// Members of a family share the Jacobian; each keeps its own factors and scratch. After some accepted
+/// steps the errors e_q of the members below and above are known or guessed: below, by the stages'
 /// polynomial cut to their degree; above, by the same ratio again, as the coefficients of a smooth
 /// solution decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which
 /// grows with the step, its iterations and the work. The member with the most progress per work is

@@ -56,7 +56,8 @@ class OneStep {
   const Scheme<double>& scheme() const { return scheme_; }
   double mu() const { return estimate_.mu(); }
   double error(bool again = false) {
-    const auto result = estimate_.evaluate(start_, stepper_.stages(), again);
+    const double again_above = again ? 1 : std::numeric_limits<double>::infinity();
+    const auto result = estimate_.evaluate(start_, stepper_.stages(), again_above);
     EXPECT_EQ(result.outcome, Outcome::kSuccess);
     return result.error;
   }

@@ -162,6 +162,29 @@ TEST(Sparse, APatternThatASwitchChangesIsSeen) {
   EXPECT_EQ(dense(*D.pattern, D.d2), columns(*system, s, 2));
 }
 
+// A coupling that is there close to the start only: the first look, nearby, does not see it, the check
+// of the evaluation does.
+struct NarrowContact {
+  Index m = 40;
+  Sizes sizes() const { return {.nu = m, .nx = 0, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    for (Index i = 0; i < m; ++i) r.u[i] = -p.u[i] - p.a[i];
+    using std::abs;
+    if (abs(p.u[m - 1]) < T(1e-6)) r.u[0] += 7.0 * p.u[m - 1];
+  }
+};
+
+TEST(Sparse, APatternThatTheFirstLookMissesIsSeen) {
+  const auto system = makeSystem<double>(NarrowContact{});
+  Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull,
+                                        Storage::kSparse);
+  const State<double> s(Sizes{.nu = 40});
+  Linearization<double> D;
+  differentiator.evaluate(Level::kFormulated, pointOf(s), D);
+  EXPECT_EQ(dense(*D.pattern, D.d2)(0, 39), 7);
+}
+
 
 Solution<double> solve(const std::shared_ptr<const System<double>>& system,
                        const State<double>& start, double t_end, const IntegratorOptions& options,

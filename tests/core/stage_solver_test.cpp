@@ -70,42 +70,47 @@ TEST(StageSolver, SolvesTheMatrixWrittenOut) {
   const auto random = [&](Index rows, Index columns) {
     return Mat<double>(Mat<double>::NullaryExpr(rows, columns, [&] { return normal(generator); }));
   };
-  const Sizes sizes{.nu = 3, .nx = 2, .nz = 1, .constraints = 1};
-  const Index n = sizes.n();
-  for (const char* method : {"radau_iia_5", "gauss_4", "lobatto_iiic_3", "radau_ia_2"}) {
-    const auto tableau = makeTableau<double>(method);
-    const Index s = tableau.stages();
-    Linearization<double> D(Pattern::dense(n));
-    const Mat<double> D0 = random(n, n);
-    Mat<double> D1 = random(n, n), D2 = random(n, n);
-    D1.rightCols(sizes.nz).setZero();
-    D2.rightCols(sizes.nx + sizes.nz).setZero();
-    D.d0 = D0.reshaped();
-    D.d1 = D1.reshaped();
-    D.d2 = D2.reshaped();
-    const std::vector<int> powers = {0, 0, 0, 0, 0, 1};
-    const double h = 0.37;
-    Mat<double> J(s * n, s * n);
-    const Mat<double> A2 = tableau.A * tableau.A;
-    for (Index i = 0; i < s; ++i) {
-      for (Index j = 0; j < s; ++j) {
-        auto block = J.block(i * n, j * n, n, n);
-        block = h * tableau.A(i, j) * D1 + h * h * A2(i, j) * D2;
-        if (i == j) block += D0;
-        block.row(n - 1) /= h;
+  // Below and above the size up to which blocks are inverted.
+  for (const Sizes& sizes : {Sizes{.nu = 3, .nx = 2, .nz = 1, .constraints = 1},
+                             Sizes{.nu = 4, .nx = 3, .nz = 1, .constraints = 1},
+                             Sizes{.nu = 6, .nx = 4, .nz = 1, .constraints = 1}}) {
+    const Index n = sizes.n();
+    for (const char* method : {"radau_iia_5", "gauss_4", "lobatto_iiic_3", "radau_ia_2"}) {
+      const auto tableau = makeTableau<double>(method);
+      const Index s = tableau.stages();
+      Linearization<double> D(Pattern::dense(n));
+      const Mat<double> D0 = random(n, n);
+      Mat<double> D1 = random(n, n), D2 = random(n, n);
+      D1.rightCols(sizes.nz).setZero();
+      D2.rightCols(sizes.nx + sizes.nz).setZero();
+      D.d0 = D0.reshaped();
+      D.d1 = D1.reshaped();
+      D.d2 = D2.reshaped();
+      std::vector<int> powers(static_cast<std::size_t>(n), 0);
+      powers.back() = 1;
+      const double h = 0.37;
+      Mat<double> J(s * n, s * n);
+      const Mat<double> A2 = tableau.A * tableau.A;
+      for (Index i = 0; i < s; ++i) {
+        for (Index j = 0; j < s; ++j) {
+          auto block = J.block(i * n, j * n, n, n);
+          block = h * tableau.A(i, j) * D1 + h * h * A2(i, j) * D2;
+          if (i == j) block += D0;
+          block.row(n - 1) /= h;
+        }
       }
-    }
-    const Mat<double> b = random(n, s);
-    const Mat<double> expected = J.fullPivLu().solve(b.reshaped().matrix()).reshaped(n, s);
-    const double condition = J.norm() * J.inverse().norm();
-    for (const auto& kind : named<StageSolverKind>()) {
-      const auto solver = makeStageSolver<double>(kind.value, {tableau.A, D.pattern, powers, sizes});
-      ASSERT_EQ(solver->factorize({&D, 1}, h), Outcome::kSuccess);
-      Mat<double> x = b;
-      solver->solve(x);
-      // 50 eps cond covers the coupled LU; eigen adds its eigenvectors' condition (1.7e2 at s = 5).
-      EXPECT_LE((x - expected).norm() / expected.norm(), 200 * 2.2e-16 * condition * 50)
-          << method << " " << kind.id;
+      const Mat<double> b = random(n, s);
+      const Mat<double> expected = J.fullPivLu().solve(b.reshaped().matrix()).reshaped(n, s);
+      const double condition = J.norm() * J.inverse().norm();
+      for (const auto& kind : named<StageSolverKind>()) {
+        const auto solver = makeStageSolver<double>(kind.value, {tableau.A, D.pattern, powers, sizes});
+        ASSERT_EQ(solver->factorize({&D, 1}, h), Outcome::kSuccess);
+        Mat<double> x = b;
+        solver->solve(x);
+        // 50 eps cond covers the coupled LU; eigen adds its eigenvectors' condition (1.7e2 at s = 5).
+        EXPECT_LE((x - expected).norm() / expected.norm(), 200 * 2.2e-16 * condition * 50)
+            << method << " " << kind.id << " " << n;
+      }
     }
   }
 }
