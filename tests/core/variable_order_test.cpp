@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "problems/scene.h"
 #include "tests/core/support.h"
 
 namespace irk::test {
@@ -74,6 +77,24 @@ TEST(VariableOrder, AnIntegratorUsedAgainBeginsWithItsFirstMember) {
     EXPECT_EQ(first.counters.newton_iterations, second.counters.newton_iterations);
     EXPECT_EQ(first.state.u, second.state.u);
   }
+}
+
+// Ten revolutions, begun with three stages: their few steps must not make the error. Before estimates
+// were compared as RADAU compares them it was 300 times that of nine stages throughout.
+TEST(VariableOrder, LowMembersErrAsLittleAsHighOnes) {
+  const Scene<double> scene = makeScene<double>("kepler", {});
+  const double revolutions = 20 * std::acos(-1.0);
+  const auto error = [&](const Methods<double>& methods, OrderControl order) {
+    IntegratorOptions o = variable(1e-8);
+    o.order = order;
+    const auto s = Integrator<double>(scene.system({}), methods, o).integrate(scene.start, revolutions);
+    EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+    return (s.state.u - scene.start.u).norm();
+  };
+  const double nine = error(Methods<double>(makeTableau<double>("radau_iia_9")), OrderControl::kFixed);
+  const double from_three = error(makeMethods<double>("radau_iia_3", 13), OrderControl::kVariable);
+  EXPECT_LT(from_three, 20 * nine);
+  EXPECT_LT(nine, 1e-9);
 }
 
 TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
