@@ -82,7 +82,7 @@ TEST(Broyden, SavesIterationsWhereTheMatrixIsOld) {
     return s;
   };
   const auto simplified = run(NewtonKind::kSimplified), broyden = run(NewtonKind::kBroyden);
-  EXPECT_LT(broyden.counters.newton_iterations, 0.8 * simplified.counters.newton_iterations);
+  EXPECT_LT(10 * broyden.counters.newton_iterations, 8 * simplified.counters.newton_iterations);
   EXPECT_LT((broyden.state.u - simplified.state.u).norm(), 1e-11);
 }
 
