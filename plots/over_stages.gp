@@ -12,7 +12,7 @@ shown = ''
 do for [f in families_known] { if (position(collected, f)) { shown = shown.' '.f } }
 sized(f, q) = is("family", f) && abs(column(q)) < 1e300 ? positive(abs(column(q))) : NaN
 
-margin_left = 0.085; margin_right = 0.02; margin_top = 0.08; margin_bottom = 0.25; gap_x = 0.09
+margin_left = n == 1 ? 0.15 : 0.085; margin_right = 0.02; margin_top = 0.08; margin_bottom = 0.25; gap_x = 0.09
 do for [format in formats] {
   eval open(format, n == 1 ? 560 : 540 * n, 440)
   set multiplot
