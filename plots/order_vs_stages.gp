@@ -42,7 +42,7 @@ y_max = ceil(1.12 * O_max + 1)
 y_min = floor(O_min) - 0.07 * y_max
 y_step = y_max > 24 ? 8 : y_max > 12 ? 4 : y_max > 6 ? 2 : 1
 margin_left = n <= 2 ? 0.1 : 0.07
-margin_bottom = lines == 1 ? 0.28 : 0.17
+margin_bottom = lines == 1 ? 0.28 : 0.17; margin_top = lines == 1 ? 0.1 : 0.07
 gap_y = 0.13; gap_x = 0.02; margin_right = 0.01
 width = n <= 2 ? 820 : n <= 3 ? 860 : 1080
 height = lines == 1 ? 340 : 560

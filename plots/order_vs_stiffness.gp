@@ -33,7 +33,7 @@ n = words(present)
 columns = n <= 4 ? n : (n + 1) / 2
 lines = (n + columns - 1) / columns
 stats file using (chosen(0) && is_measured(0) ? column("order") : NaN) name "O" nooutput
-margin_left = 0.07; margin_bottom = lines == 1 ? 0.28 : 0.17; gap_y = 0.13; gap_x = 0.02; margin_right = 0.01
+margin_left = 0.07; margin_bottom = lines == 1 ? 0.28 : 0.17; margin_top = lines == 1 ? 0.1 : 0.07; gap_y = 0.13; gap_x = 0.02; margin_right = 0.01
 
 do for [format in formats] {
   eval open(format, 1080, lines == 1 ? 340 : 560)
