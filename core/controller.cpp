@@ -90,18 +90,20 @@ StepOptions hotintRules(StepOptions o) {
 /// rejection it does not grow at once.
 class PredictiveController final : public StepController {
  public:
-  explicit PredictiveController(int order) : exponent_(1.0 / (order + 1)) {}
+  explicit PredictiveController(int order)
+      : exponent_(1.0 / (order + 1)), least_root_(std::pow(kErrorFloor, exponent_)) {}
 
   StepDecision decide(double error, double h) override {
     const double eps = std::max(error, kTinyError);
-    double factor = kSafety * std::pow(eps, -exponent_);
+    const double root = std::pow(eps, exponent_);
+    double factor = kSafety / root;
     if (error > 1) {
       rejected_ = true;
       return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
     }
-    if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * std::pow(last_error_ / eps, exponent_));
+    if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / root);
     last_h_ = h;
-    last_error_ = std::max(eps, kErrorFloor);
+    last_root_ = std::max(root, least_root_);
     factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
     rejected_ = false;
     const double grown = factor < 1 || factor > kKeepUpTo ? h * factor : h;
@@ -120,7 +122,8 @@ class PredictiveController final : public StepController {
   }
   void changeOrder(int order, double error, double h) override {
     exponent_ = 1.0 / (order + 1);
-    last_error_ = std::max(error, kErrorFloor);
+    least_root_ = std::pow(kErrorFloor, exponent_);
+    last_root_ = std::max(std::pow(std::max(error, 0.0), exponent_), least_root_);
     last_h_ = h;
   }
 
@@ -133,8 +136,8 @@ class PredictiveController final : public StepController {
   static constexpr double kKeepUpTo = 1.2;
   static constexpr int kBarredSteps = 10;
 
-  double exponent_;
-  double last_error_ = 0, last_h_ = 0;
+  double exponent_, least_root_;       // and kErrorFloor^exponent
+  double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
   double failed_h_ = 0;
   int barred_ = 0;
   bool rejected_ = false;

@@ -78,16 +78,7 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
           Real(scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k])));
     });
   };
-  if (small_) {
-    Real* const re = inverses_[index].data();
-    Real* const im = re + setup_.pattern->n * setup_.pattern->n;
-    if (block.size == 1) {
-      fill([re](Index k, const Real& x, const Real&) { re[k] = x; });
-    } else {
-      fill([re, im](Index k, const Real& x, const Real& y) { re[k] = x, im[k] = y; });
-    }
-    return invertBlock(index);
-  }
+  if (small_) return invertBlock(index);
   if (block.size == 1) {
     auto& lu = real_lu_[lu_index_[index]];
     fill([values = lu.values()](Index k, const Real& x, const Real&) { values[k] = x; });
@@ -98,17 +89,31 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
   return lu.factorize();
 }
 
-// With M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
+// M by entries, then by the rows that are scaled: loops that become vector instructions. With
+// M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
 // [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
 template <class Real, template <class> class Lu>
 Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) {
   const auto& block = form_.blocks[index];
   Real* const inverse = inverses_[index].data();
+  const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
+  const Complex m1 = h_ * block.mu;
+  const Complex m2 = detail::product(m1, m1);
   return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) {
-    if (block.size == 1) return invert<1>(inverse, n);
     std::array<Real, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse)> split;
-    std::copy_n(inverse, 2 * n * n, split.data());
-    const Outcome outcome = invert<2>(split.data(), n);
+    Real *const re = split.data(), *const im = re + n * n;
+    for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
+    for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
+    for (Index i = 0; i < n; ++i) {
+      if (setup_.row_powers[static_cast<std::size_t>(i)] == 0) continue;
+      for (Index k = i; k < 2 * n * n; k += n) re[k] *= scales_[i];
+    }
+    if (block.size == 1) {
+      const Outcome outcome = invert<1>(re, n);
+      std::copy_n(re, n * n, inverse);
+      return outcome;
+    }
+    const Outcome outcome = invert<2>(re, n);
     const Real divided = Real(1) / block.sigma;
     for (Index j = 0; j < n; ++j) {
       const Real *const P = split.data() + j * n, *const Q = P + n * n;

@@ -163,8 +163,10 @@ void Differentiator<Real>::evaluateGroup(const Group& group, Level level, const 
                                          Linearization<Real>& out) {
   if (group.directions.empty()) return;
   t_ = p.t;
-  expected_.setZero();
-  magnitude_.setZero();
+  if (looked_) {
+    expected_.setZero();
+    magnitude_.setZero();
+  }
   if (source_ == DerivativeSource::kAutomatic) {
     dual_.copy(p);
     evaluateDual(group.coloured, level, out);

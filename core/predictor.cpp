@@ -11,7 +11,7 @@ namespace {
 
 // Extrapolation multiplies the stages' errors (Newton's tolerance) by up to sum_j |E_ij|. Above this
 // the polynomial's highest coefficients are left out: at s = 10 and equal steps the full polynomial
-// amplifies by 1e7.
+// amplifies by 1e7. Beyond the past step it grows with the distance: the farthest stage has the most.
 constexpr double kAmplificationLimit = 1e4;
 // Of the past step, without an allocation: those of variable order.
 constexpr Index kReservedStages = 13;
@@ -21,6 +21,7 @@ constexpr Index kReservedStages = 13;
 template <class Real>
 StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
     : kind_(kind), scheme_(scheme) {
+  scheme.c.maxCoeff(&farthest_);
   const Index most = std::max(scheme.s, kReservedStages);
   basis_.resize(most, scheme.s);
   for (Weights& w : weights_) w.matrix.resize(most, scheme.s);
@@ -51,8 +52,8 @@ void StartValues<Real>::compute(Weights& w) {
   for (Index i = 0; i < s; ++i) {
     legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis.col(i));
   }
-  const auto amplification = [&matrix] {
-    return static_cast<double>(Real(matrix.cwiseAbs().colwise().sum().maxCoeff()));
+  const auto amplification = [&] {
+    return static_cast<double>(Real(matrix.col(farthest_).cwiseAbs().sum()));
   };
   const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
   smallProduct<Real>(to_stages, basis, matrix);

@@ -44,6 +44,7 @@ class StartValues {
   const Scheme<Real>& scheme_;
   Weights weights_[2];
   int newest_ = 0;
+  Index farthest_ = 0;  // stage
   Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at the new stage i
 };
 
