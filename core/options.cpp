@@ -32,7 +32,7 @@ constexpr Named<DerivativeSource> kSources[] = {
     {DerivativeSource::kForward, "difference_forward", "forward differences (paper)"}};
 constexpr Named<NewtonKind> kNewtons[] = {
     {NewtonKind::kSimplified, "simplified", "increment test in the error norm, HW II (IV.8)"},
-    {NewtonKind::kBroyden, "broyden", "simplified, the matrix corrected by Broyden's updates (QNERR)"},
+    {NewtonKind::kBroyden, "broyden", "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on"},
     {NewtonKind::kModified, "modified", "the paper's, with its restart and fallback rules"},
     {NewtonKind::kFull, "full", "a new stage-wise Jacobian in every iteration"}};
 constexpr Named<StageSolverKind> kSolvers[] = {
