@@ -70,27 +70,6 @@ int countHolding(const Vec<double>& residuals, double tolerance) {
                           residuals.begin());
 }
 
-/// R(z) = 1 + z b^T (I - z A)^-1 1.
-mp80 stabilityFunction(const Tableau<mp80>& tableau, const mp80& z) {
-  const Index s = tableau.stages();
-  const Mat<mp80> stage_matrix = Mat<mp80>::Identity(s, s) - z * tableau.A;
-  const Vec<mp80> ones = Vec<mp80>::Ones(s);
-  return 1 + z * tableau.b.dot(stage_matrix.partialPivLu().solve(ones));
-}
-
-// With a singular A, R(z) = R0 + R1 / z + O(z^-2), or it grows at least like z. At |z| =
-// tolerance^(-1/2) what rounding may have done to the zero eigenvalues is still small; two values
-// eliminate R1.
-double limitBySampling(const Tableau<mp80>& tableau, double tolerance) {
-  const mp80 z = -1 / sqrt(mp80(tolerance));
-  const mp80 near = stabilityFunction(tableau, z), far = stabilityFunction(tableau, 2 * z);
-  const mp80 limit = 2 * far - near;
-  const bool grows = abs(far) > 1 && 2 * abs(far) > 3 * abs(near);
-  if (!grows) return static_cast<double>(limit);
-  return far > 0 ? std::numeric_limits<double>::infinity()
-                 : -std::numeric_limits<double>::infinity();
-}
-
 double norm1(const Mat<mp80>& A) {
   return static_cast<double>(A.cwiseAbs().colwise().sum().maxCoeff());
 }
@@ -99,17 +78,10 @@ double reciprocalCondition(const Mat<mp80>& A, const Eigen::FullPivLU<Mat<mp80>>
   return lu.isInvertible() ? 1 / (norm1(A) * norm1(lu.inverse())) : 0;
 }
 
-void analyzeStability(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
+void analyzeRegularity(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
   const Eigen::FullPivLU<Mat<mp80>> lu(tableau.A);
   analysis.reciprocal_condition = reciprocalCondition(tableau.A, lu);
   analysis.regular = analysis.reciprocal_condition > analysis.tolerance;
-  if (analysis.regular) {
-    const Vec<mp80> ones = Vec<mp80>::Ones(tableau.stages());
-    analysis.r_infinity = static_cast<double>(1 - tableau.b.dot(lu.solve(ones)));
-  } else {
-    analysis.r_infinity = limitBySampling(tableau, analysis.tolerance);
-  }
-  if (std::abs(analysis.r_infinity) <= analysis.tolerance) analysis.r_infinity = 0;
 }
 
 void analyzeStructure(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
@@ -160,7 +132,7 @@ TableauAnalysis analyzeTableau(const Tableau<Real>& tableau, double tolerance) {
   analysis.r = countHolding(analysis.residuals.D, tolerance);
   analysis.proven_order = std::min({analysis.p, 2 * analysis.q + 2, analysis.q + analysis.r + 1,
                                     2 * static_cast<int>(wide.stages())});
-  analyzeStability(wide, analysis);
+  analyzeRegularity(wide, analysis);
   analyzeStructure(wide, analysis);
   return analysis;
 }

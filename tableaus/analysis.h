@@ -23,7 +23,6 @@ struct TableauAnalysis {
   Vec<double> row_sum_errors;   ///< s: |sum_j a_ij - c_i|
   double reciprocal_condition;  ///< of A, 1-norm; 0 if A is singular
   bool regular;                 ///< reciprocal condition above the tolerance
-  double r_infinity;            ///< limit of R(z) as z -> -infinity; +-inf if there is none
   bool stiffly_accurate;        ///< a_sj = b_j; with C(1) and sum b = 1, c_s = 1 follows
   bool explicit_first_stage;    ///< first row of A is zero
   double symplecticity_error;   ///< max |b_i a_ij + b_j a_ji - b_i b_j|

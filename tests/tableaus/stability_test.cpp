@@ -115,6 +115,35 @@ TEST(StabilityFunction, ZerosAndPolesGiveItsValues) {
   }
 }
 
+double limitOfTheory(const std::string& family, Index s) {
+  const auto alternating = [](Index exponent) { return exponent % 2 == 0 ? 1.0 : -1.0; };
+  if (family == "gauss" || family == "lobatto_iiid") return alternating(s);
+  if (family == "lobatto_iiia" || family == "lobatto_iiib") return alternating(s - 1);
+  return family == "lobatto_iiics" ? kInf : 0;
+}
+
+TEST(StabilityFunction, LimitsOfTheory) {
+  for (const Family& family : families()) {
+    for (const Index s : {2, 3, 4, 5, 10, 15}) {
+      const auto R = stabilityFunction(constructFamily(family, s), 5e-48);
+      const double expected = limitOfTheory(family.id, s);
+      if (expected == kInf) {
+        EXPECT_EQ(std::abs(R.atInfinity()), kInf) << memberId(family.id, s);
+      } else {
+        EXPECT_NEAR(R.atInfinity(), expected, 1e-15) << memberId(family.id, s);
+      }
+    }
+  }
+}
+
+// A singular A of another kind: the trapezoidal rule with its first stage doubled.
+TEST(StabilityFunction, LimitWithARepeatedExplicitStage) {
+  const mp80 quarter = mp80(1) / 4, half = mp80(1) / 2;
+  const auto R =
+      stabilityFunction(method({{0, 0, 0}, {0, 0, 0}, {quarter, quarter, half}, {quarter, quarter, half}}), 5e-48);
+  EXPECT_EQ(R.atInfinity(), -1);
+}
+
 // Two equal stages: the second is seen by nobody.
 TEST(StabilityFunction, CommonFactorsCancel) {
   const mp80 half = mp80(1) / 2;
