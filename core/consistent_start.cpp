@@ -32,6 +32,7 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
       r_(system.sizes().n()),
       dw_(system.sizes().n()),
       given_(system.sizes().n()) {}
+
 // dw := D0^-1 dw. False where D0 is singular; a dense one is asked with full pivoting.
 template <class Real>
 bool ConsistentStart<Real>::divide() {
@@ -70,7 +71,6 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state, St
       }
     }
   }
-
   return {};
 }
 

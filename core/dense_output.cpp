@@ -48,11 +48,10 @@ void DenseOutput<Real>::evaluate(const Real& theta, State<Real>& out) {
   out.t = from_->t + theta * h_;
   out.d = from_->d;
   const Index n = C_.rows();
-  const auto zero = [](Index, Index) { return Real(0); };
-  smallProduct(C_.data(), n, n, p_.head(s), out.w.data(), n, zero);
-  smallProduct(C_.data(), n, nu_, once_.head(s), out.v.data(), n, zero);
-  smallProduct(C_.data(), n, nu_, twice_, out.u.data(), n, zero);
-  smallProduct(C_.data() + nu_, n, nx_, once_.head(s), out.x.data(), n, zero);
+  smallProduct(C_.data(), n, n, p_.head(s), out.w.data(), n);
+  smallProduct(C_.data(), n, nu_, once_.head(s), out.v.data(), n);
+  smallProduct(C_.data(), n, nu_, twice_, out.u.data(), n);
+  smallProduct(C_.data() + nu_, n, nx_, once_.head(s), out.x.data(), n);
   out.u = from_->u + h_ * (theta * from_->v + h_ * out.u);
   out.v = from_->v + h_ * out.v;
   out.x = from_->x + h_ * out.x;

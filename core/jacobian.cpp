@@ -69,9 +69,10 @@ const std::shared_ptr<const SparseAnalysis>& SharedJacobian<Real>::analysis(
     const std::shared_ptr<const Pattern>& pattern) {
   if (analysed_ == pattern) return analysis_;
   analysed_ = pattern;
-  analysis_ = !pattern->full ? std::make_shared<const SparseAnalysis>(
-                                              pattern->column_start, pattern->row)
-                                        : nullptr;
+  analysis_.reset();
+  if (!pattern->full) {
+    analysis_ = std::make_shared<const SparseAnalysis>(pattern->column_start, pattern->row);
+  }
   return analysis_;
 }
 

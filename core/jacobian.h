@@ -39,8 +39,6 @@ class SharedJacobian {
       const std::shared_ptr<const Pattern>& pattern);
 
  private:
-  std::shared_ptr<const SparseAnalysis> analysis_;
-  std::shared_ptr<const Pattern> analysed_;
   Differentiator<Real> differentiator_;
   std::vector<Linearization<Real>> at_;
   JacobianPoint point_;
@@ -48,6 +46,8 @@ class SharedJacobian {
   Real t_{};
   int version_ = 0;
   bool stale_ = true;
+  std::shared_ptr<const Pattern> analysed_;
+  std::shared_ptr<const SparseAnalysis> analysis_;  // of that
 };
 
 /// A factorization for one step size; refactorized when the shared Jacobian or h has changed. Its

@@ -28,8 +28,9 @@ void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Ind
 }  // namespace detail
 
 /// out(i, j) = start(i, j) + sum_k A(i, k) B(k, j) for i < rows. A and out: columns `stride` and
-/// `out_stride` apart; not aliased. B: a matrix or vector without gaps. By blocks of rows whose sums stay in registers: a tenth of the
-/// time of a general product for two rows, and not more for hundreds of them, since B is small.
+/// `out_stride` apart; not aliased. B: a matrix or vector without gaps. By blocks of rows whose sums
+/// stay in registers: a tenth of the time of a general product for two rows, and not more for hundreds
+/// of them, since B is small.
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out,
                   Index out_stride, const Start& start) {
@@ -49,11 +50,17 @@ void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, R
   }
 }
 
+/// The same from zero.
+template <class Real, class RightHand>
+void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out,
+                  Index out_stride) {
+  smallProduct(A, stride, rows, B, out, out_stride, [](Index, Index) { return Real(0); });
+}
+
 /// out = A B; matrices or vectors, B without gaps; out not aliased, of the right size.
 template <class Real, class RightHand, class Result>
 void smallProduct(const Eigen::Ref<const Mat<Real>>& A, const RightHand& B, Result&& out) {
-  smallProduct(A.data(), A.outerStride(), A.rows(), B, out.data(), out.outerStride(),
-               [](Index, Index) { return Real(0); });
+  smallProduct(A.data(), A.outerStride(), A.rows(), B, out.data(), out.outerStride());
 }
 
 }  // namespace irk

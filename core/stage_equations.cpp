@@ -142,14 +142,13 @@ void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
   to.t = from_->t + h_;
   to.d = from_->d;
   const Index n = sizes_.n();
-  const auto zero = [](Index, Index) { return Real(0); };
   if (sizes_.nu > 0) {
-    smallProduct(W.data(), n, sizes_.nu, scheme_.bA, to.u.data(), n, zero);
-    smallProduct(W.data(), n, sizes_.nu, scheme_.b, to.v.data(), n, zero);
+    smallProduct(W.data(), n, sizes_.nu, scheme_.bA, to.u.data(), n);
+    smallProduct(W.data(), n, sizes_.nu, scheme_.b, to.v.data(), n);
     to.u = (h_ * h_) * to.u + h_ * from_->v;
     to.v *= h_;
   }
-  smallProduct(W.data() + sizes_.nu, n, sizes_.nx, scheme_.b, to.x.data(), n, zero);
+  smallProduct(W.data() + sizes_.nu, n, sizes_.nx, scheme_.b, to.x.data(), n);
   to.x *= h_;
   if (summation_ == Summation::kCompensated) {
     const Real* const before = from_->carry.data();

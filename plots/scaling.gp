@@ -22,7 +22,7 @@ do for [m in methods] { undefine C_*
 methods = kept
 columns = words(methods)
 stagesIn(method) = system("echo '".method."' | sed 's/.*_//'")
-margin_left = columns == 1 ? 0.14 : 0.08; margin_top = 0.09; margin_bottom = 0.27; gap_x = 0.03
+margin_left = columns == 1 ? 0.14 : 0.08; margin_top = 0.09; margin_bottom = columns == 1 ? 0.4 : 0.27; gap_x = 0.03
 do for [format in formats] {
   eval open(format, columns == 1 ? 560 : 1080, 420)
   set multiplot
@@ -39,7 +39,7 @@ do for [format in formats] {
       for [k = 1 : words(ways)] file using (at(i, k) ? column("n") : NaN):(column("step_s")) \
       with linespoints lw 1.4 pt int(word(way_points, k)) ps 0.7 lc rgb int(word(way_colours, k)) notitle
   }
-  eval legend(0.12)
+  eval legend(columns == 1 ? 0.27 : 0.12)
   plot 2 notitle, for [k = 1 : words(ways)] keyentry with linespoints lw 1.4 pt int(word(way_points, k)) ps 0.7 \
       lc rgb int(word(way_colours, k)) title word(titles, k), keyentry with lines lw 1 dt 3 lc rgb 0x888888 title 'slope 1'
   unset multiplot

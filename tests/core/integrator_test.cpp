@@ -188,6 +188,9 @@ TEST(Integrator, IllegalCombinationsAreRefused) {
   IntegratorOptions o = adaptive(1e-6);
   o.newton.kind = NewtonKind::kFull;
   expectRefused(build(Riccati{}, "gauss_2", o), {"full", "schur", "coupled_dense"});
+  o.solver = StageSolverKind::kCoupledDense;
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  expectRefused(build(Riccati{}, "gauss_2", o), {"full", "embedded", "richardson"});
   o = adaptive(1e-6);
   o.step.estimate = ErrorEstimate::kNone;
   expectRefused(build(Riccati{}, "gauss_2", o), {"none", "paper"});
