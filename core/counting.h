@@ -24,6 +24,11 @@ class CountingSystem final : public System<Real> {
     count(counters_.dual_residuals);
     inner_.evaluate(level, p, r);
   }
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last,
+                      Real* r) const override {
+    count(counters_.residuals, last - first);
+    inner_.evaluateStages(at, first, last, r);
+  }
   const std::vector<int>& rowPowers() const override { return inner_.rowPowers(); }
   const ErrorPowers& errorPowers() const override { return inner_.errorPowers(); }
   void switching(const Point<Real>& p, VecView<Real> g) const override { inner_.switching(p, g); }
@@ -39,11 +44,11 @@ class CountingSystem final : public System<Real> {
   State<Real> toScene(const State<Real>& state) const override { return inner_.toScene(state); }
 
  private:
-  void count(std::int64_t& counter) const {
+  void count(std::int64_t& counter, std::int64_t by = 1) const {
     if (threads_ == 1) {
-      ++counter;
+      counter += by;
     } else {
-      std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
+      std::atomic_ref(counter).fetch_add(by, std::memory_order_relaxed);
     }
   }
 

@@ -118,10 +118,15 @@ class ProblemSystem final : public System<Real> {
 
   Sizes sizes() const override { return sizes_; }
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
+    if (level == Level::kFormulated) return formulated(p, r.data());
     evaluateAt(level, p, r.data());
   }
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
     evaluateAt(level, p, r.data());
+  }
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last,
+                      Real* r) const override {
+    for (Index i = first; i < last; ++i) formulated(at[i], r + i * sizes_.n());
   }
   void switching(const Point<Real>& p, VecView<Real> g) const override {
     if constexpr (kHasSwitching) problem_.switching(p, g.data());
@@ -197,6 +202,11 @@ class ProblemSystem final : public System<Real> {
     problem.smoothed(p, out);
   };
 
+  // Not inlined: in another context the compiler would contract other products and sums, and the bits
+  // would depend on how many stages are asked for at once.
+  [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const {
+    evaluateAt(Level::kFormulated, p, r);
+  }
   bool smooth() const { return options_.discontinuity == Discontinuity::kSmooth; }
 
   /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.

@@ -43,6 +43,7 @@ StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Re
       hA_(scheme.s, scheme.s),
       hhA2_(scheme.s, scheme.s),
       hA1_(scheme.s),
+      t_(scheme.s),
       scales_(sizes_.n()),
       middle_(sizes_) {
   const auto& powers = system.rowPowers();
@@ -57,6 +58,7 @@ template <class Real>
 void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
   from_ = &from;
   h_ = h;
+  for (Index i = 0; i < scheme_.s; ++i) t_[i] = from.t + scheme_.c[i] * h;
   hA_ = h * scheme_.A_transposed;
   if (sizes_.nu > 0) {
     hhA2_ = (h * h) * scheme_.A2_transposed;
@@ -83,35 +85,29 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
 }
 
 template <class Real>
-void StageEquations<Real>::evaluate(const Mat<Real>& W, Index i, Mat<Real>& R) const {
-  system_.evaluate(Level::kFormulated, stage(W, i), VecView<Real>(R.col(i).data(), R.rows()));
-  if (scaled_) R.col(i).array() *= scales_.array();
-}
-
-template <class Real>
 bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   place(W);
-  for (Index i = 0; i < scheme_.first; ++i) R.col(i).setZero();
+  const Index first = scheme_.first, s = scheme_.s;
+  R.leftCols(first).setZero();
+  const StagePoints<Real> at = points(W);
   if (threads_ > 1) {
 #pragma omp parallel for num_threads(threads_) schedule(static)
-    for (Index i = scheme_.first; i < scheme_.s; ++i) evaluate(W, i, R);
+    for (Index i = first; i < s; ++i) system_.evaluateStages(at, i, i + 1, R.data());
   } else {
-    for (Index i = scheme_.first; i < scheme_.s; ++i) evaluate(W, i, R);
+    system_.evaluateStages(at, first, s, R.data());
   }
+  for (Index i = first; i < s && scaled_; ++i) R.col(i).array() *= scales_.array();
   return (R.array() * Real(0)).sum() == Real(0);
 }
 
 template <class Real>
+StagePoints<Real> StageEquations<Real>::points(const Mat<Real>& W) const {
+  return {sizes_, t_.data(), U_.data(), V_.data(), X_.data(), W.data(), from_->d.data()};
+}
+
+template <class Real>
 Point<Real> StageEquations<Real>::stage(const Mat<Real>& W, Index i) const {
-  const Real* const w = W.data() + i * W.rows();
-  return {Real(from_->t + scheme_.c[i] * h_),
-          {U_.data() + i * sizes_.nu, sizes_.nu},
-          {V_.data() + i * sizes_.nu, sizes_.nu},
-          {X_.data() + i * sizes_.nx, sizes_.nx},
-          {w, sizes_.nu},
-          {w + sizes_.nu, sizes_.nx},
-          {w + sizes_.nu + sizes_.nx, sizes_.nz},
-          {from_->d.data(), sizes_.discrete}};
+  return points(W)[i];
 }
 
 template <class Real>

@@ -43,7 +43,7 @@ class StageEquations {
   const Sizes& sizes() const { return sizes_; }
 
  private:
-  void evaluate(const Mat<Real>& W, Index i, Mat<Real>& R) const;
+  StagePoints<Real> points(const Mat<Real>& W) const;
 
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
@@ -56,7 +56,7 @@ class StageEquations {
   Real h_{};
   Mat<Real> U_, V_, X_;
   Mat<Real> hA_, hhA2_;  // (h A)^T and (h^2 A^2)^T
-  Vec<Real> hA1_;
+  Vec<Real> hA1_, t_;
   Vec<Real> scales_;
   State<Real> middle_;
 };

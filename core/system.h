@@ -77,6 +77,29 @@ Point<Real> pointOf(const State<Real>& s) {
           {s.d.data(), s.d.size()}};
 }
 
+/// Points with one discrete state: the stages of a step, by columns.
+template <class Real>
+struct StagePoints {
+  Sizes sizes;
+  const Real* t;
+  const Real *u, *v, *x;  ///< columns of nu, nu, nx
+  const Real* w;          ///< columns of n: (a, k, z)
+  const Real* d;
+
+  Point<Real> operator[](Index i) const {
+    const Index nu = sizes.nu, nx = sizes.nx;
+    const Real* const wi = w + i * sizes.n();
+    return {t[i],
+            {u + i * nu, nu},
+            {v + i * nu, nu},
+            {x + i * nx, nx},
+            {wi, nu},
+            {wi + nu, nx},
+            {wi + nu + nx, sizes.nz},
+            {d, sizes.discrete}};
+  }
+};
+
 /// How switches are treated. Design, section 3.
 enum class Discontinuity {
   kIgnore,   ///< every residual takes the mode its point implies; jumps are left to the error
@@ -111,6 +134,15 @@ class System {
   /// computed is NaN.
   virtual void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const = 0;
   virtual void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const = 0;
+
+  /// The formulated residuals at the points first <= i < last: column i of r. One call for all stages,
+  /// for which a small system overrides it: there calls cost as much as its arithmetic.
+  virtual void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const {
+    const Index n = at.sizes.n();
+    for (Index i = first; i < last; ++i) {
+      evaluate(Level::kFormulated, at[i], VecView<Real>(r + i * n, n));
+    }
+  }
 
   /// Row i of the formulated residual is multiplied by h^-power[i] (paper, section 4: 1/h for
   /// velocity constraints; 1/h^2 for position constraints). Size n.

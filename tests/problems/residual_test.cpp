@@ -1,6 +1,7 @@
 // The residual of every scene against itself: derivatives, multipliers, precision.
 #include <gtest/gtest.h>
 
+#include "core/counting.h"
 #include "tests/problems/scene_cases.h"
 
 namespace irk::test {
@@ -62,6 +63,45 @@ TEST(Residual, AutomaticDerivativeIsTheDifferenceQuotient) {
           }
           expectDerivativesAgree(c, perturbedPoint(scene, n), mode.d, options, level);
         }
+      }
+    }
+  }
+}
+
+// All stages in one call are the residuals one by one, to the last bit, and counted as many.
+TEST(Residual, StagesAtOnceAreTheirResidualsOneByOne) {
+  constexpr Index kStages = 3;
+  for (const SceneCase& c : sceneCases()) {
+    const auto scene = makeScene<double>(c.id, c.settings);
+    for (const Mode& mode : modesToTest(scene)) {
+      for (const Formulation formulation : kFormulations) {
+        SCOPED_TRACE(c.name());
+        const auto system = scene.system({formulation, ConstraintScaling::kOn, mode.discontinuity});
+        Counters counters;
+        const CountingSystem<double> counted(*system, counters);
+        const Sizes n = system->sizes();
+        const Vec<double> y = perturbedPoint(scene, n);
+        std::vector<Vec<double>> at;
+        Mat<double> u(n.nu, kStages), v(n.nu, kStages), x(n.nx, kStages), w(n.n(), kStages);
+        Vec<double> t(kStages);
+        for (Index i = 0; i < kStages; ++i) {
+          t[i] = 0.1 * static_cast<double>(i);
+          at.push_back((1 + t[i]) * y);
+          u.col(i) = at.back().head(n.nu);
+          v.col(i) = at.back().segment(n.nu, n.nu);
+          x.col(i) = at.back().segment(2 * n.nu, n.nx);
+          w.col(i) = at.back().tail(n.n());
+        }
+        Mat<double> r = Mat<double>::Constant(n.n(), kStages, -77);
+        counted.evaluateStages({n, t.data(), u.data(), v.data(), x.data(), w.data(), mode.d.data()},
+                               1, kStages, r.data());
+        EXPECT_EQ(counters.residuals, kStages - 1);
+        for (Index i = 1; i < kStages; ++i) {
+          const Vec<double> one = residualAt(*system, Level::kFormulated, t[i],
+                                             at[static_cast<std::size_t>(i)], mode.d);
+          EXPECT_TRUE((r.col(i).array() == one.array()).all()) << "stage " << i;
+        }
+        EXPECT_TRUE((r.col(0).array() == -77).all()) << "was not asked for";
       }
     }
   }
