@@ -28,7 +28,7 @@ struct Series {
 struct TimingOptions {
   bool wanted = false;
   double min_time_s = 0.02;   ///< > 0. Google Benchmark repeats a run until this much time is spent
-  int repetitions = 3;        ///< >= 1
+  int repetitions = 3;        ///< >= 1; rounds over all runs
   double once_above_s = 0.5;  ///< > 0. Longer runs are repeated once only, ...
   double skip_above_s = 3;    ///< > 0. ... and still longer ones keep the accuracy run's time
 };
