@@ -39,31 +39,55 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
     const Index size = small_ ? block.size * setup.pattern->n : 0;
     inverses_.emplace_back(size * size);
   }
-  if constexpr (std::is_same_v<Lu<Real>, SparseLu<Real>>) {
-    add(setup.analysis ? setup.analysis
-                       : std::make_shared<const SparseAnalysis>(setup.pattern->column_start,
-                                                                setup.pattern->row));
+  if constexpr (kSparse) {
+    const auto analysis = setup.analysis ? setup.analysis
+                                         : std::make_shared<const SparseAnalysis>(
+                                               setup.pattern->column_start, setup.pattern->row);
+    add(analysis);
+    analysis->reserve(pivots_);
+    if (!form_.diagonal || form_.blocks.size() == 1) return;
+    together_.emplace(*analysis, form_.blocks.size());
+    for (const Index size : {1, 2}) {  // the real ones first
+      for (const auto& block : form_.blocks) {
+        if (block.size != size) continue;
+        double* const re = Y_.col(block.start).data();
+        double* const im = size == 1 ? nullptr : re + Y_.rows();
+        lanes_.push_back({re, im, block.sigma, 1 / block.sigma});
+      }
+    }
   } else {
     add(setup.pattern->n);
   }
 }
 
-// The blocks are independent of each other: any number of threads gives the same bits.
+// The blocks are independent of each other: any number of threads gives the same bits. Sparse ones try the
+// pivots of the first.
 template <class Real, template <class> class Lu>
 Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, const Real& h) {
   at_ = &at.front();
   h_ = h;
   rowScales(setup_.row_powers, h, scales_);
   const std::size_t blocks = form_.blocks.size();
+  std::size_t done = 0;
+  if constexpr (kSparse) {
+    if (version_ == 0) outcomes_[done++] = factorizeBlock(0);
+    const auto copy = [this](const auto& first) {
+      if (version_ != first.version()) pivots_ = first.pivots();
+      version_ = first.version();
+    };
+    form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
+  }
   if (setup_.threads > 1) {
 #pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
-    for (std::size_t k = 0; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
+    for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   } else {
-    for (std::size_t k = 0; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
+    for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   }
   const auto failed = std::find_if(outcomes_.begin(), outcomes_.end(),
                                    [](Outcome o) { return o != Outcome::kSuccess; });
-  return failed == outcomes_.end() ? Outcome::kSuccess : *failed;
+  if (failed != outcomes_.end()) return *failed;
+  if constexpr (kSparse) gathered_ = together_ && together_->assign(real_lu_, complex_lu_);
+  return Outcome::kSuccess;
 }
 
 template <class Real, template <class> class Lu>
@@ -78,15 +102,22 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
           Real(scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k])));
     });
   };
+  const auto factorized = [this](auto& lu) {
+    if constexpr (kSparse) {
+      return lu.factorize(version_ == 0 ? nullptr : &pivots_);
+    } else {
+      return lu.factorize();
+    }
+  };
   if (small_) return invertBlock(index);
   if (block.size == 1) {
     auto& lu = real_lu_[lu_index_[index]];
     fill([values = lu.values()](Index k, const Real& x, const Real&) { values[k] = x; });
-    return lu.factorize();
+    return factorized(lu);
   }
   auto& lu = complex_lu_[lu_index_[index]];
   fill([values = lu.values()](Index k, const Real& x, const Real& y) { values[k] = Complex(x, y); });
-  return lu.factorize();
+  return factorized(lu);
 }
 
 // M by entries, then by the rows that are scaled: loops that become vector instructions. With
@@ -150,7 +181,7 @@ void Decoupled<Real, Lu>::multiply(Index column) {
   auto D1y = D1Y_.col(column);
   auto D2y = D2Y_.col(column);
   const auto y = Y_.col(column);
-  if constexpr (std::is_same_v<Lu<Real>, SparseLu<Real>>) {
+  if constexpr (kSparse) {
     const Pattern& pattern = *setup_.pattern;
     D1y.setZero();
     D2y.setZero();
@@ -210,7 +241,8 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
   smallProduct<Real>(rhs, to_basis_, Y_);
-  for (std::size_t k = form_.blocks.size(); k-- > 0;) {
+  if (gathered_) together_->solve(lanes_);
+  for (std::size_t k = form_.blocks.size(); k-- > 0 && !gathered_;) {
     const auto& block = form_.blocks[k];
     if (!form_.diagonal) coupleRows(block);
     solveBlock(k);

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <complex>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "core/block_form.h"
 #include "core/dense_lu.h"
+#include "core/interleaved_lu.h"
 #include "core/small_inverse.h"
 #include "core/sparse_lu.h"
 #include "core/stage_solver.h"
@@ -24,6 +27,7 @@ class Decoupled final : public StageSolver<Real> {
 
  private:
   using Complex = std::complex<Real>;
+  static constexpr bool kSparse = std::is_same_v<Lu<Real>, SparseLu<Real>>;
   Outcome factorizeBlock(std::size_t index);
   void coupleRows(const typename BlockForm<Real>::Block& block);
   void multiply(Index column);
@@ -37,6 +41,11 @@ class Decoupled final : public StageSolver<Real> {
   std::vector<Lu<Real>> real_lu_;        // by block, in order of the real ones
   std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
   std::vector<std::size_t> lu_index_;
+  SparsePivots pivots_;  // of the first block before this factorization, if sparse
+  int version_ = 0;      // theirs
+  std::optional<InterleavedLu> together_;  // all of them, where the blocks are sparse and do not couple
+  std::vector<InterleavedLu::Lane> lanes_;
+  bool gathered_ = false;
   std::vector<Outcome> outcomes_;  // by block
   bool small_;  // blocks are inverted, see small_inverse.h; not worth it for one stage
   std::vector<Vec<Real>> inverses_;  // by block: as real matrices of size n or 2n

@@ -30,15 +30,40 @@ constexpr bool kHasKlu = std::is_same_v<T, double> || std::is_same_v<T, std::com
 // KLU takes arrays as not const, and changes none of these.
 int* indices(const std::vector<int>& x) { return const_cast<int*>(x.data()); }
 
-// Pivots beside the diagonal fill more than the analysis foresees; there is room for this many times
-// as much.
-constexpr std::size_t kRoom = 2;
-
-template <class Entry>
-void fit(std::vector<Entry>& x, int size) {
-  const auto entries = static_cast<std::size_t>(size);
-  if (x.capacity() < entries) x.reserve(kRoom * entries);
-  x.resize(entries);
+// KLU's arrays as SparsePivots keeps them: without the diagonals, first in a column of L and last in one
+// of U; and where the entries of A go.
+void finish(const SparseAnalysis& analysis, SparsePivots& f, std::vector<int>& row_of) {
+  const std::size_t n = f.p.size();
+  row_of.resize(n);
+  std::size_t l = 0, u = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto l_first = static_cast<std::size_t>(f.l_start[k]) + 1;
+    const auto l_end = static_cast<std::size_t>(f.l_start[k + 1]);
+    const auto u_first = static_cast<std::size_t>(f.u_start[k]);
+    const auto u_end = static_cast<std::size_t>(f.u_start[k + 1]) - 1;
+    f.l_start[k] = static_cast<int>(l);
+    f.u_start[k] = static_cast<int>(u);
+    for (std::size_t e = l_first; e < l_end; ++e) f.l_row[l++] = f.l_row[e];
+    for (std::size_t e = u_first; e < u_end; ++e) f.u_row[u++] = f.u_row[e];
+    row_of[static_cast<std::size_t>(f.p[k])] = static_cast<int>(k);
+    f.scale[k] = 1 / f.scale[k];
+  }
+  f.l_start[n] = static_cast<int>(l);
+  f.u_start[n] = static_cast<int>(u);
+  f.l_row.resize(l);
+  f.u_row.resize(u);
+  f.source_start.clear();
+  f.source.clear();
+  f.target.clear();
+  for (std::size_t k = 0; k < n; ++k) {
+    f.source_start.push_back(static_cast<int>(f.source.size()));
+    const auto column = static_cast<std::size_t>(f.q[k]);
+    for (int e = analysis.column_start[column]; e < analysis.column_start[column + 1]; ++e) {
+      f.source.push_back(e);
+      f.target.push_back(row_of[static_cast<std::size_t>(analysis.row[static_cast<std::size_t>(e)])]);
+    }
+  }
+  f.source_start.push_back(static_cast<int>(f.source.size()));
 }
 
 // What KLU allocates for one factorization.
@@ -69,23 +94,27 @@ struct Pivoting {
   bool good() const { return value && common.status == KLU_OK; }
 
   /// Columns of L and U with their diagonals, rows ascending. Without values KLU extracts no pattern.
-  template <class Factors>
-  void extract(klu_symbolic* symbolic, Factors& f) {
-    fit(f.l_row, value->lnz);
-    fit(f.u_row, value->unz);
-    const int most = std::max(value->lnz, value->unz);
-    fit(f.re, most);
+  /// re and im are scratch.
+  void extract(klu_symbolic* symbolic, SparsePivots& f, std::vector<double>& re,
+               std::vector<double>& im) {
+    const auto n = static_cast<std::size_t>(symbolic->n);
+    for (auto* starts : {&f.l_start, &f.u_start}) starts->resize(n + 1);
+    for (auto* each : {&f.p, &f.q}) each->resize(n);
+    f.scale.resize(n);
+    detail::fit(f.l_row, static_cast<std::size_t>(value->lnz));
+    detail::fit(f.u_row, static_cast<std::size_t>(value->unz));
+    detail::fit(re, std::max(f.l_row.size(), f.u_row.size()));
     if constexpr (std::is_same_v<T, double>) {
       klu_sort(symbolic, value, &common);
-      klu_extract(value, symbolic, f.l_start.data(), f.l_row.data(), f.re.data(), f.u_start.data(),
-                  f.u_row.data(), f.re.data(), nullptr, nullptr, nullptr, f.p.data(), f.q.data(),
-                  f.klu_scale.data(), nullptr, &common);
+      klu_extract(value, symbolic, f.l_start.data(), f.l_row.data(), re.data(), f.u_start.data(),
+                  f.u_row.data(), re.data(), nullptr, nullptr, nullptr, f.p.data(), f.q.data(),
+                  f.scale.data(), nullptr, &common);
     } else {
-      fit(f.im, most);
+      detail::fit(im, re.size());
       klu_z_sort(symbolic, value, &common);
-      klu_z_extract(value, symbolic, f.l_start.data(), f.l_row.data(), f.re.data(), f.im.data(),
-                    f.u_start.data(), f.u_row.data(), f.re.data(), f.im.data(), nullptr, nullptr,
-                    nullptr, nullptr, f.p.data(), f.q.data(), f.klu_scale.data(), nullptr, &common);
+      klu_z_extract(value, symbolic, f.l_start.data(), f.l_row.data(), re.data(), im.data(),
+                    f.u_start.data(), f.u_row.data(), re.data(), im.data(), nullptr, nullptr,
+                    nullptr, nullptr, f.p.data(), f.q.data(), f.scale.data(), nullptr, &common);
     }
   }
 };
@@ -111,6 +140,25 @@ SparseAnalysis::~SparseAnalysis() {
   klu_free_symbolic(&symbolic_->value, &common);
 }
 
+// KLU gives -1 where it does not know.
+std::size_t SparseAnalysis::lowerEntries() const {
+  return static_cast<std::size_t>(std::max(symbolic_->value->lnz, 0.0));
+}
+
+std::size_t SparseAnalysis::upperEntries() const {
+  return static_cast<std::size_t>(std::max(symbolic_->value->unz, 0.0));
+}
+
+void SparseAnalysis::reserve(SparsePivots& f) const {
+  const auto size = static_cast<std::size_t>(n());
+  f.l_row.reserve(2 * lowerEntries());
+  f.u_row.reserve(2 * upperEntries());
+  for (auto* starts : {&f.l_start, &f.u_start, &f.source_start}) starts->reserve(size + 1);
+  for (auto* each : {&f.p, &f.q}) each->reserve(size);
+  for (auto* each : {&f.source, &f.target}) each->reserve(row.size());
+  f.scale.reserve(size);
+}
+
 template <class T>
 SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
     : analysis_(std::move(analysis)),
@@ -120,71 +168,81 @@ SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
     throw Misuse("illegal combination: sparse systems in multiprecision: KLU is for double");
   }
   const auto n = static_cast<std::size_t>(analysis_->n());
-  const std::size_t entries = analysis_->row.size();
-  for (auto* starts : {&f_.l_start, &f_.u_start, &f_.source_start}) starts->resize(n + 1);
-  for (auto* each : {&f_.p, &f_.q, &f_.row_of}) each->resize(n);
-  for (auto* each : {&f_.source, &f_.target}) each->resize(entries);
-  f_.scale.resize(n);
-  f_.klu_scale.resize(n);
-  const klu_symbolic& symbolic = *analysis_->symbolic_->value;
-  const auto l = static_cast<std::size_t>(std::max(symbolic.lnz, 0.0));
-  const auto u = static_cast<std::size_t>(std::max(symbolic.unz, 0.0));
-  f_.l_row.reserve(kRoom * l);
-  f_.l.reserve(kRoom * l);
-  f_.u_row.reserve(kRoom * u);
-  f_.u.reserve(kRoom * u);
-  f_.re.reserve(kRoom * std::max(l, u));
-  if (!std::is_same_v<T, double>) f_.im.reserve(kRoom * std::max(l, u));
-  f_.inverse_pivot.resize(n);
+  const std::size_t l = analysis_->lowerEntries(), u = analysis_->upperEntries();
+  l_.reserve(2 * l);
+  u_.reserve(2 * u);
+  re_.reserve(2 * std::max(l, u));
+  if (!std::is_same_v<T, double>) im_.reserve(2 * std::max(l, u));
+  analysis_->reserve(pivots_);
+  inverse_diagonal_.resize(n);
+  row_of_.reserve(n);
 }
 
 template <class T>
-Outcome SparseLu<T>::factorize() {
+Outcome SparseLu<T>::factorize(const SparsePivots* others) {
   if (!values_.allFinite()) return Outcome::kNotFinite;
-  return refactorize() || pivot() ? Outcome::kSuccess : Outcome::kSingular;
+  if (pivoted_ && refactorize() && condition_ >= kSmallerPivot * chosen_at_) return Outcome::kSuccess;
+  if (others && adopt(*others)) return Outcome::kSuccess;
+  return pivot() ? Outcome::kSuccess : Outcome::kSingular;
+}
+
+// Pivots that KLU might have chosen itself: none is a smaller part of its column than it allows.
+template <class T>
+bool SparseLu<T>::adopt(const SparsePivots& pivots) {
+  if (pivoted_ && pivots == pivots_) return false;
+  pivots_ = pivots;
+  detail::fit(l_, pivots_.l_row.size());
+  detail::fit(u_, pivots_.u_row.size());
+  const double most = 1 / defaults().tol;
+  pivoted_ = refactorize() && std::all_of(l_.begin(), l_.end(), [most](const T& l) {
+    return static_cast<double>(detail::magnitude(l)) <= most;
+  });
+  ++version_;
+  chosen_at_ = condition_;
+  return pivoted_;
 }
 
 // Left-looking, column by column, with the pattern and the pivots that are there.
 template <class T>
 bool SparseLu<T>::refactorize() {
-  if (!pivoted_) return false;
+  const SparsePivots& f = pivots_;
   const auto n = static_cast<int>(analysis_->n());
   T* const x = work_.data();
-  Size least(0), most(0);
+  Real least(0), most(0);
   for (int k = 0; k < n; ++k) {
     const auto c = static_cast<std::size_t>(k);
-    const int u_end = f_.u_start[c + 1], l_end = f_.l_start[c + 1];
-    for (int e = f_.u_start[c]; e < u_end; ++e) x[f_.u_row[static_cast<std::size_t>(e)]] = T(0);
-    for (int e = f_.l_start[c]; e < l_end; ++e) x[f_.l_row[static_cast<std::size_t>(e)]] = T(0);
+    const int u_end = f.u_start[c + 1], l_end = f.l_start[c + 1];
+    for (int e = f.u_start[c]; e < u_end; ++e) x[f.u_row[static_cast<std::size_t>(e)]] = T(0);
+    for (int e = f.l_start[c]; e < l_end; ++e) x[f.l_row[static_cast<std::size_t>(e)]] = T(0);
     x[k] = T(0);
-    for (int e = f_.source_start[c]; e < f_.source_start[c + 1]; ++e) {
+    for (int e = f.source_start[c]; e < f.source_start[c + 1]; ++e) {
       const auto at = static_cast<std::size_t>(e);
-      const int row = f_.target[at];
-      x[row] = values_[f_.source[at]] * f_.scale[static_cast<std::size_t>(row)];
+      const int row = f.target[at];
+      x[row] = values_[f.source[at]] * Real(f.scale[static_cast<std::size_t>(row)]);
     }
-    for (int e = f_.u_start[c]; e < u_end; ++e) {
+    for (int e = f.u_start[c]; e < u_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
-      const auto j = static_cast<std::size_t>(f_.u_row[at]);
+      const auto j = static_cast<std::size_t>(f.u_row[at]);
       const T u = x[j];
-      f_.u[at] = u;
-      for (int i = f_.l_start[j]; i < f_.l_start[j + 1]; ++i) {
+      u_[at] = u;
+      for (int i = f.l_start[j]; i < f.l_start[j + 1]; ++i) {
         const auto below = static_cast<std::size_t>(i);
-        x[f_.l_row[below]] -= detail::product(f_.l[below], u);
+        x[f.l_row[below]] -= detail::product(l_[below], u);
       }
     }
-    const Size pivot = detail::magnitude(x[k]);
-    if (!(pivot > Size(0)) || !std::isfinite(static_cast<double>(pivot))) return false;
+    const Real pivot = detail::magnitude(x[k]);
+    if (!(pivot > Real(0)) || !std::isfinite(static_cast<double>(pivot))) return false;
     least = k == 0 ? pivot : std::min(least, pivot);
     most = std::max(most, pivot);
     const T inverse = detail::inverse(x[k]);
-    f_.inverse_pivot[c] = inverse;
-    for (int e = f_.l_start[c]; e < l_end; ++e) {
+    inverse_diagonal_[c] = inverse;
+    for (int e = f.l_start[c]; e < l_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
-      f_.l[at] = detail::product(x[f_.l_row[at]], inverse);
+      l_[at] = detail::product(x[f.l_row[at]], inverse);
     }
   }
-  condition_ = static_cast<double>(Size(least / most));
-  return condition_ >= kSmallerPivot * chosen_at_;
+  condition_ = static_cast<double>(Real(least / most));
+  return true;
 }
 
 // New pivots of KLU's, and the factors with them.
@@ -194,44 +252,14 @@ bool SparseLu<T>::pivot() {
     pivoted_ = false;
     condition_ = chosen_at_ = 0;
     ++pivotings_;
+    ++version_;
     klu_symbolic* const symbolic = analysis_->symbolic_->value;
     Pivoting<T> klu(*analysis_, symbolic, values_);
     if (!klu.good()) return false;
-    klu.extract(symbolic, f_);
-    std::transform(f_.klu_scale.begin(), f_.klu_scale.end(), f_.scale.begin(),
-                   [](double s) { return 1 / s; });
-    // The diagonals, first in a column of L and last in one of U, are kept elsewhere.
-    const std::size_t n = f_.p.size();
-    std::size_t l = 0, u = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto l_first = static_cast<std::size_t>(f_.l_start[k]) + 1;
-      const auto l_end = static_cast<std::size_t>(f_.l_start[k + 1]);
-      const auto u_first = static_cast<std::size_t>(f_.u_start[k]);
-      const auto u_end = static_cast<std::size_t>(f_.u_start[k + 1]) - 1;
-      f_.l_start[k] = static_cast<int>(l);
-      f_.u_start[k] = static_cast<int>(u);
-      for (std::size_t e = l_first; e < l_end; ++e) f_.l_row[l++] = f_.l_row[e];
-      for (std::size_t e = u_first; e < u_end; ++e) f_.u_row[u++] = f_.u_row[e];
-    }
-    f_.l_start[n] = static_cast<int>(l);
-    f_.u_start[n] = static_cast<int>(u);
-    fit(f_.l, f_.l_start[n]);
-    fit(f_.u, f_.u_start[n]);
-    for (std::size_t k = 0; k < n; ++k) {
-      f_.row_of[static_cast<std::size_t>(f_.p[k])] = static_cast<int>(k);
-    }
-    int at = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      f_.source_start[k] = at;
-      const auto column = static_cast<std::size_t>(f_.q[k]);
-      for (int e = analysis_->column_start[column]; e < analysis_->column_start[column + 1]; ++e) {
-        f_.source[static_cast<std::size_t>(at)] = e;
-        f_.target[static_cast<std::size_t>(at++)] =
-            f_.row_of[static_cast<std::size_t>(analysis_->row[static_cast<std::size_t>(e)])];
-      }
-    }
-    f_.source_start[n] = at;
-    pivoted_ = true;
+    klu.extract(symbolic, pivots_, re_, im_);
+    finish(*analysis_, pivots_, row_of_);
+    detail::fit(l_, pivots_.l_row.size());
+    detail::fit(u_, pivots_.u_row.size());
     pivoted_ = refactorize();
     chosen_at_ = condition_;
     return pivoted_;
@@ -241,23 +269,24 @@ bool SparseLu<T>::pivot() {
 
 template <class T>
 void SparseLu<T>::solve(T* b) {
+  const SparsePivots& f = pivots_;
   const std::size_t n = work_.size();
   T* const x = work_.data();
-  for (std::size_t k = 0; k < n; ++k) x[k] = b[f_.p[k]] * f_.scale[k];
+  for (std::size_t k = 0; k < n; ++k) x[k] = b[f.p[k]] * Real(f.scale[k]);
   for (std::size_t k = 0; k < n; ++k) {
     const T here = x[k];
-    for (int i = f_.l_start[k]; i < f_.l_start[k + 1]; ++i) {
+    for (int i = f.l_start[k]; i < f.l_start[k + 1]; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      x[f_.l_row[at]] -= detail::product(f_.l[at], here);
+      x[f.l_row[at]] -= detail::product(l_[at], here);
     }
   }
   for (std::size_t k = n; k-- > 0;) {
-    const T here = detail::product(x[k], f_.inverse_pivot[k]);
-    for (int i = f_.u_start[k]; i < f_.u_start[k + 1]; ++i) {
+    const T here = detail::product(x[k], inverse_diagonal_[k]);
+    for (int i = f.u_start[k]; i < f.u_start[k + 1]; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      x[f_.u_row[at]] -= detail::product(f_.u[at], here);
+      x[f.u_row[at]] -= detail::product(u_[at], here);
     }
-    b[f_.q[k]] = here;
+    b[f.q[k]] = here;
   }
 }
 

@@ -55,39 +55,57 @@ bool unite(const RowSets& more, RowSets& into) {
 
 std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
                                             Index n) {
-  RowSets columns(static_cast<std::size_t>(n));
+  // All rows of a column side by side, then each once.
+  std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    auto& column = columns[static_cast<std::size_t>(directions[i].column)];
-    column.insert(column.end(), rows[i].begin(), rows[i].end());
+    start[static_cast<std::size_t>(directions[i].column) + 1] += static_cast<int>(rows[i].size());
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int> all(static_cast<std::size_t>(start.back()));
+  std::vector<int> end(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    int& at = end[static_cast<std::size_t>(directions[i].column)];
+    std::copy(rows[i].begin(), rows[i].end(), all.begin() + at);
+    at += static_cast<int>(rows[i].size());
   }
   auto p = std::make_shared<Pattern>();
   p->n = n;
   p->full = false;
+  p->column_start.reserve(start.size());
   p->column_start.push_back(0);
-  for (auto& column : columns) {
-    std::sort(column.begin(), column.end());
-    column.erase(std::unique(column.begin(), column.end()), column.end());
-    p->row.insert(p->row.end(), column.begin(), column.end());
+  p->row.reserve(all.size());
+  for (std::size_t j = 0; j + 1 < start.size(); ++j) {
+    const auto first = all.begin() + start[j], last = all.begin() + start[j + 1];
+    std::sort(first, last);
+    p->row.insert(p->row.end(), first, std::unique(first, last));
     p->column_start.push_back(static_cast<int>(p->row.size()));
   }
   return p;
 }
 
 std::vector<int> colour(const RowSets& sets, Index rows) {
+  // The colours in use at each row, side by side: there is room for one of each set.
+  std::vector<std::size_t> begin(static_cast<std::size_t>(rows) + 1, 0);
+  for (const auto& set : sets) {
+    for (const int row : set) ++begin[static_cast<std::size_t>(row) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
+  std::vector<int> at_row(begin.back());
   std::vector<int> colours(sets.size(), 0);
-  std::vector<std::vector<int>> at_row(static_cast<std::size_t>(rows));  // colours in use
   std::vector<std::size_t> used_by;  // by colour: the last set + 1 for which it is in use
   for (std::size_t i = 0; i < sets.size(); ++i) {
     for (const int row : sets[i]) {
-      for (const int c : at_row[static_cast<std::size_t>(row)]) {
-        used_by[static_cast<std::size_t>(c)] = i + 1;
+      const auto r = static_cast<std::size_t>(row);
+      for (std::size_t k = begin[r]; k < end[r]; ++k) {
+        used_by[static_cast<std::size_t>(at_row[k])] = i + 1;
       }
     }
     std::size_t free = 0;
     while (free < used_by.size() && used_by[free] == i + 1) ++free;
     if (free == used_by.size()) used_by.push_back(0);
     colours[i] = static_cast<int>(free);
-    for (const int row : sets[i]) at_row[static_cast<std::size_t>(row)].push_back(colours[i]);
+    for (const int row : sets[i]) at_row[end[static_cast<std::size_t>(row)]++] = colours[i];
   }
   return colours;
 }
@@ -144,51 +162,57 @@ class RowSearch {
   RowSets search(const PointBuffers<Real>& p, const Real& t, std::minstd_rand& random) {
     at_.copy(p.at(t));
     t_ = t;
-    std::vector<Interval> level = whole();
-    while (std::any_of(level.begin(), level.end(),
+    Partition partition = whole();
+    while (std::any_of(partition.intervals.begin(), partition.intervals.end(),
                        [](const Interval& i) { return i.end - i.begin > 1; })) {
-      level = split(level, random);
+      partition = split(partition, random);
     }
     RowSets rows(directions_.size());
-    for (Interval& i : level) rows[i.begin] = std::move(i.rows);
+    for (std::size_t i = 0; i < partition.rows.size(); ++i) {
+      rows[partition.intervals[i].begin] = std::move(partition.rows[i]);
+    }
     return rows;
   }
 
  private:
   struct Interval {
     std::size_t begin, end;  // of the directions
-    std::vector<int> rows;   // that they reach, or may reach
+  };
+  struct Partition {
+    std::vector<Interval> intervals;
+    RowSets rows;  // that each reaches, or may reach
   };
 
   // One interval per matrix, so that neighbours in one are not neighbours of another matrix' columns.
-  std::vector<Interval> whole() const {
-    std::vector<int> all = fullRows(1, system_.sizes().n()).front();
-    std::vector<Interval> intervals;
+  Partition whole() const {
+    Partition all;
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       if (i == 0 || directions_[i].matrix != directions_[i - 1].matrix) {
-        intervals.push_back({i, i, all});
+        all.intervals.push_back({i, i});
       }
-      ++intervals.back().end;
+      ++all.intervals.back().end;
     }
-    return intervals;
+    all.rows = fullRows(all.intervals.size(), system_.sizes().n());
+    return all;
   }
 
   // Every interval in kChunk parts, the parts of intervals that share no row together.
-  std::vector<Interval> split(const std::vector<Interval>& parents, std::minstd_rand& random) {
-    RowSets sets;
-    for (const Interval& i : parents) sets.push_back(i.rows);
-    const std::vector<int> colours = colour(sets, system_.sizes().n());
+  Partition split(const Partition& parents, std::minstd_rand& random) {
+    const std::vector<int> colours = colour(parents.rows, system_.sizes().n());
     const int count = 1 + *std::max_element(colours.begin(), colours.end());
-    std::vector<Interval> children;
+    Partition children;
+    std::vector<std::size_t> together;
     for (int c = 0; c < count; ++c) {
-      std::vector<const Interval*> together;
-      for (std::size_t i = 0; i < parents.size(); ++i) {
-        if (colours[i] == c) together.push_back(&parents[i]);
+      together.clear();
+      for (std::size_t i = 0; i < colours.size(); ++i) {
+        if (colours[i] == c) together.push_back(i);
       }
-      seed(together, &random);
+      seed(parents, together, &random);
       system_.evaluate(level_, at_.at(Dual<Real>(t_)), at_.residual());
-      for (const Interval* parent : together) appendChildren(*parent, children);
-      seed(together, nullptr);
+      for (const std::size_t i : together) {
+        appendChildren(parents.intervals[i], parents.rows[i], children);
+      }
+      seed(parents, together, nullptr);
     }
     return children;
   }
@@ -197,27 +221,32 @@ class RowSearch {
     return i.begin + (i.end - i.begin) * c / kChunk;
   }
 
-  void seed(const std::vector<const Interval*>& intervals, std::minstd_rand* random) {
+  void seed(const Partition& parents, const std::vector<std::size_t>& together,
+            std::minstd_rand* random) {
     std::uniform_real_distribution<double> around_one(0.5, 1.5);
-    for (const Interval* i : intervals) {
+    for (const std::size_t p : together) {
+      const Interval& i = parents.intervals[p];
       for (std::size_t c = 0; c < kChunk; ++c) {
-        for (std::size_t k = part(*i, c); k < part(*i, c + 1); ++k) {
+        for (std::size_t k = part(i, c); k < part(i, c + 1); ++k) {
           at_.component(directions_[k]).d[c] = random ? Real(around_one(*random)) : Real(0);
         }
       }
     }
   }
 
-  void appendChildren(const Interval& parent, std::vector<Interval>& children) const {
+  void appendChildren(const Interval& parent, const std::vector<int>& rows, Partition& children) {
     using std::isfinite;
     for (std::size_t c = 0; c < kChunk; ++c) {
-      Interval child{part(parent, c), part(parent, c + 1), {}};
+      const Interval child{part(parent, c), part(parent, c + 1)};
       if (child.begin == child.end) continue;
-      for (const int row : parent.rows) {
+      reached_.clear();
+      for (const int row : rows) {
         const Real& slope = at_.r[row].d[c];
-        if (isfinite(slope) && slope != Real(0)) child.rows.push_back(row);
+        if (isfinite(slope) && slope != Real(0)) reached_.push_back(row);
       }
-      if (!child.rows.empty()) children.push_back(std::move(child));
+      if (reached_.empty()) continue;
+      children.intervals.push_back(child);
+      children.rows.push_back(reached_);
     }
   }
 
@@ -226,6 +255,7 @@ class RowSearch {
   const Directions& directions_;
   PointBuffers<Dual<Real>> at_;
   Real t_{};
+  std::vector<int> reached_;
 };
 
 template <class Real>

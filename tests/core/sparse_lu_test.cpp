@@ -1,5 +1,6 @@
-// The sparse factors against dense ones, where pivots are off the diagonal and where they have to change.
-#include "core/sparse_lu.h"
+// The sparse factors against dense ones, where pivots are off the diagonal and where they have to change;
+// solved together against one by one.
+#include "core/interleaved_lu.h"
 
 #include <gtest/gtest.h>
 
@@ -56,15 +57,16 @@ class Filled {
     analysis_ = std::make_shared<const SparseAnalysis>(start, row);
     lu = std::make_unique<SparseLu<T>>(analysis_);
   }
-  Outcome factorize(const Mat<T>& A) {
+  Outcome factorize(const Mat<T>& A, const SparsePivots* others = nullptr) {
     std::size_t k = 0;
     for (Index j = 0; j < A.cols(); ++j) {
       for (; k < static_cast<std::size_t>(analysis_->column_start[static_cast<std::size_t>(j) + 1]); ++k) {
         lu->values()[k] = A(analysis_->row[k], j);
       }
     }
-    return lu->factorize();
+    return lu->factorize(others);
   }
+  const std::shared_ptr<const SparseAnalysis>& analysis() const { return analysis_; }
   std::unique_ptr<SparseLu<T>> lu;
 
  private:
@@ -123,6 +125,91 @@ TEST(SparseLu, SaysSingularAndNotFiniteAndRecovers) {
   EXPECT_EQ(sparse.factorize(bad), Outcome::kNotFinite);
   ASSERT_EQ(sparse.factorize(A), Outcome::kSuccess);
   expectSolves(*sparse.lu, A, 1e-13);
+}
+
+// KLU's own rule: no entry of L above 1 / 0.001.
+TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
+  Mat<double> A(2, 2), like(2, 2), unlike(2, 2);
+  A << 1, 0.5, 0.5, 2;
+  like << 1, 4, 400, 2;
+  unlike << 1e-14, 1, 1, 1e-14;
+  Filled<double> first(A), second(A), third(A);
+  ASSERT_EQ(first.factorize(A), Outcome::kSuccess);
+  ASSERT_EQ(second.factorize(like, &first.lu->pivots()), Outcome::kSuccess);
+  EXPECT_EQ(second.lu->pivotings(), 0);
+  EXPECT_TRUE(second.lu->pivots() == first.lu->pivots());
+  expectSolves(*second.lu, like, 1e-12);
+  ASSERT_EQ(third.factorize(unlike, &first.lu->pivots()), Outcome::kSuccess);
+  EXPECT_EQ(third.lu->pivotings(), 1);
+  EXPECT_FALSE(third.lu->pivots() == first.lu->pivots());
+  expectSolves(*third.lu, unlike, 1e-14);
+}
+
+// Real and complex matrices of one pattern with the first one's pivots, more than one group of lanes.
+TEST(InterleavedLu, AgreesWithSolvesOneByOne) {
+  using Complex = std::complex<double>;
+  const Mat<double> A = saddle<double>(1);
+  const Index n = A.rows();
+  for (const int pairs : {1, 4, 12}) {
+    SCOPED_TRACE(pairs);
+    std::vector<SparseLu<double>> real;
+    std::vector<SparseLu<Complex>> complex;
+    Filled<double> first(A);
+    ASSERT_EQ(first.factorize(A), Outcome::kSuccess);
+    const auto near = [&](int i) { return Mat<double>((1 + 0.1 * i) * A); };
+    real.push_back(std::move(*first.lu));
+    for (int i = 0; i < pairs; ++i) {
+      Filled<Complex> other(A.cast<Complex>());
+      const Mat<Complex> B = near(i).cast<Complex>() + Complex(0, 0.3) * near(i + 1).cast<Complex>();
+      ASSERT_EQ(other.factorize(B, &real.front().pivots()), Outcome::kSuccess);
+      ASSERT_EQ(other.lu->pivotings(), 0);
+      complex.push_back(std::move(*other.lu));
+    }
+    InterleavedLu together(*first.analysis(), real.size() + complex.size());
+    ASSERT_TRUE(together.assign(real, complex));
+    Mat<double> Y = Mat<double>::Random(n, 1 + 2 * pairs), expected = Y;
+    constexpr double kSigma = 0.7;
+    std::vector<InterleavedLu::Lane> lanes{{Y.data(), nullptr, 1, 1}};
+    real.front().solve(expected.data());
+    for (int i = 0; i < pairs; ++i) {
+      const Index re = 1 + 2 * i;
+      lanes.push_back({Y.col(re).data(), Y.col(re + 1).data(), kSigma, 1 / kSigma});
+      Vec<Complex> y = expected.col(re) + Complex(0, kSigma) * expected.col(re + 1);
+      complex[static_cast<std::size_t>(i)].solve(y.data());
+      expected.col(re) = y.real();
+      expected.col(re + 1) = y.imag() / kSigma;
+    }
+    together.solve(lanes);
+    for (Index j = 0; j < Y.cols(); ++j) {
+      EXPECT_LT((Y.col(j) - expected.col(j)).norm(), 1e-12 * expected.col(j).norm()) << j;
+    }
+  }
+}
+
+TEST(InterleavedLu, RefusesDifferentPivotsAndFollowsTheirChanges) {
+  Mat<double> A(2, 2), swapped(2, 2);
+  A << 1, 0.5, 0.5, 2;
+  swapped << 1e-14, 1, 1, 1e-14;
+  Filled<double> first(A), second(A);
+  ASSERT_EQ(first.factorize(A), Outcome::kSuccess);
+  ASSERT_EQ(second.factorize(swapped), Outcome::kSuccess);
+  std::vector<SparseLu<double>> both;
+  both.push_back(std::move(*first.lu));
+  both.push_back(std::move(*second.lu));
+  InterleavedLu together(*first.analysis(), 2);
+  EXPECT_FALSE(together.assign(both, {}));
+  EXPECT_FALSE(together.assign(both, {})) << "nothing has changed";
+  // The second's pivots for both.
+  std::copy(swapped.data(), swapped.data() + 4, both[0].values());
+  ASSERT_EQ(both[0].factorize(&both[1].pivots()), Outcome::kSuccess);
+  EXPECT_EQ(both[0].pivotings(), 1);
+  ASSERT_TRUE(together.assign(both, {}));
+  Mat<double> Y = Mat<double>::Random(2, 2);
+  const Mat<double> b = Y;
+  const std::vector<InterleavedLu::Lane> lanes{{Y.col(0).data(), nullptr, 1, 1},
+                                               {Y.col(1).data(), nullptr, 1, 1}};
+  together.solve(lanes);
+  EXPECT_LT((swapped * Y - b).norm(), 1e-14);
 }
 
 TEST(SparseLu, OneUnknown) {
