@@ -10,9 +10,13 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // The order is thought over after this many accepted steps, and again after as many.
-constexpr int kLeastStay = 6;
+constexpr int kLeastStay = 7;
 // Progress per work must grow by this factor: new factors, worse start values.
-constexpr double kGain = 1.2;
+constexpr double kGain = 1.25;
+// Members so far above are looked at.
+constexpr std::size_t kAbove = 2;
+// Measured: the first number of stages, and how many more for each decade of the tolerance.
+constexpr double kStagesAtOne = 2.5, kStagesPerDecade = 0.75;
 // Newton's contraction: a step beyond the upper bound is not planned.
 constexpr double kLeastContraction = 1e-4, kMostContraction = 0.3;
 // Measured, in units of one stage in one iteration. What a step costs besides its iterations, per
@@ -40,6 +44,11 @@ double exigence(const Scheme<Real>& member, const Scheme<Real>& highest,
 }
 
 }  // namespace
+
+Index firstStages(const Tolerances& tolerances) {
+  const double tolerance = std::max(tolerances.rtol, tolerances.atol);
+  return std::lround(kStagesAtOne - kStagesPerDecade * std::log10(std::min(tolerance, 1.0)));
+}
 
 template <class Real>
 VariableOrder<Real>::VariableOrder(const System<Real>& system,
@@ -148,14 +157,13 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
     if (p.progress > best.progress) next = i, best = p;
   };
   if (at_ > 0) consider(at_ - 1, lower_error_);
-  if (at_ + 1 < members_.size()) {
-    const Member& above = *members_[at_ + 1];
-    const double s = static_cast<double>(member().scheme.s);
-    const double below = at_ > 0 ? static_cast<double>(members_[at_ - 1]->scheme.s) : s - 1;
-    const double ratio = at_ > 0 ? std::min(estimate / lower_error_, 1.0) : 0.1;
+  const double s = static_cast<double>(member().scheme.s);
+  const double below = at_ > 0 ? static_cast<double>(members_[at_ - 1]->scheme.s) : s - 1;
+  const double ratio = at_ > 0 ? std::min(estimate / lower_error_, 1.0) : 0.1;
+  for (std::size_t i = at_ + 1; i < members_.size() && i <= at_ + kAbove; ++i) {
+    const Member& above = *members_[i];
     const double more = (static_cast<double>(above.scheme.s) - s) / (s - below);
-    consider(at_ + 1,
-             estimate * std::pow(ratio, more) * above.estimate.mu() / member().estimate.mu());
+    consider(i, estimate * std::pow(ratio, more) * above.estimate.mu() / member().estimate.mu());
   }
   if (next == at_) return {h_next, result.error};
   changeTo(next);

@@ -10,9 +10,13 @@
 
 namespace irk {
 
+/// Stages to begin with where nothing else is said: the more the smaller the tolerance. The best fixed
+/// number over the suite's scenes is 3 to 7 at errors of 1e-4, 5 to 9 at 1e-8, 7 to 10 at 1e-11.
+Index firstStages(const Tolerances& tolerances);
+
 /// Members of a family share the Jacobian; each keeps its own factors and scratch. After some accepted
-/// steps the errors e_q of the members below and above are known or guessed: below, by the stages'
-/// polynomial cut to their degree; above, by the same ratio again, as the coefficients of a smooth
+/// steps the errors e_q of the member below and of two above are known or guessed: below, by the stages'
+/// polynomial cut to its degree; above, by the same ratio again, as the coefficients of a smooth
 /// solution decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which
 /// grows with the step, its iterations and the work. The member with the most progress per work is
 /// next; none is with a step for which Newton would contract badly (Hairer & Wanner, J. Comput.

@@ -4,6 +4,7 @@
 
 #include "core/integrator.h"
 #include "core/multiprecision.h"
+#include "core/variable_order.h"
 #include "experiments/clock.h"
 #include "experiments/decimal.h"
 #include "experiments/peers/peer_integrator.h"
@@ -22,11 +23,12 @@ class RungeKutta {
  public:
   RungeKutta(const Scene<Real>& scene, const RunSpec& spec)
       : methods_(methodsOf(spec)),
+        stages_(isFamily(spec.method) ? 0 : methods_.members[methods_.start].stages()),
         system_(scene.system({spec.formulation, spec.scaling, spec.discontinuity})),
         integrator_(system_, methods_, spec.options, systemScale(scene.scale, system_->sizes())) {}
 
   const std::string& family() const { return methods_.members.front().family; }
-  Index stages() const { return methods_.members[methods_.start].stages(); }
+  Index stages() const { return stages_; }
   Solution<Real> integrate(const State<Real>& start, const Real& t_end,
                            const Monitor<Real>& monitor) {
     auto solution = integrator_.integrate(start, t_end, monitor);
@@ -40,10 +42,11 @@ class RungeKutta {
  private:
   static Methods<Real> methodsOf(const RunSpec& spec) {
     if (spec.options.order == OrderControl::kFixed) return makeTableau<Real>(spec.method);
-    return makeMethods<Real>(spec.method, spec.max_stages);
+    return makeMethods<Real>(spec.method, spec.max_stages, firstStages(spec.options.tolerances));
   }
 
   Methods<Real> methods_;
+  Index stages_;  // 0: a family's, by the tolerance
   std::shared_ptr<const System<Real>> system_;
   Integrator<Real> integrator_;
 };
@@ -210,7 +213,8 @@ RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make)
     RunRecord record;
     record.spec = spec;
     const bool peer = findPeer(spec.method) != nullptr;
-    record.family = peer ? spec.method : spec.method.substr(0, spec.method.rfind('_'));
+    const bool whole = peer || isFamily(spec.method);
+    record.family = whole ? spec.method : spec.method.substr(0, spec.method.rfind('_'));
     record.stages = stagesInId(spec.method);
     record.outcome = "refused";
     record.detail = misuse.what();

@@ -33,9 +33,9 @@ constexpr Configuration kConfigurations[] = {
     {"embedded",
      "embedded estimate, predictive control, eigenvectors of A, predicted Jacobians, Broyden's updates",
      "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden"},
-    {"variable", "the same with variable order; the method is the first one",
+    {"variable", "the same with variable order; a method with its number of stages is the first one",
      "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;"
-     "order=variable"}};
+     "order=variable;method=radau_iia"}};
 
 // Each `field=value` of a text, items separated by ';'.
 void setFields(RunSpec& spec, std::string_view text) {

@@ -36,7 +36,8 @@ struct RunSpec {
   /// Of `configurations`: a name for tables and figures.
   std::string configuration = "default";
   Settings settings;
-  std::string method = "radau_iia_5";  ///< an id, of a peer also, or a tableau file
+  /// An id, of a peer also, or a tableau file; for variable order also a family.
+  std::string method = "radau_iia_5";
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
   Discontinuity discontinuity = Discontinuity::kIgnore;

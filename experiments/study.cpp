@@ -98,7 +98,7 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
   std::vector<std::string> methods;
   if (const auto* listed = find(keys, "methods")) {
     for (const auto& method : listed->items) {
-      if (!findPeer(method)) {
+      if (!findPeer(method) && !isFamily(method)) {
         atPlace(*listed, [&] { return makeTableau<double>(method).stages(); });
       }
       methods.push_back(method);
@@ -189,6 +189,11 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
     spec = atPlace(scene, [&] { return resolved(spec); });
     for (const auto& method : methods) {
       spec.method = method;
+      if (isFamily(method) && spec.options.order == OrderControl::kFixed) {
+        throw Misuse(fmt::format("{}: '{}' is a family, for order 'variable' only; a method has its number "
+                                 "of stages: {}_5",
+                                 find(keys, "methods")->place, method, method));
+      }
       all.push_back(makeSeries(spec, keys));
     }
   }

@@ -121,25 +121,27 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
   return file.tableau.cast<Real>();
 }
 
+bool isFamily(std::string_view id) { return findFamily(id) != nullptr; }
+
 template <class Real>
-Methods<Real> makeMethods(std::string_view id, Index max_stages) {
-  const Tableau<Real> first = makeTableau<Real>(id);
+Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
   const auto member = memberOf(id);
-  if (!member) {
+  if (!member && !isFamily(id)) {
+    static_cast<void>(makeTableau<Real>(id));  // says what is wrong with an id or a file
     throw Misuse(fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
                              "a file is one method; use one of the families",
                              id));
   }
+  const Family& family = familyOf(member ? member->family : id);
+  const Index least = family.minStages();
+  const Index given = member ? stagesOf(id, *member) : least;
+  const Index most = std::max(max_stages, given);
+  const Index start = member ? given : std::clamp(first, least, most);
   std::vector<Tableau<Real>> members;
-  std::size_t start = 0;
-  const Index most = std::max(max_stages, first.stages());
-  for (Index s = findFamily(member->family)->minStages(); s <= most; ++s) {
-    const bool given = s == first.stages();
-    if (s % 2 == 0 && s != 2 && !given) continue;
-    if (given) start = members.size();
-    members.push_back(given ? first : makeTableau<Real>(fmt::format("{}_{}", member->family, s)));
+  for (Index s = least; s <= most; ++s) {
+    members.push_back(makeTableau<Real>(fmt::format("{}_{}", family.id, s)));
   }
-  return {std::move(members), start};
+  return {std::move(members), static_cast<std::size_t>(start - least)};
 }
 
 int classicalOrder(std::string_view family, Index s) { return familyOf(family).orders(s).p; }
@@ -149,8 +151,8 @@ int stageOrder(std::string_view family, Index s) { return familyOf(family).order
 template Tableau<double> makeTableau(std::string_view);
 template Tableau<mp50> makeTableau(std::string_view);
 template Tableau<mp100> makeTableau(std::string_view);
-template Methods<double> makeMethods(std::string_view, Index);
-template Methods<mp50> makeMethods(std::string_view, Index);
-template Methods<mp100> makeMethods(std::string_view, Index);
+template Methods<double> makeMethods(std::string_view, Index, Index);
+template Methods<mp50> makeMethods(std::string_view, Index, Index);
+template Methods<mp100> makeMethods(std::string_view, Index, Index);
 
 }  // namespace irk

@@ -29,11 +29,14 @@ inline constexpr Index kMaxStages = 100;
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file);
 
-/// For variable order: members of the family of `id`, which is the first used: 1, 2, 3 and odd
-/// numbers of stages up to `max_stages` (odd: A has a real eigenvalue), and that of `id`. Throws
-/// Misuse as makeTableau, and for a tableau file.
+/// Whether it is the id of a family, without a number of stages.
+bool isFamily(std::string_view id);
+
+/// For variable order: the members of a family up to `max_stages`. Of an id as `radau_iia_5` that member is
+/// the first used, and in any case there; of a family's id that with the number of stages next to
+/// `first`. Throws Misuse as makeTableau, and for a tableau file.
 template <class Real>
-Methods<Real> makeMethods(std::string_view id, Index max_stages);
+Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first);
 
 /// Classical order p and stage order q of a family's s-stage member.
 int classicalOrder(std::string_view family, Index s);

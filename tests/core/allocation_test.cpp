@@ -120,7 +120,7 @@ TEST(Allocation, VariableOrderAllocatesNothingAfterTheFirstStep) {
   o.step.estimate = ErrorEstimate::kEmbedded;
   o.step.control = StepControl::kPredictive;
   o.newton.kind = NewtonKind::kBroyden;
-  const auto methods = makeMethods<double>("radau_iia_2", 13);
+  const auto methods = makeMethods<double>("radau_iia_2", 13, 5);
   EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), methods, o,
                           5.0),
             0);

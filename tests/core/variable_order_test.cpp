@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/variable_order.h"
 #include "problems/scene.h"
 #include "tests/core/support.h"
 
@@ -25,7 +26,7 @@ Solution<double> run(P problem, const State<double>& start, double t_end,
 TEST(VariableOrder, KeepsItsTolerance) {
   for (const double tol : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const auto s = run(Riccati{}, riccatiStart<double>(), 10,
-                       makeMethods<double>("radau_iia_3", 13), variable(tol));
+                       makeMethods<double>("radau_iia_3", 13, 5), variable(tol));
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(10.0))), 20 * tol) << tol;
   }
@@ -36,7 +37,7 @@ TEST(VariableOrder, TakesFewerStepsThanALowOrderAtATightTolerance) {
   fixed.order = OrderControl::kFixed;
   const auto start = oscillatorsStart<double>();
   const auto low = run(Oscillators{}, start, 10, makeTableau<double>("radau_iia_3"), fixed);
-  const auto s = run(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13),
+  const auto s = run(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13, 5),
                      variable(1e-11));
   ASSERT_EQ(low.outcome, Outcome::kSuccess);
   ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
@@ -55,7 +56,7 @@ TEST(VariableOrder, OfOneMemberIsThatMethod) {
 }
 
 TEST(VariableOrder, GoesThroughConstraintsAndIsReproducible) {
-  const auto methods = makeMethods<double>("radau_iia_3", 13);
+  const auto methods = makeMethods<double>("radau_iia_3", 13, 5);
   const auto a = run(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
   const auto b = run(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
   ASSERT_EQ(a.outcome, Outcome::kSuccess) << a.detail;
@@ -68,7 +69,7 @@ TEST(VariableOrder, AnIntegratorUsedAgainBeginsWithItsFirstMember) {
     auto options = variable(1e-10);
     if (fixed) options.order = OrderControl::kFixed;
     const auto methods = fixed ? Methods<double>(makeTableau<double>("radau_iia_3"))
-                               : makeMethods<double>("radau_iia_3", 13);
+                               : makeMethods<double>("radau_iia_3", 13, 5);
     Integrator<double> integrator(makeSystem<double>(Oscillators{}), methods, options);
     const auto start = oscillatorsStart<double>();
     const auto first = integrator.integrate(start, 5);
@@ -92,7 +93,7 @@ TEST(VariableOrder, LowMembersErrAsLittleAsHighOnes) {
     return (s.state.u - scene.start.u).norm();
   };
   const double nine = error(Methods<double>(makeTableau<double>("radau_iia_9")), OrderControl::kFixed);
-  const double from_three = error(makeMethods<double>("radau_iia_3", 13), OrderControl::kVariable);
+  const double from_three = error(makeMethods<double>("radau_iia_3", 13, 5), OrderControl::kVariable);
   EXPECT_LT(from_three, 20 * nine);
   EXPECT_LT(nine, 1e-9);
 }
@@ -101,7 +102,7 @@ TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
   IntegratorOptions o = variable(1e-6);
   o.order = OrderControl::kFixed;
   EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
-                                  makeMethods<double>("radau_iia_3", 13), o),
+                                  makeMethods<double>("radau_iia_3", 13, 5), o),
                Misuse);
 }
 
@@ -109,17 +110,36 @@ TEST(VariableOrder, RefusesOtherEstimatesAndFiles) {
   IntegratorOptions o = variable(1e-6);
   o.step.estimate = ErrorEstimate::kRichardson;
   EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
-                                  makeMethods<double>("radau_iia_3", 13), o),
+                                  makeMethods<double>("radau_iia_3", 13, 5), o),
                Misuse);
-  EXPECT_THROW(makeMethods<double>(IRK_SOURCE_DIR "/tableaus/data/radau_iia_3.txt", 13), Misuse);
+  EXPECT_THROW(makeMethods<double>(IRK_SOURCE_DIR "/tableaus/data/radau_iia_3.txt", 13, 5), Misuse);
 }
 
 TEST(VariableOrder, LadderOfAFamily) {
-  const auto methods = makeMethods<double>("radau_iia_4", 9);
+  const auto methods = makeMethods<double>("radau_iia_4", 9, 5);
   std::vector<Index> stages;
   for (const auto& tableau : methods.members) stages.push_back(tableau.stages());
-  EXPECT_EQ(stages, (std::vector<Index>{1, 2, 3, 4, 5, 7, 9}));
+  EXPECT_EQ(stages, (std::vector<Index>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_EQ(methods.members[methods.start].stages(), 4);
+}
+
+TEST(VariableOrder, AFamilyBeginsWithTheStagesAskedFor) {
+  const auto startOf = [](std::string_view id, Index most, Index first) {
+    const auto methods = makeMethods<double>(id, most, first);
+    return methods.members[methods.start].stages();
+  };
+  EXPECT_EQ(startOf("radau_iia", 13, 6), 6);
+  EXPECT_EQ(startOf("radau_iia", 5, 9), 5) << "no more than max_stages";
+  EXPECT_EQ(startOf("lobatto_iiic", 13, 1), 2) << "the smallest there is";
+  EXPECT_EQ(startOf("radau_iia_9", 5, 2), 9) << "a given member counts";
+  EXPECT_THROW(makeMethods<double>("radau", 13, 5), Misuse);
+  EXPECT_THROW(makeMethods<double>("radau_iia_x", 13, 5), Misuse);
+}
+
+TEST(VariableOrder, BeginsWithMoreStagesAtSmallerTolerances) {
+  EXPECT_EQ(firstStages({1e-2, 1e-2, NormKind::kMixed}), 4);
+  EXPECT_EQ(firstStages({1e-12, 1e-8, NormKind::kMixed}), 9) << "the larger of the two";
+  EXPECT_EQ(firstStages({100, 1, NormKind::kMixed}), 3) << "2.5, rounded";
 }
 
 }  // namespace

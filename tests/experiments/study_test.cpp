@@ -97,6 +97,11 @@ TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
   EXPECT_TRUE(containsAll(misuseOf([] { parse("[[block]]\nmethods=\"gauss_2\"\n"); }),
                           {"mine.toml:1", "scene"}));
   EXPECT_TRUE(containsAll(
+      misuseOf([] { parse("[[block]]\nscene=\"kepler\"\nmethods=\"radau_iia\"\n"); }),
+      {"'radau_iia' is a family", "order 'variable' only", "radau_iia_5"}));
+  const Study family = parse("[[block]]\nscene=\"kepler\"\nconfiguration=\"variable\"\nmethods=\"radau_iia\"\n");
+  EXPECT_EQ(family.series.front().runs.front().method, "radau_iia");
+  EXPECT_TRUE(containsAll(
       misuseOf([] { parse("orders = 3\n[[block]]\nscene=\"kepler\"\nmethods=\"gauss_2\"\n"); }),
       {"mine.toml:1", "orders", "true or false"}));
   EXPECT_TRUE(
