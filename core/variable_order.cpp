@@ -81,10 +81,11 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
     reserved_ = true;
   }
   if (result.outcome != Outcome::kSuccess) {
-    if (++failures_ > 1 && at_ > 0) changeTo(at_ - 1);
+    if (++failures_ > 1 && at_ > 0 && solved_) changeTo(at_ - 1);
     return result;
   }
   failures_ = 0;
+  solved_ = true;
   past_ = &member().stepper.stages();
   const double limit =
       again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
@@ -109,7 +110,7 @@ template <class Real>
 void VariableOrder<Real>::begin() {
   changeTo(start_);
   past_ = &member().stepper.stages();
-  reserved_ = false;
+  reserved_ = solved_ = false;
   failures_ = 0;
   forget();
 }

@@ -98,6 +98,23 @@ TEST(VariableOrder, LowMembersErrAsLittleAsHighOnes) {
   EXPECT_LT(nine, 1e-9);
 }
 
+// Robertson's first step of HW's guess is too long for Newton seven times: that is no reason to begin with
+// fewer stages. The steps are those of the member it begins with.
+TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
+  const Scene<double> scene = makeScene<double>("robertson", {});
+  const auto end = [&](const Methods<double>& methods, OrderControl order) {
+    IntegratorOptions o = variable(1e-7);
+    o.order = order;
+    const auto s = Integrator<double>(scene.system({}), methods, o).integrate(scene.start, 10);
+    EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+    return s.counters;
+  };
+  const auto fixed = end(makeTableau<double>("radau_iia_7"), OrderControl::kFixed);
+  const auto free = end(makeMethods<double>("radau_iia_7", 13, 7), OrderControl::kVariable);
+  ASSERT_GE(fixed.steps_rejected_newton, 3);
+  EXPECT_LE(2 * free.steps_accepted, 3 * fixed.steps_accepted);
+}
+
 TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
   IntegratorOptions o = variable(1e-6);
   o.order = OrderControl::kFixed;
