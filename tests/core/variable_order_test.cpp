@@ -105,6 +105,9 @@ TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
   const auto end = [&](const Methods<double>& methods, OrderControl order) {
     IntegratorOptions o = variable(1e-7);
     o.order = order;
+    o.solver = StageSolverKind::kEigen;
+    o.jacobian_point = JacobianPoint::kPredicted;
+    o.newton.kind = NewtonKind::kBroyden;
     const auto s = Integrator<double>(scene.system({}), methods, o).integrate(scene.start, 10);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     return s.counters;
