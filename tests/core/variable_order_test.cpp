@@ -99,7 +99,7 @@ TEST(VariableOrder, LowMembersErrAsLittleAsHighOnes) {
 }
 
 // Robertson's first step of HW's guess is too long for Newton seven times: that is no reason to begin with
-// fewer stages. The steps are those of the member it begins with.
+// fewer stages, which take half as many steps again.
 TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
   const Scene<double> scene = makeScene<double>("robertson", {});
   const auto end = [&](const Methods<double>& methods, OrderControl order) {
@@ -115,7 +115,7 @@ TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
   const auto fixed = end(makeTableau<double>("radau_iia_7"), OrderControl::kFixed);
   const auto free = end(makeMethods<double>("radau_iia_7", 13, 7), OrderControl::kVariable);
   ASSERT_GE(fixed.steps_rejected_newton, 3);
-  EXPECT_LE(2 * free.steps_accepted, 3 * fixed.steps_accepted);
+  EXPECT_LE(5 * free.steps_accepted, 6 * fixed.steps_accepted);
 }
 
 TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
