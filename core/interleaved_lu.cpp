@@ -100,13 +100,15 @@ void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) 
   const std::size_t n = f.p.size();
   constexpr std::size_t kSize = 2 * kWidth;
   double* const x = work_.data();
-  for (std::size_t k = 0; k < n; ++k) {
-    double* const at = x + k * kSize;
-    const auto row = static_cast<std::size_t>(f.p[k]);
-    std::fill_n(at, kSize, 0.0);
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-      at[i] = lanes[i].re[row] * f.scale[k];
-      if (lanes[i].im) at[kWidth + i] = lanes[i].sigma * lanes[i].im[row] * f.scale[k];
+  std::fill_n(x, n * kSize, 0.0);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane lane = lanes[i];
+    double* at = x + i;
+    for (std::size_t k = 0; k < n; ++k, at += kSize) at[0] = f.scale[k] * lane.re[f.p[k]];
+    if (!lane.im) continue;
+    at = x + kWidth + i;
+    for (std::size_t k = 0; k < n; ++k, at += kSize) {
+      at[0] = f.scale[k] * (lane.sigma * lane.im[f.p[k]]);
     }
   }
   // x of the rows of a column's entries -= entry times `here`.
@@ -134,13 +136,13 @@ void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) 
     Out{at} = re;
     Out{at + kWidth} = im;
   }
-  for (std::size_t k = 0; k < n; ++k) {
-    const double* const at = x + k * kSize;
-    const auto row = static_cast<std::size_t>(f.q[k]);
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-      lanes[i].re[row] = at[i];
-      if (lanes[i].im) lanes[i].im[row] = at[kWidth + i] * lanes[i].inverse_sigma;
-    }
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane lane = lanes[i];
+    const double* at = x + i;
+    for (std::size_t k = 0; k < n; ++k, at += kSize) lane.re[f.q[k]] = at[0];
+    if (!lane.im) continue;
+    at = x + kWidth + i;
+    for (std::size_t k = 0; k < n; ++k, at += kSize) lane.im[f.q[k]] = at[0] * lane.inverse_sigma;
   }
 }
 

@@ -27,7 +27,7 @@ class InterleavedLu {
   /// False where the factors do not share their pivots: then each is to be solved by itself.
   [[nodiscard]] bool assign(std::span<const SparseLu<double>> real,
                             std::span<const SparseLu<std::complex<double>>> complex);
-  /// In place, a lane for each matrix of the last `assign`, which was true.
+  /// In place, a lane for each matrix of the last `assign`, which was true, in its order.
   void solve(std::span<const Lane> lanes);
 
  private:

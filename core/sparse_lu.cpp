@@ -207,14 +207,12 @@ template <class T>
 bool SparseLu<T>::refactorize() {
   const SparsePivots& f = pivots_;
   const auto n = static_cast<int>(analysis_->n());
-  T* const x = work_.data();
+  std::fill(work_.begin(), work_.end(), T(0));
+  T* const x = work_.data();  // zero again after each column
   Real least(0), most(0);
   for (int k = 0; k < n; ++k) {
     const auto c = static_cast<std::size_t>(k);
     const int u_end = f.u_start[c + 1], l_end = f.l_start[c + 1];
-    for (int e = f.u_start[c]; e < u_end; ++e) x[f.u_row[static_cast<std::size_t>(e)]] = T(0);
-    for (int e = f.l_start[c]; e < l_end; ++e) x[f.l_row[static_cast<std::size_t>(e)]] = T(0);
-    x[k] = T(0);
     for (int e = f.source_start[c]; e < f.source_start[c + 1]; ++e) {
       const auto at = static_cast<std::size_t>(e);
       const int row = f.target[at];
@@ -225,6 +223,7 @@ bool SparseLu<T>::refactorize() {
       const auto j = static_cast<std::size_t>(f.u_row[at]);
       const T u = x[j];
       u_[at] = u;
+      x[j] = T(0);
       for (int i = f.l_start[j]; i < f.l_start[j + 1]; ++i) {
         const auto below = static_cast<std::size_t>(i);
         x[f.l_row[below]] -= detail::product(l_[below], u);
@@ -236,9 +235,12 @@ bool SparseLu<T>::refactorize() {
     most = std::max(most, pivot);
     const T inverse = detail::inverse(x[k]);
     inverse_diagonal_[c] = inverse;
+    x[k] = T(0);
     for (int e = f.l_start[c]; e < l_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
-      l_[at] = detail::product(x[f.l_row[at]], inverse);
+      T& below = x[f.l_row[at]];
+      l_[at] = detail::product(below, inverse);
+      below = T(0);
     }
   }
   condition_ = static_cast<double>(Real(least / most));
