@@ -8,6 +8,12 @@
 #include "core/small_product.h"
 
 namespace irk {
+namespace {
+
+// Two ways to an eigenvalue of A, Schur's form and eigenvectors, differ by some units of round-off.
+constexpr double kSameEigenvalue = 1e4;
+
+}  // namespace
 
 template <class Real, template <class> class Lu>
 Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form)
@@ -235,6 +241,29 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
   for (Index k = 0; k < Y_.rows(); ++k) {
     Y_(k, i) = eta_[k].real();
     Y_(k, i + 1) = eta_[k].imag() / block.sigma;
+  }
+}
+
+// The block of size 1 with this eigenvalue, to round-off of its computation; else one behind the last.
+template <class Real, template <class> class Lu>
+std::size_t Decoupled<Real, Lu>::realBlock(const Real& mu) const {
+  using std::abs;
+  const Real most = Real(kSameEigenvalue) * Eigen::NumTraits<Real>::epsilon() * abs(mu);
+  std::size_t k = 0;
+  for (; k < form_.blocks.size(); ++k) {
+    const auto& block = form_.blocks[k];
+    if (block.size == 1 && abs(Real(block.mu.real() - mu)) <= most) break;
+  }
+  return k;
+}
+
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
+  const std::size_t index = realBlock(mu);
+  if (small_) {
+    withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[index].data(), x, n); });
+  } else {
+    real_lu_[lu_index_[index]].solve(x);
   }
 }
 

@@ -42,13 +42,15 @@ template <class Real>
 EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
                                          const IntegratorOptions& options,
                                          SharedJacobian<Real>& jacobian,
-                                         const ErrorNorm<Real>& norm, Counters& counters)
+                                         NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm,
+                                         Counters& counters)
     : system_(system),
       scheme_(scheme),
       norm_(norm),
       sizes_(system.sizes()),
       mu_(weight(scheme)),
-      matrix_(jacobian, options.solver, filterSetup(system, mu_), counters),
+      stages_(stages),
+      own_(jacobian, options.solver, filterSetup(system, mu_), counters),
       row_powers_(system.rowPowers()),
       scales_(sizes_.n()),
       basis_(scheme.s),
@@ -68,7 +70,13 @@ Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
   system_.evaluate(Level::kFormulated, pointOf(at_), VecView<Real>(e_.data(), e_.rows()));
   e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
-  matrix_.solve(e_);
+  if (stages_.holdsReal(h, mu_)) {
+    stages_.solveReal(mu_, e_.data());
+  } else {
+    const Outcome outcome = own_.prepare(h);
+    if (outcome != Outcome::kSuccess) return outcome;
+    own_.solve(e_);
+  }
   const Real step = h * mu_;
   error_.v = -step * e_.col(0).head(sizes_.nu);
   error_.u = slip_ + step * error_.v;
@@ -83,8 +91,6 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
     -> Result {
   const Real& h = stages.h;
   Result result;
-  result.outcome = matrix_.prepare(h);
-  if (result.outcome != Outcome::kSuccess) return result;
   rowScales(row_powers_, h, scales_);
   smallProduct<Real>(stages.W, at_start, defect_);
   // v0 - V(0) = -h sum_j (A^T l)_j a_j, l the weights of the polynomial at the start.

@@ -13,14 +13,15 @@ namespace irk {
 /// mu: e = -(D0 + h mu D1 + h^2 mu^2 D2)^-1 r(t0; u0 + h mu (v0 - V(0)), v0, x0; K(0)), and u, v, x
 /// err by h mu (v0 - V(0) + h mu e_a), h mu e_a, h mu e_k. mu: the real eigenvalue of A or, for even
 /// s, the s-th root of det A. Multipliers of index 2 and 3 count as the error norm weighs them.
-/// Owns scratch and the factors of the real system.
+/// Owns scratch, and the factors of the real system where those of the stages, whose reference it keeps,
+/// have not the same.
 template <class Real>
 class EmbeddedEstimate {
  public:
   /// Throws Misuse for a singular A: its first stage is the step's start, or none determines it.
   EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
                    const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
-                   const ErrorNorm<Real>& norm, Counters& counters);
+                   NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters);
 
   struct Result {
     Outcome outcome = Outcome::kSuccess;
@@ -36,7 +37,7 @@ class EmbeddedEstimate {
                                      Index q);
 
   /// Allocates what the first evaluation would, where the pattern is known.
-  void reserve() { matrix_.reserve(); }
+  void reserve() { own_.reserve(); }
   double mu() const { return static_cast<double>(mu_); }
   /// p of the estimate's error h^(p+1): s, or one more than the stage order where that is less.
   static int order(const Scheme<Real>& scheme);
@@ -52,7 +53,8 @@ class EmbeddedEstimate {
   const ErrorNorm<Real>& norm_;
   Sizes sizes_;
   Real mu_;
-  NewtonMatrix<Real> matrix_;
+  NewtonMatrix<Real>& stages_;
+  NewtonMatrix<Real> own_;
   std::vector<int> row_powers_;
   Vec<Real> scales_;
   Vec<Real> basis_, lower_;  // weights of a polynomial of lower degree at the start

@@ -43,6 +43,17 @@ class StageSolver {
 
   /// Whether `factorize` takes one linearization per stage.
   virtual bool stagewise() const = 0;
+
+  /// Whether the system D0 + h mu D1 + h^2 mu^2 D2 of a real mu is one of those it factorizes: then
+  /// `solveReal` solves with it, x of n entries in place.
+  virtual bool holdsReal(const Real& mu) const {
+    static_cast<void>(mu);
+    return false;
+  }
+  virtual void solveReal(const Real& mu, Real* x) {
+    static_cast<void>(mu);
+    static_cast<void>(x);
+  }
 };
 
 /// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the
@@ -66,6 +77,11 @@ class CountingStageSolver final : public StageSolver<Real> {
     inner_->solve(rhs);
   }
   bool stagewise() const override { return inner_->stagewise(); }
+  bool holdsReal(const Real& mu) const override { return inner_->holdsReal(mu); }
+  void solveReal(const Real& mu, Real* x) override {
+    ++counters_.solves;
+    inner_->solveReal(mu, x);
+  }
 
  private:
   std::unique_ptr<StageSolver<Real>> inner_;

@@ -42,6 +42,8 @@ class Stepper {
   /// Allocates what the first attempt would, where the pattern is known.
   void reserve() { matrix_.reserve(); }
   const StagePolynomial<Real>& stages() const { return stages_; }
+  /// Its factors, for what else is solved with the same Jacobian and step.
+  NewtonMatrix<Real>& matrix() { return matrix_; }
   /// Forget the solved step: after a failure of Newton or a discontinuity it predicts badly.
   void forget() {
     stages_.valid = false;

@@ -44,7 +44,7 @@ class VariableOrder final : public StepAttempt<Real> {
            SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
         : scheme(s),
           stepper(system, s, options, jacobian, norm, counters),
-          estimate(system, s, options, jacobian, norm, counters),
+          estimate(system, s, options, jacobian, stepper.matrix(), norm, counters),
           order(EmbeddedEstimate<Real>::order(s)) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;

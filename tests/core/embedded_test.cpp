@@ -38,14 +38,15 @@ State<double> movingRiccati() {
 template <class P>
 class OneStep {
  public:
-  OneStep(P problem, const State<double>& start, const std::string& method, double h)
+  OneStep(P problem, const State<double>& start, const std::string& method, double h,
+          StageSolverKind solver = StageSolverKind::kSchur)
       : system_(makeSystem<double>(problem)),
         scheme_(makeTableau<double>(method)),
-        options_(adaptive(1e-12)),
+        options_(with(solver)),
         norm_(*system_, {0, 1e-12, NormKind::kAbsolute}, {}),
         jacobian_(*system_, scheme_, options_, counters_),
         stepper_(*system_, scheme_, options_, jacobian_, norm_, counters_),
-        estimate_(*system_, scheme_, options_, jacobian_, norm_, counters_),
+        estimate_(*system_, scheme_, options_, jacobian_, stepper_.matrix(), norm_, counters_),
         start_(start),
         end_(system_->sizes()) {
     norm_.update(start_);
@@ -61,8 +62,15 @@ class OneStep {
     EXPECT_EQ(result.outcome, Outcome::kSuccess);
     return result.error;
   }
+  const Counters& counters() const { return counters_; }
 
  private:
+  static IntegratorOptions with(StageSolverKind solver) {
+    IntegratorOptions o = adaptive(1e-12);
+    o.solver = solver;
+    return o;
+  }
+
   std::shared_ptr<const System<double>> system_;
   Scheme<double> scheme_;
   IntegratorOptions options_;
@@ -73,6 +81,25 @@ class OneStep {
   EmbeddedEstimate<double> estimate_;
   State<double> start_, end_;
 };
+
+// A real eigenvalue's system is one of the stages' own: its factors serve. Where the stages are solved
+// coupled, or all eigenvalues are complex, the estimate has its own; the numbers are the same.
+TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
+  for (const char* method : {"radau_iia_3", "radau_iia_5", "radau_iia_4"}) {
+    OneStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05,
+                StageSolverKind::kCoupledDense);
+    const double expected = own.error(true);
+    EXPECT_GT(expected, 1);
+    for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+      SCOPED_TRACE(std::string(method) + " " + std::string(idOf(solver)));
+      OneStep shared(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, solver);
+      const auto before = shared.counters().factorizations;
+      EXPECT_NEAR(shared.error(true), expected, 1e-7 * expected);
+      const bool odd = std::string(method) != "radau_iia_4";
+      EXPECT_EQ(shared.counters().factorizations - before, odd ? 0 : 1);
+    }
+  }
+}
 
 // y1^ = y0 + h (mu f0 + sum b^_i k_i) with sum b^_i c_i^(k-1) = 1/k - mu delta_k1, k = 1..s, and
 // err = (1 - h mu J)^-1 (y1^ - y1).
