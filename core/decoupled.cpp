@@ -78,7 +78,8 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
   if constexpr (kSparse) {
     if (version_ == 0) outcomes_[done++] = factorizeBlock(0);
     const auto copy = [this](const auto& first) {
-      if (version_ != first.version()) pivots_ = first.pivots();
+      news_ = version_ != first.version();
+      if (news_) pivots_ = first.pivots();
       version_ = first.version();
     };
     form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
@@ -110,7 +111,7 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
   };
   const auto factorized = [this](auto& lu) {
     if constexpr (kSparse) {
-      return lu.factorize(version_ == 0 ? nullptr : &pivots_);
+      return lu.factorize(version_ == 0 ? nullptr : &pivots_, news_);
     } else {
       return lu.factorize();
     }

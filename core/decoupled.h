@@ -44,8 +44,9 @@ class Decoupled final : public StageSolver<Real> {
   std::vector<Lu<Real>> real_lu_;        // by block, in order of the real ones
   std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
   std::vector<std::size_t> lu_index_;
-  SparsePivots pivots_;  // of the first block before this factorization, if sparse
-  int version_ = 0;      // theirs
+  SparsePivots pivots_;  // of the first block, if sparse, as the others get to know them:
+  int version_ = 0;      // at the beginning of a factorization, but in the first one
+  bool news_ = false;    // since the factorization before
   std::optional<InterleavedLu> together_;  // all of them, where the blocks are sparse and do not couple
   std::vector<InterleavedLu::Lane> lanes_;
   bool gathered_ = false;

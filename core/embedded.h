@@ -13,8 +13,8 @@ namespace irk {
 /// mu: e = -(D0 + h mu D1 + h^2 mu^2 D2)^-1 r(t0; u0 + h mu (v0 - V(0)), v0, x0; K(0)), and u, v, x
 /// err by h mu (v0 - V(0) + h mu e_a), h mu e_a, h mu e_k. mu: the real eigenvalue of A or, for even
 /// s, the s-th root of det A. Multipliers of index 2 and 3 count as the error norm weighs them.
-/// Owns scratch, and the factors of the real system where those of the stages, whose reference it keeps,
-/// have not the same.
+/// Owns scratch and a real system of its own, which it factorizes only where the stages' solver, whose
+/// reference it keeps, has not the same.
 template <class Real>
 class EmbeddedEstimate {
  public:

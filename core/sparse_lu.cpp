@@ -179,8 +179,9 @@ SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
 }
 
 template <class T>
-Outcome SparseLu<T>::factorize(const SparsePivots* others) {
+Outcome SparseLu<T>::factorize(const SparsePivots* others, bool rather) {
   if (!values_.allFinite()) return Outcome::kNotFinite;
+  if (others && rather && adopt(*others)) return Outcome::kSuccess;
   if (pivoted_ && refactorize() && condition_ >= kSmallerPivot * chosen_at_) return Outcome::kSuccess;
   if (others && adopt(*others)) return Outcome::kSuccess;
   return pivot() ? Outcome::kSuccess : Outcome::kSingular;

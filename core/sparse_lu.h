@@ -75,8 +75,9 @@ class SparseLu {
   T* values() { return values_.data(); }
 
   /// With the pivots of the last factorization where they still serve, else with the `others` of a like
-  /// matrix where they do, else with new ones. kSuccess, kSingular, kNotFinite.
-  [[nodiscard]] Outcome factorize(const SparsePivots* others = nullptr);
+  /// matrix where they do, else with new ones; `rather`: with the others first. kSuccess, kSingular,
+  /// kNotFinite.
+  [[nodiscard]] Outcome factorize(const SparsePivots* others = nullptr, bool rather = false);
 
   /// In place; x has n entries, contiguous.
   void solve(T* x);

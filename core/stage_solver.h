@@ -27,7 +27,8 @@ struct StageSolverSetup {
   std::shared_ptr<const BlockForm<Real>> form = nullptr;
 };
 
-/// Owns its factors and scratch: one per thread. Allocates only in its constructor.
+/// Owns its factors and scratch: one per thread. Allocates only in its constructor (sparse ones also where
+/// new pivots fill much more).
 template <class Real>
 class StageSolver {
  public:

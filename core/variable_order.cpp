@@ -17,7 +17,9 @@ constexpr double kGain = 1.2;
 constexpr std::size_t kAbove = 2;
 constexpr double kDecayAbove = 0.9;
 // Measured: the first number of stages, and how many more for each decade of the tolerance.
-constexpr double kStagesAtOne = 2.5, kStagesPerDecade = 0.75;
+constexpr double kStagesAtOne = 2.51, kStagesPerDecade = 0.75;
+// Failures of Newton that tell of the first step's size only: it is halved by each.
+constexpr int kFirstStepFailures = 12;
 // Newton's contraction: a step beyond the upper bound is not planned.
 constexpr double kLeastContraction = 1e-4, kMostContraction = 0.5;
 // Measured, in units of one stage in one iteration. What a step costs besides its iterations, per
@@ -81,7 +83,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
     reserved_ = true;
   }
   if (result.outcome != Outcome::kSuccess) {
-    if (++failures_ > 1 && at_ > 0 && solved_) changeTo(at_ - 1);
+    if (++failures_ > (solved_ ? 1 : kFirstStepFailures) && at_ > 0) changeTo(at_ - 1);
     return result;
   }
   failures_ = 0;

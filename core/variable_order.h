@@ -21,7 +21,8 @@ Index firstStages(const Tolerances& tolerances);
 /// grows with the step, its iterations and the work. The member with the most progress per work is
 /// next; none is with a step for which Newton would contract badly (Hairer & Wanner, J. Comput.
 /// Appl. Math. 111, 1999, decide by the contraction alone). A second failure of
-/// Newton in a row leads to the member below, whose equations have less round-off, but in the first step.
+/// Newton in a row leads to the member below, whose equations have less round-off; in the first step,
+/// whose size is a guess, the thirteenth.
 template <class Real>
 class VariableOrder final : public StepAttempt<Real> {
  public:
@@ -66,7 +67,7 @@ class VariableOrder final : public StepAttempt<Real> {
   std::size_t start_, at_;
   const StagePolynomial<Real>* past_;  // of the last solved step
   int failures_ = 0;                   // of Newton, in a row
-  bool solved_ = false;                // a step; before it failures tell of the first size only
+  bool solved_ = false;                // a step
   bool reserved_ = false;              // every member has seen the pattern
   bool again_ = true;                  // filter twice: after a start and a rejection
   int since_change_ = 0;               // accepted steps

@@ -133,7 +133,7 @@ constexpr SpecField kFields[] = {
        requirePlain("method", value, ";\n");
        s.method = value;
      },
-     [] { return std::string("family_stages or a peer (irk list methods), or a tableau file"); }},
+     [] { return std::string("family_stages or a peer (irk list methods), a tableau file, or with variable order a family"); }},
     axisField<IRK_MEMBER(formulation)>("formulation"),
     axisField<IRK_MEMBER(scaling)>("scaling"),
     axisField<IRK_MEMBER(discontinuity)>("discontinuity"),

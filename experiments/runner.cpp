@@ -20,6 +20,7 @@
 #include "experiments/series_rules.h"
 #include "experiments/step_planner.h"
 #include "experiments/trajectory.h"
+#include "tableaus/catalogue.h"
 
 namespace irk {
 namespace {
@@ -91,8 +92,12 @@ class Sweep {
   /// Throws the first exception of any thread.
   void run(int threads) {
     // Long ones first, so that no thread is left alone at the end: more stages cost more.
-    std::stable_sort(work_.begin(), work_.end(), [](const Series* a, const Series* b) {
-      return stagesInId(a->runs.front().method) > stagesInId(b->runs.front().method);
+    const auto stages = [](const Series* series) {
+      const RunSpec& spec = series->runs.front();
+      return isFamily(spec.method) ? spec.max_stages : stagesInId(spec.method);
+    };
+    std::stable_sort(work_.begin(), work_.end(), [&](const Series* a, const Series* b) {
+      return stages(a) > stages(b);
     });
     std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

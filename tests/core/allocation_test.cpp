@@ -105,9 +105,12 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
         o.newton.kind = newton;
         o.step.estimate = estimate;
         o.step.h = 1e-5;
-        EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
-            << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " "
-            << idOf(estimate);
+        for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+          o.solver = solver;
+          EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
+              << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " "
+              << idOf(estimate) << " " << idOf(solver);
+        }
       }
     }
   }
@@ -127,7 +130,11 @@ TEST(Allocation, VariableOrderAllocatesNothingAfterTheFirstStep) {
   for (const Storage storage : {Storage::kDense, Storage::kSparse}) {
     const Scene<double> scene = makeScene<double>("ancf_pendulum", {{"elements", "14"}});
     o.storage = storage;
-    EXPECT_EQ(allocationsOf(scene.system({}), scene.start, methods, o, 2e-2), 0) << idOf(storage);
+    for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+      o.solver = solver;
+      EXPECT_EQ(allocationsOf(scene.system({}), scene.start, methods, o, 2e-2), 0)
+          << idOf(storage) << " " << idOf(solver);
+    }
   }
 }
 

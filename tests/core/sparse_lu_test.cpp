@@ -57,14 +57,14 @@ class Filled {
     analysis_ = std::make_shared<const SparseAnalysis>(start, row);
     lu = std::make_unique<SparseLu<T>>(analysis_);
   }
-  Outcome factorize(const Mat<T>& A, const SparsePivots* others = nullptr) {
+  Outcome factorize(const Mat<T>& A, const SparsePivots* others = nullptr, bool rather = false) {
     std::size_t k = 0;
     for (Index j = 0; j < A.cols(); ++j) {
       for (; k < static_cast<std::size_t>(analysis_->column_start[static_cast<std::size_t>(j) + 1]); ++k) {
         lu->values()[k] = A(analysis_->row[k], j);
       }
     }
-    return lu->factorize(others);
+    return lu->factorize(others, rather);
   }
   const std::shared_ptr<const SparseAnalysis>& analysis() const { return analysis_; }
   std::unique_ptr<SparseLu<T>> lu;
@@ -129,11 +129,12 @@ TEST(SparseLu, SaysSingularAndNotFiniteAndRecovers) {
 
 // KLU's own rule: no entry of L above 1 / 0.001.
 TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
-  Mat<double> A(2, 2), like(2, 2), unlike(2, 2);
+  Mat<double> A(2, 2), like(2, 2), unlike(2, 2), beyond(2, 2);
   A << 1, 0.5, 0.5, 2;
   like << 1, 4, 400, 2;
   unlike << 1e-14, 1, 1, 1e-14;
-  Filled<double> first(A), second(A), third(A);
+  beyond << 1, 3000, 3000, 2;  // L has 1500 or 3000
+  Filled<double> first(A), second(A), third(A), fourth(A);
   ASSERT_EQ(first.factorize(A), Outcome::kSuccess);
   ASSERT_EQ(second.factorize(like, &first.lu->pivots()), Outcome::kSuccess);
   EXPECT_EQ(second.lu->pivotings(), 0);
@@ -143,6 +144,13 @@ TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
   EXPECT_EQ(third.lu->pivotings(), 1);
   EXPECT_FALSE(third.lu->pivots() == first.lu->pivots());
   expectSolves(*third.lu, unlike, 1e-14);
+  ASSERT_EQ(fourth.factorize(beyond, &first.lu->pivots()), Outcome::kSuccess);
+  EXPECT_EQ(fourth.lu->pivotings(), 1);
+  // With pivots of its own that serve: the others only where they are preferred.
+  ASSERT_EQ(third.factorize(like, &first.lu->pivots()), Outcome::kSuccess);
+  ASSERT_EQ(third.factorize(like, &first.lu->pivots(), true), Outcome::kSuccess);
+  EXPECT_TRUE(third.lu->pivots() == first.lu->pivots());
+  expectSolves(*third.lu, like, 1e-12);
 }
 
 // Real and complex matrices of one pattern with the first one's pivots, more than one group of lanes.

@@ -252,17 +252,20 @@ TEST(Sparse, ReusedIntegratorsGiveTheSameBits) {
 }
 
 TEST(Sparse, ThreadsChangeNoBit) {
+  const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 12);
   for (const Storage storage : {Storage::kDense, Storage::kSparse}) {
-    const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 12);
-    IntegratorOptions o = adaptive(1e-4);
-    o.storage = storage;
-    const auto one = solve(ancf.system({}), ancf.start, 0.05, o);
-    o.threads = 2;
-    const auto two = solve(ancf.system({}), ancf.start, 0.05, o);
-    ASSERT_EQ(one.outcome, Outcome::kSuccess);
-    EXPECT_EQ(one.state.u, two.state.u);
-    EXPECT_EQ(one.state.v, two.state.v);
-    EXPECT_EQ(one.counters.residuals, two.counters.residuals);
+    for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+      IntegratorOptions o = adaptive(1e-4);
+      o.storage = storage;
+      o.solver = solver;
+      const auto one = solve(ancf.system({}), ancf.start, 0.05, o);
+      o.threads = 2;
+      const auto two = solve(ancf.system({}), ancf.start, 0.05, o);
+      ASSERT_EQ(one.outcome, Outcome::kSuccess);
+      EXPECT_EQ(one.state.u, two.state.u);
+      EXPECT_EQ(one.state.v, two.state.v);
+      EXPECT_EQ(one.counters.residuals, two.counters.residuals);
+    }
   }
 }
 

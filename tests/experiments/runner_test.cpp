@@ -226,6 +226,18 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
     EXPECT_GE(numberAt(read, row, "cpu_median_s"), numberAt(read, row, "cpu_s"));
     EXPECT_GE(numberAt(read, row, "cpu_spread"), 0);
   }
+  // Again: nothing is left to be timed. After an interrupt in the second round: what was there stays until
+  // as many rounds are made.
+  Table again = read;
+  timeStudy(study, file, again, quiet);
+  EXPECT_EQ(readTable(file).rows, read.rows);
+  for (auto& row : again.rows) {
+    if (succeededAt(again, row)) row[again.column("cpu_runs")] = "2";
+  }
+  timeStudy(study, file, again, quiet);
+  for (const auto& row : again.rows) {
+    EXPECT_EQ(numberAt(again, row, "cpu_runs"), succeededAt(again, row) ? 3 : 0);
+  }
 }
 
 TEST(CostAtError, InterpolatesTheLowerEnvelope) {
