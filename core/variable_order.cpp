@@ -17,7 +17,7 @@ constexpr double kGain = 1.2;
 constexpr std::size_t kAbove = 2;
 constexpr double kDecayAbove = 0.9;
 // Measured: the first number of stages, and how many more for each decade of the tolerance.
-constexpr double kStagesAtOne = 2.51, kStagesPerDecade = 0.75;
+constexpr double kStagesAtOne = 2.51, kStagesPerDecade = 0.7;
 // Failures of Newton that tell of the first step's size only: it is halved by each.
 constexpr int kFirstStepFailures = 12;
 // Newton's contraction: a step beyond the upper bound is not planned.
@@ -53,7 +53,8 @@ double exigence(const Scheme<Real>& member, const Scheme<Real>& highest,
 
 Index firstStages(const Tolerances& tolerances) {
   const double tolerance = std::max(tolerances.rtol, tolerances.atol);
-  return std::lround(kStagesAtOne - kStagesPerDecade * std::log10(std::min(tolerance, 1.0)));
+  const double wish = kStagesAtOne - kStagesPerDecade * std::log10(std::min(tolerance, 1.0));
+  return 2 * std::lround((wish - 1) / 2) + 1;
 }
 
 template <class Real>

@@ -157,9 +157,10 @@ TEST(VariableOrder, AFamilyBeginsWithTheStagesAskedFor) {
 }
 
 TEST(VariableOrder, BeginsWithMoreStagesAtSmallerTolerances) {
-  EXPECT_EQ(firstStages({1e-2, 1e-2, NormKind::kMixed}), 4);
+  EXPECT_EQ(firstStages({1e-2, 1e-2, NormKind::kMixed}), 3);
+  EXPECT_EQ(firstStages({1e-4, 1e-4, NormKind::kMixed}), 5);
   EXPECT_EQ(firstStages({1e-12, 1e-8, NormKind::kMixed}), 9) << "the larger of the two";
-  EXPECT_EQ(firstStages({100, 1, NormKind::kMixed}), 3) << "2.5, rounded";
+  EXPECT_EQ(firstStages({100, 1, NormKind::kMixed}), 3) << "2.5, to an odd number";
 }
 
 }  // namespace
