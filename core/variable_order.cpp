@@ -63,8 +63,10 @@ VariableOrder<Real>::VariableOrder(const System<Real>& system,
                                    const IntegratorOptions& options,
                                    SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
                                    Counters& counters)
-    : start_(start),
+    : jacobian_(jacobian),
+      start_(start),
       at_(start),
+      past_at_(start),
       lower_error_(kUnknown),
       unknowns_(static_cast<double>(system.sizes().n())) {
   for (const auto& scheme : schemes) {
@@ -79,9 +81,10 @@ template <class Real>
 AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& h,
                                            State<Real>& to) {
   AttemptResult result{member().stepper.attempt(*past_, from, h, to), 0};
-  if (!reserved_) {
+  const auto& pattern = jacobian_.at().front().pattern;
+  if (reserved_ != pattern) {
     for (auto& m : members_) m->stepper.reserve(), m->estimate.reserve();
-    reserved_ = true;
+    reserved_ = pattern;
   }
   if (result.outcome != Outcome::kSuccess) {
     if (++failures_ > (solved_ ? 1 : kFirstStepFailures) && at_ > 0) changeTo(at_ - 1);
@@ -90,6 +93,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   failures_ = 0;
   solved_ = true;
   past_ = &member().stepper.stages();
+  past_at_ = at_;
   const double limit =
       again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
@@ -113,14 +117,17 @@ template <class Real>
 void VariableOrder<Real>::begin() {
   changeTo(start_);
   past_ = &member().stepper.stages();
-  reserved_ = solved_ = false;
+  past_at_ = at_;
+  solved_ = false;
   failures_ = 0;
   forget();
 }
 
 template <class Real>
 void VariableOrder<Real>::forget() {
-  for (auto& m : members_) m->stepper.forget();
+  ++epoch_;
+  forget(member());
+  forget(*members_[past_at_]);
   again_ = true;
   lower_error_ = kUnknown;
 }
@@ -179,8 +186,16 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
 }
 
 template <class Real>
+void VariableOrder<Real>::forget(Member& m) {
+  if (m.epoch == epoch_) return;
+  m.stepper.forget();
+  m.epoch = epoch_;
+}
+
+template <class Real>
 void VariableOrder<Real>::changeTo(std::size_t next) {
   at_ = next;
+  forget(member());
   since_change_ = 0;
 }
 

@@ -52,6 +52,7 @@ class VariableOrder final : public StepAttempt<Real> {
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
     int order;
+    int epoch = 0;        ///< in which it last forgot
     double exigence = 1;  ///< of its estimate, so that all members err alike
   };
   Member& member() { return *members_[at_]; }
@@ -63,13 +64,16 @@ class VariableOrder final : public StepAttempt<Real> {
   Plan plan(double estimate, const Member& member, const AttemptResult& now, double h,
             double trend) const;
   void changeTo(std::size_t next);
+  void forget(Member& m);
 
   std::vector<std::unique_ptr<Member>> members_;
-  std::size_t start_, at_;
+  const SharedJacobian<Real>& jacobian_;
+  std::size_t start_, at_, past_at_;   // the member of past_
   const StagePolynomial<Real>* past_;  // of the last solved step
   int failures_ = 0;                   // of Newton, in a row
   bool solved_ = false;                // a step
-  bool reserved_ = false;              // every member has seen the pattern
+  std::shared_ptr<const Pattern> reserved_;  // that every member has seen
+  int epoch_ = 0;                      // members that are not in use forget when they come to it
   bool again_ = true;                  // filter twice: after a start and a rejection
   int since_change_ = 0;               // accepted steps
   double lower_error_;                 // of the member below, NaN if not known
