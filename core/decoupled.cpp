@@ -245,27 +245,21 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
   }
 }
 
-// The block of size 1 with this eigenvalue, to round-off of its computation; else one behind the last.
 template <class Real, template <class> class Lu>
-std::size_t Decoupled<Real, Lu>::realBlock(const Real& mu) const {
+bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
   using std::abs;
   const Real most = Real(kSameEigenvalue) * Eigen::NumTraits<Real>::epsilon() * abs(mu);
-  std::size_t k = 0;
-  for (; k < form_.blocks.size(); ++k) {
+  for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
     const auto& block = form_.blocks[k];
-    if (block.size == 1 && abs(Real(block.mu.real() - mu)) <= most) break;
+    if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
+    if (small_) {
+      withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[k].data(), x, n); });
+    } else {
+      real_lu_[lu_index_[k]].solve(x);
+    }
+    return true;
   }
-  return k;
-}
-
-template <class Real, template <class> class Lu>
-void Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
-  const std::size_t index = realBlock(mu);
-  if (small_) {
-    withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[index].data(), x, n); });
-  } else {
-    real_lu_[lu_index_[index]].solve(x);
-  }
+  return false;
 }
 
 template <class Real, template <class> class Lu>

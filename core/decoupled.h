@@ -24,8 +24,7 @@ class Decoupled final : public StageSolver<Real> {
   Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
   void solve(Eigen::Ref<Mat<Real>> rhs) override;
   bool stagewise() const override { return false; }
-  bool holdsReal(const Real& mu) const override { return realBlock(mu) < form_.blocks.size(); }
-  void solveReal(const Real& mu, Real* x) override;
+  bool solveReal(const Real& mu, Real* x) override;
 
  private:
   using Complex = std::complex<Real>;
@@ -34,7 +33,6 @@ class Decoupled final : public StageSolver<Real> {
   void coupleRows(const typename BlockForm<Real>::Block& block);
   void multiply(Index column);
   void solveBlock(std::size_t index);
-  std::size_t realBlock(const Real& mu) const;
   Outcome invertBlock(std::size_t index);
 
   StageSolverSetup<Real> setup_;

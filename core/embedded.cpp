@@ -70,9 +70,7 @@ Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
   system_.evaluate(Level::kFormulated, pointOf(at_), VecView<Real>(e_.data(), e_.rows()));
   e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
-  if (stages_.holdsReal(h, mu_)) {
-    stages_.solveReal(mu_, e_.data());
-  } else {
+  if (!stages_.solveReal(h, mu_, e_.data())) {
     const Outcome outcome = own_.prepare(h);
     if (outcome != Outcome::kSuccess) return outcome;
     own_.solve(e_);

@@ -65,11 +65,10 @@ class NewtonMatrix {
   void reserve();
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
   SharedJacobian<Real>& shared() { return shared_; }
-  /// See StageSolver. `holdsReal`: and its factors are those of the shared Jacobian and h.
-  bool holdsReal(const Real& h, const Real& mu) const {
-    return solver_ && version_ == shared_.version() && h_ == h && solver_->holdsReal(mu);
+  /// See StageSolver; false also where its factors are not those of the shared Jacobian and h.
+  [[nodiscard]] bool solveReal(const Real& h, const Real& mu, Real* x) {
+    return solver_ && version_ == shared_.version() && h_ == h && solver_->solveReal(mu, x);
   }
-  void solveReal(const Real& mu, Real* x) { solver_->solveReal(mu, x); }
 
  private:
   void adopt(std::shared_ptr<const Pattern> pattern);

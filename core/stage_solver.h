@@ -45,15 +45,12 @@ class StageSolver {
   /// Whether `factorize` takes one linearization per stage.
   virtual bool stagewise() const = 0;
 
-  /// Whether the system D0 + h mu D1 + h^2 mu^2 D2 of a real mu is one of those it factorizes: then
-  /// `solveReal` solves with it, x of n entries in place.
-  virtual bool holdsReal(const Real& mu) const {
-    static_cast<void>(mu);
-    return false;
-  }
-  virtual void solveReal(const Real& mu, Real* x) {
+  /// Solves with D0 + h mu D1 + h^2 mu^2 D2, x of n entries in place, where that system of a real mu is
+  /// one of those it has factorized; else false, and x as it was.
+  [[nodiscard]] virtual bool solveReal(const Real& mu, Real* x) {
     static_cast<void>(mu);
     static_cast<void>(x);
+    return false;
   }
 };
 
@@ -78,10 +75,10 @@ class CountingStageSolver final : public StageSolver<Real> {
     inner_->solve(rhs);
   }
   bool stagewise() const override { return inner_->stagewise(); }
-  bool holdsReal(const Real& mu) const override { return inner_->holdsReal(mu); }
-  void solveReal(const Real& mu, Real* x) override {
-    ++counters_.solves;
-    inner_->solveReal(mu, x);
+  bool solveReal(const Real& mu, Real* x) override {
+    const bool solved = inner_->solveReal(mu, x);
+    counters_.solves += solved;
+    return solved;
   }
 
  private:

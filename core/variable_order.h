@@ -11,8 +11,8 @@
 namespace irk {
 
 /// Stages to begin with where nothing else is said: the more the smaller the tolerance, an odd number, whose
-/// real eigenvalue serves the estimate, too. The best fixed number over the suite's scenes is 3 to 7 at
-/// errors of 1e-4, 5 to 9 at 1e-8, 7 to 10 at 1e-11.
+/// real eigenvalue serves the estimate, too. Over the suite's scenes the best fixed number is 3 to 9, in the
+/// middle 5, at errors of 1e-4, 5 to 11, in the middle 7, at 1e-8, and 5 to 10, in the middle 8, at 1e-11.
 Index firstStages(const Tolerances& tolerances);
 
 /// Members of a family share the Jacobian; each keeps its own factors and scratch. After some accepted

@@ -41,11 +41,8 @@ class RungeKutta {
 
  private:
   static Methods<Real> methodsOf(const RunSpec& spec) {
-    if (spec.options.order == OrderControl::kFixed) {
-      if (!isFamily(spec.method)) return makeTableau<Real>(spec.method);
-      throw Misuse("illegal combination: order 'fixed' with the family '" + spec.method +
-                   "': a method has its number of stages, " + spec.method + "_5");
-    }
+    refuseFamilyOfFixedOrder(spec);
+    if (spec.options.order == OrderControl::kFixed) return makeTableau<Real>(spec.method);
     return makeMethods<Real>(spec.method, spec.max_stages, firstStages(spec.options.tolerances));
   }
 

@@ -307,6 +307,13 @@ std::string integratorName(const RunSpec& spec) {
   return spec.configuration + ":" + spec.method;
 }
 
+void refuseFamilyOfFixedOrder(const RunSpec& spec) {
+  if (!isFamily(spec.method) || spec.options.order != OrderControl::kFixed) return;
+  throw Misuse(fmt::format("illegal combination: order 'fixed' with '{0}': that is a family, for order "
+                           "'variable' only; a method has its number of stages, {0}_5",
+                           spec.method));
+}
+
 Index stagesInId(std::string_view method) {
   Index stages = 0;
   const char* digits = method.data() + method.rfind('_') + 1;

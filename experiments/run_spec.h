@@ -88,6 +88,9 @@ std::string integratorName(const RunSpec& spec);
 /// The number of stages that a method's id ends with; 0 for a file.
 Index stagesInId(std::string_view method);
 
+/// Throws Misuse for a family where one method is needed: order 'fixed'.
+void refuseFamilyOfFixedOrder(const RunSpec& spec);
+
 /// `name=value name=value`.
 std::string settingsText(const Settings& settings);
 /// `name=value`. Throws Misuse for text without name or '='.

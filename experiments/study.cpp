@@ -189,10 +189,8 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
     spec = atPlace(scene, [&] { return resolved(spec); });
     for (const auto& method : methods) {
       spec.method = method;
-      if (isFamily(method) && spec.options.order == OrderControl::kFixed) {
-        throw Misuse(fmt::format("{}: '{}' is a family, for order 'variable' only; a method has its number "
-                                 "of stages: {}_5",
-                                 find(keys, "methods")->place, method, method));
+      if (const auto* listed = find(keys, "methods")) {
+        atPlace(*listed, [&] { refuseFamilyOfFixedOrder(spec); });
       }
       all.push_back(makeSeries(spec, keys));
     }

@@ -12,9 +12,9 @@ namespace irk {
 /// Seconds of one integration, the mean over at least `min_time_s`. Serial: call it alone.
 double timeRun(PreparedRun& run, double min_time_s);
 
-/// Times every successful run of the table that has not been timed as often as asked, and rewrites `file` with the
-/// times: cpu_s (minimum), cpu_median_s, cpu_spread, cpu_runs. The repetitions are rounds over the
-/// whole study: a machine that is slow for some seconds slows no run in all of them. After an
+/// Times every successful run of the table that has not been timed as often as asked, and rewrites
+/// `file` with the times: cpu_s (minimum), cpu_median_s, cpu_spread, cpu_runs. The repetitions are
+/// rounds over the whole study: a machine that is slow for some seconds slows no run in all of them. After an
 /// interrupt the finished ones are kept.
 void timeStudy(const Study& study, const std::filesystem::path& file, Table& runs,
                std::ostream& progress);

@@ -148,6 +148,7 @@ TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
   EXPECT_EQ(fourth.lu->pivotings(), 1);
   // With pivots of its own that serve: the others only where they are preferred.
   ASSERT_EQ(third.factorize(like, &first.lu->pivots()), Outcome::kSuccess);
+  EXPECT_FALSE(third.lu->pivots() == first.lu->pivots());
   ASSERT_EQ(third.factorize(like, &first.lu->pivots(), true), Outcome::kSuccess);
   EXPECT_TRUE(third.lu->pivots() == first.lu->pivots());
   expectSolves(*third.lu, like, 1e-12);

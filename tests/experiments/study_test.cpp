@@ -98,7 +98,7 @@ TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
                           {"mine.toml:1", "scene"}));
   EXPECT_TRUE(containsAll(
       misuseOf([] { parse("[[block]]\nscene=\"kepler\"\nmethods=\"radau_iia\"\n"); }),
-      {"'radau_iia' is a family", "order 'variable' only", "radau_iia_5"}));
+      {"mine.toml:3", "'radau_iia': that is a family", "order 'variable' only", "radau_iia_5"}));
   const Study family = parse("[[block]]\nscene=\"kepler\"\nconfiguration=\"variable\"\nmethods=\"radau_iia\"\n");
   EXPECT_EQ(family.series.front().runs.front().method, "radau_iia");
   EXPECT_TRUE(containsAll(
