@@ -1,6 +1,5 @@
 #include "core/consistent_start.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <sstream>
 
@@ -12,10 +11,14 @@ namespace {
 // A start given with eight digits is a start; with fewer it is a mistake.
 constexpr double kConstraintTolerance = 1e-7;
 constexpr int kIterations = 25;
+// The derivatives serve on while the corrections contract at least so much.
+constexpr double kKeepBelow = 1e-3;
 
 StartReport report(Outcome outcome, double t, Index row, const char* what, double value) {
   std::ostringstream text;
-  text << "at the start, t = " << t << ": row " << row << ": " << what << " = " << value;
+  text << "a consistent state at t = " << t << ": ";
+  if (row >= 0) text << "row " << row << ": ";
+  text << what << " = " << value;
   if (outcome == Outcome::kInconsistentStart) text << ", allowed " << kConstraintTolerance;
   return {outcome, text.str()};
 }
@@ -33,23 +36,28 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
       dw_(system.sizes().n()),
       given_(system.sizes().n()) {}
 
-// dw := D0^-1 dw. False where D0 is singular; a dense one is asked with full pivoting.
+// False where D0 is singular; a dense one is asked with full pivoting.
 template <class Real>
-bool ConsistentStart<Real>::divide() {
+bool ConsistentStart<Real>::factorize() {
+  if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
+  dense_lu_.compute(D_.dense0());
+  return dense_lu_.isInvertible();
+}
+
+// dw = D0^-1 r
+template <class Real>
+void ConsistentStart<Real>::solve() {
   if (D_.pattern->full) {
-    const Eigen::FullPivLU<Mat<Real>> lu(D_.dense0());
-    if (!lu.isInvertible()) return false;
-    dw_ = lu.solve(dw_).eval();
-    return true;
+    dw_.noalias() = dense_lu_.solve(r_);
+  } else {
+    dw_ = r_;
+    lu_.solve(dw_);
   }
-  if (lu_.factorize(D_) != Outcome::kSuccess) return false;
-  lu_.solve(dw_);
-  return true;
 }
 
 // g = 0, dg/dt = 0, and nothing that is not finite.
 template <class Real>
-StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state, StartCheck check) {
+StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
   using std::abs;
   const Sizes n = system_.sizes();
   const double t = static_cast<double>(state.t);
@@ -64,8 +72,7 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state, St
       const double value = static_cast<double>(r_[i]);
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, i, "residual", value);
       const bool constraint = i >= first && i < first + n.constraints;
-      if (constraint && check == StartCheck::kConstraints &&
-          abs(r_[i]) > Real(kConstraintTolerance) * size) {
+      if (constraint && abs(r_[i]) > Real(kConstraintTolerance) * size) {
         return report(Outcome::kInconsistentStart, t, i,
                       level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value);
       }
@@ -76,21 +83,28 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state, St
 
 template <class Real>
 StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
-  const StartReport checked = checkConstraints(state, check);
-  if (checked.outcome != Outcome::kSuccess) return checked;
+  if (check == StartCheck::kConstraints) {
+    const StartReport checked = checkConstraints(state);
+    if (checked.outcome != Outcome::kSuccess) return checked;
+  }
   const double t = static_cast<double>(state.t);
   const VecView<Real> rows(r_.data(), r_.size());
   given_ = state.w;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
+  Real size(0);
+  bool renew = true;
   for (int i = 0; i < kIterations; ++i) {
     system_.evaluate(Level::kAcceleration, pointOf(state), rows);
-    differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
-    if (!r_.allFinite() || !D_.d0.allFinite()) {
-      return report(Outcome::kNotFinite, t, -1, "residual or derivative",
-                    static_cast<double>(r_.sum()));
+    if (renew) differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
+    for (Index row = 0; row < r_.size(); ++row) {
+      const double value = static_cast<double>(r_[row]);
+      if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, row, "residual", value);
     }
-    dw_ = r_;
-    if (!divide()) {
+    if (!D_.d0.allFinite()) {
+      return report(Outcome::kNotFinite, t, -1, "derivative by (a, k, z)",
+                    static_cast<double>(D_.d0.sum()));
+    }
+    if (renew && !factorize()) {
       state.w = given_;
       system_.evaluate(Level::kFormulated, pointOf(state), rows);
       Index worst = 0;
@@ -101,16 +115,20 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
                     "the residual",
                     value);
     }
+    solve();
     state.w -= dw_;
-    if (dw_.norm() <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
+    const Real before = size;
+    size = dw_.norm();
+    if (size <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
+    // The first iteration solves what is linear in w; else it is Newton's from the third on.
+    renew = i > 0 && size > Real(kKeepBelow) * before;
   }
   // Linear problems end after two iterations; what is left at the level of the constraints'
   // tolerance serves as start values.
   system_.evaluate(Level::kAcceleration, pointOf(state), rows);
   Index worst = 0;
   const double value = static_cast<double>(Real(r_.cwiseAbs().maxCoeff(&worst)));
-  const double size = 1 + static_cast<double>(Real(state.w.norm()));
-  if (value <= kConstraintTolerance * size) return {};
+  if (value <= kConstraintTolerance * (1 + static_cast<double>(Real(state.w.norm())))) return {};
   return report(Outcome::kInconsistentStart, t, worst,
                 "Newton for consistent accelerations does not converge; residual", value);
 }

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <Eigen/LU>
+
 #include "core/linearization.h"
 #include "core/outcome.h"
 #include "core/rate_lu.h"
@@ -32,20 +34,22 @@ class ConsistentStart {
   void forgetPattern() { differentiator_.forgetPattern(); }
 
   /// Checks g = 0 and dg/dt = 0 at `state`, then replaces state.w by the solution of the residual at
-  /// Level::kAcceleration (Newton on w). Where that matrix is singular (algebraic unknowns of higher
+  /// Level::kAcceleration (Newton on w, with the derivatives kept while it contracts well). Where that matrix is singular (algebraic unknowns of higher
   /// index that are no multipliers of position constraints) state.w is kept if it is not required or
   /// satisfies the residual; else kInconsistentStart. kNotFinite names the row.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
 
  private:
-  StartReport checkConstraints(const State<Real>& state, StartCheck check);
-  bool divide();
+  StartReport checkConstraints(const State<Real>& state);
+  bool factorize();
+  void solve();
 
   const System<Real>& system_;
   bool w_required_;
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
-  RateLu<Real> lu_;
+  RateLu<Real> lu_;  // sparse
+  Eigen::FullPivLU<Mat<Real>> dense_lu_;
   Vec<Real> r_, dw_, given_;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/block_form.h"
+#include "core/legendre.h"
 #include "core/multiprecision.h"
 #include "core/small_product.h"
 
@@ -54,7 +55,8 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       row_powers_(system.rowPowers()),
       scales_(sizes_.n()),
       basis_(scheme.s),
-      lower_(scheme.s),
+      start_{scheme.start, scheme.A_transposed * scheme.start},
+      lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
       defect_(sizes_.n()),
       slip_(sizes_.nu),
       at_(sizes_),
@@ -85,18 +87,15 @@ Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
 
 template <class Real>
 auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      const Vec<Real>& at_start, double again_above)
+                                      const AtStart& at_start, double again_above)
     -> Result {
   const Real& h = stages.h;
   Result result;
   rowScales(row_powers_, h, scales_);
-  smallProduct<Real>(stages.W, at_start, defect_);
-  // v0 - V(0) = -h sum_j (A^T l)_j a_j, l the weights of the polynomial at the start.
-  slip_.setZero();
-  for (Index j = 0; j < scheme_.s && sizes_.nu > 0; ++j) {
-    const Real f = -mu_ * h * h * at_start.dot(scheme_.A.col(j));
-    slip_ += f * stages.W.col(j).head(sizes_.nu);
-  }
+  smallProduct<Real>(stages.W, at_start.weights, defect_);
+  // v0 - V(0) = -h sum_j (A^T l)_j a_j
+  smallProduct(stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
+  slip_ *= -mu_ * h * h;
   at_.u = from.u + slip_;
   at_.v = from.v;
   at_.x = from.x;
@@ -119,14 +118,15 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
                                       double again_above) -> Result {
-  return estimate(from, stages, scheme_.start, again_above);
+  return estimate(from, stages, start_, again_above);
 }
 
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from,
                                            const StagePolynomial<Real>& stages, Index q) -> Result {
   legendre<Real>(Real(0), basis_);
-  lower_.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
+  lower_.weights.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
+  lower_.integrals.noalias() = scheme_.A_transposed * lower_.weights;
   return estimate(from, stages, lower_, std::numeric_limits<double>::infinity());
 }
 

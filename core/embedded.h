@@ -44,8 +44,12 @@ class EmbeddedEstimate {
   static Real weight(const Scheme<Real>& scheme);
 
  private:
+  // A polynomial through the stages at the step's start: weights l of the stages in it, and A^T l.
+  struct AtStart {
+    Vec<Real> weights, integrals;
+  };
   Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                  const Vec<Real>& at_start, double again_above);
+                  const AtStart& at_start, double again_above);
   Outcome filter(const State<Real>& from, const Real& h);
 
   const System<Real>& system_;
@@ -57,7 +61,8 @@ class EmbeddedEstimate {
   NewtonMatrix<Real> own_;
   std::vector<int> row_powers_;
   Vec<Real> scales_;
-  Vec<Real> basis_, lower_;  // weights of a polynomial of lower degree at the start
+  Vec<Real> basis_;
+  AtStart start_, lower_;  // of full and of lower degree
   Vec<Real> defect_;  // K(0), n
   Vec<Real> slip_;    // h mu (v0 - V(0)), nu
   State<Real> at_;    // where the residual is evaluated

@@ -11,9 +11,6 @@
 namespace irk {
 namespace {
 
-// Where a step is searched. A switching function that rises above 0 and returns between two of
-// these points is not seen.
-constexpr int kSamples = 8;
 // Of a switching function on the dense output, per root; ten are usual.
 constexpr std::uintmax_t kMostEvaluations = 200;
 // Re-solved steps per switch; four are usual.
@@ -55,10 +52,9 @@ Location<Real> EventLocator<Real>::first(StepAttempt<Real>& attempt, const State
     const StepPiece<Real>& piece = pieces.at[k];
     dense_.begin(*piece.from, *piece.stages);
     const State<Real>& end = k + 1 < pieces.count ? *pieces.at[k + 1].from : next;
-    for (int j = 1; j <= kSamples; ++j) {
-      const Real theta = Real(j) / Real(kSamples);
-      if (j < kSamples) dense_.evaluate(theta, inside_);
-      const SwitchReport report = switches_.evaluate(j < kSamples ? inside_ : end);
+    for (Index j = 1; j <= kParts; ++j) {
+      if (j < kParts) dense_.evaluateInside(j, inside_);
+      const SwitchReport report = switches_.evaluate(j < kParts ? inside_ : end);
       if (report.outcome != Outcome::kSuccess) {
         result.outcome = report.outcome;
         result.index = report.index;
@@ -70,7 +66,7 @@ Location<Real> EventLocator<Real>::first(StepAttempt<Real>& attempt, const State
       for (Index i = 0; i < due_.size(); ++i) {
         if (!(due_[i] > Real(0))) continue;
         const Root found =
-            refined(i, Real(Real(j - 1) / Real(kSamples)), theta, offset, piece.stages->h);
+            refined(i, Real(j - 1) / Real(kParts), Real(j) / Real(kParts), offset, piece.stages->h);
         if (!root.found || found.step < root.step) root = found;
       }
       return result;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/legendre.h"
 #include "core/multiprecision.h"
 #include "core/small_product.h"
 

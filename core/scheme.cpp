@@ -1,61 +1,11 @@
 #include "core/scheme.h"
 
-#include <array>
-#include <cmath>
-
 #include <Eigen/LU>
 
+#include "core/legendre.h"
 #include "core/multiprecision.h"
 
 namespace irk {
-
-namespace {
-
-// With X = 2x - 1: k p_k = (2k - 1) X p_{k-1} - (k - 1) p_{k-2}, P_k = sqrt(2k + 1) p_k.
-template <class Real>
-struct LegendreCoefficients {
-  explicit LegendreCoefficients(Index k = 0) {
-    using std::sqrt;
-    const Real j(static_cast<double>(k));
-    normal = sqrt(Real(2) * j + Real(1));
-    if (k == 0) return;
-    up = (Real(2) * j - Real(1)) / j;
-    down = (j - Real(1)) / j;
-  }
-  Real up{}, down{}, normal{};
-};
-
-template <class Real>
-struct LegendreTable {
-  static constexpr Index kSize = 32;
-  LegendreTable() {
-    for (Index k = 0; k < kSize; ++k) {
-      row[static_cast<std::size_t>(k)] = LegendreCoefficients<Real>(k);
-    }
-  }
-  LegendreCoefficients<Real> at(Index k) const {
-    return k < kSize ? row[static_cast<std::size_t>(k)] : LegendreCoefficients<Real>(k);
-  }
-  std::array<LegendreCoefficients<Real>, static_cast<std::size_t>(kSize)> row;
-};
-
-}  // namespace
-
-template <class Real>
-void legendre(const Real& x, Eigen::Ref<Vec<Real>> p) {
-  static const LegendreTable<Real> table;
-  const Real X = Real(2) * x - Real(1);
-  Real now(1), before(0);
-  for (Index k = 0; k < p.size(); ++k) {
-    const LegendreCoefficients<Real> c = table.at(k);
-    if (k > 0) {
-      const Real next = c.up * X * now - c.down * before;
-      before = now;
-      now = next;
-    }
-    p[k] = c.normal * now;
-  }
-}
 
 template <class Real>
 Scheme<Real>::Scheme(Tableau<Real> t)
@@ -83,13 +33,22 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   end = legendre_inverse.transpose() * at;
   legendre<Real>(Real(0), at);
   start = legendre_inverse.transpose() * at;
+
+  inside.resize(s, kParts - 1);
+  inside_once.resize(s, kParts - 1);
+  inside_twice.resize(s, kParts - 1);
+  Vec<Real> p(s + 2), once(s + 1), twice(s);
+  for (Index j = 1; j < kParts; ++j) {
+    legendre<Real>(Real(j) / Real(kParts), p);
+    integrateLegendre(p, once, twice);
+    inside.col(j - 1) = legendre_inverse_transposed * p.head(s);
+    inside_once.col(j - 1) = legendre_inverse_transposed * once.head(s);
+    inside_twice.col(j - 1) = legendre_inverse_transposed * twice;
+  }
 }
 
 template struct Scheme<double>;
 template struct Scheme<mp50>;
 template struct Scheme<mp100>;
-template void legendre<double>(const double&, Eigen::Ref<Vec<double>>);
-template void legendre<mp50>(const mp50&, Eigen::Ref<Vec<mp50>>);
-template void legendre<mp100>(const mp100&, Eigen::Ref<Vec<mp100>>);
 
 }  // namespace irk

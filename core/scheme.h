@@ -5,6 +5,10 @@
 
 namespace irk {
 
+/// Parts of a step, at whose ends switches are looked for: what rises above 0 and returns between two
+/// of them is not seen.
+constexpr Index kParts = 8;
+
 template <class Real>
 struct Scheme {
   Tableau<Real> tableau;
@@ -27,6 +31,9 @@ struct Scheme {
   /// polynomial through the stages. Stable for any s. HW II (IV.5).
   Mat<Real> legendre_inverse, legendre_inverse_transposed;
   Mat<Real> A_transposed, A2_transposed;
+  /// Weights of the stages in w, v (or x) and u at theta = j / kParts, j = 1 .. kParts - 1; of the
+  /// dense output, core/dense_output.h. s x (kParts - 1).
+  Mat<Real> inside, inside_once, inside_twice;
 
   explicit Scheme(Tableau<Real> t);
 
@@ -36,9 +43,5 @@ struct Scheme {
   /// Algebraic unknowns need z at the end of a step, and stage values that determine them.
   bool allowsAlgebraic() const { return regular; }
 };
-
-/// P_0, P_1, ... at x, orthonormal on [0, 1], by the three-term recurrence.
-template <class Real>
-void legendre(const Real& x, Eigen::Ref<Vec<Real>> p);
 
 }  // namespace irk

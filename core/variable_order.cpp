@@ -83,7 +83,9 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   AttemptResult result{member().stepper.attempt(*past_, from, h, to), 0};
   const auto& pattern = jacobian_.at().front().pattern;
   if (reserved_ != pattern) {
-    for (auto& m : members_) m->stepper.reserve(), m->estimate.reserve();
+    if (!sameShape(reserved_, pattern)) {
+      for (auto& m : members_) m->stepper.reserve(), m->estimate.reserve();
+    }
     reserved_ = pattern;
   }
   if (result.outcome != Outcome::kSuccess) {

@@ -1,10 +1,9 @@
 // Unrolled loops against general products.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <complex>
+#include <limits>
 
-#include "core/scheme.h"
 #include "core/small_inverse.h"
 #include "core/small_product.h"
 #include "tests/core/support.h"
@@ -19,19 +18,6 @@ TEST(SmallSize, TheFunctionSeesTheNumberAsConstantOrNot) {
       return !std::is_same_v<decltype(size), Index>;
     });
     EXPECT_EQ(constant, n >= 1 && n <= 4) << n;
-  }
-}
-
-// Coefficients from a table and, beyond it, computed.
-TEST(Legendre, AgreesWithTheStandardLibrary) {
-  Vec<double> p(45);
-  for (const double x : {0.0, 0.3, 0.77, 1.0}) {
-    legendre<double>(x, p);
-    for (Index k = 0; k < p.size(); ++k) {
-      const double normal = std::sqrt(2 * static_cast<double>(k) + 1);
-      const double expected = normal * std::legendre(static_cast<unsigned>(k), 2 * x - 1);
-      EXPECT_NEAR(p[k], expected, 1e-13 * normal) << k << " at " << x;
-    }
   }
 }
 
