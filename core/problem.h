@@ -22,17 +22,18 @@
 // A problem that switches keeps its modes in the discrete state p.d (sizes().discrete numbers) and
 // declares sizes().switches switching functions. Its residual never asks where it is, only p.d:
 //
-//     template <class T>
-//     void switching(const Point<T>& p, T* g) const;            // p.d is valid while all g <= 0
-//     template <class T>
-//     void onSwitch(Index i, const Point<T>& p, T* d) const;    // g[i] > 0: changes d (a copy of
-//     p.d)
-//   and, where they exist:
-//     template <class T>
-//     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;  // what jumps; p.d is the new
-//     one template <class T> void smoothed(const Point<T>& p, T* d) const;             // d as a
-//     smooth function of p std::string switchName(Index i) const;                    // for
-//     messages
+//     template <class T>  // p.d is valid while all g <= 0
+//     void switching(const Point<T>& p, T* g) const;
+//     template <class T>  // g[i] > 0: changes d, a copy of p.d
+//     void onSwitch(Index i, const Point<T>& p, T* d) const;
+//
+// and, where they exist:
+//
+//     template <class T>  // what jumps; p.d is the new one
+//     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;
+//     template <class T>  // d as a smooth function of p
+//     void smoothed(const Point<T>& p, T* d) const;
+//     std::string switchName(Index i) const;  // for messages
 //
 // A switching function that has no meaning in a mode returns -1 there.
 #pragma once
