@@ -30,6 +30,7 @@ Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
       counters_(counters),
       switches_(system),
       locator_(system, locationTolerance(options)),
+      ends_consistent_(options.multipliers == Multipliers::kConsistent && system.sizes().nz > 0),
       locates_(!switches_.none() && system.discontinuity() == Discontinuity::kLocate),
       switches_now_(!locates_ && system.discontinuity() != Discontinuity::kSmooth),
       state_(system.sizes()),
@@ -59,6 +60,15 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
 template <class Real>
 Solution<Real> Advance<Real>::solution(Outcome outcome, std::string detail) const {
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
+}
+
+template <class Real>
+Solution<Real> Advance<Real>::success() {
+  if (ends_consistent_) {
+    const StartReport report = start_.apply(state_, StartCheck::kNone);
+    if (report.outcome != Outcome::kSuccess) return solution(report.outcome, report.detail);
+  }
+  return solution(Outcome::kSuccess, note_);
 }
 
 template <class Real>

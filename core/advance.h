@@ -34,7 +34,7 @@ class Advance {
   void endAt(const Real& t_end) { state_.t = t_end; }
 
   Solution<Real> solution(Outcome outcome, std::string detail) const;
-  Solution<Real> success() const { return solution(Outcome::kSuccess, note_); }
+  Solution<Real> success();
   Solution<Real> failed(Outcome outcome, double h, const char* what) const;
   /// The switching function that a failure is to be blamed on; -1 for none.
   void blame(Index i) { blamed_ = i; }
@@ -55,6 +55,7 @@ class Advance {
   Counters& counters_;
   Switches<Real> switches_;
   EventLocator<Real> locator_;
+  bool ends_consistent_;
   bool locates_;
   bool switches_now_;  // within the attempts: `ignore` and `iterate`
   ChatterDetector chatter_;

@@ -66,6 +66,9 @@ constexpr Named<OrderControl> kOrders[] = {
 constexpr Named<Summation> kSummations[] = {
     {Summation::kCompensated, "compensated", "additions of increments keep what they lose"},
     {Summation::kPlain, "plain", "round-off accumulates"}};
+constexpr Named<Multipliers> kMultipliers[] = {
+    {Multipliers::kStages, "stages", "at the end what the last step gives"},
+    {Multipliers::kConsistent, "consistent", "at the end solved anew from (u, v, x)"}};
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},
@@ -128,6 +131,7 @@ IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
 IRK_AXIS(StepControl, kControls, "control")
 IRK_AXIS(OrderControl, kOrders, "order")
 IRK_AXIS(Summation, kSummations, "summation")
+IRK_AXIS(Multipliers, kMultipliers, "multipliers")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
 IRK_AXIS(JacobianTerms, kTerms, "jacobian")
 IRK_AXIS(Discontinuity, kDiscontinuities, "discontinuity")

@@ -47,6 +47,11 @@ enum class Summation {
   kCompensated,  ///< what an addition loses is added to the next increment
   kPlain,
 };
+/// (a, k, z) at the end of an integration, of systems with algebraic unknowns.
+enum class Multipliers {
+  kStages,      ///< what the last step gives: in index 2 of order s, and its Newton's error over h
+  kConsistent,  ///< solved anew from (u, v, x), at the level of accelerations: of their accuracy
+};
 enum class JacobianPoint {
   kStart,
   kMiddle,     ///< t0 + h/2, by Taylor's formula from the start
@@ -144,6 +149,7 @@ struct IntegratorOptions {
   int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
   Summation summation = Summation::kCompensated;
+  Multipliers multipliers = Multipliers::kStages;
   OrderControl order = OrderControl::kFixed;
   StepOptions step;
 };

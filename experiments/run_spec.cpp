@@ -31,11 +31,13 @@ constexpr Configuration kConfigurations[] = {
      "newton=modified;derivatives=difference_forward;solver=coupled_dense;predictor=previous;"
      "estimate=doubling;control=paper;norm=absolute;summation=plain"},
     {"embedded",
-     "embedded estimate, predictive control, eigenvectors of A, predicted Jacobians, Broyden's updates",
-     "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden"},
+     "embedded estimate, predictive control, eigenvectors of A, predicted Jacobians, Broyden's updates, "
+     "multipliers consistent at the end",
+     "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;"
+     "multipliers=consistent"},
     {"variable", "the same with variable order; a method with its number of stages is the first one",
      "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;"
-     "order=variable;method=radau_iia"}};
+     "multipliers=consistent;order=variable;method=radau_iia"}};
 
 // Each `field=value` of a text, items separated by ';'.
 void setFields(RunSpec& spec, std::string_view text) {
@@ -152,6 +154,7 @@ constexpr SpecField kFields[] = {
      },
      [] { return std::string("of variable order, 1 to 100; default 13"); }},
     axisField<IRK_MEMBER(options.summation)>("summation"),
+    axisField<IRK_MEMBER(options.multipliers)>("multipliers"),
     axisField<IRK_MEMBER(options.tolerances.norm)>("norm"),
     axisField<IRK_MEMBER(options.jacobian)>("jacobian"),
     axisField<IRK_MEMBER(options.jacobian_point)>("jacobian_point"),

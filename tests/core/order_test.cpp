@@ -59,30 +59,71 @@ TEST(Order, DamagedTableausLoseTheirOrder) {
   }
 }
 
-// theory.md: pendulum, index 2: Radau IIA has 2s - 1 for q and v, s for lambda.
+struct PendulumOrders {
+  double q, v, lambda;
+};
+PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<mp50>& exact) {
+  std::vector<double> h, q, v, lambda;
+  for (const int n : {32, 45, 64}) {
+    h.push_back(0.5 / n);
+    auto options = fixedSteps(0.5 / n);
+    options.multipliers = multipliers;
+    const auto run = integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5,
+                                     makeTableau<mp50>("radau_iia_" + std::to_string(s)), options);
+    EXPECT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
+    const auto distance = [](const auto& a, const auto& b) {
+      return static_cast<double>(mp50((a - b).norm()));
+    };
+    q.push_back(distance(run.state.u, exact.u));
+    v.push_back(distance(run.state.v, exact.v));
+    lambda.push_back(distance(run.state.z(), exact.z()));
+  }
+  return {slope(h, q), slope(h, v), slope(h, lambda)};
+}
+
+// theory.md: pendulum, index 2: Radau IIA has 2s - 1 for q and v, s for lambda; from q and v at the end
+// lambda follows with their order.
 TEST(Order, RadauIiaOnTheIndexTwoPendulum) {
+  auto options = fixedSteps(0.5 / 12);
+  options.multipliers = Multipliers::kConsistent;
   const auto reference = integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5,
-                                         makeTableau<mp50>("radau_iia_12"), fixedSteps(0.5 / 12));
+                                         makeTableau<mp50>("radau_iia_12"), options);
   ASSERT_EQ(reference.outcome, Outcome::kSuccess);
   for (int s = 1; s <= 4; ++s) {
-    std::vector<double> h, q, v, lambda;
-    for (const int n : {32, 45, 64}) {
-      h.push_back(0.5 / n);
-      const auto run = integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5,
-                                       makeTableau<mp50>("radau_iia_" + std::to_string(s)),
-                                       fixedSteps(0.5 / n));
-      ASSERT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
-      const auto distance = [](const auto& a, const auto& b) {
-        return static_cast<double>(mp50((a - b).norm()));
-      };
-      q.push_back(distance(run.state.u, reference.state.u));
-      v.push_back(distance(run.state.v, reference.state.v));
-      lambda.push_back(distance(run.state.z(), reference.state.z()));
+    for (const auto multipliers : {Multipliers::kStages, Multipliers::kConsistent}) {
+      const auto orders = pendulumOrders(s, multipliers, reference.state);
+      EXPECT_NEAR(orders.q, 2 * s - 1, 0.25) << s;
+      EXPECT_NEAR(orders.v, 2 * s - 1, 0.25) << s;
+      EXPECT_NEAR(orders.lambda, multipliers == Multipliers::kStages ? s : 2 * s - 1, 0.25) << s;
     }
-    EXPECT_NEAR(slope(h, q), 2 * s - 1, 0.25) << s;
-    EXPECT_NEAR(slope(h, v), 2 * s - 1, 0.25) << s;
-    EXPECT_NEAR(slope(h, lambda), s, 0.25) << s;
   }
+}
+
+/// x' = z, 0 = x - sin t: index 2, and z no multiplier of a position constraint.
+struct PrescribedPath {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 1, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.x[0] = p.z[0] - p.k[0];
+    r.z[0] = p.x[0] - sin(p.t);
+  }
+};
+
+TEST(Order, UnknownsThatDoNotFollowAtTheEndStayThoseOfTheStages) {
+  State<double> start(PrescribedPath{}.sizes());
+  start.w << 1, 1;
+  const auto end = [&](Multipliers multipliers) {
+    auto options = fixedSteps(0.1);
+    options.multipliers = multipliers;
+    const auto run =
+        integrate<double>(PrescribedPath{}, start, 1, makeTableau<double>("radau_iia_3"), options);
+    EXPECT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
+    return run.state.w;
+  };
+  const Vec<double> w = end(Multipliers::kConsistent);
+  EXPECT_NEAR(w[1], std::cos(1.0), 1e-4);
+  EXPECT_EQ(w, end(Multipliers::kStages));
 }
 
 /// y' = t^(d-1): the quadrature of the method.
