@@ -65,8 +65,8 @@ Solution<Real> Advance<Real>::solution(Outcome outcome, std::string detail) cons
 template <class Real>
 Solution<Real> Advance<Real>::success() {
   if (ends_consistent_) {
-    const StartReport report = start_.apply(state_, StartCheck::kNone);
-    if (report.outcome != Outcome::kSuccess) return solution(report.outcome, report.detail);
+    const std::string kept = start_.applyAtEnd(state_);
+    note_ += (note_.empty() || kept.empty() ? "" : "; ") + kept;
   }
   return solution(Outcome::kSuccess, note_);
 }

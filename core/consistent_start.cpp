@@ -10,17 +10,32 @@ namespace {
 
 // A start given with eight digits is a start; with fewer it is a mistake.
 constexpr double kConstraintTolerance = 1e-7;
-constexpr int kIterations = 25;
+constexpr int kIterations = 50;
 // The derivatives serve on while the corrections contract at least so much.
 constexpr double kKeepBelow = 1e-3;
+constexpr const char* kStart = "at the start";
+constexpr const char* kConsistent = "consistent (a, k, z)";
 
-StartReport report(Outcome outcome, double t, Index row, const char* what, double value) {
+StartReport report(Outcome outcome, const char* place, double t, Index row, const char* what,
+                   double value, double allowed = 0) {
   std::ostringstream text;
-  text << "a consistent state at t = " << t << ": ";
+  text << place << ", t = " << t << ": ";
   if (row >= 0) text << "row " << row << ": ";
   text << what << " = " << value;
-  if (outcome == Outcome::kInconsistentStart) text << ", allowed " << kConstraintTolerance;
+  if (allowed > 0) text << ", allowed " << allowed;
   return {outcome, text.str()};
+}
+
+// The row of the largest number, one that is not finite before all others.
+template <class Real>
+Index worstRow(const Vec<Real>& r) {
+  using std::abs;
+  Index worst = 0;
+  for (Index i = 0; i < r.size(); ++i) {
+    if (!std::isfinite(static_cast<double>(r[i]))) return i;
+    if (abs(r[i]) > abs(r[worst])) worst = i;
+  }
+  return worst;
 }
 
 }  // namespace
@@ -70,11 +85,13 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
         (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>() : Real(0));
     for (Index i = 0; i < n.n(); ++i) {
       const double value = static_cast<double>(r_[i]);
-      if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, i, "residual", value);
+      if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
       const bool constraint = i >= first && i < first + n.constraints;
-      if (constraint && abs(r_[i]) > Real(kConstraintTolerance) * size) {
-        return report(Outcome::kInconsistentStart, t, i,
-                      level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value);
+      const Real allowed = Real(kConstraintTolerance) * size;
+      if (constraint && abs(r_[i]) > allowed) {
+        return report(Outcome::kInconsistentStart, kStart, t, i,
+                      level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value,
+                      static_cast<double>(allowed));
       }
     }
   }
@@ -87,50 +104,80 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
     const StartReport checked = checkConstraints(state);
     if (checked.outcome != Outcome::kSuccess) return checked;
   }
+  given_ = state.w;
+  const char* const place = check == StartCheck::kConstraints ? kStart : kConsistent;
+  StartReport found = determine(state, place);
+  if (found.outcome != Outcome::kSuccess) state.w = given_;
+  return found.outcome == Outcome::kSingular ? keep(state, place) : found;
+}
+
+template <class Real>
+std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
+  given_ = state.w;
+  const StartReport found = determine(state, kConsistent);
+  if (found.outcome == Outcome::kSuccess) return {};
+  state.w = given_;
+  return "multipliers of the stages: " + found.detail;
+}
+
+// kSingular where D0 is.
+template <class Real>
+StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place) {
   const double t = static_cast<double>(state.t);
   const VecView<Real> rows(r_.data(), r_.size());
-  given_ = state.w;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
-  Real size(0);
+  Real before(0);
   bool renew = true;
+  double value = 0;
+  Index worst = 0;
   for (int i = 0; i < kIterations; ++i) {
     system_.evaluate(Level::kAcceleration, pointOf(state), rows);
-    if (renew) differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
-    for (Index row = 0; row < r_.size(); ++row) {
-      const double value = static_cast<double>(r_[row]);
-      if (!std::isfinite(value)) return report(Outcome::kNotFinite, t, row, "residual", value);
+    worst = worstRow(r_);
+    value = static_cast<double>(r_[worst]);
+    if (!std::isfinite(value)) {
+      return report(Outcome::kNotFinite, place, t, worst, "residual", value);
     }
-    if (!D_.d0.allFinite()) {
-      return report(Outcome::kNotFinite, t, -1, "derivative by (a, k, z)",
-                    static_cast<double>(D_.d0.sum()));
-    }
-    if (renew && !factorize()) {
-      state.w = given_;
-      system_.evaluate(Level::kFormulated, pointOf(state), rows);
-      Index worst = 0;
-      const double value = static_cast<double>(Real(r_.cwiseAbs().maxCoeff(&worst)));
-      if (!w_required_ || value <= kConstraintTolerance) return {};
-      return report(Outcome::kInconsistentStart, t, worst,
-                    "accelerations cannot be determined (D0 is singular) and the given ones leave "
-                    "the residual",
-                    value);
+    if (renew) {
+      differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
+      if (!D_.d0.allFinite()) {
+        return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)",
+                      static_cast<double>(D_.d0.sum()));
+      }
+      if (!factorize()) {
+        return report(Outcome::kSingular, place, t, worst,
+                      "dr/d(a, k, z) is singular; residual", value);
+      }
     }
     solve();
+    const Real size = dw_.norm();
+    // Kept derivatives that do not serve: once more with new ones.
+    renew = !renew && size > Real(kKeepBelow) * before;
+    if (renew) continue;
+    before = size;
     state.w -= dw_;
-    const Real before = size;
-    size = dw_.norm();
     if (size <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
-    // The first iteration solves what is linear in w; else it is Newton's from the third on.
-    renew = i > 0 && size > Real(kKeepBelow) * before;
   }
-  // Linear problems end after two iterations; what is left at the level of the constraints'
-  // tolerance serves as start values.
-  system_.evaluate(Level::kAcceleration, pointOf(state), rows);
-  Index worst = 0;
-  const double value = static_cast<double>(Real(r_.cwiseAbs().maxCoeff(&worst)));
-  if (value <= kConstraintTolerance * (1 + static_cast<double>(Real(state.w.norm())))) return {};
-  return report(Outcome::kInconsistentStart, t, worst,
-                "Newton for consistent accelerations does not converge; residual", value);
+  // What is left at the level of the constraints' tolerance serves as start values.
+  const double allowed = kConstraintTolerance * (1 + static_cast<double>(Real(state.w.norm())));
+  if (std::abs(value) <= allowed) return {};
+  return report(Outcome::kInconsistentStart, place, t, worst,
+                "Newton does not converge; residual", value, allowed);
+}
+
+// The given (a, k, z), where they are not required or satisfy the residual.
+template <class Real>
+StartReport ConsistentStart<Real>::keep(const State<Real>& state, const char* place) {
+  system_.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(r_.data(), r_.size()));
+  const Index worst = worstRow(r_);
+  const double t = static_cast<double>(state.t), value = static_cast<double>(r_[worst]);
+  if (!std::isfinite(value)) {
+    return report(Outcome::kNotFinite, place, t, worst, "residual", value);
+  }
+  if (!w_required_ || std::abs(value) <= kConstraintTolerance) return {};
+  return report(Outcome::kInconsistentStart, place, t, worst,
+                "accelerations cannot be determined (D0 is singular) and the given ones leave the "
+                "residual",
+                value, kConstraintTolerance);
 }
 
 IRK_INSTANTIATE_CLASS(ConsistentStart)

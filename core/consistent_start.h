@@ -1,4 +1,4 @@
-// Consistent starts: constraints hold, and (a, k, z) follow from (u, v, x).
+// Consistent states: constraints hold, and (a, k, z) follow from (u, v, x).
 #pragma once
 
 #include <string>
@@ -33,14 +33,20 @@ class ConsistentStart {
   /// A new integration: the same bits as of a new object.
   void forgetPattern() { differentiator_.forgetPattern(); }
 
-  /// Checks g = 0 and dg/dt = 0 at `state`, then replaces state.w by the solution of the residual at
-  /// Level::kAcceleration (Newton on w, with the derivatives kept while it contracts well). Where that matrix is singular (algebraic unknowns of higher
-  /// index that are no multipliers of position constraints) state.w is kept if it is not required or
-  /// satisfies the residual; else kInconsistentStart. kNotFinite names the row.
+  /// Replaces state.w by the solution of the residual at Level::kAcceleration: Newton on w, with the
+  /// derivatives kept while it contracts well. Where its matrix D0 is singular (algebraic unknowns
+  /// of higher index that are no multipliers of position constraints) state.w is kept if it is not
+  /// required or satisfies the residual; else kInconsistentStart. kNotFinite names the row. After a
+  /// failure state.w is the given one.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
+  /// The same at the end of an integration, with `Multipliers::kConsistent`. Where (a, k, z) cannot be
+  /// determined those of the stages stay, and what is returned says why; else it is empty.
+  std::string applyAtEnd(State<Real>& state);
 
  private:
   StartReport checkConstraints(const State<Real>& state);
+  StartReport determine(State<Real>& state, const char* place);
+  StartReport keep(const State<Real>& state, const char* place);
   bool factorize();
   void solve();
 

@@ -44,8 +44,10 @@ struct Monitor {
 template <class Real>
 struct Solution {
   Outcome outcome = Outcome::kSuccess;
-  std::string detail;  ///< where and what, in one line: of a failure, or of chattering
-  State<Real> state;   ///< the last accepted state, in the scene's unknowns
+  std::string detail;  ///< where and what, in one line: of a failure, or what a success has to tell
+  /// The last accepted state, in the scene's unknowns. (a, k, z) at t_end as the option `multipliers`
+  /// says; those of the step records are always the stages'.
+  State<Real> state;
   Counters counters;
 };
 

@@ -64,6 +64,7 @@ class StepSampler {
     options.step.estimate = ErrorEstimate::kNone;
     options.step.h = step.h / count;
     options.newton.kind = NewtonKind::kSimplified;
+    options.multipliers = Multipliers::kStages;  // of which the estimate is
     Integrator<double> integrator(system_, makeTableau<double>(method), options,
                                   systemScale(scene_.scale, system_->sizes()));
     const auto solution = integrator.integrate(step.from, step.from.t + step.h);

@@ -72,7 +72,11 @@ Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKin
                  char component) {
   if (!kind) return {};
   const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
-  const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind, component);
+  // Solved anew from u, v and x, z has the order of what determines it.
+  const bool consistent = component == 'z' && textAt(runs, row, "multipliers") == "consistent" &&
+                          makeScene<double>(textAt(runs, row, "scene")).sizes().constraints > 0;
+  const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind,
+                                      consistent ? 'v' : component);
   if (order) return {order->order, std::string(order->source)};
   if (*kind != SystemKind::kOde) return {};
   try {
@@ -115,7 +119,8 @@ OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional
 TableRow orderRow(const Table& runs, const TableRow& run, char component, std::string power_of,
                   const OrderFit& fit, const Theory& theory, const std::string& reason) {
   TableRow row;
-  for (const auto* name : {"scene", "settings", "formulation", "scalar", "family", "stages"}) {
+  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "family",
+                           "stages"}) {
     row.push_back(textAt(runs, run, name));
   }
   row.emplace_back(1, component);
@@ -200,8 +205,8 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
-  orders.columns = {"scene",     "settings", "formulation", "scalar",     "family", "stages",
-                    "component", "power_of", "order",       "confidence", "h_min",  "h_max",
+  orders.columns = {"scene",     "settings", "formulation", "multipliers", "scalar", "family",
+                    "stages",    "component", "power_of", "order",       "confidence", "h_min",  "h_max",
                     "points",    "theory",   "source",      "verdict",    "reason"};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {

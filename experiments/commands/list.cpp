@@ -74,6 +74,7 @@ void listStrategies(std::ostream& out) {
   listAxis<StepControl>(out);
   listAxis<OrderControl>(out);
   listAxis<Summation>(out);
+  listAxis<Multipliers>(out);
   listAxis<NormKind>(out);
   listAxis<JacobianTerms>(out);
   listAxis<JacobianPoint>(out);

@@ -64,7 +64,10 @@ PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scen
       max_steps_(spec.options.step.max_steps),
       peer_(makePeer(entry, scene, spec, *system_)),
       state_(system_->sizes()),
-      switches_(*system_) {
+      switches_(*system_),
+      derivatives_(spec.options.derivatives),
+      ends_consistent_(spec.options.multipliers == Multipliers::kConsistent &&
+                       system_->sizes().nz > 0) {
   validate(spec.options);
 }
 
@@ -81,6 +84,9 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
   if (report.outcome == Outcome::kSuccess) report = begin(t_end, StartCheck::kConstraints);
   if (report.outcome == Outcome::kSuccess) report = run(t_end, monitor);
   collectCounts();
+  if (report.outcome == Outcome::kSuccess && ends_consistent_) {
+    report.detail = ConsistentStart<double>(*system_, derivatives_, false).applyAtEnd(state_);
+  }
   return {report.outcome, report.detail, system_->toScene(state_), counters_};
 }
 

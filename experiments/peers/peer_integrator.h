@@ -39,6 +39,8 @@ class PeerIntegrator {
   ChatterDetector chatter_;
   Counters counters_;
   double length_ = 0;
+  DerivativeSource derivatives_;
+  bool ends_consistent_;
   bool started_ = false;
 };
 

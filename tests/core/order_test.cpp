@@ -119,11 +119,15 @@ TEST(Order, UnknownsThatDoNotFollowAtTheEndStayThoseOfTheStages) {
     const auto run =
         integrate<double>(PrescribedPath{}, start, 1, makeTableau<double>("radau_iia_3"), options);
     EXPECT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
-    return run.state.w;
+    return run;
   };
-  const Vec<double> w = end(Multipliers::kConsistent);
-  EXPECT_NEAR(w[1], std::cos(1.0), 1e-4);
-  EXPECT_EQ(w, end(Multipliers::kStages));
+  const auto stages = end(Multipliers::kStages), kept = end(Multipliers::kConsistent);
+  EXPECT_NEAR(kept.state.w[1], std::cos(1.0), 1e-4);
+  EXPECT_EQ(kept.state.w, stages.state.w);
+  EXPECT_EQ(stages.detail, "");
+  EXPECT_NE(kept.detail.find("multipliers of the stages: consistent (a, k, z), t = 1: "),
+            std::string::npos)
+      << kept.detail;
 }
 
 /// y' = t^(d-1): the quadrature of the method.

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "experiments/run_spec.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -213,6 +215,17 @@ TEST(Cli, ListsNameEverything) {
   const auto all = irkProgram({"list"});
   EXPECT_EQ(all.status, 0);
   EXPECT_TRUE(containsAll(all.out, {"slider_crank", "radau_iia_S", "cpu_time", "coupled_dense"}));
+  // Of every axis its name and its ids.
+  for (const auto& field : specFields()) {
+    const std::string allowed = field.allowed();
+    if (allowed.find(" | ") == std::string::npos) continue;
+    EXPECT_TRUE(containsAll(all.out, {std::string(field.name) + "\n"})) << field.name;
+    for (std::size_t from = 0; from < allowed.size();) {
+      const std::size_t to = std::min(allowed.find(" | ", from), allowed.size());
+      EXPECT_TRUE(containsAll(all.out, {"    " + allowed.substr(from, to - from) + " "})) << allowed;
+      from = to + 3;
+    }
+  }
   EXPECT_EQ(irkProgram({"--help"}).status, 0);
 }
 

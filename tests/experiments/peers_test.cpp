@@ -62,6 +62,23 @@ TEST(Peers, AllSolveTheConstrainedPendulumInIndex1) {
   }
 }
 
+TEST(Peers, IdasMultipliersAreSolvedAnewAtTheEnd) {
+  const auto scene = makeScene<double>("pendulum");
+  const auto change = [&](const std::string& multipliers) {
+    const RunSpec run = spec("ida_bdf", "scene=pendulum;t_end=1;multipliers=" + multipliers, 1e-5);
+    PeerIntegrator peer(*findPeer("ida_bdf"), scene, run);
+    const auto solution = peer.integrate(scene.start, 1);
+    EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+    State<double> again = solution.state;
+    const auto system = scene.system({});
+    EXPECT_EQ(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).applyAtEnd(again),
+              "");
+    return std::abs(again.z()[0] - solution.state.z()[0]);
+  };
+  EXPECT_LT(change("consistent"), 1e-13);
+  EXPECT_GT(change("stages"), 1e-9);
+}
+
 TEST(Peers, IdaSolvesIndex2) {
   for (const char* rest : {"scene=pendulum", "scene=pendulum;formulation=ggl",
                            "scene=slider_crank;t_end=1", "scene=index2_nonlinear"}) {
