@@ -144,8 +144,9 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
                       static_cast<double>(D_.d0.sum()));
       }
       if (!factorize()) {
-        return report(Outcome::kSingular, place, t, worst,
-                      "dr/d(a, k, z) is singular; residual", value);
+        std::ostringstream text;
+        text << "dr/d(a, k, z) is singular at t = " << t;
+        return {Outcome::kSingular, text.str()};
       }
     }
     solve();

@@ -125,9 +125,7 @@ TEST(Order, UnknownsThatDoNotFollowAtTheEndStayThoseOfTheStages) {
   EXPECT_NEAR(kept.state.w[1], std::cos(1.0), 1e-4);
   EXPECT_EQ(kept.state.w, stages.state.w);
   EXPECT_EQ(stages.detail, "");
-  EXPECT_NE(kept.detail.find("multipliers of the stages: consistent (a, k, z), t = 1: "),
-            std::string::npos)
-      << kept.detail;
+  EXPECT_EQ(kept.detail, "multipliers of the stages: dr/d(a, k, z) is singular at t = 1");
 }
 
 /// y' = t^(d-1): the quadrature of the method.
