@@ -106,7 +106,7 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   }
   given_ = state.w;
   const char* const place = check == StartCheck::kConstraints ? kStart : kConsistent;
-  StartReport found = determine(state, place);
+  StartReport found = determine(state, place, kConstraintTolerance);
   if (found.outcome != Outcome::kSuccess) state.w = given_;
   return found.outcome == Outcome::kSingular ? keep(state, place) : found;
 }
@@ -114,29 +114,31 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
 template <class Real>
 std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
   given_ = state.w;
-  const StartReport found = determine(state, kConsistent);
+  const StartReport found = determine(state, kConsistent, 0);
   if (found.outcome == Outcome::kSuccess) return {};
   state.w = given_;
   return "multipliers of the stages: " + found.detail;
 }
 
-// kSingular where D0 is.
+// kSingular where D0 is. Where Newton does not converge a residual of `tolerated` will do.
 template <class Real>
-StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place) {
+StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place,
+                                             double tolerated) {
   const double t = static_cast<double>(state.t);
   const VecView<Real> rows(r_.data(), r_.size());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
-  Real before(0);
-  bool renew = true;
-  double value = 0;
   Index worst = 0;
-  for (int i = 0; i < kIterations; ++i) {
+  double value = 0;
+  const auto evaluate = [&] {
     system_.evaluate(Level::kAcceleration, pointOf(state), rows);
     worst = worstRow(r_);
     value = static_cast<double>(r_[worst]);
-    if (!std::isfinite(value)) {
-      return report(Outcome::kNotFinite, place, t, worst, "residual", value);
-    }
+    return std::isfinite(value);
+  };
+  Real before(0);
+  bool renew = true;
+  for (int i = 0; i < kIterations; ++i) {
+    if (!evaluate()) break;
     if (renew) {
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
@@ -158,8 +160,8 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
     state.w -= dw_;
     if (size <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
   }
-  // What is left at the level of the constraints' tolerance serves as start values.
-  const double allowed = kConstraintTolerance * (1 + static_cast<double>(Real(state.w.norm())));
+  if (!evaluate()) return report(Outcome::kNotFinite, place, t, worst, "residual", value);
+  const double allowed = tolerated * (1 + static_cast<double>(Real(state.w.norm())));
   if (std::abs(value) <= allowed) return {};
   return report(Outcome::kInconsistentStart, place, t, worst,
                 "Newton does not converge; residual", value, allowed);

@@ -34,18 +34,19 @@ class ConsistentStart {
   void forgetPattern() { differentiator_.forgetPattern(); }
 
   /// Replaces state.w by the solution of the residual at Level::kAcceleration: Newton on w, with the
-  /// derivatives kept while it contracts well. Where its matrix D0 is singular (algebraic unknowns
+  /// derivatives kept while it contracts well; one that ends with a residual as small as that asked of
+  /// constraints will do as start values. Where its matrix D0 is singular (algebraic unknowns
   /// of higher index that are no multipliers of position constraints) state.w is kept if it is not
   /// required or satisfies the residual; else kInconsistentStart. kNotFinite names the row. After a
   /// failure state.w is the given one.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
-  /// The same at the end of an integration, with `Multipliers::kConsistent`. Where (a, k, z) cannot be
-  /// determined those of the stages stay, and what is returned says why; else it is empty.
+  /// The same at the end of an integration, with `Multipliers::kConsistent`. Where Newton does not
+  /// converge to (a, k, z) those of the stages stay, and what is returned says why; else it is empty.
   std::string applyAtEnd(State<Real>& state);
 
  private:
   StartReport checkConstraints(const State<Real>& state);
-  StartReport determine(State<Real>& state, const char* place);
+  StartReport determine(State<Real>& state, const char* place, double tolerated);
   StartReport keep(const State<Real>& state, const char* place);
   bool factorize();
   void solve();

@@ -17,8 +17,8 @@ class DenseOutput {
   void begin(const State<Real>& from, const StagePolynomial<Real>& past);
   /// theta in [0, 1]; writes t, u, v, x, w; d is that of `from`.
   void evaluate(const Real& theta, State<Real>& out);
-  /// The same at theta = j / kParts, 0 < j < kParts: those of a step together, with the scheme's
-  /// weights, take a third of the time.
+  /// The same at theta = j / kParts, 0 < j < kParts: all of a step in three products with the scheme's
+  /// weights.
   void evaluateInside(Index j, State<Real>& out);
 
  private:

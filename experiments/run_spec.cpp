@@ -25,6 +25,9 @@ constexpr Named<ScalarKind> kScalars[] = {
     {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"},
     {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on: riccati_tracking only"}};
 
+#define IRK_EMBEDDED                                                                            \
+  "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;" \
+  "multipliers=consistent"
 constexpr Configuration kConfigurations[] = {
     {"default", "Richardson's estimate, the paper's step control, simplified Newton, Schur basis", ""},
     {"paper", "Gerstmayr & Stangl: modified Newton, difference quotients, one LU, step doubling",
@@ -33,11 +36,10 @@ constexpr Configuration kConfigurations[] = {
     {"embedded",
      "embedded estimate, predictive control, eigenvectors of A, predicted Jacobians, Broyden's updates, "
      "multipliers consistent at the end",
-     "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;"
-     "multipliers=consistent"},
+     IRK_EMBEDDED},
     {"variable", "the same with variable order; a method with its number of stages is the first one",
-     "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;"
-     "multipliers=consistent;order=variable;method=radau_iia"}};
+     IRK_EMBEDDED ";order=variable;method=radau_iia"}};
+#undef IRK_EMBEDDED
 
 // Each `field=value` of a text, items separated by ';'.
 void setFields(RunSpec& spec, std::string_view text) {

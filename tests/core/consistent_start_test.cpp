@@ -40,8 +40,7 @@ Found start(Equation equation, double x, double z, bool w_required = true) {
   return found;
 }
 
-// Newton's own derivatives from start to start of the square root stay on their side of 0; kept ones,
-// from such starts, would jump to the other root.
+// Newton for a square root stays on its side of 0; with the derivatives of these starts kept it would not.
 TEST(ConsistentStart, KeptDerivativesDoNotLeadToAnotherRoot) {
   for (const double z : {0.01, 0.3, 0.9, 1.0, 30.0}) {
     const auto found = start(Equation::kSquare, 1, z);
@@ -63,6 +62,20 @@ TEST(ConsistentStart, FailuresNameThePlaceAndKeepWhatIsGiven) {
   EXPECT_NE(nan.report.detail.find("at the start, t = 0: row 1: residual"), std::string::npos)
       << nan.report.detail;
   EXPECT_EQ(nan.state.z()[0], 0.7);
+}
+
+// Without a root, but with a residual that start values may have: at the end that is no solution.
+TEST(ConsistentStart, AtTheEndOnlyWhatConvergesCounts) {
+  const auto system = makeSystem<double>(Algebraic{Equation::kSquare}, {});
+  State<double> state(system->sizes());
+  state.x[0] = -1e-20;
+  state.w << 1e-4, 1e-4;
+  const Vec<double> given = state.w;
+  ConsistentStart<double> start(*system, DerivativeSource::kAutomatic, false);
+  EXPECT_NE(start.applyAtEnd(state).find("multipliers of the stages: consistent (a, k, z), t = 0: "),
+            std::string::npos);
+  EXPECT_EQ(state.w, given);
+  EXPECT_EQ(start.apply(state).outcome, Outcome::kSuccess);
 }
 
 TEST(ConsistentStart, WhatCannotBeDeterminedIsKeptWhereItMayBe) {

@@ -187,6 +187,29 @@ refine_most = 128
   }
 }
 
+// Solved anew at the end lambda has the order of v, and the table's theory says so.
+TEST(Runner, OrdersOfConsistentMultipliers) {
+  const Table orders = orderTable(runsOf(R"(
+orders = true
+[[block]]
+scene = "mechanical_dae"
+scalar = "mp50"
+formulation = ["index2", "index3"]
+multipliers = ["stages", "consistent"]
+methods = "radau_iia_2"
+refine_most = 128
+)").runs);
+  ASSERT_EQ(orders.rows.size(), 12u);
+  for (const auto& row : orders.rows) {
+    if (textAt(orders, row, "component") != "z") continue;
+    const int v = textAt(orders, row, "formulation") == "index2" ? 3 : 2;
+    const int stages = v - 1;
+    const bool consistent = textAt(orders, row, "multipliers") == "consistent";
+    EXPECT_NEAR(numberAt(orders, row, "order"), consistent ? v : stages, 0.15);
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << textAt(orders, row, "reason");
+  }
+}
+
 // z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
 TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
   const Table orders = orderTable(runsOf(R"(
