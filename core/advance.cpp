@@ -9,6 +9,9 @@
 namespace irk {
 namespace {
 
+// Of switches at one time that make others due by the (a, k, z) which follow from them.
+constexpr int kRounds = 5;
+
 // How finely a switch is located: a part of the tolerance, with fixed steps to round-off.
 double locationTolerance(const IntegratorOptions& options) {
   if (options.step.control == StepControl::kFixed) return 0;
@@ -20,17 +23,20 @@ double locationTolerance(const IntegratorOptions& options) {
 template <class Real>
 Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
                        const IntegratorOptions& options, StepAttempt<Real>& attempt,
-                       SharedJacobian<Real>& jacobian, StepController* controller,
-                       Counters& counters)
+                       SharedJacobian<Real>& jacobian, ErrorNorm<Real>& norm,
+                       StepController* controller, Counters& counters)
     : system_(system),
       start_(system, options.derivatives, scheme.first > 0),
       attempt_(attempt),
       jacobian_(jacobian),
       controller_(controller),
       counters_(counters),
+      norm_(norm),
+      constraints_(system, norm, options.tolerances),
       switches_(system),
       locator_(system, locationTolerance(options)),
       ends_consistent_(options.multipliers == Multipliers::kConsistent && system.sizes().nz > 0),
+      has_tolerance_(options.step.control != StepControl::kFixed),
       locates_(!switches_.none() && system.discontinuity() == Discontinuity::kLocate),
       switches_now_(!locates_ && system.discontinuity() != Discontinuity::kSmooth),
       state_(system.sizes()),
@@ -45,6 +51,7 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
   start_detail_.clear();
   blamed_ = -1;
   note_.clear();
+  round_off_ = 0;
   attempt_.begin();
   jacobian_.forgetPattern();
   restart();
@@ -54,7 +61,13 @@ Outcome Advance<Real>::begin(const State<Real>& start, double length,
   start_.forgetPattern();
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
+  if (!switches_.none() && report.determined) attempt_.restart();
   return report.outcome;
+}
+
+template <class Real>
+void Advance<Real>::addNote(const std::string& text) {
+  note_ += (note_.empty() || text.empty() ? "" : "; ") + text;
 }
 
 template <class Real>
@@ -64,9 +77,18 @@ Solution<Real> Advance<Real>::solution(Outcome outcome, std::string detail) cons
 
 template <class Real>
 Solution<Real> Advance<Real>::success() {
-  if (ends_consistent_) {
-    const std::string kept = start_.applyAtEnd(state_);
-    note_ += (note_.empty() || kept.empty() ? "" : "; ") + kept;
+  if (has_tolerance_) {
+    norm_.update(state_);
+    const std::string violation = constraints_.violation(state_);
+    if (!violation.empty()) return solution(Outcome::kDrift, violation);
+  }
+  if (ends_consistent_) addNote(start_.applyAtEnd(state_));
+  if (round_off_ > 0) {
+    std::ostringstream text;
+    text.precision(2);
+    text << "Newton's corrections end in round-off of the residual, up to " << round_off_
+         << " tolerances";
+    addNote(text.str());
   }
   return solution(Outcome::kSuccess, note_);
 }
@@ -122,6 +144,7 @@ void Advance<Real>::takeOver(const AttemptResult& result, double h) {
   const bool switched = switches_now_ && next_.d != state_.d;
   std::swap(state_, next_);
   ++counters_.steps_accepted;
+  round_off_ = std::max(round_off_, result.round_off);
   if (switched) {
     ++counters_.switches;
     tell(result.switched);
@@ -136,11 +159,11 @@ void Advance<Real>::takeOver(const AttemptResult& result, double h) {
 template <class Real>
 void Advance<Real>::noteChattering(Index i) {
   ++counters_.chattering;
-  if (!note_.empty()) return;
+  if (counters_.chattering > 1) return;
   std::ostringstream text;
   text << "chattering: " << switches_.describe(i)
        << " switches in every step at t = " << static_cast<double>(state_.t);
-  note_ = text.str();
+  addNote(text.str());
 }
 
 // Shortens the solved step to the first switch in it, takes it over, and restarts with the new mode
@@ -152,7 +175,7 @@ Outcome Advance<Real>::acceptLocated(AttemptResult result, Real h, const Real& e
     blamed_ = at.index;
     return at.outcome;
   }
-  if (at.found && at.h < h) {
+  if (at.h < h) {
     // A shorter step with a larger error than the tolerance is no step (NaN: fixed steps).
     if (at.attempt.error > 1) return Outcome::kNewtonFailed;
     result = at.attempt;
@@ -168,12 +191,26 @@ Outcome Advance<Real>::acceptLocated(AttemptResult result, Real h, const Real& e
     blamed_ = at.index;
     return Outcome::kChattering;
   }
-  const Outcome modes = settle();
-  if (modes != Outcome::kSuccess) return modes;
-  restart();
-  const StartReport report = start_.apply(state_, StartCheck::kNone);
-  start_detail_ = report.detail;
-  return report.outcome;
+  return restartAtSwitch();
+}
+
+// The new mode and its (a, k, z), which may make further switches due.
+template <class Real>
+Outcome Advance<Real>::restartAtSwitch() {
+  for (int round = 0; round < kRounds; ++round) {
+    const Outcome modes = settle();
+    if (modes != Outcome::kSuccess) return modes;
+    restart();
+    const StartReport report = start_.apply(state_, StartCheck::kNone);
+    start_detail_ = report.detail;
+    if (report.outcome != Outcome::kSuccess) return report.outcome;
+    if (report.determined) attempt_.restart();
+    const SwitchReport at = switches_.evaluate(state_);
+    blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;
+    if (at.outcome != Outcome::kSuccess || blamed_ < 0) return at.outcome;
+  }
+  ++counters_.chattering;
+  return Outcome::kChattering;
 }
 
 IRK_INSTANTIATE_CLASS(Advance)

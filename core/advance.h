@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/consistent_start.h"
+#include "core/constraint_check.h"
 #include "core/controller.h"
 #include "core/event_location.h"
 #include "core/integrator.h"
@@ -17,8 +18,8 @@ template <class Real>
 class Advance {
  public:
   Advance(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
-          StepAttempt<Real>& attempt, SharedJacobian<Real>& jacobian, StepController* controller,
-          Counters& counters);
+          StepAttempt<Real>& attempt, SharedJacobian<Real>& jacobian, ErrorNorm<Real>& norm,
+          StepController* controller, Counters& counters);
 
   /// A new integration over `length`: due switches, consistent (a, k, z).
   [[nodiscard]] Outcome begin(const State<Real>& start, double length,
@@ -34,6 +35,7 @@ class Advance {
   void endAt(const Real& t_end) { state_.t = t_end; }
 
   Solution<Real> solution(Outcome outcome, std::string detail) const;
+  /// At the end: kSuccess, or kDrift.
   Solution<Real> success();
   Solution<Real> failed(Outcome outcome, double h, const char* what) const;
   /// The switching function that a failure is to be blamed on; -1 for none.
@@ -41,9 +43,11 @@ class Advance {
 
  private:
   Outcome settle();
+  Outcome restartAtSwitch();
   Outcome acceptLocated(AttemptResult result, Real h, const Real& end);
   void takeOver(const AttemptResult& result, double h);
   void noteChattering(Index i);
+  void addNote(const std::string& text);
   void restart();
   void tell(Index i) const;
 
@@ -53,9 +57,12 @@ class Advance {
   SharedJacobian<Real>& jacobian_;
   StepController* controller_;
   Counters& counters_;
+  ErrorNorm<Real>& norm_;
+  ConstraintCheck<Real> constraints_;
   Switches<Real> switches_;
   EventLocator<Real> locator_;
   bool ends_consistent_;
+  bool has_tolerance_;  // no fixed steps
   bool locates_;
   bool switches_now_;  // within the attempts: `ignore` and `iterate`
   ChatterDetector chatter_;
@@ -63,7 +70,8 @@ class Advance {
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   std::string start_detail_;  // of a start that is not consistent
-  std::string note_;          // of chattering
+  std::string note_;          // of a success
+  double round_off_ = 0;      // of Newton, the largest of the accepted steps, in tolerances
   Index blamed_ = -1;
 };
 

@@ -23,7 +23,7 @@ StartReport report(Outcome outcome, const char* place, double t, Index row, cons
   if (row >= 0) text << "row " << row << ": ";
   text << what << " = " << value;
   if (allowed > 0) text << ", allowed " << allowed;
-  return {outcome, text.str()};
+  return {outcome, text.str(), true};
 }
 
 // The row of the largest number, one that is not finite before all others.
@@ -148,7 +148,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
       if (!factorize()) {
         std::ostringstream text;
         text << "dr/d(a, k, z) is singular at t = " << t;
-        return {Outcome::kSingular, text.str()};
+        return {Outcome::kSingular, text.str(), false};
       }
     }
     solve();
@@ -176,7 +176,9 @@ StartReport ConsistentStart<Real>::keep(const State<Real>& state, const char* pl
   if (!std::isfinite(value)) {
     return report(Outcome::kNotFinite, place, t, worst, "residual", value);
   }
-  if (!w_required_ || std::abs(value) <= kConstraintTolerance) return {};
+  if (!w_required_ || std::abs(value) <= kConstraintTolerance) {
+    return {Outcome::kSuccess, {}, false};
+  }
   return report(Outcome::kInconsistentStart, place, t, worst,
                 "accelerations cannot be determined (D0 is singular) and the given ones leave the "
                 "residual",

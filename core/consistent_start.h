@@ -14,6 +14,7 @@ namespace irk {
 struct StartReport {
   Outcome outcome = Outcome::kSuccess;
   std::string detail;
+  bool determined = true;  ///< false: D0 is singular, (a, k, z) are the given ones
 };
 
 /// What is asked of a state before (a, k, z) are determined.

@@ -61,7 +61,14 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       slip_(sizes_.nu),
       at_(sizes_),
       error_(sizes_),
+      zero_(sizes_),
+      ones_(Vec<double>::Ones(sizes_.components())),
       e_(sizes_.n(), 1) {}
+
+template <class Real>
+Index EmbeddedEstimate<Real>::worstComponent() const {
+  return norm_.worst(error_, zero_, 1, ones_);
+}
 
 // The residual at `at_` with w = K(0), solved for e; the error it means.
 template <class Real>

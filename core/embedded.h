@@ -38,6 +38,8 @@ class EmbeddedEstimate {
 
   /// Allocates what the first evaluation would, where the pattern is known.
   void reserve() { own_.reserve(); }
+  /// The component of (u, v, x, z) with the largest part in the last estimate.
+  Index worstComponent() const;
   double mu() const { return static_cast<double>(mu_); }
   /// p of the estimate's error h^(p+1): s, or one more than the stage order where that is less.
   static int order(const Scheme<Real>& scheme);
@@ -66,7 +68,8 @@ class EmbeddedEstimate {
   Vec<Real> defect_;  // K(0), n
   Vec<Real> slip_;    // h mu (v0 - V(0)), nu
   State<Real> at_;    // where the residual is evaluated
-  State<Real> error_;
+  State<Real> error_, zero_;
+  Vec<double> ones_;
   Mat<Real> e_;  // n x 1
 };
 

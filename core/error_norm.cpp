@@ -53,22 +53,41 @@ double powerOf(double h, int power) {
 
 }  // namespace
 
+// f(component, its part) of the difference, over u, v, x, z.
 template <class Real>
-double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, double h,
-                                   const Vec<double>& factor) const {
-  double sum = 0;
+template <class F>
+void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h,
+                                  const Vec<double>& factor, F&& f) const {
   const auto add = [&](Index offset, const auto& a, const auto& b, const std::vector<int>& power) {
     for (Index i = 0; i < a.size(); ++i) {
       const double e = static_cast<double>(Real(a[i] - b[i]));
-      const double f = powerOf(h, power[static_cast<std::size_t>(i)]);
-      sum += square(factor[offset + i] * f * e / weight_[offset + i]);
+      f(offset + i, factor[offset + i] * powerOf(h, power[static_cast<std::size_t>(i)]) * e /
+                        weight_[offset + i]);
     }
   };
   add(0, p.u, q.u, powers_.u);
   add(sizes_.nu, p.v, q.v, powers_.v);
   add(2 * sizes_.nu, p.x, q.x, powers_.x);
   add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), powers_.z);
+}
+
+template <class Real>
+double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, double h,
+                                   const Vec<double>& factor) const {
+  double sum = 0;
+  forEachPart(p, q, h, factor, [&](Index, double part) { sum += square(part); });
   return total(sum);
+}
+
+template <class Real>
+Index ErrorNorm<Real>::worst(const State<Real>& p, const State<Real>& q, double h,
+                             const Vec<double>& factor) const {
+  Index worst = -1;
+  double most = -1;
+  forEachPart(p, q, h, factor, [&](Index i, double part) {
+    if (std::abs(part) > most) worst = i, most = std::abs(part);
+  });
+  return worst;
 }
 
 template <class Real>

@@ -18,6 +18,11 @@ class ErrorNorm {
   /// Weights from the magnitudes of `y`, before a step. Absolute norm: weights atol.
   void update(const State<Real>& y);
 
+  /// sc of (u, v, x, z), 2 nu + nx + nz.
+  const Vec<double>& weights() const { return weight_; }
+  /// The component of (u, v, x, z) with the largest part in `difference`.
+  Index worst(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor) const;
+
   /// Norm of the difference of two states after a step of size h; `factor` (2 nu + nx + nz):
   /// multiplies each component's difference.
   double difference(const State<Real>& p, const State<Real>& q, double h,
@@ -34,6 +39,9 @@ class ErrorNorm {
 
  private:
   double total(double sum_of_squares) const;
+  template <class F>
+  void forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor,
+                   F&& f) const;
 
   Sizes sizes_;
   const ErrorPowers& powers_;

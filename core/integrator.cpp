@@ -8,6 +8,7 @@
 #include "core/advance.h"
 #include "core/counting.h"
 #include "core/multiprecision.h"
+#include "core/stall_detector.h"
 
 namespace irk {
 namespace {
@@ -92,7 +93,7 @@ class Integrator<Real>::Run {
                                      counters_);
     order_ = attempt_->order();
     controller_ = makeController(options_.step, order_);
-    advance_ = std::make_unique<Advance<Real>>(counted_, scheme, options_, *attempt_, *jacobian_,
+    advance_ = std::make_unique<Advance<Real>>(counted_, scheme, options_, *attempt_, *jacobian_, norm_,
                                                controller_.get(), counters_);
   }
 
@@ -189,6 +190,7 @@ class Integrator<Real>::Run {
   Solution<Real> adaptiveSteps(const Real& t_end) {
     if (length_ == 0) return advance_->success();
     double h = std::min(firstStep(), options_.step.h_max);
+    stall_.begin(static_cast<double>(state().t));
     Outcome worst = Outcome::kStepTooSmall;  // what a step below the smallest is called
     for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
       const Outcome caller = askCaller();
@@ -197,7 +199,14 @@ class Integrator<Real>::Run {
         return advance_->failed(Outcome::kMaxSteps, h, "too many steps");
       }
       const double least = std::max(options_.step.h_min, smallestStep());
-      if (h < least) return advance_->failed(worst, h, "step too small");
+      if (h < least) return advance_->failed(worst, h, because("step too small").c_str());
+      const bool stalls =
+          attempts > 0 && stall_.attempted(static_cast<double>(state().t), h,
+                                           static_cast<double>(t_end),
+                                           options_.step.max_steps - attempts);
+      if (stalls) {
+        return advance_->failed(Outcome::kStalled, h, because("steps do not grow").c_str());
+      }
       const Real left = t_end - state().t;
       const bool last = h * (1 + 1e-10) >= static_cast<double>(left);
       const Real step = last ? left : Real(h);
@@ -238,6 +247,27 @@ class Integrator<Real>::Run {
     return advance_->success();
   }
 
+  // What keeps steps small: the component with the largest error, or Newton.
+  std::string because(const char* what) const {
+    const Counters& c = counters_;
+    std::string text = std::string(what) + " (" + std::to_string(c.steps_accepted) +
+                       " accepted, rejected by the error " +
+                       std::to_string(c.steps_rejected_error) + ", by Newton " +
+                       std::to_string(c.steps_rejected_newton);
+    const Index i = attempt_->worstComponent();
+    if (i >= 0) text += "; largest error in " + componentName(i);
+    return text + ")";
+  }
+  std::string componentName(Index i) const {
+    const Sizes n = system_->sizes();
+    const auto name = [&](const char* group, Index first) {
+      return group + ("[" + std::to_string(i - first) + "]");
+    };
+    if (i < n.nu) return name("u", 0);
+    if (i < 2 * n.nu) return name("v", n.nu);
+    return i < 2 * n.nu + n.nx ? name("x", 2 * n.nu) : name("z", 2 * n.nu + n.nx);
+  }
+
   // The controller's exponent is that of the next attempt's estimate.
   void followOrder(double error, double h) {
     if (attempt_->order() == order_) return;
@@ -270,6 +300,7 @@ class Integrator<Real>::Run {
   std::unique_ptr<StepAttempt<Real>> attempt_;
   std::unique_ptr<StepController> controller_;
   std::unique_ptr<Advance<Real>> advance_;
+  StallDetector stall_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   int order_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/broyden.h"
@@ -28,6 +29,13 @@ double epsilon() {
 constexpr double kRoundOffUnits = 10;
 // Increments that stop contracting below this many units of round-off are round-off of the residual.
 constexpr double kStagnationUnits = 1e4;
+
+// Round-off up to this many tolerances is accepted, and told; increments up to so many times the measured
+// round-off are round-off.
+constexpr double kMaxRoundOff = 0.3;
+constexpr double kMeasuredRoundOff = 10;
+// The change of the last digits that shows round-off, in units of it.
+constexpr double kLastDigits = 4;
 
 // Broyden's updates cost dot products: below this contraction of the last step there are too few
 // iterations for them.
@@ -159,10 +167,12 @@ class SimplifiedNewton final : public NewtonBase<Real> {
         if (!updates_ || m == 1) result.theta = theta_ = theta;
         // At round-off increments no longer contract; above it this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
-        if (theta >= 0.99) return fail(result, Outcome::kNewtonFailed);
-        eta = theta / (1 - theta);
-        if (adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa_) {
-          return fail(result, Outcome::kNewtonFailed);
+        eta = theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
+        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa_;
+        if (theta >= 0.99 || slow) {
+          if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
+          result.round_off = norm;
+          return result;
         }
       }
       if (eta * norm <= kappa_ || norm <= kRoundOffUnits * this->round_off_) {
@@ -173,6 +183,37 @@ class SimplifiedNewton final : public NewtonBase<Real> {
       if (updates_) updates_->learn(this->implicit(), this->row_weights_);
     }
     return fail(result, Outcome::kNewtonFailed);
+  }
+  // Whether an increment that no longer contracts is round-off of the residual: the part of the increment
+  // that is not explained by a change of w in the last digits of what it is added to. A residual with a
+  // singular matrix in front of k, or with large terms that cancel, has much more than eps.
+  bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, double norm) {
+    if (!adaptive_ || !(norm <= kMaxRoundOff) || !this->residual(c, W)) return false;
+    const Mat<Real> before = this->R_;
+    const Mat<Real> change = lastDigits(c, W);
+    if (!this->residual(c, W + change)) return false;
+    this->R_ -= before;
+    c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
+    this->R_ -= change;
+    const double floor = c.norm.increment(this->R_, this->first_, this->row_weights_);
+    return norm <= kMeasuredRoundOff * floor;
+  }
+  // Of w, and of the u, v, x that h^2 a, h a and h k are added to; with alternating signs.
+  static Mat<Real> lastDigits(const NewtonContext<Real>& c, const Mat<Real>& W) {
+    using std::abs;
+    const State<Real>& from = c.eq.from();
+    const Index nu = from.u.size(), nx = from.x.size();
+    const Real h = c.eq.h(), eps = Real(kLastDigits) * Eigen::NumTraits<Real>::epsilon();
+    Mat<Real> change(W.rows(), W.cols());
+    for (Index j = 0; j < W.cols(); ++j) {
+      for (Index i = 0; i < W.rows(); ++i) {
+        Real size = abs(W(i, j));
+        if (i < nu) size += abs(from.v[i]) / h + abs(from.u[i]) / (h * h);
+        if (i >= nu && i < nu + nx) size += abs(from.x[i - nu]) / h;
+        change(i, j) = (i + j) % 2 == 0 ? Real(eps * size) : Real(-eps * size);
+      }
+    }
+    return change;
   }
   NewtonResult fail(NewtonResult result, Outcome outcome) {
     forget();

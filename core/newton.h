@@ -16,6 +16,9 @@ struct NewtonResult {
   Outcome outcome = Outcome::kSuccess;
   int iterations = 0;
   double theta = 0;  ///< contraction: of increments, the last (simplified) or first (broyden), or residuals
+  /// The last increment, in tolerances, where round-off of the residual ends the iteration before the
+  /// increment is as small as was asked for; else 0.
+  double round_off = 0;
 };
 
 /// What a Newton strategy works with. All references outlive it; the step has been begun in `eq`.

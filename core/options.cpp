@@ -19,9 +19,9 @@ constexpr Named<Formulation> kFormulations[] = {
     {Formulation::kFirstOrder, "first_order",
      "y' = f(t, y): index 1 solved for (a, k), M factorized in every evaluation"}};
 constexpr Named<Discontinuity> kDiscontinuities[] = {
+    {Discontinuity::kLocate, "locate", "the root of a switching function ends the step; restart"},
     {Discontinuity::kIgnore, "ignore", "jumps are left to the error estimate (paper)"},
     {Discontinuity::kIterate, "iterate", "modes frozen in Newton, updated after it, step repeated"},
-    {Discontinuity::kLocate, "locate", "the root of a switching function ends the step; restart"},
     {Discontinuity::kSmooth, "smooth", "the scene's regularisation"}};
 constexpr Named<ConstraintScaling> kScalings[] = {
     {ConstraintScaling::kOn, "on", "constraint rows multiplied by 1/h or 1/h^2 (paper)"},
@@ -56,9 +56,9 @@ constexpr Named<ErrorEstimate> kEstimates[] = {
     {ErrorEstimate::kEmbedded, "embedded", "an embedded method of order s: one real solve, HW II (IV.8)"},
     {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
 constexpr Named<StepControl> kControls[] = {
+    {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
     {StepControl::kPaper, "paper", "section 6 of the paper"},
     {StepControl::kHotint, "hotint", "the paper's, as the later source has it"},
-    {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
     {StepControl::kFixed, "fixed", "constant steps"}};
 constexpr Named<OrderControl> kOrders[] = {
     {OrderControl::kFixed, "fixed", "one number of stages"},
@@ -67,8 +67,8 @@ constexpr Named<Summation> kSummations[] = {
     {Summation::kCompensated, "compensated", "additions of increments keep what they lose"},
     {Summation::kPlain, "plain", "round-off accumulates"}};
 constexpr Named<Multipliers> kMultipliers[] = {
-    {Multipliers::kStages, "stages", "at the end what the last step gives"},
-    {Multipliers::kConsistent, "consistent", "at the end solved anew from (u, v, x)"}};
+    {Multipliers::kConsistent, "consistent", "at the end solved anew from (u, v, x)"},
+    {Multipliers::kStages, "stages", "at the end what the last step gives"}};
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},

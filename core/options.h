@@ -24,8 +24,8 @@ enum class Predictor {
   kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
 };
 enum class ErrorEstimate {
-  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; in a step with a switch not
-  /// less than what a jump before the first stage does, which no doubling sees
+  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; not less than what a switch in
+  /// the step does, nor than an estimate of the stages' order where the halves do not show order q
   kRichardson,
   kDoubling,        ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
   kDoublingScalar,  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
@@ -110,7 +110,7 @@ struct NewtonOptions {
 };
 
 struct StepOptions {
-  StepControl control = StepControl::kPaper;
+  StepControl control = StepControl::kPredictive;
   ErrorEstimate estimate = ErrorEstimate::kRichardson;
   /// > 0. Fixed control: the step (the last one is shortened to end at t_end). Else the first step;
   /// 0 = chosen from the scale of the solution.
@@ -149,7 +149,7 @@ struct IntegratorOptions {
   int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
   Summation summation = Summation::kCompensated;
-  Multipliers multipliers = Multipliers::kStages;
+  Multipliers multipliers = Multipliers::kConsistent;
   OrderControl order = OrderControl::kFixed;
   StepOptions step;
 };

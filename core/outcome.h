@@ -16,6 +16,8 @@ enum class Outcome {
   kSingular,           ///< the Newton matrix is singular
   kInconsistentStart,  ///< constraints are violated, or accelerations cannot be determined
   kChattering,         ///< switches follow each other without time passing
+  kStalled,            ///< steps stay so small that the end is out of reach
+  kDrift,              ///< the end is reached, but it violates the position constraints
 };
 
 /// The name in tables: `success`, `newton_failed`, ...
@@ -31,6 +33,8 @@ constexpr std::string_view name(Outcome outcome) {
     case Outcome::kSingular: return "singular";
     case Outcome::kInconsistentStart: return "inconsistent_start";
     case Outcome::kChattering: return "chattering";
+    case Outcome::kStalled: return "stalled";
+    case Outcome::kDrift: return "drift";
   }
   return "?";
 }

@@ -29,8 +29,10 @@
 //
 // and, where they exist:
 //
-//     template <class T>  // what jumps; p.d is the new one
+//     template <class T>  // what jumps; p.d is the new one. Only where switches are located.
 //     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;
+//     template <class T>  // what is known exactly in the new mode, where u, v, x are continuous: a
+//     void snap(Index i, const Point<T>& p, T* u, T* v, T* x) const;  // correction of round-off's size
 //     template <class T>  // d as a smooth function of p
 //     void smoothed(const Point<T>& p, T* d) const;
 //     std::string switchName(Index i) const;  // for messages
@@ -66,7 +68,8 @@ enum class ConstraintScaling { kOn, kOff };
 struct SystemOptions {
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
-  Discontinuity discontinuity = Discontinuity::kIgnore;
+  /// Without effect on a problem that declares no switches.
+  Discontinuity discontinuity = Discontinuity::kLocate;
 };
 
 /// Views of the residual rows that a problem writes. z: the nz - constraints rows of the algebraic
@@ -83,7 +86,8 @@ constexpr Index kMostDiscrete = 16;
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
  public:
-  /// Throws Misuse for `smooth` where the problem switches but has no regularisation.
+  /// Throws Misuse for `smooth` where the problem switches but has no regularisation, and for `ignore`
+  /// and `iterate` where its state jumps: they go on over a switch.
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
     if (sizes_.discrete > kMostDiscrete || sizes_.switches > kMostDiscrete) {
@@ -96,14 +100,22 @@ class ProblemSystem final : public System<Real> {
           "illegal combination: discontinuity 'smooth' with a scene that has no "
           "regularisation: its discrete state is a memory");
     }
+    const bool goes_on = options.discontinuity == Discontinuity::kIgnore ||
+                         options.discontinuity == Discontinuity::kIterate;
+    if (goes_on && kHasJump && sizes_.switches > 0) {
+      throw Misuse(
+          "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
+          "switches: steps go on over them; use 'locate'");
+    }
     const int index = constraintIndex();
     const auto all = [](Index n, int power) {
       return std::vector<int>(static_cast<std::size_t>(n), power);
     };
     row_powers_ = all(sizes_.n(), 0);
-    error_powers_ = {all(sizes_.nu, 0),
-                     all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
-                     all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
+    // The velocities of index 3 are of index 2, but they are results, too: they are controlled as they
+    // are, and a method that does not determine them fails.
+    error_powers_ = {all(sizes_.nu, 0), all(sizes_.nu, 0), all(sizes_.nx, 0),
+                     all(sizes_.nz, algebraicIndex() - 1)};
     for (Index i = 0; i < sizes_.nx; ++i) {
       error_powers_.x[static_cast<std::size_t>(i)] = differentialIndex(i) - 1;
     }
@@ -140,10 +152,13 @@ class ProblemSystem final : public System<Real> {
     }
   }
   void jump(Index i, State<Real>& state) const override {
-    Real* const out = state.u.data();
-    if constexpr (requires { problem_.jump(i, pointOf(state), out, out, out); }) {
+    if constexpr (kHasJump) {
       const State<Real> before = state;
       problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+    }
+    if constexpr (kHasSnap) {
+      const State<Real> before = state;
+      problem_.snap(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
     }
   }
   std::string switchName(Index i) const override {
@@ -198,6 +213,12 @@ class ProblemSystem final : public System<Real> {
   static constexpr bool kHasSwitching =
       requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.switching(p, out);
+  };
+  static constexpr bool kHasJump = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.jump(Index(0), p, out, out, out);
+  };
+  static constexpr bool kHasSnap = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.snap(Index(0), p, out, out, out);
   };
   static constexpr bool kHasSmoothed = requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.smoothed(p, out);

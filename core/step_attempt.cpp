@@ -11,6 +11,9 @@
 namespace irk {
 namespace {
 
+// The least power of 2 by which the highest coefficients of the stages fall from a step to its halves.
+constexpr double kLeastDecay = 1.25;
+
 /// No estimate: one step.
 template <class Real>
 class Single final : public StepAttempt<Real> {
@@ -48,6 +51,7 @@ class Doubling final : public StepAttempt<Real> {
         norm_(norm),
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
+        looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(options.predictor == Predictor::kExtrapolated),
         keeps_pieces_(system.sizes().switches > 0 &&
@@ -64,6 +68,7 @@ class Doubling final : public StepAttempt<Real> {
       result.outcome = step.outcome;
       if (step.switched >= 0) result.switched = step.switched;
       result.mode_error = std::max(result.mode_error, step.mode_error);
+      result.round_off = std::max(result.round_off, step.round_off);
       return step.outcome == Outcome::kSuccess;
     };
     const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
@@ -72,22 +77,54 @@ class Doubling final : public StepAttempt<Real> {
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
+    const double start_defect = watches_start_ ? half_.startDefect(from) : 0;
+    if (looks_again_) rough_whole_ = whole_.roughness(), rough_halves_ = half_.roughness();
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
-    // Doubling is blind where the whole step and its halves carry the same wrong mode.
-    result.error = std::max(error(to, static_cast<double>(h)), result.mode_error);
-    if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
+    if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness());
+    result.error = error(to, static_cast<double>(h));
+    worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
+    if (!std::isfinite(result.error)) {
+      result.outcome = Outcome::kNotFinite;
+      return result;
+    }
+    // Doubling is blind where the whole step and its halves make the same mistake: the wrong mode, ...
+    result.error = worse(result.error, order_, result.mode_error, 1);
+    // ... a fast motion that both damp, ...
+    if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
+    // ... and 2^p - 1 divides too much where the halves do not show order p.
+    if (!resolved()) result.error = worse(result.error, order_, rough_halves_, whole_.decay());
     return result;
   }
   void forget() override {
     whole_.forget();
     half_.forget();
   }
+  void begin() override {
+    forget();
+    watches_start_ = false;
+  }
+  void restart() override {
+    forget();
+    watches_start_ = true;
+  }
+  NextStep accepted(const AttemptResult& result, double h, double h_next) override {
+    watches_start_ = false;
+    return StepAttempt<Real>::accepted(result, h, h_next);
+  }
   int order() const override { return order_; }
+  Index worstComponent() const override { return worst_; }
   StepPieces<Real> pieces(const State<Real>& from) const override {
     return {{{{&from, &first_half_}, {&middle_, &half_.stages()}}}, 2};
   }
 
  private:
+  // A second look, of the order of the stages: it is below the tolerance, or it falls from the whole step
+  // to its halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
+  bool resolved() const {
+    if (!looks_again_ || rough_halves_ <= 1) return true;
+    const double least = std::max(kLeastDecay, 0.5 * whole_.decay());
+    return rough_whole_ >= std::exp2(least) * rough_halves_;
+  }
   double error(const State<Real>& fine, double h) const {
     if (!scalar_) return norm_.difference(coarse_, fine, h, factor_);
     return std::abs(norm_.difference(coarse_, zero_, h, factor_) -
@@ -98,6 +135,10 @@ class Doubling final : public StepAttempt<Real> {
   const ErrorNorm<Real>& norm_;
   Vec<double> factor_;
   bool scalar_;
+  bool looks_again_;            // `richardson`: whether the halves show the order
+  bool watches_start_ = false;  // the first step after a restart
+  Index worst_ = -1;
+  double rough_whole_ = 0, rough_halves_ = 0;
   int order_;
   bool interpolate_;
   bool keeps_pieces_;  // for the dense output of `locate`
@@ -106,6 +147,11 @@ class Doubling final : public StepAttempt<Real> {
 };
 
 }  // namespace
+
+double worse(double error, int p, double other, int q) {
+  if (std::isnan(other)) return std::numeric_limits<double>::infinity();
+  return std::max(error, other > 1 ? std::pow(other, (p + 1.0) / q) : other);
+}
 
 template <class Real>
 Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,

@@ -44,6 +44,8 @@ class StepAttempt {
   /// What was solved predicts badly: Newton has failed, or the mode has changed. (A step with too
   /// large an error is a good prediction of a shorter one.)
   virtual void forget() = 0;
+  /// After a restart from a consistent (a, k): the first step has to follow them.
+  virtual void restart() { forget(); }
   /// The step of size h that was attempted last is taken over, and the controller asks for h_next:
   /// the size of the next one, another where the order changes.
   virtual NextStep accepted(const AttemptResult& result, double h, double h_next) {
@@ -52,10 +54,16 @@ class StepAttempt {
   }
   /// p of the estimate's leading error h^(p+1) in the next attempt.
   virtual int order() const = 0;
+  /// The component of (u, v, x, z) with the largest error of the last solved step; -1 if not known.
+  virtual Index worstComponent() const { return -1; }
   /// The parts of which the last solved step is made, in order: their starts and stages. Valid
   /// while `from` of the attempt is.
   virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
 };
+
+/// `error`, or a larger one whose leading term is h^q where the controller expects h^(p+1): so that its
+/// step for h^(p+1) is the right one.
+double worse(double error, int p, double other, int q);
 
 /// 1 / (2^q - 1) per component (u, v, x, z): what the difference of one step and two halves is
 /// multiplied by. q: the classical order for all (paper) or, with `richardson`, the component's

@@ -9,8 +9,14 @@ namespace {
 
 // Modes of a step that still change after this many repetitions have no solution in it.
 constexpr int kDiscontinuousIterations = 10;
-// An error, in tolerances, for a switch that the ends of a step do not show.
-constexpr double kUnseenSwitch = 1e3;
+// A first step after a restart follows the motion where the stages' polynomial misses (a, k) at its
+// start by less than this part of what they change over the step.
+constexpr double kFollows = 0.1;
+
+// Estimates that look at the switches of a step in the mode `ignore`; the paper's do not.
+bool seesSwitches(ErrorEstimate estimate) {
+  return estimate == ErrorEstimate::kRichardson || estimate == ErrorEstimate::kEmbedded;
+}
 
 template <class Real>
 StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& scheme,
@@ -36,15 +42,20 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       switches_(system),
       frozen_(system.sizes()),
       first_mode_(system.sizes()),
-      defect_(system.sizes().n(), 1),
+      other_mode_(system.sizes()),
       row_weights_(system.sizes().n()),
-      sees_switches_(options.step.estimate == ErrorEstimate::kRichardson),
+      sees_switches_(seesSwitches(options.step.estimate)),
       ones_(Vec<double>::Ones(system.sizes().components())),
       g_before_(system.sizes().switches) {
   stages_.scheme = &scheme;
   stages_.W.setZero(system.sizes().n(), scheme.s);
   if (system.projectsVelocity()) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
+  }
+  const Discontinuity mode = system.discontinuity();
+  if (!switches_.none() && (mode == Discontinuity::kIgnore || mode == Discontinuity::kIterate)) {
+    scan_ = std::make_unique<SwitchScan<Real>>(system);
+    consistent_ = std::make_unique<ConsistentStart<Real>>(system, options.derivatives, false);
   }
 }
 
@@ -57,6 +68,7 @@ void Stepper<Real>::solve(const StagePolynomial<Real>& past, const State<Real>& 
   const NewtonResult newton = newton_->solve(context, W_);
   result.newton_iterations += newton.iterations;
   result.theta = std::max(result.theta, newton.theta);
+  result.round_off = std::max(result.round_off, newton.round_off);
   result.outcome = newton.outcome;
   if (newton.outcome != Outcome::kSuccess) return;
   eq_.finish(W_, to);
@@ -70,44 +82,122 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
   solve(past, from, h, to, use, result);
   stages_.valid = result.outcome == Outcome::kSuccess;
   if (!stages_.valid) return result;
-  if (!switches_.none()) {
-    switch (system_.discontinuity()) {
-      case Discontinuity::kIgnore:
-      case Discontinuity::kSmooth:
-        settle(from, h, to, result);
-        break;
-      case Discontinuity::kIterate:
-        iterateModes(past, from, h, to, result);
-        break;
-      case Discontinuity::kLocate:
-        break;
-    }
-    stages_.valid = result.outcome == Outcome::kSuccess;
-    if (!stages_.valid) return result;
+  takeStages(from, h);
+  switch (system_.discontinuity()) {
+    case Discontinuity::kIgnore:
+    case Discontinuity::kSmooth:
+      if (!switches_.none()) followModes(from, h, to, result);
+      break;
+    case Discontinuity::kIterate:
+      if (!switches_.none()) iterateModes(past, from, h, to, result);
+      break;
+    case Discontinuity::kLocate:
+      break;
   }
-  stages_.t = from.t;
-  stages_.h = h;
-  stages_.W = W_;
+  stages_.valid = result.outcome == Outcome::kSuccess;
   return result;
 }
 
-// The mode at the end, in which the next step starts; `smooth` takes it as a hint only. Doubling is
-// blind to a jump before the first stage of the whole step and of its first half: both carry the
-// same new mode from the start. There the polynomial of the stages misses the (a, k) that the step
-// began with, and h times the difference bounds what the wrong mode does.
 template <class Real>
-void Stepper<Real>::settle(const State<Real>& from, const Real& h, State<Real>& to,
-                           StepResult& result) {
-  const bool smooth = system_.discontinuity() == Discontinuity::kSmooth;
-  const SwitchReport report = switches_.settle(to, smooth ? Jumps::kNone : Jumps::kDone);
-  if (!smooth) result.outcome = report.outcome;
-  if (report.index >= 0) result.switched = report.index;
-  if (report.count == 0 || !sees_switches_) return;
-  defect_.noalias() = W_ * eq_.scheme().start;
-  defect_ -= from.w;
-  defect_.bottomRows(from.z().size()).setZero();  // multipliers jump, u, v, x do not
+void Stepper<Real>::takeStages(const State<Real>& from, const Real& h) {
+  stages_.t = from.t;
+  stages_.h = h;
+  stages_.W = W_;
+}
+
+// h times a difference of (a, k) in the error norm. Multipliers jump with the mode; u, v, x do not.
+template <class Real>
+double Stepper<Real>::stepNorm(const Vec<Real>& dw, const Real& h) {
+  const Sizes n = system_.sizes();
   norm_.rowWeights(static_cast<double>(h), row_weights_);
-  result.mode_error = norm_.increment(defect_, 0, row_weights_);
+  double sum = 0;
+  for (Index i = 0; i < n.nu + n.nx; ++i) {
+    const double e = static_cast<double>(dw[i]);
+    sum += row_weights_[i] * e * e;
+  }
+  return std::sqrt(sum / static_cast<double>(n.components()));
+}
+
+template <class Real>
+double Stepper<Real>::startDefect(const State<Real>& from) {
+  const double missed = stepNorm(Vec<Real>(W_ * eq_.scheme().start - from.w), stages_.h);
+  double changed = 0;
+  for (Index i = 0; i < W_.cols(); ++i) {
+    changed = std::max(changed, stepNorm(Vec<Real>(W_.col(i) - from.w), stages_.h));
+  }
+  return missed > kFollows * changed ? missed : 0;
+}
+
+template <class Real>
+int Stepper<Real>::decay() const {
+  return static_cast<int>(W_.cols()) - highest() + 1;
+}
+
+template <class Real>
+double Stepper<Real>::roughness() {
+  // One coefficient alone has zeros as a jump moves through the step, two neighbours have none in common.
+  double sum = 0;
+  for (Index k = W_.cols() - highest(); k < W_.cols(); ++k) {
+    const double size =
+        stepNorm(Vec<Real>(W_ * eq_.scheme().legendre_inverse_transposed.col(k)), stages_.h);
+    sum += size * size;
+  }
+  return std::sqrt(sum);
+}
+
+// The mode at the end, in which the next step starts; `smooth` takes it as a hint only. No doubling
+// can be trusted in a step with a switch: both solutions carry the same wrong mode before their first
+// stage and behind their last, and between two stages. What the switch does over the whole step bounds
+// the error.
+template <class Real>
+void Stepper<Real>::followModes(const State<Real>& from, const Real& h, State<Real>& to,
+                                StepResult& result) {
+  const bool smooth = system_.discontinuity() == Discontinuity::kSmooth;
+  first_mode_ = to;
+  const SwitchReport report = switches_.settle(to, smooth ? Jumps::kNone : Jumps::kDone);
+  if (report.index >= 0) result.switched = report.index;
+  if (smooth) return;
+  result.outcome = report.outcome;
+  if (!sees_switches_ || report.outcome != Outcome::kSuccess) return;
+  Index inside = -1;
+  if (report.count == 0 && !dueInside(from, first_mode_, inside)) return;
+  if (inside >= 0) result.switched = inside;
+  result.mode_error = changeInStep(from, h, to);
+}
+
+// The largest change of (a, k) from the step's start to a stage, and at the step's end to the mode that
+// begins there; and what the switch corrects in u, v, x.
+template <class Real>
+double Stepper<Real>::changeInStep(const State<Real>& from, const Real& h, const State<Real>& to) {
+  double most = 0;
+  for (Index i = 0; i < W_.cols(); ++i) {
+    most = std::max(most, stepNorm(Vec<Real>(W_.col(i) - from.w), h));
+  }
+  most = std::max(most, norm_.difference(first_mode_, to, static_cast<double>(h), ones_));
+  other_mode_ = to;
+  return std::max(most, modeChange(h));
+}
+
+// h times the change of (a, k) from those of `other_mode_` to what its discrete state makes of them.
+template <class Real>
+double Stepper<Real>::modeChange(const Real& h) {
+  const Vec<Real> before = other_mode_.w;
+  const StartReport report = consistent_->apply(other_mode_, StartCheck::kNone);
+  // What cannot be determined cannot be trusted.
+  if (report.outcome != Outcome::kSuccess) return std::numeric_limits<double>::infinity();
+  return stepNorm(Vec<Real>(other_mode_.w - before), h);
+}
+
+// Whether a switch is due inside the step, whatever is at its end. `other_mode_`: the state there, in
+// the mode that follows.
+template <class Real>
+bool Stepper<Real>::dueInside(const State<Real>& from, const State<Real>& to, Index& index) {
+  const auto due = scan_->first(from, stages_, to);
+  if (scan_->report().outcome != Outcome::kSuccess) index = scan_->report().index;
+  if (due.empty()) return index >= 0;
+  index = due.front().index;
+  other_mode_ = scan_->at(due.front().high);
+  return true;
 }
 
 // The discrete state is frozen over the step, updated at its end, and the step solved again with
@@ -137,25 +227,22 @@ void Stepper<Real>::iterateModes(const StagePolynomial<Real>& past, const State<
     frozen_.d = to.d;
     solve(past, frozen_, h, to, JacobianUse::kKeep, result);
     if (result.outcome != Outcome::kSuccess) return;
+    takeStages(frozen_, h);
   }
+  Index inside = -1;
   if (done_.empty()) {
-    if (dueInside()) result.mode_error = kUnseenSwitch;
+    if (!dueInside(from, to, inside)) return;
+    result.switched = inside;
+    const SwitchReport report = switches_.settle(other_mode_, Jumps::kNone);
+    result.mode_error = report.outcome == Outcome::kSuccess
+                            ? modeChange(h)
+                            : std::numeric_limits<double>::infinity();
     return;
   }
   // Multipliers jump with the mode; u, v, x do not.
   first_mode_.w = to.w;
   result.mode_error = norm_.difference(first_mode_, to, static_cast<double>(h), ones_);
   for (const Index k : done_) system_.jump(k, to);
-}
-
-// Whether a switch is due at a stage although none is at the end: a mode that comes and goes.
-template <class Real>
-bool Stepper<Real>::dueInside() {
-  for (Index i = eq_.scheme().first; i < eq_.scheme().s; ++i) {
-    if (switches_.evaluate(eq_.stage(W_, i)).outcome != Outcome::kSuccess) return true;
-    if (switches_.due() >= 0) return true;
-  }
-  return false;
 }
 
 // The secant's root of the first switching function that is due at `to`.

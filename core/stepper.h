@@ -5,10 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "core/consistent_start.h"
 #include "core/newton.h"
 #include "core/predictor.h"
 #include "core/projection.h"
-#include "core/switches.h"
+#include "core/switch_scan.h"
 
 namespace irk {
 
@@ -16,13 +17,14 @@ struct StepResult {
   Outcome outcome = Outcome::kSuccess;
   int newton_iterations = 0;
   double theta = 0;     ///< Newton's contraction (see NewtonResult), the worst of the attempt's solves
+  double round_off = 0;  ///< of Newton's increments, in tolerances (see NewtonResult)
   Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
-  /// Of a step that ends in another mode than it began, in the error norm. `iterate`: the
-  /// difference between the step in its first mode and in its last, what the wrong one of them does
-  /// over the whole step. Else, with the estimate `richardson`: h times the defect of the stages'
-  /// polynomial at the step's start.
+  /// Of a step in which a switch becomes due, in the error norm: what the wrong mode does over the
+  /// whole step. `iterate`: the difference between the step in its first mode and in its last; where
+  /// the switch comes and goes inside the step, h times the change of (a, k) that it makes. `ignore`
+  /// with an estimate that sees switches: h times the largest change of (a, k) in the step.
   double mode_error = 0;
 };
 
@@ -39,6 +41,17 @@ class Stepper {
                                    const Real& h, State<Real>& to,
                                    JacobianUse use = JacobianUse::kRefreshIfStale);
 
+  /// Of the step solved last, after a restart from a known `from.w`, in the error norm: h times the
+  /// difference between (a, k) at the start and the stages' polynomial there; 0 where that follows
+  /// the motion. L-stable methods damp a fast motion that starts at a switch, in the whole step and in
+  /// its halves alike, and no other estimate sees it.
+  double startDefect(const State<Real>& from);
+
+  /// Of the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in
+  /// the stages' polynomial. They fall with h^decay() where the step resolves the motion.
+  double roughness();
+  int decay() const;
+
   /// Allocates what the first attempt would, where the pattern is known.
   void reserve() { matrix_.reserve(); }
   const StagePolynomial<Real>& stages() const { return stages_; }
@@ -53,11 +66,16 @@ class Stepper {
  private:
   void solve(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
              State<Real>& to, JacobianUse use, StepResult& result);
+  void takeStages(const State<Real>& from, const Real& h);
   void iterateModes(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                     State<Real>& to, StepResult& result);
-  bool dueInside();
+  void followModes(const State<Real>& from, const Real& h, State<Real>& to, StepResult& result);
   double firstDue(const State<Real>& from, const State<Real>& to);
-  void settle(const State<Real>& from, const Real& h, State<Real>& to, StepResult& result);
+  bool dueInside(const State<Real>& from, const State<Real>& to, Index& index);
+  double modeChange(const Real& h);
+  double changeInStep(const State<Real>& from, const Real& h, const State<Real>& to);
+  double stepNorm(const Vec<Real>& dw, const Real& h);
+  int highest() const { return W_.cols() > 2 ? 2 : 1; }  // coefficients of `roughness`
 
   const System<Real>& system_;
   Counters& counters_;
@@ -73,8 +91,10 @@ class Stepper {
   Switches<Real> switches_;
   State<Real> frozen_;      // `iterate`: the start with another discrete state
   State<Real> first_mode_;  // and the end in the first one
-  Mat<Real> defect_;        // n x 1
-  Vec<double> row_weights_;  // of the defect
+  std::unique_ptr<SwitchScan<Real>> scan_;             // `ignore` and `iterate`
+  std::unique_ptr<ConsistentStart<Real>> consistent_;  // (a, k) of another mode
+  State<Real> other_mode_;
+  Vec<double> row_weights_;
   bool sees_switches_;
   Vec<double> ones_;
   Vec<Real> g_before_;

@@ -160,7 +160,8 @@ class System {
     static_cast<void>(i);
     static_cast<void>(state);
   }
-  /// u, v, x after switch i, where the scene makes them jump; state.d is the new one.
+  /// u, v, x after switch i, where the problem makes them jump or knows them exactly; state.d is the
+  /// new one.
   virtual void jump(Index i, State<Real>& state) const {
     static_cast<void>(i);
     static_cast<void>(state);

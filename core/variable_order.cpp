@@ -100,7 +100,10 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
       again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
-  result.error = std::max(estimate.error * member().exigence, result.mode_error);
+  result.error = worse(estimate.error * member().exigence, order(), result.mode_error, 1);
+  if (watches_start_) {
+    result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
+  }
   lower_error_ = kUnknown;
   if (result.outcome == Outcome::kSuccess && result.error <= 1 && at_ > 0 &&
       (since_change_ + 1) % kLeastStay == 0) {
@@ -121,6 +124,7 @@ void VariableOrder<Real>::begin() {
   past_ = &member().stepper.stages();
   past_at_ = at_;
   solved_ = false;
+  watches_start_ = false;
   failures_ = 0;
   forget();
 }
@@ -159,6 +163,7 @@ auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptRe
 template <class Real>
 NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
   ++since_change_;
+  watches_start_ = false;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);

@@ -34,8 +34,13 @@ class VariableOrder final : public StepAttempt<Real> {
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
   void begin() override;
   void forget() override;
+  void restart() override {
+    forget();
+    watches_start_ = true;
+  }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   int order() const override;
+  Index worstComponent() const override { return member().estimate.worstComponent(); }
   StepPieces<Real> pieces(const State<Real>& from) const override {
     return {{{{&from, &member().stepper.stages()}, {nullptr, nullptr}}}, 1};
   }
@@ -75,6 +80,7 @@ class VariableOrder final : public StepAttempt<Real> {
   std::shared_ptr<const Pattern> reserved_;  // that every member has seen
   int epoch_ = 0;                      // members that are not in use forget when they come to it
   bool again_ = true;                  // filter twice: after a start and a rejection
+  bool watches_start_ = false;         // the first step after a restart
   int since_change_ = 0;               // accepted steps
   double lower_error_;                 // of the member below, NaN if not known
   double unknowns_;

@@ -26,16 +26,17 @@ constexpr Named<ScalarKind> kScalars[] = {
     {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on: riccati_tracking only"}};
 
 #define IRK_EMBEDDED                                                                            \
-  "estimate=embedded;control=predictive;solver=eigen;jacobian_point=predicted;newton=broyden;" \
-  "multipliers=consistent"
+  "estimate=embedded;solver=eigen;jacobian_point=predicted;newton=broyden"
 constexpr Configuration kConfigurations[] = {
-    {"default", "Richardson's estimate, the paper's step control, simplified Newton, Schur basis", ""},
+    {"default",
+     "Richardson's estimate, predictive control, simplified Newton, Schur basis, switches located, "
+     "multipliers consistent at the end",
+     ""},
     {"paper", "Gerstmayr & Stangl: modified Newton, difference quotients, one LU, step doubling",
      "newton=modified;derivatives=difference_forward;solver=coupled_dense;predictor=previous;"
-     "estimate=doubling;control=paper;norm=absolute;summation=plain"},
-    {"embedded",
-     "embedded estimate, predictive control, eigenvectors of A, predicted Jacobians, Broyden's updates, "
-     "multipliers consistent at the end",
+     "estimate=doubling;control=paper;norm=absolute;summation=plain;discontinuity=ignore;"
+     "multipliers=stages"},
+    {"embedded", "embedded estimate, eigenvectors of A, predicted Jacobians, Broyden's updates",
      IRK_EMBEDDED},
     {"variable", "the same with variable order; a method with its number of stages is the first one",
      IRK_EMBEDDED ";order=variable;method=radau_iia"}};

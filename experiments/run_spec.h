@@ -40,7 +40,7 @@ struct RunSpec {
   std::string method = "radau_iia_5";
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
-  Discontinuity discontinuity = Discontinuity::kIgnore;
+  Discontinuity discontinuity = Discontinuity::kLocate;
   ScalarKind scalar = ScalarKind::kDouble;
   IntegratorOptions options;
   /// 1 .. kMaxStages. Variable order: the largest member of the method's family.

@@ -54,7 +54,7 @@ struct Elastoplastic {
   }
   // F = +-Fy
   template <class T>
-  void jump(Index, const Point<T>& p, T*, T*, T* x) const {
+  void snap(Index, const Point<T>& p, T*, T*, T* x) const {
     x[0] = p.u[0] - p.d[kSide] * (Fy / k);
   }
   // The slider starts to move before F is Fy, and with a fraction of u' that grows with it.

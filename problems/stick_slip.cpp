@@ -48,7 +48,7 @@ struct StickSlip {
     }
   }
   template <class T>
-  void jump(Index i, const Point<T>&, T*, T* v, T*) const {
+  void snap(Index i, const Point<T>&, T*, T* v, T*) const {
     if (i == kReachesBelt) v[0] = T(vb);
   }
   // Instead of sticking the mass creeps: friction rises to Fs over the first `smoothing` of

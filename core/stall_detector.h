@@ -1,0 +1,40 @@
+// Steps that stay so small that the end is out of reach.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace irk {
+
+/// Looks back once per window of attempts: an integration stalls where its largest step has not grown
+/// for kWindows windows, and the rest at the last window's pace needs more attempts than are allowed. A
+/// transient is over in fewer; what goes on so slowly would end by the limit of attempts only.
+class StallDetector {
+ public:
+  void begin(double t) {
+    *this = {};
+    t_ = t;
+  }
+  /// After an attempt at step h, the time being t. `left`: attempts that are still allowed.
+  bool attempted(double t, double h, double t_end, std::int64_t left) {
+    largest_ = std::max(largest_, h);
+    if (++attempts_ % kWindow != 0) return false;
+    windows_ = largest_ <= kGrowth * before_ ? windows_ + 1 : 0;
+    const bool out_of_reach =
+        (t_end - t) * static_cast<double>(kWindow) > static_cast<double>(left) * (t - t_);
+    before_ = largest_;
+    largest_ = 0;
+    t_ = t;
+    return windows_ >= kWindows && out_of_reach;
+  }
+
+ private:
+  static constexpr std::int64_t kWindow = 1000;
+  static constexpr int kWindows = 5;
+  static constexpr double kGrowth = 1.5;
+  std::int64_t attempts_ = 0;
+  int windows_ = 0;
+  double t_ = 0, largest_ = 0, before_ = 0;
+};
+
+}  // namespace irk
