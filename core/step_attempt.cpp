@@ -74,6 +74,10 @@ class Doubling final : public StepAttempt<Real> {
     const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
     result.switch_at = whole.switch_at;
     if (!done(whole)) return result;
+    if (continues_ && whole_.leavesRoot(from)) {
+      result.outcome = Outcome::kNewtonFailed;
+      return result;
+    }
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
@@ -101,14 +105,16 @@ class Doubling final : public StepAttempt<Real> {
   }
   void begin() override {
     forget();
-    watches_start_ = false;
+    continues_ = watches_start_ = false;
   }
   void restart() override {
     forget();
+    continues_ = false;
     watches_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
     watches_start_ = false;
+    continues_ = true;
     return StepAttempt<Real>::accepted(result, h, h_next);
   }
   int order() const override { return order_; }
@@ -137,6 +143,7 @@ class Doubling final : public StepAttempt<Real> {
   bool scalar_;
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
+  bool continues_ = false;      // a step of the same mode
   Index worst_ = -1;
   double rough_whole_ = 0, rough_halves_ = 0;
   int order_;

@@ -13,9 +13,19 @@ constexpr int kDiscontinuousIterations = 10;
 // start by less than this part of what they change over the step.
 constexpr double kFollows = 0.1;
 
+// Rates that differ from those before by this part of their size are those of another root.
+constexpr double kAnotherRoot = 0.25;
+
 // Estimates that look at the switches of a step in the mode `ignore`; the paper's do not.
 bool seesSwitches(ErrorEstimate estimate) {
   return estimate == ErrorEstimate::kRichardson || estimate == ErrorEstimate::kEmbedded;
+}
+
+template <class Real>
+bool hasHiddenUnknowns(const System<Real>& system) {
+  const auto& powers = system.errorPowers().z;
+  const auto multipliers = static_cast<std::ptrdiff_t>(system.sizes().constraints);
+  return std::any_of(powers.begin() + multipliers, powers.end(), [](int power) { return power > 0; });
 }
 
 template <class Real>
@@ -45,6 +55,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       other_mode_(system.sizes()),
       row_weights_(system.sizes().n()),
       sees_switches_(seesSwitches(options.step.estimate)),
+      has_hidden_unknowns_(hasHiddenUnknowns(system)),
       ones_(Vec<double>::Ones(system.sizes().components())),
       g_before_(system.sizes().switches) {
   stages_.scheme = &scheme;
@@ -126,6 +137,16 @@ double Stepper<Real>::startDefect(const State<Real>& from) {
     changed = std::max(changed, stepNorm(Vec<Real>(W_.col(i) - from.w), stages_.h));
   }
   return missed > kFollows * changed ? missed : 0;
+}
+
+template <class Real>
+bool Stepper<Real>::leavesRoot(const State<Real>& from) const {
+  if (!has_hidden_unknowns_) return false;
+  const Index n = system_.sizes().nu + system_.sizes().nx;
+  const Vec<Real> start = W_.topRows(n) * eq_.scheme().start;
+  const Vec<Real> before = from.w.head(n);
+  const double jump = static_cast<double>(Real((start - before).norm()));
+  return jump > kAnotherRoot * static_cast<double>(Real(start.norm() + before.norm()));
 }
 
 template <class Real>

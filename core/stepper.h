@@ -47,6 +47,11 @@ class Stepper {
   /// its halves alike, and no other estimate sees it.
   double startDefect(const State<Real>& from);
 
+  /// Whether the step solved last may be on another root of the stage equations: algebraic unknowns of
+  /// index 2 have round-off over h, and at tiny steps Newton can go from one root to another; (a, k) then
+  /// do not continue those of `from`. Always false where (a, k) follow from (u, v, x).
+  bool leavesRoot(const State<Real>& from) const;
+
   /// Of the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in
   /// the stages' polynomial. They fall with h^decay() where the step resolves the motion.
   double roughness();
@@ -96,6 +101,7 @@ class Stepper {
   State<Real> other_mode_;
   Vec<double> row_weights_;
   bool sees_switches_;
+  bool has_hidden_unknowns_;  // algebraic, of index 2, and no multipliers of position constraints
   Vec<double> ones_;
   Vec<Real> g_before_;
   std::vector<Index> done_;  // switches of the discontinuous iterations

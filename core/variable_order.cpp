@@ -88,6 +88,9 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
     }
     reserved_ = pattern;
   }
+  if (result.outcome == Outcome::kSuccess && continues_ && member().stepper.leavesRoot(from)) {
+    result.outcome = Outcome::kNewtonFailed;
+  }
   if (result.outcome != Outcome::kSuccess) {
     if (++failures_ > (solved_ ? 1 : kFirstStepFailures) && at_ > 0) changeTo(at_ - 1);
     return result;
@@ -124,7 +127,7 @@ void VariableOrder<Real>::begin() {
   past_ = &member().stepper.stages();
   past_at_ = at_;
   solved_ = false;
-  watches_start_ = false;
+  continues_ = watches_start_ = false;
   failures_ = 0;
   forget();
 }
@@ -164,6 +167,7 @@ template <class Real>
 NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
   ++since_change_;
   watches_start_ = false;
+  continues_ = true;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);

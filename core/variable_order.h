@@ -36,6 +36,7 @@ class VariableOrder final : public StepAttempt<Real> {
   void forget() override;
   void restart() override {
     forget();
+    continues_ = false;
     watches_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
@@ -81,6 +82,7 @@ class VariableOrder final : public StepAttempt<Real> {
   int epoch_ = 0;                      // members that are not in use forget when they come to it
   bool again_ = true;                  // filter twice: after a start and a rejection
   bool watches_start_ = false;         // the first step after a restart
+  bool continues_ = false;             // a step of the same mode
   int since_change_ = 0;               // accepted steps
   double lower_error_;                 // of the member below, NaN if not known
   double unknowns_;
