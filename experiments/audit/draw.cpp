@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -84,35 +85,22 @@ Settings drawnOnce(Dice& dice, const SceneEntry& scene, Discontinuity treatment,
   return settings;
 }
 
-// A scene can be made, and it has something to integrate.
-bool canBeMade(const SceneEntry& scene, const Settings& settings) {
+// Nothing where no scene can be made of the settings, or one with nothing to integrate.
+std::optional<Scene<double>> sceneOf(const std::string& id, const Settings& settings) {
   try {
-    const auto made = makeScene<double>(scene.id, settings);
-    const bool finite = made.start.u.allFinite() && made.start.v.allFinite() &&
-                        made.start.x.allFinite() && made.start.w.allFinite();
-    return finite && std::isfinite(made.t_end) && made.start.t < made.t_end;
+    auto scene = makeScene<double>(id, settings);
+    const bool finite = scene.start.u.allFinite() && scene.start.v.allFinite() &&
+                        scene.start.x.allFinite() && scene.start.w.allFinite();
+    const bool usable = finite && std::isfinite(scene.t_end) && scene.start.t < scene.t_end;
+    return usable ? std::optional(std::move(scene)) : std::nullopt;
   } catch (const Misuse&) {
-    return false;
+    return std::nullopt;
   } catch (const std::logic_error&) {  // no consistent start
-    return false;
+    return std::nullopt;
   }
 }
 
-std::string drawnMethod(Dice& dice, bool variable) {
-  const auto& families = familyCatalogue();
-  for (;;) {
-    const auto& family = families[static_cast<std::size_t>(dice.below(static_cast<Index>(families.size())))];
-    const bool whole = dice.chance(0.5);
-    const Index stages = kStages[dice.weighted(kStageWeights)];
-    if (variable && whole) return family.id;
-    if (stages >= family.min_stages) return fmt::format("{}_{}", family.id, stages);
-  }
-}
-
-// Legality must not depend on the default that a run leaves open.
-bool isLegal(const DrawnRun& run) {
-  RunSpec spec = run.spec;
-  if (run.treatment == kDefaultTreatment) spec.discontinuity = Discontinuity::kLocate;
+bool canBePrepared(const RunSpec& spec) {
   try {
     prepare(spec);
     return true;
@@ -121,40 +109,136 @@ bool isLegal(const DrawnRun& run) {
   }
 }
 
+struct MethodChoice {
+  std::string family;
+  Index stages;  // 0: the family itself, of variable order
+
+  std::string id() const { return stages == 0 ? family : fmt::format("{}_{}", family, stages); }
+  // A member that is refused for the same reasons and costs less to construct: these are properties of the
+  // family, but for its smallest members.
+  std::string smallId() const {
+    return stages == 0 ? family : fmt::format("{}_{}", family, std::min<Index>(stages, 4));
+  }
+};
+
+MethodChoice drawnMethod(Dice& dice, bool variable) {
+  const auto& families = familyCatalogue();
+  for (;;) {
+    const auto& family =
+        families[static_cast<std::size_t>(dice.below(static_cast<Index>(families.size())))];
+    const bool whole = dice.chance(0.5);
+    const Index stages = kStages[dice.weighted(kStageWeights)];
+    if (variable && whole) return {family.id, 0};
+    if (stages >= family.min_stages) return {family.id, stages};
+  }
+}
+
 void set(RunSpec& spec, std::string_view field, std::string_view value) {
   if (!value.empty()) findField(field).set(spec, value);
 }
 
-// The scene's settings are drawn before what depends on its sizes.
-DrawnRun drawnOnce(Dice& dice, const SceneEntry& scene, const AuditOptions& options) {
-  DrawnRun run;
-  RunSpec& spec = run.spec;
-  spec.scene = scene.id;
-  const std::string configuration = chosen(dice, kConfigurations);
-  const std::string treatment = chosen(dice, kTreatments);
-  const std::string formulation = chosen(dice, kFormulations);
-  const bool defaults = dice.chance(0.5);
-  const Index variant = dice.below(options.variants);
-  const std::string method = drawnMethod(dice, configuration == "variable");
-  const auto tolerance = fmt::format("1e-{}", dice.between(2, 13));
+/// Draws the runs of one audit. Remembers what the draws of a scene have in common.
+class Drawer {
+ public:
+  explicit Drawer(const AuditOptions& options) : options_(options) {}
 
-  const bool smooth = treatment == idOf(Discontinuity::kSmooth);
-  if (!defaults) {
-    spec.settings = drawnSettings(scene, options.seed, variant,
-                                  smooth ? Discontinuity::kSmooth : Discontinuity::kIgnore);
+  DrawnRun run(int number) {
+    const auto& scenes = sceneCatalogue();
+    Dice dice(fmt::format("{} run {}", options_.seed, number));
+    const auto& scene =
+        scenes[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes.size())))];
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      if (auto run = drawn(dice, scene)) return *run;
+    }
+    throw std::logic_error("audit: no legal run of scene " + scene.id);
   }
-  const Sizes n = makeScene<double>(scene.id, spec.settings).sizes();
-  set(spec, "configuration", configuration);
-  set(spec, "method", method);
-  set(spec, "rtol", tolerance);
-  set(spec, "atol", tolerance);
-  spec.time_limit = options.time_limit;
-  if (n.switches > 0) set(spec, "discontinuity", treatment);
-  if (n.constraints > 0) set(spec, "formulation", formulation);
-  run.treatment = n.switches == 0 ? kNoSwitches : treatment.empty() ? kDefaultTreatment : treatment;
-  run.spec = resolved(spec);
-  return run;
-}
+
+ private:
+  struct Variant {
+    Settings settings;
+    Sizes sizes;
+    double t_end;
+  };
+
+  const Variant& variantOf(const SceneEntry& scene, Index number, bool smooth) {
+    const auto key = fmt::format("{} {} {}", scene.id, number, smooth);
+    const auto known = variants_.find(key);
+    if (known != variants_.end()) return known->second;
+    Variant variant;
+    const auto treatment = smooth ? Discontinuity::kSmooth : Discontinuity::kIgnore;
+    if (number >= 0) variant.settings = drawnSettings(scene, options_.seed, number, treatment);
+    const auto made = makeScene<double>(scene.id, variant.settings);
+    variant.sizes = made.sizes();
+    variant.t_end = made.t_end;
+    return variants_[key] = variant;
+  }
+
+  // The draw has no part that depends on another one, but for the variant of the settings.
+  std::optional<DrawnRun> drawn(Dice& dice, const SceneEntry& scene) {
+    const std::string configuration = chosen(dice, kConfigurations);
+    std::string treatment = chosen(dice, kTreatments);
+    std::string formulation = chosen(dice, kFormulations);
+    const bool defaults = dice.chance(0.5);
+    const Index number = dice.below(options_.variants);
+    const MethodChoice method = drawnMethod(dice, configuration == "variable");
+    const auto tolerance = fmt::format("1e-{}", dice.between(2, 13));
+
+    const bool smooth = treatment == idOf(Discontinuity::kSmooth);
+    const Variant& variant = variantOf(scene, defaults ? -1 : number, smooth);
+    const bool switches = variant.sizes.switches > 0;
+    if (!switches) treatment.clear();
+    if (variant.sizes.constraints == 0) formulation.clear();
+    const bool first_order = formulation == idOf(Formulation::kFirstOrder);
+    const bool algebraic = variant.sizes.nz > 0 && !first_order;
+    if (!allowsSystem(scene.id, variant.settings, formulation, treatment)) return std::nullopt;
+    if (!allowsMethod(configuration, method, algebraic)) return std::nullopt;
+
+    DrawnRun run;
+    run.treatment = !switches ? kNoSwitches : treatment.empty() ? kDefaultTreatment : treatment;
+    run.spec.scene = scene.id;
+    run.spec.settings = variant.settings;
+    run.spec.t_end = variant.t_end;
+    run.spec.time_limit = options_.time_limit;
+    set(run.spec, "configuration", configuration);
+    set(run.spec, "method", method.id());
+    set(run.spec, "formulation", formulation);
+    set(run.spec, "discontinuity", treatment);
+    set(run.spec, "rtol", tolerance);
+    set(run.spec, "atol", tolerance);
+    return run;
+  }
+
+  bool remembered(const std::string& what, const RunSpec& spec) {
+    const auto known = legal_.find(what);
+    if (known != legal_.end()) return known->second;
+    return legal_[what] = canBePrepared(spec);
+  }
+
+  // Whether the scene has this formulation and treatment; not given, the treatment is legal.
+  bool allowsSystem(const std::string& scene, const Settings& settings,
+                    const std::string& formulation, const std::string& treatment) {
+    RunSpec spec;
+    spec.scene = scene;
+    spec.settings = settings;
+    spec.method = "radau_iia_3";
+    spec.discontinuity = Discontinuity::kLocate;
+    set(spec, "formulation", formulation);
+    set(spec, "discontinuity", treatment);
+    return remembered(fmt::format("{} {} {}", scene, formulation, treatment), spec);
+  }
+
+  bool allowsMethod(const std::string& configuration, const MethodChoice& method, bool algebraic) {
+    RunSpec spec;
+    spec.scene = algebraic ? "index1_nonlinear" : "riccati_tracking";
+    set(spec, "configuration", configuration);
+    spec.method = method.smallId();
+    return remembered(fmt::format("{} {} {}", spec.scene, configuration, spec.method), spec);
+  }
+
+  AuditOptions options_;
+  std::map<std::string, Variant> variants_;
+  std::map<std::string, bool> legal_;
+};
 
 }  // namespace
 
@@ -164,25 +248,15 @@ Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index varian
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     Dice dice(fmt::format("{} settings {} {} {}", seed, scene.id, variant, attempt));
     const Settings settings = drawnOnce(dice, scene, treatment, t_end);
-    if (canBeMade(scene, settings)) return settings;
+    if (sceneOf(scene.id, settings)) return settings;
   }
   return {};
 }
 
 std::vector<DrawnRun> drawnRuns(const AuditOptions& options) {
-  const auto& scenes = sceneCatalogue();
-  std::vector<DrawnRun> runs(static_cast<std::size_t>(options.runs));
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    Dice dice(fmt::format("{} run {}", options.seed, i));
-    const auto& scene = scenes[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes.size())))];
-    int attempts = 0;
-    do {
-      if (++attempts > kMostAttempts) {
-        throw std::logic_error("audit: no legal run of scene " + scene.id);
-      }
-      runs[i] = drawnOnce(dice, scene, options);
-    } while (!isLegal(runs[i]));
-  }
+  Drawer drawer(options);
+  std::vector<DrawnRun> runs;
+  for (int i = 0; i < options.runs; ++i) runs.push_back(drawer.run(i));
   return runs;
 }
 

@@ -118,9 +118,10 @@ class Search {
         numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
   }
 
-  // Empty after a failure, which `remark_` then names.
+  // Empty after a failure, which `outcome_` and `remark_` then name.
   Vec<double> integrate(const RunSpec& spec, const State<double>& start) {
     const auto end = integrateFrom(spec, start, watch_);
+    outcome_ = end.outcome;
     if (end.outcome == Outcome::kSuccess) return components(end.state);
     remark_ = fmt::format("{} at tol {:g}: {}", spec.method, spec.options.tolerances.rtol,
                           name(end.outcome));
@@ -175,11 +176,20 @@ class Search {
   double kappa(const RunSpec& strict, const Vec<double>& unperturbed) {
     double largest = 0;
     for (int draw = 0; draw < kPerturbed; ++draw) {
-      const Vec<double> y = integrate(strict, perturbed(draw));
-      if (!complete(y)) return kInfinity;
+      Vec<double> y = integrate(strict, perturbed(draw));
+      if (y.size() == 0 && outcome_ == Outcome::kInconsistentStart) y = perturbedOnTheWay(strict);
+      if (!complete(y)) {
+        answer_.remark = "perturbed start: " + remark_;
+        return kInfinity;
+      }
       largest = std::max(largest, difference(y, unperturbed) / kPerturbation);
     }
     return largest;
+  }
+
+  Vec<double> perturbedOnTheWay(RunSpec strict) {
+    strict.options.tolerances.rtol = strict.options.tolerances.atol = kPerturbation;
+    return integrate(strict, scene_.start);
   }
 
   State<double> perturbed(int draw) const {
@@ -201,7 +211,8 @@ class Search {
   Sizes n_;
   Watch watch_;
   Answer answer_;
-  std::string remark_;  // of the last run that failed
+  Outcome outcome_ = Outcome::kSuccess;  // of the last run
+  std::string remark_;                   // of the last run that failed
 };
 
 }  // namespace
