@@ -4,8 +4,9 @@
 //             scene's. Multipliers z are reported beside it and judge nothing.
 //   kappa     conditioning: all of u, v, x at the start are perturbed by random signs times 1e-9 max(|y|, scale),
 //             twice, and integrated strictly; kappa is the largest difference at t_end, measured as an
-//             error, over 1e-9. Infinite where a perturbed run fails or is not finite. Where hidden constraints
-//             forbid a perturbed start the run is perturbed on its way instead: by the tolerance 1e-9.
+//             error, over 1e-9. Infinite where a perturbed run fails or is not finite. Where no
+//             step leads away from a perturbed start (hidden constraints forbid it) the run is
+//             perturbed on its way instead: by the tolerance 1e-9.
 //
 //   ill_conditioned   kappa > 1000: an error of one tolerance in the start alone passes the bar; or
 //                     kappa eps > tolerance: round-off alone does. Set aside, whatever the outcome.

@@ -118,10 +118,10 @@ class Search {
         numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
   }
 
-  // Empty after a failure, which `outcome_` and `remark_` then name.
+  // Empty after a failure, which `remark_` then names.
   Vec<double> integrate(const RunSpec& spec, const State<double>& start) {
     const auto end = integrateFrom(spec, start, watch_);
-    outcome_ = end.outcome;
+    started_ = end.state.t > start.t;
     if (end.outcome == Outcome::kSuccess) return components(end.state);
     remark_ = fmt::format("{} at tol {:g}: {}", spec.method, spec.options.tolerances.rtol,
                           name(end.outcome));
@@ -177,7 +177,7 @@ class Search {
     double largest = 0;
     for (int draw = 0; draw < kPerturbed; ++draw) {
       Vec<double> y = integrate(strict, perturbed(draw));
-      if (y.size() == 0 && outcome_ == Outcome::kInconsistentStart) y = perturbedOnTheWay(strict);
+      if (y.size() == 0 && !started_) y = perturbedOnTheWay(strict);
       if (!complete(y)) {
         answer_.remark = "perturbed start: " + remark_;
         return kInfinity;
@@ -211,8 +211,8 @@ class Search {
   Sizes n_;
   Watch watch_;
   Answer answer_;
-  Outcome outcome_ = Outcome::kSuccess;  // of the last run
-  std::string remark_;                   // of the last run that failed
+  bool started_ = false;  // the last run took a step
+  std::string remark_;    // of the last run that failed
 };
 
 }  // namespace
