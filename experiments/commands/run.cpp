@@ -18,6 +18,7 @@ namespace {
 
 // In the order in which a reader wants them: what is computed, whether it is right, what it costs.
 constexpr std::string_view kPaperStudies[] = {"scenes",
+                                              "audit",
                                               "order",
                                               "cpu_time",
                                               "families",
