@@ -2,7 +2,8 @@
 # Only the peers need SUNDIALS: core, tableaus and problems do not know it.
 find_package(SUNDIALS REQUIRED COMPONENTS arkode cvode ida nvecserial sunlinsoldense sunmatrixdense)
 irk_library(experiments)
-file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
+file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/audit/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/reference/*.cpp)

@@ -70,6 +70,15 @@ class PeerMethod {
   PeerIntegrator integrator_;
 };
 
+// Asked before each step: whether the caller or the time limit ends a run that began at `start`.
+std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
+  return [&watch, start, limit] {
+    if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
+    const bool late = limit > 0 && threadSeconds() - start > limit;
+    return late ? Outcome::kTimeout : Outcome::kSuccess;
+  };
+}
+
 template <class Real, class Method>
 class Prepared final : public PreparedRun {
  public:
@@ -82,12 +91,7 @@ class Prepared final : public PreparedRun {
   RunRecord execute(const Watch& watch) override {
     Monitor<Real> monitor;
     const double start = threadSeconds();
-    const double limit = spec_.time_limit;
-    monitor.interrupt = [&watch, start, limit] {
-      if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
-      const bool late = limit > 0 && threadSeconds() - start > limit;
-      return late ? Outcome::kTimeout : Outcome::kSuccess;
-    };
+    monitor.interrupt = interruption(watch, start, spec_.time_limit);
     if (watch.accepted) {
       const double none = std::numeric_limits<double>::quiet_NaN();
       watch.accepted({static_cast<double>(scene_.start.t), none, none, 0, values(scene_.start)});
@@ -206,6 +210,17 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
 }
 
 RunRecord execute(const RunSpec& spec, const Watch& watch) { return prepare(spec)->execute(watch); }
+
+FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch) {
+  const RunSpec whole = resolved(spec);
+  if (findPeer(whole.method)) throw Misuse("integrateFrom: '" + whole.method + "' is a peer");
+  const auto scene = makeScene<double>(whole.scene, settingsAtStep(whole));
+  RungeKutta<double> method(scene, whole);
+  Monitor<double> monitor;
+  monitor.interrupt = interruption(watch, threadSeconds(), whole.time_limit);
+  auto solution = method.integrate(start, whole.t_end, monitor);
+  return {solution.outcome, std::move(solution.detail), std::move(solution.state)};
+}
 
 RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make) {
   try {

@@ -80,6 +80,18 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
 /// Throws Misuse as `prepare`.
 RunRecord execute(const RunSpec& spec, const Watch& watch = {});
 
+/// Where an integration ended.
+struct FinalState {
+  Outcome outcome = Outcome::kSuccess;
+  std::string detail;   ///< of a failure, in one line
+  State<double> state;  ///< the last accepted one, in the scene's unknowns
+};
+
+/// The integration of a spec in double precision with an implicit Runge-Kutta method, but from
+/// `start`, a state of the scene that may differ from its own start. Ends at the spec's t_end. Throws
+/// Misuse as `prepare`, and for a peer.
+FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch = {});
+
 /// For sweeps: `make()`, or a record with outcome `refused` if it throws Misuse.
 RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make);
 

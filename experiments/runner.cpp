@@ -13,6 +13,7 @@
 #include "core/misuse.h"
 #include "experiments/clock.h"
 #include "experiments/environment.h"
+#include "experiments/final_states.h"
 #include "experiments/interrupt.h"
 #include "experiments/numbers.h"
 #include "experiments/progress.h"
@@ -87,6 +88,10 @@ class Sweep {
       for (std::size_t i = 0; i < count; ++i) progress_->expect(kindOf(runs[i], series->end));
     }
     for (const auto& row : table_.rows) finished_[row.front()] = row;
+    if (study.states) {
+      const bool fresh = options.finished == FinishedRuns::kRunAgain;
+      states_.emplace(folder_ / "states.csv", table_.head, fresh);
+    }
   }
 
   /// Throws the first exception of any thread.
@@ -167,7 +172,7 @@ class Sweep {
     {
       const std::lock_guard lock(mutex_);
       const auto found = finished_.find(key);
-      if (found != finished_.end() && hasTrajectory(spec)) {
+      if (found != finished_.end() && hasSolution(key, spec)) {
         progress_->skipped(kind);
         return &found->second;
       }
@@ -178,6 +183,7 @@ class Sweep {
     const std::lock_guard lock(mutex_);
     TableRow& row = finished_[key] = runRow(key, study_.id, record);
     writer_.append(row);
+    if (states_) states_->append(key, record);
     if (too_long) {
       progress_->skipped(kind);
     } else {
@@ -186,7 +192,9 @@ class Sweep {
     return &row;
   }
 
-  bool hasTrajectory(const RunSpec& spec) const {
+  // What the study keeps of a finished run beside its row is there.
+  bool hasSolution(const std::string& key, const RunSpec& spec) const {
+    if (states_ && !states_->has(key)) return false;
     return !study_.trajectories || std::filesystem::exists(trajectoryPath(folder_, spec));
   }
 
@@ -202,6 +210,7 @@ class Sweep {
   std::filesystem::path folder_;
   Table table_;
   RowWriter writer_;
+  std::optional<FinalStates> states_;
   std::vector<const Series*> work_;
   std::mutex mutex_;
   std::optional<Progress> progress_;

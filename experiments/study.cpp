@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/text.h"
+#include "experiments/audit/draw.h"
 #include "experiments/builtin_studies.h"
 #include "experiments/numbers.h"
 #include "experiments/peers/catalogue.h"
@@ -197,6 +198,19 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
   }
 }
 
+// Keys of a study's table that it does not have.
+void refuseUnknown(const StudyKeys& keys, const std::string& table,
+                   const std::vector<std::string>& names) {
+  std::vector<std::string> known{table};
+  for (const auto& name : names) known.push_back(table + "." + name);
+  for (const auto& [key, value] : keys) {
+    const bool unknown = std::find(known.begin(), known.end(), key) == known.end();
+    if (key.starts_with(table + ".") && unknown) {
+      throw Misuse(fmt::format("{}: {}", value.place, unknownName("key", key, known)));
+    }
+  }
+}
+
 TimingOptions timingOptions(const StudyKeys& keys) {
   constexpr NumberRange kCount{[](double x) { return x >= 1 && x <= 1000; }, "1 to 1000"};
   TimingOptions timing;
@@ -206,15 +220,25 @@ TimingOptions timingOptions(const StudyKeys& keys) {
       static_cast<int>(number(keys, "timing.repetitions", timing.repetitions, kCount));
   timing.once_above_s = number(keys, "timing.once_above_s", timing.once_above_s, kPositive);
   timing.skip_above_s = number(keys, "timing.skip_above_s", timing.skip_above_s, kPositive);
-  const std::vector<std::string> known{"timing", "timing.min_time_s", "timing.repetitions",
-                                       "timing.once_above_s", "timing.skip_above_s"};
-  for (const auto& [key, value] : keys) {
-    const bool unknown = std::find(known.begin(), known.end(), key) == known.end();
-    if (key.starts_with("timing") && unknown) {
-      throw Misuse(fmt::format("{}: {}", value.place, unknownName("key", key, known)));
-    }
-  }
+  refuseUnknown(keys, "timing", {"min_time_s", "repetitions", "once_above_s", "skip_above_s"});
   return timing;
+}
+
+AuditOptions auditOptions(const StudyKeys& keys) {
+  constexpr NumberRange kCount{[](double x) { return x >= 1 && x <= 1e6; }, "1 to 1e6"};
+  AuditOptions audit;
+  audit.runs = static_cast<int>(number(keys, "audit.runs", audit.runs, kCount));
+  audit.seed = static_cast<std::uint64_t>(number(keys, "audit.seed", 1, kNotNegative));
+  audit.variants = static_cast<int>(number(keys, "audit.variants", audit.variants, kCount));
+  audit.time_limit = number(keys, "audit.time_limit", audit.time_limit, kPositive);
+  refuseUnknown(keys, "audit", {"runs", "seed", "variants", "time_limit"});
+  return audit;
+}
+
+std::vector<Series> auditSeries(const AuditOptions& options) {
+  std::vector<Series> series;
+  for (const auto& run : audit::drawnRuns(options)) series.push_back({{run.spec}});
+  return series;
 }
 
 }  // namespace
@@ -253,12 +277,18 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   }
   study.profile = flag(text.study, "profile");
   study.timing = timingOptions(text.study);
-  for (const auto& block : text.blocks) appendBlock(block, study.series);
   const bool quick = variant == StudyVariant::kQuick;
   const auto other = quick ? StudyVariant::kFull : StudyVariant::kQuick;
-  for (const auto& block : parseStudyFile(toml, file, other).blocks) {
-    appendBlock(block, study.other_variant);
+  const StudyFile other_text = parseStudyFile(toml, file, other);
+  if (find(text.study, "audit")) {
+    study.audit = auditOptions(text.study);
+    study.states = true;
+    study.series = auditSeries(*study.audit);
+    study.other_variant = auditSeries(auditOptions(other_text.study));
+    return study;
   }
+  for (const auto& block : text.blocks) appendBlock(block, study.series);
+  for (const auto& block : other_text.blocks) appendBlock(block, study.other_variant);
   return study;
 }
 

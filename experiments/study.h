@@ -1,8 +1,10 @@
 // A study: which runs, and what to do with them afterwards.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +35,14 @@ struct TimingOptions {
   double skip_above_s = 3;    ///< > 0. ... and still longer ones keep the accuracy run's time
 };
 
+/// An audit: runs drawn at random instead of blocks (experiments/audit/draw.h).
+struct AuditOptions {
+  int runs = 12000;        ///< > 0
+  std::uint64_t seed = 1;  ///< of the draw
+  int variants = 40;       ///< > 0. Drawn settings per scene: runs share their references
+  double time_limit = 2;   ///< > 0, CPU seconds of each run
+};
+
 struct Study {
   std::string id;
   std::string title;
@@ -47,6 +57,9 @@ struct Study {
   bool phases = false;          ///< shares of the parts of Newton's method: phases.csv
   std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv
   bool profile = false;         ///< performance profiles at the targets: profile.csv
+  bool states = false;          ///< keep the final states of all runs: states.csv
+  /// Judge every success: audit.csv. The series are the drawn runs, one each.
+  std::optional<AuditOptions> audit;
   TimingOptions timing;
 };
 

@@ -63,23 +63,30 @@ class FileReader {
 
 constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
                                            "energy", "phases", "timing",       "targets",
-                                           "profile", "scaling", "defaults", "quick",
-                                           "block"};
+                                           "profile", "scaling", "audit", "defaults",
+                                           "quick", "block"};
+
+// A table of the study itself: `timing.repetitions`. Its table `quick` holds for --quick only.
+void readStudyTable(const FileReader& reader, const std::string& key, const toml::node& node,
+                    bool quick, StudyKeys& study) {
+  const toml::table& table = reader.table(key, node);
+  StudyKeys keys;
+  reader.merge(table, keys);
+  if (quick) reader.mergeQuick(table, keys);
+  study[key] = {{"true"}, reader.place(node.source())};
+  for (auto& [name, value] : keys) study[key + "." + name] = std::move(value);
+}
 
 void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
-                  StudyKeys& study) {
+                  bool quick, StudyKeys& study) {
   if (key == "defaults" || key == "quick" || key == "block") return;
   if (std::find(std::begin(kStudyKeys), std::end(kStudyKeys), key) == std::end(kStudyKeys)) {
     reader.refuse(node, unknownName("key", key, {std::begin(kStudyKeys), std::end(kStudyKeys)}));
   }
-  if (key != "timing") {
-    study[std::string(key)] = reader.value(key, node);
-    return;
+  if (key == "timing" || key == "audit") {
+    return readStudyTable(reader, std::string(key), node, quick, study);
   }
-  study["timing"] = {{"true"}, reader.place(node.source())};
-  for (const auto& [name, item] : reader.table("timing", node)) {
-    study[fmt::format("timing.{}", name.str())] = reader.value(name.str(), item);
-  }
+  study[std::string(key)] = reader.value(key, node);
 }
 
 toml::table parsed(std::string_view text, const FileReader& reader) {
@@ -96,13 +103,17 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
   const FileReader reader(file);
   const toml::table root = parsed(text, reader);
   StudyFile result;
-  for (const auto& [key, node] : root) readStudyKey(reader, key.str(), node, result.study);
+  const bool quick = variant == StudyVariant::kQuick;
+  for (const auto& [key, node] : root) readStudyKey(reader, key.str(), node, quick, result.study);
 
   StudyKeys defaults;
-  const bool quick = variant == StudyVariant::kQuick;
   if (const auto* node = root.get("defaults"))
     reader.merge(reader.table("defaults", *node), defaults);
   const auto* blocks = root.get_as<toml::array>("block");
+  if (root.contains("audit")) {
+    if (blocks) throw Misuse(file + ": [audit] draws its runs: no [[block]] beside it");
+    return result;
+  }
   if (!blocks || blocks->empty()) throw Misuse(file + ": no [[block]]: a study needs at least one");
   for (const auto& node : *blocks) {
     const toml::table& block = reader.table("block", node);

@@ -2,6 +2,7 @@
 //
 //   title = "..."                  orders, trajectories, estimates, energy, phases, profile, scaling = true
 //   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...
+//   [audit]                runs, seed, ... instead of blocks; [audit.quick] the same, --quick only
 //   [defaults]                     keys of every block   [quick]        the same, --quick only
 //   [[block]]                      one sweep             [block.quick]  the same, --quick only
 #pragma once
@@ -24,7 +25,7 @@ using StudyKeys = std::map<std::string, StudyValue, std::less<>>;
 
 struct StudyFile {
   StudyKeys study;                ///< title, orders, ..., `timing.repetitions`
-  std::vector<StudyKeys> blocks;  ///< defaults and quick variants merged in; never empty
+  std::vector<StudyKeys> blocks;  ///< defaults and quick variants merged in; empty for an audit only
 };
 
 /// Throws Misuse `file:line: reason`.

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "experiments/audit/audit.h"
 #include "experiments/claims/claims.h"
 #include "experiments/commands/commands.h"
 #include "experiments/environment.h"
@@ -17,6 +18,7 @@ namespace {
 
 // In the order in which a reader wants them: what is computed, whether it is right, what it costs.
 constexpr std::string_view kPaperStudies[] = {"scenes",
+                                              "audit",
                                               "order",
                                               "cpu_time",
                                               "families",
@@ -57,6 +59,9 @@ int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
   }
   if (whole) writeSummaries(study, runs, folder, streams.err);
   printSummary(study, runs, folder, streams.out);
+  if (whole && study.audit) {
+    streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
+  }
   if (!interruptFlag()) return 0;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;

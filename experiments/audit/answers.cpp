@@ -1,0 +1,108 @@
+#include "experiments/audit/answers.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "experiments/build_info.h"
+#include "experiments/clock.h"
+#include "experiments/environment.h"
+#include "experiments/final_states.h"
+#include "experiments/interrupt.h"
+#include "experiments/numbers.h"
+#include "experiments/progress.h"
+#include "experiments/run_table.h"
+
+namespace irk::audit {
+namespace {
+
+std::string versionText() {
+  return fmt::format("{} {}", buildInfo().version, buildInfo().commit);
+}
+
+// The rows that this version wrote.
+Table foundAnswers(const std::filesystem::path& file, int jobs) {
+  Table table{environmentHead("references of the audit", jobs), answerColumns(), {}};
+  if (!std::filesystem::exists(file)) return table;
+  const Table found = readTable(file);
+  if (found.columns != table.columns) return table;
+  for (const auto& row : found.rows) {
+    if (textAt(found, row, "version") == versionText()) table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<std::string> answerColumns() {
+  return {"scene",    "settings", "t_end", "smooth", "version", "source", "accuracy",
+          "kappa",    "cpu_s",    "remark", "state", "other"};
+}
+
+TableRow answerRow(const Question& question, const Answer& answer) {
+  return {question.scene,
+          question.settings,
+          numberText(question.t_end),
+          question.smooth ? "1" : "0",
+          versionText(),
+          answer.source,
+          numberText(answer.accuracy),
+          numberText(answer.kappa),
+          numberText(answer.cpu_s),
+          answer.remark,
+          vectorText(answer.state),
+          vectorText(answer.other)};
+}
+
+std::pair<Question, Answer> parseAnswer(const Table& table, const TableRow& row) {
+  const auto text = [&](std::string_view column) { return textAt(table, row, column); };
+  const auto number = [&](std::string_view column) { return numberAt(table, row, column); };
+  return {{text("scene"), text("settings"), number("t_end"), text("smooth") == "1"},
+          {.state = parseVector(text("state")),
+           .other = parseVector(text("other")),
+           .source = text("source"),
+           .accuracy = number("accuracy"),
+           .kappa = number("kappa"),
+           .remark = text("remark"),
+           .cpu_s = number("cpu_s")}};
+}
+
+Answers answersTo(const std::set<Question>& questions, const std::filesystem::path& file, int jobs,
+                  std::ostream& out) {
+  const Table table = foundAnswers(file, jobs);
+  Answers answers;
+  for (const auto& row : table.rows) answers.insert(parseAnswer(table, row));
+  std::vector<Question> open;
+  for (const auto& question : questions) {
+    if (!answers.contains(question)) open.push_back(question);
+  }
+  RowWriter writer(file, table);
+  std::optional<Progress> progress(std::in_place, out, "audit: references");
+  for (const auto& question : open) progress->expect(question.scene);
+  std::mutex mutex;
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(jobs)
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    try {
+      if (interruptFlag()) continue;
+      const double start = wallSeconds();
+      const Answer answer = answerOf(open[i], &interruptFlag());
+      if (answer.source == kInterruptedSource) continue;
+      const std::lock_guard lock(mutex);
+      writer.append(answerRow(open[i], answer));
+      answers[open[i]] = answer;
+      progress->finished(open[i].scene, wallSeconds() - start);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  }
+  progress.reset();
+  if (failure) std::rethrow_exception(failure);
+  return answers;
+}
+
+}  // namespace irk::audit

@@ -1,0 +1,111 @@
+#include "experiments/audit/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/final_states.h"
+#include "experiments/numbers.h"
+#include "experiments/run_table.h"
+
+namespace irk::audit {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<std::string> kColumns{
+    "run",       "key",       "scene",     "settings",     "method",      "family",
+    "stages",    "configuration", "formulation", "treatment", "discontinuity", "tolerance",
+    "outcome",   "detail",    "judgement", "error",        "error_over_tolerance", "error_z",
+    "reference", "accuracy",  "kappa",     "remark",       "cpu_s",       "command"};
+
+// Errors in u, v, x and in z.
+struct StateErrors {
+  double judged = kUnknown, multipliers = kUnknown;
+};
+
+StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Vec<double>& state,
+                     const Answer& answer) {
+  const Vec<double>& reference = answer.stateFor(family);
+  if (reference.size() == 0 || reference.size() != state.size()) return {};
+  const auto scene = makeScene<double>(spec.scene, spec.settings);
+  const Sizes n = scene.sizes();
+  const Index judged = 2 * n.nu + n.nx;
+  return {scaledDifference(state, reference, scene.scale, 0, judged),
+          scaledDifference(state, reference, scene.scale, judged, reference.size())};
+}
+
+TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, const TableRow& row,
+                  const Vec<double>* state, const Answer* answer) {
+  const RunSpec& spec = drawn.spec;
+  const auto text = [&](std::string_view column) { return textAt(runs, row, column); };
+  const Answer none;
+  const Answer& known = answer ? *answer : none;
+  const bool success = succeededAt(runs, row);
+  StateErrors errors;
+  if (success && state) errors = errorsOf(spec, text("family"), *state, known);
+  const double tolerance = spec.options.tolerances.atol;
+  const Judgement judgement =
+      judge({success, tolerance, errors.judged, known.accuracy, known.kappa});
+  return {std::to_string(number),
+          row.front(),
+          spec.scene,
+          settingsText(spec.settings),
+          spec.method,
+          text("family"),
+          text("stages"),
+          spec.configuration,
+          std::string(idOf(spec.formulation)),
+          drawn.treatment,
+          std::string(idOf(spec.discontinuity)),
+          numberText(tolerance),
+          text("outcome"),
+          text("detail"),
+          std::string(nameOf(judgement)),
+          numberText(errors.judged),
+          numberText(errors.judged / tolerance),
+          numberText(errors.multipliers),
+          known.source,
+          numberText(known.accuracy),
+          numberText(known.kappa),
+          known.remark,
+          text("cpu_s"),
+          commandOf(drawn)};
+}
+
+}  // namespace
+
+Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
+                 const std::map<std::string, Vec<double>>& states, const Answers& answers) {
+  std::map<std::string, const TableRow*> rows;
+  for (const auto& row : runs.rows) rows[row.front()] = &row;
+  Table table{runs.head, kColumns, {}};
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const auto row = rows.find(specKey(drawn[i].spec));
+    if (row == rows.end()) continue;  // interrupted before
+    const auto state = states.find(row->first);
+    const auto answer = answers.find(questionOf(drawn[i].spec));
+    table.rows.push_back(auditRow(i, drawn[i], runs, *row->second,
+                                  state == states.end() ? nullptr : &state->second,
+                                  answer == answers.end() ? nullptr : &answer->second));
+  }
+  return table;
+}
+
+std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder,
+                      int jobs, std::ostream& progress) {
+  constexpr std::size_t kWorst = 5;
+  const auto drawn = drawnRuns(study.audit.value());
+  std::set<Question> questions;
+  for (const auto& run : drawn) questions.insert(questionOf(run.spec));
+  const Answers answers = answersTo(questions, folder / "references.csv", jobs, progress);
+  const Table audit = auditTable(drawn, runs, readStates(folder / "states.csv"), answers);
+  const Table summary = summaryTable(audit);
+  writeTable(folder / "audit.csv", audit);
+  writeTable(folder / "audit_summary.csv", summary);
+  return summaryText(audit, summary, kWorst);
+}
+
+}  // namespace irk::audit

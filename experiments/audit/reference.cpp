@@ -1,0 +1,244 @@
+#include "experiments/audit/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/misuse.h"
+#include "experiments/audit/dice.h"
+#include "experiments/audit/judge.h"
+#include "experiments/clock.h"
+#include "experiments/decimal.h"
+#include "experiments/numbers.h"
+
+namespace irk::audit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kFirstMethod = "radau_iia_7";
+constexpr const char* kFirstFamily = "radau";
+constexpr const char* kOtherMethod = "lobatto_iiic_6";
+constexpr double kTimeLimit = 5;        // CPU seconds of a strict run
+constexpr double kSameTime = 1e-12;     // of a reference's time and t_end, relative
+constexpr double kEnough = 1e-10;       // agreement with which every tolerance can be judged
+constexpr double kSameHistory = 1e-4;   // difference of a run that ignores the switches
+constexpr int kPerturbed = 2;           // perturbed starts
+
+// The next is tried where the strict runs fail or do not agree.
+struct Strictness {
+  double tolerance;
+  double steps;  // at least so many over the whole time
+};
+constexpr Strictness kStrictnesses[] = {{1e-12, 100}, {1e-12, 2000}, {1e-11, 500}};
+constexpr Strictness kIgnoring{1e-8, 1000};
+
+class Search {
+ public:
+  Search(const Question& question, const std::atomic<bool>* stop)
+      : question_(question), scene_(made(question)), n_(scene_.sizes()), watch_{stop, {}, {}} {}
+
+  Answer answer() {
+    if (!question_.smooth) known();
+    const bool compute = answer_.source.empty();
+    for (const auto& strictness : kStrictnesses) {
+      if (answer_.accuracy <= kEnough && !std::isnan(answer_.kappa)) break;
+      if (stopped()) return interrupted();
+      attempt(strictness, compute);
+    }
+    if (stopped()) return interrupted();
+    if (std::isnan(answer_.accuracy)) answer_.source.clear();
+    return answer_;
+  }
+
+ private:
+  static Scene<double> made(const Question& question) {
+    RunSpec spec;
+    findField("settings").set(spec, question.settings);
+    return makeScene<double>(question.scene, spec.settings);
+  }
+
+  bool stopped() const { return watch_.stop && watch_.stop->load(std::memory_order_relaxed); }
+  Answer interrupted() const {
+    Answer none;
+    none.source = kInterruptedSource;
+    return none;
+  }
+
+  Index judged() const { return 2 * n_.nu + n_.nx; }
+  double difference(const Vec<double>& y, const Vec<double>& reference) const {
+    return scaledDifference(y, reference, scene_.scale, 0, judged());
+  }
+  bool complete(const Vec<double>& y) const {
+    return y.size() >= judged() && y.head(judged()).allFinite();
+  }
+
+  // The exact state, or that of the references' files.
+  void known() {
+    if (scene_.exact) {
+      const Vec<double> exact = components(scene_.exact(question_.t_end));
+      if (complete(exact)) return keep("exact", exact, 0);
+    }
+    Vec<double> state = Vec<double>::Constant(n_.components(), kUnknown);
+    double accuracy = 0;
+    RunSpec spec;
+    findField("settings").set(spec, question_.settings);
+    for (const auto& reference : references(question_.scene, spec.settings)) {
+      const auto at = std::find(scene_.names.begin(), scene_.names.end(), reference.component);
+      const double late = std::abs(reference.t - question_.t_end);
+      if (at == scene_.names.end() || late > kSameTime * std::max(1.0, question_.t_end)) continue;
+      const Index i = at - scene_.names.begin();
+      state[i] = decimalNumber<double>(reference.value);
+      const double scale = i < scene_.scale.size() ? scene_.scale[i] : 1;
+      if (i >= judged()) continue;
+      accuracy = std::max(accuracy, reference.accuracy / std::max(std::abs(state[i]), scale));
+    }
+    if (complete(state)) keep("file", state, accuracy);
+  }
+
+  void keep(const char* source, const Vec<double>& state, double accuracy) {
+    answer_.source = source;
+    answer_.state = state;
+    answer_.accuracy = accuracy;
+  }
+
+  RunSpec spec(const char* method, const char* estimate, const char* treatment,
+               const Strictness& strictness) const {
+    const double length = question_.t_end - scene_.start.t;
+    return parseSpec(fmt::format(
+        "scene={};settings={};configuration=default;method={};formulation=index2;scaling=on;"
+        "discontinuity={};scalar=double;derivatives=automatic;newton=simplified;solver=schur;"
+        "storage=automatic;predictor=extrapolated;estimate={};control=predictive;order=fixed;"
+        "summation=compensated;multipliers=consistent;norm=mixed;jacobian=full;jacobian_point=start;"
+        "h_max={};rtol={};atol={};t_end={};time_limit={}",
+        question_.scene, question_.settings, method, question_.smooth ? "smooth" : treatment,
+        estimate, numberText(length / strictness.steps), numberText(strictness.tolerance),
+        numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
+  }
+
+  // Empty after a failure, which `remark_` then names.
+  Vec<double> integrate(const RunSpec& spec, const State<double>& start) {
+    const auto end = integrateFrom(spec, start, watch_);
+    started_ = end.state.t > start.t;
+    if (end.outcome == Outcome::kSuccess) return components(end.state);
+    remark_ = fmt::format("{} at tol {:g}: {}", spec.method, spec.options.tolerances.rtol,
+                          name(end.outcome));
+    return {};
+  }
+
+  void attempt(const Strictness& strictness, bool compute) {
+    const RunSpec strict = spec(kFirstMethod, "embedded", "locate", strictness);
+    const Vec<double> first = integrate(strict, scene_.start);
+    if (!complete(first)) {
+      if (answer_.remark.empty()) answer_.remark = remark_;
+      return;
+    }
+    if (!compute) {
+      const double difference_ = difference(first, answer_.state);
+      answer_.remark = difference_ > answer_.accuracy + kEnough
+                           ? fmt::format("a strict run differs by {:.1e}", difference_)
+                           : "";
+    } else {
+      agree(first, strictness);
+    }
+    answer_.kappa = kappa(strict, first);
+  }
+
+  void agree(const Vec<double>& first, const Strictness& strictness) {
+    const Vec<double> other =
+        integrate(spec(kOtherMethod, "richardson", "locate", strictness), scene_.start);
+    if (!complete(other)) {
+      if (answer_.remark.empty()) answer_.remark = remark_;
+      return;
+    }
+    const double disagreement = difference(first, other);
+    if (answer_.accuracy <= disagreement) return;
+    const double history = differenceOfHistory(first);
+    if (history > kSameHistory) {
+      answer_.remark = fmt::format("a run that ignores the switches differs by {:.1e}", history);
+      return;
+    }
+    keep("computed", first, disagreement);
+    answer_.other = other;
+    answer_.remark = disagreement > kEnough ? fmt::format("two runs differ by {:.1e}", disagreement)
+                                            : "";
+  }
+
+  // 0 where nothing switches, or where such a run fails, which contradicts nothing.
+  double differenceOfHistory(const Vec<double>& first) {
+    if (n_.switches == 0 || question_.smooth) return 0;
+    const Vec<double> y = integrate(spec("radau_iia_3", "richardson", "ignore", kIgnoring), scene_.start);
+    return complete(y) ? difference(y, first) : 0;
+  }
+
+  double kappa(const RunSpec& strict, const Vec<double>& unperturbed) {
+    double largest = 0;
+    for (int draw = 0; draw < kPerturbed; ++draw) {
+      Vec<double> y = integrate(strict, perturbed(draw));
+      if (y.size() == 0 && !started_) y = perturbedOnTheWay(strict);
+      if (!complete(y)) {
+        answer_.remark = "perturbed start: " + remark_;
+        return kInfinity;
+      }
+      largest = std::max(largest, difference(y, unperturbed) / kPerturbation);
+    }
+    return largest;
+  }
+
+  Vec<double> perturbedOnTheWay(RunSpec strict) {
+    strict.options.tolerances.rtol = strict.options.tolerances.atol = kPerturbation;
+    return integrate(strict, scene_.start);
+  }
+
+  State<double> perturbed(int draw) const {
+    Dice dice(fmt::format("perturbed start {}", draw));
+    State<double> start = scene_.start;
+    Index i = 0;
+    for (auto* group : {&start.u, &start.v, &start.x}) {
+      for (double& y : *group) {
+        const double scale = i < scene_.scale.size() ? scene_.scale[i] : 1;
+        y += dice.sign() * kPerturbation * std::max(std::abs(y), scale);
+        ++i;
+      }
+    }
+    return start;
+  }
+
+  Question question_;
+  Scene<double> scene_;
+  Sizes n_;
+  Watch watch_;
+  Answer answer_;
+  bool started_ = false;  // the last run took a step
+  std::string remark_;    // of the last run that failed
+};
+
+}  // namespace
+
+Question questionOf(const RunSpec& spec) {
+  return {spec.scene, settingsText(spec.settings), spec.t_end,
+          spec.discontinuity == Discontinuity::kSmooth};
+}
+
+const Vec<double>& Answer::stateFor(const std::string& family) const {
+  return family.starts_with(kFirstFamily) && other.size() > 0 ? other : state;
+}
+
+Answer answerOf(const Question& question, const std::atomic<bool>* stop) {
+  const double start = threadSeconds();
+  Answer answer = [&] {
+    try {
+      return Search(question, stop).answer();
+    } catch (const Misuse& misuse) {
+      Answer none;
+      none.remark = misuse.what();
+      return none;
+    }
+  }();
+  answer.cpu_s = threadSeconds() - start;
+  return answer;
+}
+
+}  // namespace irk::audit
