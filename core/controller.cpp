@@ -102,6 +102,10 @@ class PredictiveController final : public StepController {
       return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
     }
     if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / root);
+    // Where smaller steps did not make smaller errors, the next will not either: an error of round-off, or
+    // of the step's start, would shrink them without end.
+    futile_ = last_h_ > h && root >= kFutile * last_root_ ? futile_ + 1 : 0;
+    if (futile_ >= kFutileSteps) factor = std::max(factor, 1.0);
     last_h_ = h;
     last_root_ = std::max(root, least_root_);
     factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
@@ -118,6 +122,7 @@ class PredictiveController final : public StepController {
   void forget() override {
     last_h_ = 0;
     barred_ = 0;
+    futile_ = 0;
     rejected_ = false;
   }
   void changeOrder(int order, double error, double h) override {
@@ -134,12 +139,15 @@ class PredictiveController final : public StepController {
   static constexpr double kGrowAtMost = 8;
   static constexpr double kErrorFloor = 1e-2;
   static constexpr double kKeepUpTo = 1.2;
+  static constexpr double kFutile = 0.98;  // of error^exponent
+  static constexpr int kFutileSteps = 5;   // in a row
   static constexpr int kBarredSteps = 10;
 
   double exponent_, least_root_;       // and kErrorFloor^exponent
   double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
   double failed_h_ = 0;
   int barred_ = 0;
+  int futile_ = 0;
   bool rejected_ = false;
 };
 

@@ -7,6 +7,19 @@
 #include "core/small_size.h"
 
 namespace irk {
+namespace {
+
+double square(double x) { return x * x; }
+
+// h^power, power a small integer >= 0.
+double powerOf(double h, int power) {
+  double f = 1;
+  for (int i = 0; i < power; ++i) f *= h;
+  return f;
+}
+
+}  // namespace
+
 
 template <class Real>
 ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances,
@@ -40,35 +53,27 @@ void ErrorNorm<Real>::update(const State<Real>& y) {
   weigh(2 * sizes_.nu + sizes_.nx, y.z());
 }
 
-namespace {
-
-double square(double x) { return x * x; }
-
-// h^power, power a small integer >= 0.
-double powerOf(double h, int power) {
-  double f = 1;
-  for (int i = 0; i < power; ++i) f *= h;
-  return f;
+template <class Real>
+double ErrorNorm<Real>::zFactor(double h, Index i) const {
+  return powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
 }
-
-}  // namespace
 
 // f(component, its part) of the difference, over u, v, x, z.
 template <class Real>
 template <class F>
 void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h,
                                   const Vec<double>& factor, F&& f) const {
-  const auto add = [&](Index offset, const auto& a, const auto& b, const std::vector<int>& power) {
+  const auto add = [&](Index offset, const auto& a, const auto& b, const auto& weigh) {
     for (Index i = 0; i < a.size(); ++i) {
       const double e = static_cast<double>(Real(a[i] - b[i]));
-      f(offset + i, factor[offset + i] * powerOf(h, power[static_cast<std::size_t>(i)]) * e /
-                        weight_[offset + i]);
+      f(offset + i, factor[offset + i] * weigh(i) * e / weight_[offset + i]);
     }
   };
-  add(0, p.u, q.u, powers_.u);
-  add(sizes_.nu, p.v, q.v, powers_.v);
-  add(2 * sizes_.nu, p.x, q.x, powers_.x);
-  add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), powers_.z);
+  const auto one = [](Index) { return 1.0; };
+  add(0, p.u, q.u, one);
+  add(sizes_.nu, p.v, q.v, one);
+  add(2 * sizes_.nu, p.x, q.x, one);
+  add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), [&](Index i) { return zFactor(h, i); });
 }
 
 template <class Real>
@@ -93,16 +98,16 @@ Index ErrorNorm<Real>::worst(const State<Real>& p, const State<Real>& q, double 
 template <class Real>
 double ErrorNorm<Real>::magnitude(const State<Real>& e, double h) const {
   double sum = 0;
-  const auto add = [&](Index offset, const auto& a, const std::vector<int>& power) {
+  const auto add = [&](Index offset, const auto& a, const auto& weigh) {
     for (Index i = 0; i < a.size(); ++i) {
-      const double f = powerOf(h, power[static_cast<std::size_t>(i)]);
-      sum += square(f * static_cast<double>(a[i]) / weight_[offset + i]);
+      sum += square(weigh(i) * static_cast<double>(a[i]) / weight_[offset + i]);
     }
   };
-  add(0, e.u, powers_.u);
-  add(sizes_.nu, e.v, powers_.v);
-  add(2 * sizes_.nu, e.x, powers_.x);
-  add(2 * sizes_.nu + sizes_.nx, e.z(), powers_.z);
+  const auto one = [](Index) { return 1.0; };
+  add(0, e.u, one);
+  add(sizes_.nu, e.v, one);
+  add(2 * sizes_.nu, e.x, one);
+  add(2 * sizes_.nu + sizes_.nx, e.z(), [&](Index i) { return zFactor(h, i); });
   return total(sum);
 }
 
@@ -127,10 +132,7 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
     const double f = powerOf(h, powers_.x[static_cast<std::size_t>(i)]);
     squares[nu + i] = square(f * h / wx[i]);
   }
-  for (Index i = 0; i < nz; ++i) {
-    const double f = powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
-    squares[nu + nx + i] = square(f / wz[i]);
-  }
+  for (Index i = 0; i < nz; ++i) squares[nu + nx + i] = square(zFactor(h, i) / wz[i]);
 }
 
 template <class Real>

@@ -7,7 +7,7 @@
 namespace irk {
 
 /// Weights sc_i = atol scale_i + rtol |y_i|, so that a norm of 1 is the tolerance. HW I (II.4.10-11).
-/// Components of index i carry h^(i-1), HW II (VII.7). Norms are doubles for every scalar: they
+/// Algebraic unknowns of index i carry h^(i-1), HW II (VII.7). Norms are doubles for every scalar: they
 /// decide, they are not results.
 template <class Real>
 class ErrorNorm {
@@ -32,13 +32,15 @@ class ErrorNorm {
   double magnitude(const State<Real>& e, double h) const;
 
   /// The square of what one unit in row i of (a, k, z) counts by its effect on (u, v, x, z): h^2 da,
-  /// h da, h dk, dz. n entries, for `increment`.
+  /// h da, h dk, dz; components of index i, of u, v, x as well, carry h^(i-1): Newton corrects those of
+  /// higher index later, and its contraction is that of the others. n entries, for `increment`.
   void rowWeights(double h, Vec<double>& squares) const;
   /// Norm of a Newton increment dW (columns from `first`). RMS whatever the error norm is.
   double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const;
 
  private:
   double total(double sum_of_squares) const;
+  double zFactor(double h, Index i) const;
   template <class F>
   void forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor,
                    F&& f) const;

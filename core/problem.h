@@ -112,10 +112,9 @@ class ProblemSystem final : public System<Real> {
       return std::vector<int>(static_cast<std::size_t>(n), power);
     };
     row_powers_ = all(sizes_.n(), 0);
-    // The velocities of index 3 are of index 2, but they are results, too: they are controlled as they
-    // are, and a method that does not determine them fails.
-    error_powers_ = {all(sizes_.nu, 0), all(sizes_.nu, 0), all(sizes_.nx, 0),
-                     all(sizes_.nz, algebraicIndex() - 1)};
+    error_powers_ = {all(sizes_.nu, 0),
+                     all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
+                     all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
     for (Index i = 0; i < sizes_.nx; ++i) {
       error_powers_.x[static_cast<std::size_t>(i)] = differentialIndex(i) - 1;
     }

@@ -7,8 +7,8 @@
 namespace irk {
 
 /// Looks back once per window of attempts: an integration stalls where its largest step has not grown
-/// for kWindows windows, and the rest at the last window's pace needs more attempts than are allowed. A
-/// transient is over in fewer; what goes on so slowly would end by the limit of attempts only.
+/// for kWindows windows, and the rest at the last window's pace needs kFarOut times the attempts that are
+/// still allowed. A transient is over in fewer; what goes on so slowly would end by that limit only.
 class StallDetector {
  public:
   void begin(double t) {
@@ -21,7 +21,7 @@ class StallDetector {
     if (++attempts_ % kWindow != 0) return false;
     windows_ = largest_ <= kGrowth * before_ ? windows_ + 1 : 0;
     const bool out_of_reach =
-        (t_end - t) * static_cast<double>(kWindow) > static_cast<double>(left) * (t - t_);
+        (t_end - t) * static_cast<double>(kWindow) > kFarOut * static_cast<double>(left) * (t - t_);
     before_ = largest_;
     largest_ = 0;
     t_ = t;
@@ -30,7 +30,8 @@ class StallDetector {
 
  private:
   static constexpr std::int64_t kWindow = 1000;
-  static constexpr int kWindows = 5;
+  static constexpr int kWindows = 20;
+  static constexpr double kFarOut = 10;
   static constexpr double kGrowth = 1.5;
   std::int64_t attempts_ = 0;
   int windows_ = 0;

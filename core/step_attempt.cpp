@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/accumulation.h"
 #include "core/embedded.h"
 #include "core/multiprecision.h"
 #include "core/variable_order.h"
@@ -51,6 +52,7 @@ class Doubling final : public StepAttempt<Real> {
         norm_(norm),
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
+        accumulates_(options.step.estimate == ErrorEstimate::kRichardson),
         looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(options.predictor == Predictor::kExtrapolated),
@@ -86,6 +88,7 @@ class Doubling final : public StepAttempt<Real> {
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
     if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness());
     result.error = error(to, static_cast<double>(h));
+    if (accumulates_) result.error *= accumulation_.factor();
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
       result.outcome = Outcome::kNotFinite;
@@ -105,6 +108,7 @@ class Doubling final : public StepAttempt<Real> {
   }
   void begin() override {
     forget();
+    accumulation_.begin();
     continues_ = watches_start_ = false;
   }
   void restart() override {
@@ -115,6 +119,7 @@ class Doubling final : public StepAttempt<Real> {
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
     watches_start_ = false;
     continues_ = true;
+    accumulation_.accepted();
     return StepAttempt<Real>::accepted(result, h, h_next);
   }
   int order() const override { return order_; }
@@ -141,6 +146,8 @@ class Doubling final : public StepAttempt<Real> {
   const ErrorNorm<Real>& norm_;
   Vec<double> factor_;
   bool scalar_;
+  bool accumulates_;            // not the paper's estimates
+  Accumulation accumulation_;
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
   bool continues_ = false;      // a step of the same mode

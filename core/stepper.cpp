@@ -140,8 +140,9 @@ double Stepper<Real>::startDefect(const State<Real>& from) {
 }
 
 template <class Real>
-bool Stepper<Real>::leavesRoot(const State<Real>& from) const {
-  if (!has_hidden_unknowns_) return false;
+bool Stepper<Real>::leavesRoot(const State<Real>& from) {
+  // A step that moves the solution by more than a tolerance may change its rates.
+  if (!has_hidden_unknowns_ || stepNorm(Vec<Real>(W_.col(W_.cols() - 1)), stages_.h) > 1) return false;
   const Index n = system_.sizes().nu + system_.sizes().nx;
   const Vec<Real> start = W_.topRows(n) * eq_.scheme().start;
   const Vec<Real> before = from.w.head(n);

@@ -50,7 +50,7 @@ class Stepper {
   /// Whether the step solved last may be on another root of the stage equations: algebraic unknowns of
   /// index 2 have round-off over h, and at tiny steps Newton can go from one root to another; (a, k) then
   /// do not continue those of `from`. Always false where (a, k) follow from (u, v, x).
-  bool leavesRoot(const State<Real>& from) const;
+  bool leavesRoot(const State<Real>& from);
 
   /// Of the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in
   /// the stages' polynomial. They fall with h^decay() where the step resolves the motion.

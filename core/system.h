@@ -115,8 +115,10 @@ enum class Discontinuity {
 /// start, to measure drift, and (`kAcceleration`) to determine (a, k, z) from (u, v, x).
 enum class Level { kFormulated, kPosition, kVelocity, kAcceleration };
 
-/// Per-component exponents of h. The error of a variable of index i is O(h^-(i-1)) times larger,
-/// HW II (VII.7): weights are multiplied by h^power. Sizes: nu, nu, nx, nz.
+/// Index minus 1 of each component: the error of a variable of index i is O(h^-(i-1)) times larger, HW II
+/// (VII.7). The error norm multiplies that of algebraic unknowns by h^power; u, v and x are results, and
+/// controlled as they are: a method that does not determine them fails. Newton's increments carry h^power
+/// in all of them. Sizes: nu, nu, nx, nz.
 struct ErrorPowers {
   std::vector<int> u, v, x, z;
 };

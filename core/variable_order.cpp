@@ -103,7 +103,9 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
       again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
-  result.error = worse(estimate.error * member().exigence, order(), result.mode_error, 1);
+  result.error = estimate.error * member().exigence;
+  if (member().accumulates) result.error *= accumulation_.factor();
+  result.error = worse(result.error, order(), result.mode_error, 1);
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
   }
@@ -128,6 +130,7 @@ void VariableOrder<Real>::begin() {
   past_at_ = at_;
   solved_ = false;
   continues_ = watches_start_ = false;
+  accumulation_.begin();
   failures_ = 0;
   forget();
 }
@@ -168,6 +171,7 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
   ++since_change_;
   watches_start_ = false;
   continues_ = true;
+  accumulation_.accepted();
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);

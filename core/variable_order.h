@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/accumulation.h"
 #include "core/embedded.h"
 #include "core/step_attempt.h"
 
@@ -53,11 +54,13 @@ class VariableOrder final : public StepAttempt<Real> {
         : scheme(s),
           stepper(system, s, options, jacobian, norm, counters),
           estimate(system, s, options, jacobian, stepper.matrix(), norm, counters),
-          order(EmbeddedEstimate<Real>::order(s)) {}
+          order(EmbeddedEstimate<Real>::order(s)),
+          accumulates(s.tableau.order <= order + 1) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
     int order;
+    bool accumulates;     ///< its estimate is hardly larger than the error
     int epoch = 0;        ///< in which it last forgot
     double exigence = 1;  ///< of its estimate, so that all members err alike
   };
@@ -81,6 +84,7 @@ class VariableOrder final : public StepAttempt<Real> {
   std::shared_ptr<const Pattern> reserved_;  // that every member has seen
   int epoch_ = 0;                      // members that are not in use forget when they come to it
   bool again_ = true;                  // filter twice: after a start and a rejection
+  Accumulation accumulation_;
   bool watches_start_ = false;         // the first step after a restart
   bool continues_ = false;             // a step of the same mode
   int since_change_ = 0;               // accepted steps

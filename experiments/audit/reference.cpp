@@ -122,7 +122,10 @@ class Search {
   Vec<double> integrate(const RunSpec& spec, const State<double>& start) {
     const auto end = integrateFrom(spec, start, watch_);
     started_ = end.state.t > start.t;
-    if (end.outcome == Outcome::kSuccess) return components(end.state);
+    // A perturbed start need not lie on the constraints.
+    if (end.outcome == Outcome::kSuccess || end.outcome == Outcome::kDrift) {
+      return components(end.state);
+    }
     remark_ = fmt::format("{} at tol {:g}: {}", spec.method, spec.options.tolerances.rtol,
                           name(end.outcome));
     return {};

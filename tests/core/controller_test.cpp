@@ -8,8 +8,14 @@
 namespace irk {
 namespace {
 
+StepOptions paperRules() {
+  StepOptions options;
+  options.control = StepControl::kPaper;
+  return options;
+}
+
 TEST(PaperController, KeepsTheStepUnlessItChangesByTwo) {
-  const auto controller = makeController({}, 3);  // f = (1 / (4 eps))^(1/4)
+  const auto controller = makeController(paperRules(), 3);  // f = (1 / (4 eps))^(1/4)
   // f = 1.99: kept. f = 1 at eps = 1/4.
   EXPECT_EQ(controller->decide(0.25 / std::pow(1.99, 4), 0.1).h, 0.1);
   EXPECT_EQ(controller->decide(0.25, 0.1).h, 0.1);
@@ -21,30 +27,30 @@ TEST(PaperController, KeepsTheStepUnlessItChangesByTwo) {
 
 TEST(PaperController, GrowsByTheFormulaUpToFive) {
   const double eps = 0.25 / std::pow(3.0, 4);  // f = 3, eps < 1/16
-  EXPECT_NEAR(makeController({}, 3)->decide(eps, 0.1).h, 0.3, 1e-12);
-  EXPECT_NEAR(makeController({}, 3)->decide(1e-12, 0.1).h, 0.5, 1e-12);
-  EXPECT_NEAR(makeController({}, 3)->decide(0, 0.1).h, 0.5, 1e-12);
+  EXPECT_NEAR(makeController(paperRules(), 3)->decide(eps, 0.1).h, 0.3, 1e-12);
+  EXPECT_NEAR(makeController(paperRules(), 3)->decide(1e-12, 0.1).h, 0.5, 1e-12);
+  EXPECT_NEAR(makeController(paperRules(), 3)->decide(0, 0.1).h, 0.5, 1e-12);
 }
 
 TEST(PaperController, GrowsOnlyBelowOneOverSMax) {
   // p = 1: f = 2 needs eps = 1/16 = 1/s_max: not below it.
-  EXPECT_EQ(makeController({}, 1)->decide(1.0 / 16, 0.1).h, 0.1);
-  EXPECT_NEAR(makeController({}, 1)->decide(1.0 / 17, 0.1).h, 0.1 * std::sqrt(17.0 / 4), 1e-12);
+  EXPECT_EQ(makeController(paperRules(), 1)->decide(1.0 / 16, 0.1).h, 0.1);
+  EXPECT_NEAR(makeController(paperRules(), 1)->decide(1.0 / 17, 0.1).h, 0.1 * std::sqrt(17.0 / 4), 1e-12);
 }
 
 TEST(PaperController, RepeatsAboveTheTolerance) {
-  const auto slightly = makeController({}, 3)->decide(1.01, 0.1);
+  const auto slightly = makeController(paperRules(), 3)->decide(1.01, 0.1);
   EXPECT_FALSE(slightly.accept);
   EXPECT_NEAR(slightly.h, 0.05, 1e-15);  // f = 0.705, but a change is at least by two
-  const auto far = makeController({}, 3)->decide(1e3, 0.1);
+  const auto far = makeController(paperRules(), 3)->decide(1e3, 0.1);
   EXPECT_FALSE(far.accept);
   EXPECT_NEAR(far.h, 0.1 * std::pow(4e3, -0.25), 1e-12);
-  EXPECT_FALSE(makeController({}, 3)->decide(std::nextafter(1.0, 2.0), 0.1).accept);
-  EXPECT_TRUE(makeController({}, 3)->decide(1.0, 0.1).accept);
+  EXPECT_FALSE(makeController(paperRules(), 3)->decide(std::nextafter(1.0, 2.0), 0.1).accept);
+  EXPECT_TRUE(makeController(paperRules(), 3)->decide(1.0, 0.1).accept);
 }
 
 TEST(PaperController, GammaFollowsTheErrorAfterAChangeOfStep) {
-  const auto controller = makeController({}, 3);
+  const auto controller = makeController(paperRules(), 3);
   controller->decide(0.5, 0.1);
   // The halved step's error fell by 2^3 / 0.95: gamma = 0.95; f = 0.95 (1 / (4 eps))^(1/4).
   const double eps = 0.5 / 8 * 0.95;
@@ -54,11 +60,11 @@ TEST(PaperController, GammaFollowsTheErrorAfterAChangeOfStep) {
 }
 
 TEST(PaperController, HalvesAfterAFailedNewton) {
-  EXPECT_NEAR(makeController({}, 3)->afterFailure(0.1), 0.05, 1e-15);
+  EXPECT_NEAR(makeController(paperRules(), 3)->afterFailure(0.1), 0.05, 1e-15);
 }
 
 TEST(PaperController, DoesNotReturnAtOnceToAStepThatNewtonFailed) {
-  const auto controller = makeController({}, 3);
+  const auto controller = makeController(paperRules(), 3);
   EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
   int kept = 0;
   while (controller->decide(1e-9, 0.05).h == 0.05) ++kept;
