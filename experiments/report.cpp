@@ -215,7 +215,7 @@ std::filesystem::path writeReport(const ReportOptions& options) {
     }
   }
   replacePlaceholder(page, "@CLAIMS@",
-                     claimsHtml(ResultTables(options.results), figureFolder(options)));
+                     claims::claimsHtml(claims::ResultTables(options.results), figureFolder(options)));
   replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
   replacePlaceholder(page, "@TABLES@", orders);
   const auto tableaus = options.results / "tableaus" / "tableaus.csv";

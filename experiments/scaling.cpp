@@ -53,9 +53,9 @@ StepCost measure(const RunSpec& spec) {
   for (auto* values : {&wall, &cpu, &iterations}) {
     values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(kFirstSteps));
   }
-  cost.wall_s = median(wall);
-  cost.cpu_s = median(cpu);
-  cost.iterations = median(iterations);
+  cost.wall_s = claims::median(wall);
+  cost.cpu_s = claims::median(cpu);
+  cost.iterations = claims::median(iterations);
   return cost;
 }
 
