@@ -32,7 +32,7 @@ struct StepCost {
 };
 
 StepCost measure(const RunSpec& spec) {
-  const auto scene = makeScene<double>(spec.scene, spec.settings);
+  const auto scene = makeScene<double>(spec.scene, settingsAtStep(spec));
   const auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
   Integrator<double> integrator(system, makeTableau<double>(spec.method), spec.options,
                                 systemScale(scene.scale, system->sizes()));

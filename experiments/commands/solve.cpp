@@ -120,7 +120,7 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {
-    printRecord(streams.out, record, makeScene<double>(spec.scene, spec.settings).names);
+    printRecord(streams.out, record, makeScene<double>(spec.scene, settingsAtStep(spec)).names);
   }
   if (interruptFlag()) return kInterruptedStatus;
   return record.succeeded() ? 0 : 1;
