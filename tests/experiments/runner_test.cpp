@@ -8,7 +8,6 @@
 #include <map>
 #include <sstream>
 
-#include "experiments/cost_at_error.h"
 #include "experiments/orders.h"
 #include "experiments/results.h"
 #include "experiments/run_table.h"
@@ -261,16 +260,6 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
   for (const auto& row : again.rows) {
     EXPECT_EQ(numberAt(again, row, "cpu_runs"), succeededAt(again, row) ? 3 : 0);
   }
-}
-
-TEST(CostAtError, InterpolatesTheLowerEnvelope) {
-  // cost = error^(-1/2), and one point above the envelope.
-  const std::vector<CostPoint> points{{1e-2, 10}, {1e-4, 100}, {1e-6, 1000}, {1e-3, 500}};
-  EXPECT_NEAR(costAtError(points, 1e-4), 100, 1e-9);
-  EXPECT_NEAR(costAtError(points, 1e-5), std::pow(10, 2.5), 1e-9);
-  EXPECT_NEAR(costAtError(points, 0.5), 10, 1e-9);
-  EXPECT_TRUE(std::isnan(costAtError(points, 1e-7)));
-  EXPECT_TRUE(std::isnan(costAtError({}, 1)));
 }
 
 }  // namespace
