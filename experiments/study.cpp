@@ -14,6 +14,7 @@
 #include "experiments/numbers.h"
 #include "experiments/peers/catalogue.h"
 #include "experiments/study_file.h"
+#include "experiments/study_rules.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
@@ -253,7 +254,11 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   }
   study.profile = flag(text.study, "profile");
   study.timing = timingOptions(text.study);
-  for (const auto& block : text.blocks) appendBlock(block, study.series);
+  for (const auto& block : text.blocks) {
+    const std::size_t first = study.series.size();
+    appendBlock(block, study.series);
+    refuseVariableOrder(study, block, first);
+  }
   const bool quick = variant == StudyVariant::kQuick;
   const auto other = quick ? StudyVariant::kFull : StudyVariant::kQuick;
   for (const auto& block : parseStudyFile(toml, file, other).blocks) {
