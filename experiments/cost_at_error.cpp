@@ -27,6 +27,18 @@ std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
   return best;
 }
 
+// Why a series does not reach an error.
+std::string causeOf(const Table& runs, const RunSeries& series) {
+  bool succeeded = false, known = false;
+  for (const auto* run : series.rows) {
+    if (!succeededAt(runs, *run)) continue;
+    succeeded = true;
+    known = known || !std::isnan(numberAt(runs, *run, "error"));
+  }
+  if (!succeeded) return "no success: " + textAt(runs, *series.rows.back(), "outcome");
+  return known ? "not accurate enough" : std::string(kNoReference);
+}
+
 }  // namespace
 
 double costAtError(std::vector<CostPoint> points, double target) {
@@ -56,7 +68,7 @@ Table costTable(const Table& runs, const std::vector<double>& targets) {
   costs.columns = seriesColumns(runs);
   costs.columns.emplace_back("target_error");
   costs.columns.insert(costs.columns.end(), std::begin(kCosts), std::end(kCosts));
-  costs.columns.emplace_back("reached");
+  costs.columns.insert(costs.columns.end(), {"reached", "cause"});
   for (const auto& series : seriesOf(runs)) {
     for (const double target : targets) {
       TableRow row = series.name;
@@ -68,6 +80,7 @@ Table costTable(const Table& runs, const std::vector<double>& targets) {
         row.push_back(numberText(value));
       }
       row.emplace_back(reached ? "1" : "0");
+      row.push_back(reached ? "" : causeOf(runs, series));
       costs.rows.push_back(row);
     }
   }

@@ -1,11 +1,15 @@
 // cpu_at_error.csv: what each method costs at given errors.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "experiments/run_table.h"
 
 namespace irk {
+
+/// The cause of a cost that is unknown since no error is known.
+inline constexpr std::string_view kNoReference = "no reference";
 
 struct CostPoint {
   double error;
@@ -21,7 +25,8 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
                          double target);
 
 /// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians,
-/// factorizations, reached (0 with nan where a series does not get there).
+/// factorizations, reached (0 with nan where a series does not get there), cause (why not: `no
+/// reference`, `not accurate enough`, or `no success: ` with the outcome of the last run).
 Table costTable(const Table& runs, const std::vector<double>& targets);
 
 }  // namespace irk

@@ -46,7 +46,7 @@ State<mp50> exactly(const State<double>& state) {
 }
 
 EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
-  const auto scene = makeScene<double>(spec.scene, spec.settings);
+  const auto scene = makeScene<double>(spec.scene, settingsAtStep(spec));
   const auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
   const mp50 start = energy.value(exactly(scene.start));
   const auto stride = static_cast<std::int64_t>(
@@ -90,7 +90,7 @@ Table energyTable(const Study& study, const Table& runs) {
       const auto found = specs.find(run->front());
       if (found == specs.end() || !succeededAt(runs, *run) || interruptFlag()) continue;
       const RunSpec spec = resolved(*found->second);
-      const auto scene = makeScene<mp50>(spec.scene, spec.settings);
+      const auto scene = makeScene<mp50>(spec.scene, settingsAtStep(spec));
       const auto* energy = energyOf(scene);
       const bool fixed = spec.options.step.control == StepControl::kFixed;
       if (!energy || !fixed || findPeer(spec.method)) continue;

@@ -33,7 +33,7 @@ class StepSampler {
  public:
   explicit StepSampler(const RunSpec& spec)
       : spec_(spec),
-        scene_(makeScene<double>(spec.scene, spec.settings)),
+        scene_(makeScene<double>(spec.scene, settingsAtStep(spec))),
         system_(scene_.system({spec.formulation, spec.scaling, spec.discontinuity})) {}
 
   const Scene<double>& scene() const { return scene_; }

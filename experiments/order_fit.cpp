@@ -107,6 +107,11 @@ OrderFit notMeasurable(std::string reason) {
 
 }  // namespace
 
+std::string windowText(const OrderFitOptions& options) {
+  return fmt::format("at least {} steps, the largest at least {:g} times the smallest",
+                     options.min_points, options.min_span);
+}
+
 double orderTolerance(double order) { return std::max(0.2, 0.01 * std::abs(order)); }
 
 OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options) {

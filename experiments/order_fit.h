@@ -38,6 +38,9 @@ struct OrderFit {
   std::string reason;  ///< why it is not measurable
 };
 
+/// What a window must have: `at least 3 steps, the largest at least 2 times the smallest`.
+std::string windowText(const OrderFitOptions& options = {});
+
 /// What counts as the same order: 0.2, or one percent of orders beyond 20.
 double orderTolerance(double order);
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <set>
 #include <string>
 
+#include "experiments/cost_at_error.h"
 #include "experiments/numbers.h"
 #include "experiments/run_table.h"
 
@@ -14,46 +15,62 @@ namespace {
 
 constexpr double kEnd = 1e6;  // where the curves end
 
-// Solver -> problem -> time.
+// Solver -> problem that it was given -> time; infinity where it does not solve it.
 using Costs = std::map<std::string, std::map<std::string, double>>;
 
-void appendProfile(const std::string& target, const Costs& costs, Table& table) {
+// Of the problems that some solver solves: the least time.
+std::map<std::string, double> bestTimes(const Costs& costs) {
   std::map<std::string, double> best;
   for (const auto& [solver, times] : costs) {
     for (const auto& [problem, time] : times) {
+      if (std::isinf(time)) continue;
       const auto [at, added] = best.try_emplace(problem, time);
       if (!added) at->second = std::min(at->second, time);
     }
   }
-  const double problems = static_cast<double>(best.size());
+  return best;
+}
+
+void appendProfile(const std::string& target, const Costs& costs, Table& table) {
+  const auto best = bestTimes(costs);
+  const std::string problems = std::to_string(best.size());
   for (const auto& [solver, times] : costs) {
-    std::vector<double> ratios;
-    for (const auto& [problem, time] : times) ratios.push_back(time / best.at(problem));
-    std::sort(ratios.begin(), ratios.end());
-    if (ratios.empty()) table.rows.push_back({target, solver, "1", "0"});
-    ratios.push_back(kEnd);
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-      table.rows.push_back({target, solver, numberText(ratios[i]),
-                            numberText(static_cast<double>(std::min(i + 1, times.size())) / problems)});
+    std::vector<double> ratios;  // of the problems that it solves
+    std::size_t given = 0;
+    for (const auto& [problem, time] : times) {
+      const auto solved = best.find(problem);
+      if (solved == best.end()) continue;
+      ++given;
+      if (!std::isinf(time)) ratios.push_back(time / solved->second);
     }
+    if (given == 0) continue;
+    std::sort(ratios.begin(), ratios.end());
+    const auto addRow = [&](double ratio, std::size_t count) {
+      const double fraction = static_cast<double>(count) / static_cast<double>(given);
+      table.rows.push_back({target, solver, numberText(ratio), numberText(fraction),
+                            std::to_string(given), problems});
+    };
+    if (ratios.empty()) addRow(1, 0);
+    for (std::size_t i = 0; i < ratios.size(); ++i) addRow(ratios[i], i + 1);
+    addRow(kEnd, ratios.size());
   }
 }
 
 }  // namespace
 
 Table profileTable(const Table& costs) {
-  Table table{costs.head, {"target_error", "integrator", "ratio", "fraction"}, {}};
+  Table table{costs.head, {"target_error", "integrator", "ratio", "fraction", "given", "problems"}, {}};
   std::map<std::string, Costs> by_target;
   for (const auto& row : costs.rows) {
     const auto& target = textAt(costs, row, "target_error");
     const std::string problem =
         textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
     const auto& solver = textAt(costs, row, "integrator");
-    const double time = numberAt(costs, row, "cpu_s");
+    if (textAt(costs, row, "cause") == kNoReference) continue;
+    const double cost = numberAt(costs, row, "cpu_s");
+    const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
     for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {
-      auto& times = by_target[key][solver];
-      if (std::isnan(time)) continue;
-      const auto [at, added] = times.try_emplace(name, time);
+      const auto [at, added] = by_target[key][solver].try_emplace(name, time);
       if (!added) at->second = std::min(at->second, time);
     }
   }

@@ -20,6 +20,7 @@
 #include "experiments/claims/claims.h"
 #include "experiments/environment.h"
 #include "experiments/html.h"
+#include "experiments/order_fit.h"
 #include "experiments/study.h"
 #include "experiments/table.h"
 
@@ -215,8 +216,9 @@ std::filesystem::path writeReport(const ReportOptions& options) {
     }
   }
   replacePlaceholder(page, "@CLAIMS@",
-                     claimsHtml(ResultTables(options.results), figureFolder(options)));
+                     claims::claimsHtml(claims::ResultTables(options.results), figureFolder(options)));
   replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
+  replacePlaceholder(page, "@ORDER_WINDOW@", windowText());
   replacePlaceholder(page, "@TABLES@", orders);
   const auto tableaus = options.results / "tableaus" / "tableaus.csv";
   replacePlaceholder(page, "@TABLEAUS@",

@@ -90,6 +90,18 @@ double driftOf(const Scene<Real>& scene, const State<Real>& state) {
 
 }  // namespace
 
+std::string_view referenceName(ReferenceKind kind) {
+  switch (kind) {
+    case ReferenceKind::kNone:
+      return "none";
+    case ReferenceKind::kExact:
+      return "exact";
+    case ReferenceKind::kFile:
+      return "file";
+  }
+  return "?";
+}
+
 template <class Real>
 Vec<Real> components(const State<Real>& s) {
   Vec<Real> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());
@@ -104,10 +116,14 @@ RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& refer
   const Sizes n = scene.sizes();
   errors.drift = driftOf(scene, state);
   if (scene.exact) compareExact(scene, n, state, errors);
-  if (!std::isnan(errors.all)) return errors;
+  if (!std::isnan(errors.all)) {
+    errors.reference = ReferenceKind::kExact;
+    return errors;
+  }
   for (const auto& [component, reference] : bestAt(references, static_cast<double>(state.t))) {
     compareReference(scene, n, state, *reference, errors);
   }
+  if (!std::isnan(errors.all)) errors.reference = ReferenceKind::kFile;
   return errors;
 }
 

@@ -3,10 +3,20 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "problems/scene.h"
 
 namespace irk {
+
+/// What an error was taken against.
+enum class ReferenceKind {
+  kNone,   ///< nothing is known at the state's time: errors are NaN
+  kExact,  ///< Scene::exact
+  kFile,   ///< values of problems/reference
+};
+/// `none`, `exact`, `file`.
+std::string_view referenceName(ReferenceKind kind);
 
 /// Largest relative error |y - ref| / max(|ref|, scale) per group of components, and over all
 /// components and outputs with a reference. NaN where nothing is known.
@@ -15,6 +25,7 @@ struct RunErrors {
   double u = all, v = all, x = all, z = all;
   /// Largest |g| over the position constraints g(t, u) = 0 of the scene. NaN without constraints.
   double drift = all;
+  ReferenceKind reference = ReferenceKind::kNone;
 };
 
 /// All components u, v, x, z of a state, one after the other.

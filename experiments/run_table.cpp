@@ -8,35 +8,10 @@
 namespace irk {
 namespace {
 
-// Spec fields that stand in columns, in groups around the derived ones.
-constexpr std::string_view kSpecBefore[] = {"scene", "settings", "method"};
-constexpr std::string_view kSpecAfter[] = {"configuration",
-                                           "formulation",
-                                           "scaling",
-                                           "discontinuity",
-                                           "scalar",
-                                           "derivatives",
-                                           "jacobian",
-                                           "jacobian_point",
-                                           "newton",
-                                           "contractivity_limit",
-                                           "contractivity_after",
-                                           "max_iterations",
-                                           "keep_jacobian_below",
-                                           "solver",
-                                           "storage",
-                                           "threads",
-                                           "predictor",
-                                           "estimate",
-                                           "control",
-                                           "order",
-                                           "summation",
-                                           "multipliers",
-                                           "norm",
-                                           "h",
-                                           "rtol",
-                                           "atol",
-                                           "t_end"};
+// These fields stand before the derived columns, all others of specFields() after them: a field that is
+// added to a spec has its column.
+constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
+constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 // What a series runs through.
 constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
@@ -47,13 +22,26 @@ void append(std::vector<std::string>& to, std::span<const std::string_view> name
   to.insert(to.end(), names.begin(), names.end());
 }
 
+bool isIn(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// In the order of their columns.
+std::vector<std::string_view> laterFields() {
+  std::vector<std::string_view> names;
+  for (const auto& field : specFields()) {
+    if (!isIn(kFirst, field.name)) names.push_back(field.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> runColumns() {
   std::vector<std::string> columns{"key", "study"};
-  append(columns, kSpecBefore);
-  columns.insert(columns.end(), {"family", "stages", "integrator"});
-  append(columns, kSpecAfter);
+  append(columns, kFirst);
+  append(columns, kDerived);
+  append(columns, laterFields());
   columns.emplace_back("outcome");
   append(columns, kErrors);
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
@@ -64,9 +52,9 @@ std::vector<std::string> runColumns() {
 
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record) {
   TableRow row{key, study};
-  for (const auto name : kSpecBefore) row.push_back(findField(name).get(record.spec));
+  for (const auto name : kFirst) row.push_back(findField(name).get(record.spec));
   row.insert(row.end(), {record.family, std::to_string(record.stages), integratorName(record.spec)});
-  for (const auto name : kSpecAfter) row.push_back(findField(name).get(record.spec));
+  for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
   for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift}) row.push_back(numberText(error));
@@ -77,12 +65,12 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
 }
 
 std::vector<std::string> seriesColumns(const Table& table) {
-  std::vector<std::string> columns{"scene", "settings", "method", "family", "stages", "integrator"};
-  for (const auto name : kSpecAfter) {
-    const bool swept = std::find(std::begin(kSwept), std::end(kSwept), name) != std::end(kSwept);
-    if (!swept) columns.emplace_back(name);
-  }
-  std::erase_if(columns, [&](const auto& name) { return !table.hasColumn(name); });
+  std::vector<std::string> columns;
+  append(columns, kFirst);
+  append(columns, kDerived);
+  append(columns, laterFields());
+  std::erase_if(columns,
+                [&](const auto& name) { return isIn(kSwept, name) || !table.hasColumn(name); });
   return columns;
 }
 

@@ -6,14 +6,15 @@
 
 namespace irk {
 
-/// The columns of results/<study>/runs.csv. Units: times in s; errors are relative.
+/// The columns of results/<study>/runs.csv: every field of a spec has one. Units: times in s; errors are
+/// relative.
 std::vector<std::string> runColumns();
 
 /// `key`: specKey of the record's spec. Timing columns are empty until the timing pass.
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record);
 
-/// The columns that tell series apart: all that decides a run but h, rtol and atol. Those that the
-/// table has.
+/// The columns that tell series apart: every field of a spec but h, rtol and atol, and what is derived from
+/// them. Of an older table, those that it has.
 std::vector<std::string> seriesColumns(const Table& table);
 
 /// Runs that differ in h, rtol and atol only.

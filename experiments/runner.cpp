@@ -45,6 +45,18 @@ GroupErrors groupErrors(const Table& table, const TableRow& row) {
           numberAt(table, row, "error_x"), numberAt(table, row, "error_z")};
 }
 
+// Renames the file to one that is not there yet: runs.old.csv, runs.old2.csv, ...
+std::filesystem::path setAside(const std::filesystem::path& file) {
+  std::filesystem::path to;
+  for (int i = 1; to.empty() || std::filesystem::exists(to); ++i) {
+    to = file;
+    to.replace_extension(fmt::format("old{}{}", i == 1 ? "" : std::to_string(i),
+                                     file.extension().string()));
+  }
+  std::filesystem::rename(file, to);
+  return to;
+}
+
 // The rows that a former run of the study left behind.
 Table finishedRuns(const std::filesystem::path& file, const Study& study,
                    const RunnerOptions& options, std::ostream& out) {
@@ -52,7 +64,8 @@ Table finishedRuns(const std::filesystem::path& file, const Study& study,
   if (options.finished == FinishedRuns::kRunAgain || !std::filesystem::exists(file)) return fresh;
   const Table found = readTable(file);
   if (found.columns != fresh.columns) {
-    out << fmt::format("{}: written by another version, its runs are made again\n", file.string());
+    out << fmt::format("{}: written by another version, its runs are made again; the old table is kept as {}\n",
+                       file.string(), setAside(file).filename().string());
     return fresh;
   }
   const auto commit = [](const Table& t) {

@@ -32,7 +32,7 @@ struct StepCost {
 };
 
 StepCost measure(const RunSpec& spec) {
-  const auto scene = makeScene<double>(spec.scene, spec.settings);
+  const auto scene = makeScene<double>(spec.scene, settingsAtStep(spec));
   const auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
   Integrator<double> integrator(system, makeTableau<double>(spec.method), spec.options,
                                 systemScale(scene.scale, system->sizes()));
@@ -53,9 +53,9 @@ StepCost measure(const RunSpec& spec) {
   for (auto* values : {&wall, &cpu, &iterations}) {
     values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(kFirstSteps));
   }
-  cost.wall_s = median(wall);
-  cost.cpu_s = median(cpu);
-  cost.iterations = median(iterations);
+  cost.wall_s = claims::median(wall);
+  cost.cpu_s = claims::median(cpu);
+  cost.iterations = claims::median(iterations);
   return cost;
 }
 

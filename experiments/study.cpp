@@ -15,6 +15,7 @@
 #include "experiments/numbers.h"
 #include "experiments/peers/catalogue.h"
 #include "experiments/study_file.h"
+#include "experiments/study_rules.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
@@ -287,7 +288,11 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
     study.other_variant = auditSeries(auditOptions(other_text.study));
     return study;
   }
-  for (const auto& block : text.blocks) appendBlock(block, study.series);
+  for (const auto& block : text.blocks) {
+    const std::size_t first = study.series.size();
+    appendBlock(block, study.series);
+    refuseVariableOrder(study, block, first);
+  }
   for (const auto& block : other_text.blocks) appendBlock(block, study.other_variant);
   return study;
 }

@@ -1,5 +1,6 @@
 # Performance profiles (Dolan and More): on which part of the problems a solver takes at most so many times
-# the time of the best one. One panel per target error.
+# the time of the best one: of those that the study gives to the solver. One panel per target error; the legend says how
+# many problems each solver was given, of how many, over all errors.
 #   gnuplot -e "data='results/work_precision'; out='profile'; targets='-4 -8'" profile.gp
 # Reads profile.csv. Options: targets (powers of ten, or all), integrators (in this order).
 load system('dirname "'.ARG0.'"')."/style.gp"
@@ -19,6 +20,12 @@ curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
 curveDash(k) = (k - 1) % 4 + 1
 at(i, k) = ofTarget(i) && strcol("integrator") eq word(integrators, k)
 targetTitle(i) = word(targets, i) eq 'all' ? 'all errors' : 'error 10^{'.word(targets, i).'}'
+# Over all errors: "45/60" of a solver that was given 45 of 60 problems.
+collected = ""
+stats file using (strcol("target_error") eq 'all' ? \
+  (collect(strcol("integrator").'='.strcol("given").'/'.strcol("problems")), 1) : 0) name "N" nooutput
+givenOf(name, i) = i > words(collected) ? '' : word(collected, i)[1 : strlen(name) + 1] eq name.'=' ? \
+  ' '.word(collected, i)[strlen(name) + 2 : *] : givenOf(name, i + 1)
 legend_height = 0.08 * (1 + (count > 4) + (count > 8))
 margin_left = columns == 1 ? 0.13 : 0.075; margin_right = 0.03; margin_bottom = legend_height + 0.16; gap_x = 0.03
 do for [format in formats] {
@@ -31,14 +38,14 @@ do for [format in formats] {
     set xrange [1 : 100]; set yrange [0 : 1]
     set title targetTitle(i) offset 0,-0.5
     set xlabel 'time over that of the best solver'
-    set ylabel when(i == 1, 'part of the problems solved') offset 1,0
+    set ylabel when(i == 1, 'part of the problems given to it') offset 1,0
     if (i > 1) { set format y '' } else { set format y '%.1f' }
     plot for [k = 1 : count] file using (at(i, k) ? column("ratio") : NaN):(column("fraction")) \
       with steps lw 1.8 dt curveDash(k) lc rgb curveColour(k) notitle
   }
   eval legend(legend_height)
   set key noenhanced maxrows (count > 8 ? 3 : count > 4 ? 2 : 1)
-  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.8 dt curveDash(k) lc rgb curveColour(k) title word(integrators, k)
+  plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.8 dt curveDash(k) lc rgb curveColour(k) title word(integrators, k).givenOf(word(integrators, k), 1)
   unset multiplot
   unset output
   eval framed

@@ -11,6 +11,11 @@
 #include "tableaus/rooted_trees.h"
 
 namespace irk {
+
+using tableaus::Finding;
+using tableaus::Place;
+using tableaus::Verdict;
+
 namespace {
 
 struct Subject {

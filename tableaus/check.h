@@ -9,6 +9,8 @@
 
 namespace irk {
 
+namespace tableaus {
+
 enum class Verdict {
   kHolds,
   kNote,           ///< no contradiction, but worth knowing
@@ -27,10 +29,12 @@ struct Finding {
   std::string text;  ///< a sentence with the numbers
 };
 
+}  // namespace tableaus
+
 struct TableauReport {
   std::string id;
   TableauAnalysis analysis;
-  std::vector<Finding> findings;
+  std::vector<tableaus::Finding> findings;
   bool ok;           ///< no contradiction
   std::string text;  ///< all of it, for printing
 };

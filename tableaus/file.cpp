@@ -11,6 +11,11 @@
 #include "tableaus/families.h"
 
 namespace irk {
+
+using tableaus::Finding;
+using tableaus::Place;
+using tableaus::Verdict;
+
 namespace {
 
 int lineOf(const TableauFile& file, const Finding& finding) {

@@ -6,7 +6,7 @@
 #include "experiments/claims/evaluations.h"
 #include "experiments/html.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 const std::vector<Claim>& catalogue() {
@@ -176,4 +176,4 @@ std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& 
   return html + "</tbody></table>\n";
 }
 
-}  // namespace irk
+}  // namespace irk::claims

@@ -9,7 +9,7 @@
 
 #include "experiments/claims/result_tables.h"
 
-namespace irk {
+namespace irk::claims {
 
 enum class Verdict { kConfirmed, kWithinLimits, kContradicted, kNotMeasurable };
 
@@ -45,4 +45,4 @@ std::string commandOf(const Claim& claim);
 std::string claimsText(const ResultTables& tables);
 std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& figures);
 
-}  // namespace irk
+}  // namespace irk::claims

@@ -12,7 +12,7 @@
 #include "experiments/claims/measures.h"
 #include "experiments/cost_at_error.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 struct CasePair {
@@ -21,7 +21,7 @@ struct CasePair {
 
 double leastCost(const Table& costs, const Cells& cells, double least_stages, double most_stages) {
   const Table rows = where(costs, cells);
-  return leastCost(rows, [&](const TableRow& row) {
+  return claims::leastCost(rows, [&](const TableRow& row) {
     const double s = numberAt(rows, row, "stages");
     return s >= least_stages && s <= most_stages && textAt(rows, row, "reached") == "1";
   });
@@ -254,4 +254,4 @@ Finding relativeTolerances(const ResultTables& tables) {
                       ratios.size(), kLittle)};
 }
 
-}  // namespace irk
+}  // namespace irk::claims

@@ -4,7 +4,7 @@
 
 #include "experiments/claims/claims.h"
 
-namespace irk {
+namespace irk::claims {
 
 // Schemes: schemes.cpp.
 Finding highOrders(const ResultTables& tables);         // C1
@@ -27,4 +27,4 @@ Finding multistepRestart(const ResultTables& tables);    // C8
 Finding smallStepsAtJumps(const ResultTables& tables);   // C9
 Finding relativeTolerances(const ResultTables& tables);  // C14
 
-}  // namespace irk
+}  // namespace irk::claims

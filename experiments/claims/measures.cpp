@@ -11,7 +11,7 @@
 #include "experiments/cost_at_error.h"
 #include "experiments/numbers.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
@@ -122,4 +122,4 @@ Finding notMeasurable(std::string reason) {
   return {Verdict::kNotMeasurable, "–", std::move(reason)};
 }
 
-}  // namespace irk
+}  // namespace irk::claims

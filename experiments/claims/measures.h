@@ -12,7 +12,7 @@
 #include "experiments/claims/claims.h"
 #include "experiments/run_table.h"
 
-namespace irk {
+namespace irk::claims {
 
 /// Column and cell.
 using Cells = std::vector<std::pair<std::string_view, std::string_view>>;
@@ -54,4 +54,4 @@ std::span<const double> comparedErrors();
 Verdict graded(double value, double good, double fair);
 Finding notMeasurable(std::string reason);
 
-}  // namespace irk
+}  // namespace irk::claims

@@ -10,7 +10,7 @@
 #include "experiments/claims/measures.h"
 #include "experiments/cost_at_error.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 double iterationsPerStep(const Table& runs) {
@@ -250,4 +250,4 @@ Finding jacobianReuse(const ResultTables& tables) {
   return finding;
 }
 
-}  // namespace irk
+}  // namespace irk::claims

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace irk {
+namespace irk::claims {
 
 void ResultTables::put(const std::string& study, const std::string& name, Table table) {
   tables_[study + '/' + name] = std::move(table);
@@ -19,4 +19,4 @@ const Table& ResultTables::table(std::string_view study, std::string_view name) 
   return tables_[key] = readTable(file);
 }
 
-}  // namespace irk
+}  // namespace irk::claims

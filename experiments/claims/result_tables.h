@@ -9,7 +9,7 @@
 
 #include "experiments/table.h"
 
-namespace irk {
+namespace irk::claims {
 
 /// A study's results are not there. Not a misuse: a claim then is `not measurable`.
 class MissingResults : public std::runtime_error {
@@ -34,4 +34,4 @@ class ResultTables {
   mutable std::map<std::string, Table> tables_;  // by study/name
 };
 
-}  // namespace irk
+}  // namespace irk::claims

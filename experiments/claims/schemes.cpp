@@ -9,7 +9,7 @@
 #include "experiments/claims/measures.h"
 #include "experiments/newmark.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 // The smooth scenes of the study cpu_time.
@@ -173,4 +173,4 @@ Finding radauIsBest(const ResultTables& tables) {
                       percent(kMostly), median(excess))};
 }
 
-}  // namespace irk
+}  // namespace irk::claims

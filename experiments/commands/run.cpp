@@ -91,7 +91,7 @@ int plotCommand(const std::string& study, const std::string& results, Streams st
 }
 
 int claimsCommand(const std::string& results, Streams streams) {
-  streams.out << claimsText(ResultTables(results));
+  streams.out << claims::claimsText(claims::ResultTables(results));
   return 0;
 }
 

@@ -65,7 +65,11 @@ void printRecord(std::ostream& out, const RunRecord& record,
   fmt::print(out, "{}{}{}, t = {:.15g}\n", record.outcome, record.detail.empty() ? "" : ": ",
              record.detail, record.t);
   printComponents(out, record, names);
-  if (!std::isnan(record.errors.all)) fmt::print(out, "error {:.3e}\n", record.errors.all);
+  if (!std::isnan(record.errors.all)) {
+    fmt::print(out, "error {:.3e}\n", record.errors.all);
+  } else if (record.succeeded()) {
+    fmt::print(out, "error unknown: no reference at t = {:.15g}\n", record.t);
+  }
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
   });
@@ -120,7 +124,7 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {
-    printRecord(streams.out, record, makeScene<double>(spec.scene, spec.settings).names);
+    printRecord(streams.out, record, makeScene<double>(spec.scene, settingsAtStep(spec)).names);
   }
   if (interruptFlag()) return kInterruptedStatus;
   return record.succeeded() ? 0 : 1;

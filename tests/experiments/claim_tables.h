@@ -11,7 +11,7 @@
 #include "experiments/claims/claims.h"
 #include "experiments/claims/measures.h"
 
-namespace irk {
+namespace irk::claims {
 
 inline const Claim& claim(std::string_view id) {
   for (const auto& one : claims()) {
@@ -55,4 +55,4 @@ inline Table costColumns(std::vector<std::string> more) {
   return table;
 }
 
-}  // namespace irk
+}  // namespace irk::claims

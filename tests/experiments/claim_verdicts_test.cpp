@@ -4,7 +4,7 @@
 #include "tests/experiments/claim_tables.h"
 #include "tests/experiments/support.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 TEST(Claims, DroppedMassDerivatives) {
@@ -218,4 +218,4 @@ TEST(Claims, NewmarkIsLobattoIIIA) {
 }
 
 }  // namespace
-}  // namespace irk
+}  // namespace irk::claims

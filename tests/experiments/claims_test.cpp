@@ -9,7 +9,7 @@
 #include "tests/experiments/claim_tables.h"
 #include "tests/experiments/support.h"
 
-namespace irk {
+namespace irk::claims {
 namespace {
 
 TEST(Claims, AreFifteenAndComplete) {
@@ -77,4 +77,4 @@ TEST(Measures, Statistics) {
 }
 
 }  // namespace
-}  // namespace irk
+}  // namespace irk::claims

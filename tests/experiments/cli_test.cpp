@@ -37,7 +37,8 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error",
-                                                 "steps", "counters", "cpu_s", "spec"}));
+                                                 "reference", "steps", "counters", "cpu_s", "spec"}));
+  EXPECT_EQ(json["reference"], "file");
   EXPECT_EQ(keysOf(json["steps"]),
             (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),
@@ -72,7 +73,25 @@ TEST(Cli, SolveJsonListsSwitches) {
 TEST(Cli, UnknownNumbersAreNull) {
   const auto run = irkProgram({"solve", "slider_crank", "--t-end", "0.123", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(nlohmann::json::parse(run.out)["error"].is_null());
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_TRUE(json["error"].is_null());
+  EXPECT_EQ(json["reference"], "none");
+  const auto text = irkProgram({"solve", "slider_crank", "--t-end", "0.123"});
+  EXPECT_TRUE(containsAll(text.out, {"error unknown: no reference at t = 0.123\n"}));
+}
+
+TEST(Cli, AnExactSolutionIsAReference) {
+  const auto run = irkProgram({"solve", "dahlquist", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["reference"], "exact");
+}
+
+// z = h lambda is known for fixed steps only; the names of the components do not depend on it.
+TEST(Cli, ASettingOverTheStepIsSolvedAndPrinted) {
+  const auto run = irkProgram({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1",
+                               "--method", "radau_iia_3"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(containsAll(run.out, {"lambda=-1e8/h", "success", "x  y "}));
 }
 
 TEST(Cli, MultiprecisionNumbersAreText) {

@@ -7,7 +7,7 @@
 
 #include "experiments/builtin_studies.h"
 #include "experiments/estimates.h"
-#include "experiments/phases.h"
+#include "experiments/order_fit.h"
 #include "experiments/report.h"
 #include "experiments/run_table.h"
 #include "experiments/runner.h"
@@ -90,32 +90,17 @@ tolerances = 1e-6
   }
 }
 
-TEST(Phases, SharesAddUp) {
-  const Study study = parseStudy(R"(
-phases = true
-[[block]]
-scene = "slider_crank"
-t_end = 0.1
-methods = "radau_iia_3"
-solver = ["coupled_dense", "schur"]
-)",
-                                 "small.toml", StudyVariant::kFull);
+// The page says what the fit does.
+TEST(Report, SaysWhatAnOrderNeeds) {
   const TemporaryFolder folder;
-  RunnerOptions options;
-  options.results = folder.path();
-  std::ostringstream quiet;
-  const Table table = phaseTable(study, runStudy(study, options, quiet), quiet);
-  ASSERT_EQ(table.rows.size(), 2u);
-  for (const auto& row : table.rows) {
-    double sum = 0;
-    for (const auto* share :
-         {"share_residual", "share_jacobian", "share_factorization", "share_solve"}) {
-      EXPECT_GT(numberAt(table, row, share), 0) << share;
-      sum += numberAt(table, row, share);
-    }
-    EXPECT_NEAR(sum, 1, 1e-12);
-    EXPECT_EQ(textAt(table, row, "n"), "3");
-  }
+  const auto path = writeReport({folder.path(), IRK_SOURCE_DIR});
+  std::ifstream in(path);
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const OrderFitOptions options;
+  EXPECT_EQ(options.min_points, 3);
+  EXPECT_EQ(options.min_span, 2);
+  EXPECT_TRUE(containsAll(page, {"at least 3 steps, the largest at least 2 times the smallest"}));
+  EXPECT_EQ(page.find("@ORDER_WINDOW@"), page.npos);
 }
 
 TEST(TimeLeft, CountsEveryKindByItsOwnLength) {

@@ -108,6 +108,25 @@ TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
       containsAll(misuseOf([] { loadStudy("ordr", StudyVariant::kFull); }), {"ordr", "'order'"}));
 }
 
+// They would end in an error after all their runs, or describe another run than the one in the table.
+TEST(Study, AnalysesOfOneMethodRefuseVariableOrder) {
+  const std::string block = "\n[[block]]\nscene = \"kepler\"\n";
+  for (const std::string analysis : {"scaling", "estimates", "phases"}) {
+    const std::string wanted = analysis + " = true";
+    for (const std::string methods : {"radau_iia", "radau_iia_5"}) {
+      const std::string text = wanted + block + "methods = \"" + methods + "\"\n";
+      EXPECT_TRUE(containsAll(misuseOf([&] { parse(text + "configuration = \"variable\"\n"); }),
+                              {"mine.toml:5", "order 'variable'", wanted}));
+      EXPECT_TRUE(containsAll(
+          misuseOf([&] { parse(text + "estimate = \"embedded\"\norder = \"variable\"\n"); }),
+          {"mine.toml:6", "order 'variable'", wanted}));
+    }
+    EXPECT_NO_THROW(parse(wanted + block + "methods = \"radau_iia_5\"\n"));
+  }
+  EXPECT_NO_THROW(parse("title = \"none\"" + block +
+                        "methods = \"radau_iia\"\nconfiguration = \"variable\"\n"));
+}
+
 TEST(Study, BuiltInStudiesLoadInBothVariants) {
   ASSERT_FALSE(builtinStudies().empty());
   for (const auto& study : builtinStudies()) {

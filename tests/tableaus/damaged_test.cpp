@@ -10,6 +10,9 @@
 namespace irk {
 namespace {
 
+using tableaus::Finding;
+using tableaus::Verdict;
+
 constexpr double kDamage = 1e-3;
 
 template <class Real>

@@ -8,6 +8,8 @@
 namespace irk {
 namespace {
 
+using tableaus::Verdict;
+
 int countOfOrder(const std::vector<RootedTree>& trees, int order) {
   return static_cast<int>(std::ranges::count(trees, order, &RootedTree::order));
 }
