@@ -1,7 +1,7 @@
 #include "experiments/final_states.h"
 
+#include <iterator>
 #include <sstream>
-#include <vector>
 
 #include "experiments/numbers.h"
 #include "experiments/run_table.h"
@@ -40,6 +40,16 @@ FinalStates::FinalStates(const std::filesystem::path& file, const TableHead& hea
 void FinalStates::append(const std::string& key, const RunRecord& record) {
   const auto& state = states_[key] = vectorText(componentsOf(record));
   writer_->append({key, state});
+}
+
+Table mergedStates(const std::vector<std::string>& folders) {
+  Table merged;
+  for (const auto& folder : folders) {
+    Table table = readTable(std::filesystem::path(folder) / "states.csv");
+    if (merged.columns.empty()) merged = {table.head, table.columns, {}};
+    std::move(table.rows.begin(), table.rows.end(), std::back_inserter(merged.rows));
+  }
+  return merged;
 }
 
 std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/run.h"
 #include "experiments/table.h"
@@ -31,6 +32,9 @@ class FinalStates {
   std::map<std::string, std::string> states_;
   std::optional<RowWriter> writer_;
 };
+
+/// The states of several folders' states.csv in one table.
+Table mergedStates(const std::vector<std::string>& folders);
 
 /// The states in a file that FinalStates wrote, by key.
 std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file);

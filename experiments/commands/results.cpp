@@ -5,7 +5,10 @@
 
 #include <algorithm>
 
+#include "experiments/audit/audit.h"
 #include "experiments/commands/commands.h"
+#include "experiments/final_states.h"
+#include "experiments/interrupt.h"
 
 namespace irk {
 namespace {
@@ -29,6 +32,12 @@ int mergeCommand(const MergeOptions& options, Streams streams) {
   writeSummaries(study, runs, folder, streams.err);
   fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(),
              options.folders.size(), folder.string());
+  if (study.states) writeTable(folder / "states.csv", mergedStates(options.folders));
+  if (study.audit) {
+    const InterruptScope interrupts;
+    streams.out << audit::auditRuns(study, runs, folder, threadCount(0), streams.err);
+    if (interruptFlag()) return kInterruptedStatus;
+  }
   return 0;
 }
 

@@ -25,8 +25,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Bits and choices are part of the study: other ones would be another audit.
 TEST(AuditDice, AreTheSameOnEveryMachine) {
   Dice dice("1 run 0");
-  EXPECT_EQ(dice.uniform(), 0x0p0);
-  EXPECT_EQ(dice.below(1000), 0);
+  EXPECT_EQ(dice.uniform(), 0x1.675a664420499p-1);  // by another implementation of MT19937-64
+  EXPECT_EQ(dice.below(1000), 28);
   const double weights[] = {0, 1, 0, 3, 0};
   int counts[5] = {};
   for (int i = 0; i < 4000; ++i) ++counts[dice.weighted(weights)];
@@ -70,9 +70,10 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
     EXPECT_EQ(spec.options.tolerances.rtol, spec.options.tolerances.atol);
     with_settings += !spec.settings.empty();
     for (const auto& [name, value] : spec.settings) {
-      if (name.starts_with("smoothing")) EXPECT_EQ(treatment, "smooth") << spec.scene;
-      if (name == "elements") EXPECT_LE(std::stoi(value), 4);
-      if (name == "m" && spec.scene == "beam_chain") EXPECT_LE(std::stoi(value), 100);
+      const bool unknowns = name == "m" && spec.scene == "beam_chain";
+      EXPECT_TRUE(!unknowns || std::stoi(value) <= 100) << value;
+      EXPECT_TRUE(name != "elements" || std::stoi(value) <= 4) << value;
+      EXPECT_TRUE(!name.starts_with("smoothing") || treatment == "smooth" || treatment == kNoSwitches);
     }
     // What is left open is the default, whatever that is.
     if (treatment == kDefaultTreatment || treatment == kNoSwitches) {
@@ -127,8 +128,8 @@ Evidence evidence(double error, double tolerance) {
 }
 
 TEST(AuditJudge, DrawsEveryLine) {
-  EXPECT_EQ(judge(evidence(1.0009e-3, 1e-6)), Judgement::kRight);
-  EXPECT_EQ(judge(evidence(1.0011e-3, 1e-6)), Judgement::kWrong) << "1000 tol + 1e-9";
+  EXPECT_EQ(judge(evidence(1.0000005e-3, 1e-6)), Judgement::kRight);
+  EXPECT_EQ(judge(evidence(1.0000015e-3, 1e-6)), Judgement::kWrong) << "1000 tol + 1e-9";
   EXPECT_EQ(judge(evidence(1.05e-9, 1e-13)), Judgement::kRight);
   EXPECT_EQ(judge(evidence(1.15e-9, 1e-13)), Judgement::kWrong) << "1e-10 + 1e-9";
   EXPECT_EQ(judge(evidence(kInfinity, 1e-2)), Judgement::kWrong);
@@ -347,34 +348,35 @@ TEST_F(SmallAudit, FindsADamagedResult) {
   const Answers answers = answersTo(questions, folder() / "references.csv", 2, quiet);
   EXPECT_EQ(quiet.str().find("runs made"), std::string::npos) << "all of them are known";
   const Table table = auditTable(drawn, *runs_, states, answers);
-  std::map<std::string, double> tolerances;
-  for (const auto& row : table.rows) {
-    if (textAt(table, row, "judgement") == "right") {
-      tolerances[textAt(table, row, "key")] = numberAt(table, row, "tolerance");
+  // The first component of the right runs is moved by `bars` times what is allowed.
+  const auto moved = [&](double bars) {
+    auto other = states;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const auto& spec = drawn[i].spec;
+      if (textAt(table, table.rows[i], "judgement") != "right") continue;
+      const auto scale = makeScene<double>(spec.scene, spec.settings).scale;
+      const Vec<double>& state = states.at(table.rows[i][1]);
+      const double size = std::max(std::abs(state[0]), scale.size() > 0 ? scale[0] : 1);
+      other.at(table.rows[i][1])[0] = state[0] + bars * bar(spec.options.tolerances.atol) * size;
     }
-  }
-  const auto damage = [&](double factor) {
-    auto damaged = states;
-    for (auto& [key, state] : damaged) {
-      const auto tolerance = tolerances.find(key);
-      if (tolerance == tolerances.end()) continue;
-      // Scales are at most a million times the magnitudes of the first component of a scene.
-      state[0] += factor * bar(tolerance->second) * std::max(1.0, std::abs(state[0])) * 1e6;
-    }
-    return auditTable(drawn, *runs_, damaged, answers);
+    return auditTable(drawn, *runs_, other, answers);
   };
-  const Table same = damage(0), damaged = damage(2);
+  const Table same = moved(0), damaged = moved(3);
+  int checked = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     EXPECT_EQ(same.rows[i], table.rows[i]);
-    if (!tolerances.contains(table.rows[i][1])) continue;
+    // A magnitude is known to less than the bar where the bar is less than 1.
+    const bool sharp = numberAt(table, table.rows[i], "tolerance") <= 1e-4;
+    if (!sharp || textAt(table, table.rows[i], "judgement") != "right") continue;
     EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << commandOf(drawn[i]);
+    ++checked;
   }
+  EXPECT_GT(checked, 20);
   EXPECT_TRUE(containsAll(summaryText(damaged, summaryTable(damaged), 3),
                           {"the worst successes that are wrong", "irk solve "}));
 }
 
 TEST_F(SmallAudit, GoesOnWhereItWas) {
-  std::ofstream(folder() / "runs.csv", std::ios::app) << "";
   const Table again = run();
   EXPECT_EQ(again.rows, runs_->rows) << "nothing is made again: times are the same";
   // A run whose state is lost is made again.
