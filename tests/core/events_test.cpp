@@ -1,4 +1,5 @@
-// Located events against exact solutions: which one comes first, and that what follows one is a new start.
+// Located events against exact solutions: which one comes first, and that what follows one is a new
+// start.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +23,8 @@ IntegratorOptions located(double tol) {
   return o;
 }
 
-/// Two clocks: switch i is due from t_i on. The rate is 1 before, 2 or 3 after the one that came first, and
-/// 4 or 5 after both: the end tells which it was.
+/// Two clocks: switch i is due from t_i on. The rate is 1 before, 2 or 3 after the one that came
+/// first, and 4 or 5 after both: the end tells which it was.
 struct Clocks {
   double at[2];
   Sizes sizes() const {
@@ -52,8 +53,8 @@ struct Clocks {
 };
 
 TEST(Events, TheEarlierOfTwoInOneStepComesFirst) {
-  const std::pair<double, double> times[] = {{0.3, 0.7},    {0.51, 0.53},       {0.11, 0.112},
-                                             {0.01, 0.99},  {0.4, 0.4 + 1e-6}, {0.9, 0.9001},
+  const std::pair<double, double> times[] = {{0.3, 0.7},   {0.51, 0.53},      {0.11, 0.112},
+                                             {0.01, 0.99}, {0.4, 0.4 + 1e-6}, {0.9, 0.9001},
                                              {0.25, 0.26}};
   for (const auto& [low, high] : times) {
     for (const bool swapped : {false, true}) {
@@ -123,7 +124,8 @@ TEST(Events, TheFirstOfTwoCrossingsOfOneFunction) {
   }
 }
 
-/// A point mass on a floor that returns half of the speed: a `jump` of v, twice differentiable flight.
+/// A point mass on a floor that returns half of the speed: a `jump` of v, twice differentiable
+/// flight.
 struct Ball {
   Sizes sizes() const {
     return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
@@ -182,8 +184,8 @@ struct Kink {
   }
 };
 
-// Lobatto IIIA takes its first stage from the start: a rate of before the event would be an error of
-// h b_1 4 = 0.03.
+// Lobatto IIIA takes its first stage from the start: a rate of before the event would be an error
+// of h b_1 4 = 0.03.
 TEST(Events, WhatFollowsStartsWithConsistentRates) {
   const Kink problem;
   const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate,
@@ -193,8 +195,8 @@ TEST(Events, WhatFollowsStartsWithConsistentRates) {
   EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-9);
 }
 
-// The rates are constant but for the event, so that start values are exact where nothing of before the
-// event is extrapolated: each solve then takes one iteration.
+// The rates are constant but for the event, so that start values are exact where nothing of before
+// the event is extrapolated: each solve then takes one iteration.
 TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
   const Kink problem;
   for (const auto predictor :
@@ -235,8 +237,8 @@ struct Stiffening {
   }
 };
 
-// With the Jacobian of the mode before Newton's increments grow by h 1e6: it would fail, and be started
-// again with a new one.
+// With the Jacobian of the mode before Newton's increments grow by h 1e6: it would fail, and be
+// started again with a new one.
 TEST(Events, TheJacobianIsOfTheNewMode) {
   const Stiffening problem;
   for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
@@ -282,8 +284,9 @@ struct Spring {
   }
 };
 
-// After an event nothing of before it decides: not the polynomial, the Jacobian, Newton's contraction, nor
-// the controller's memory of errors and steps. The same steps as of an integration that begins there.
+// After an event nothing of before it decides: not the polynomial, the Jacobian, Newton's
+// contraction, nor the controller's memory of errors and steps. The same steps as of an integration
+// that begins there.
 TEST(Events, ARestartIsANewStart) {
   const Spring problem;
   for (const auto control : {StepControl::kPredictive, StepControl::kPaper, StepControl::kHotint}) {
@@ -294,8 +297,8 @@ TEST(Events, ARestartIsANewStart) {
       const auto integrate_from = [&](const State<double>& start, const IntegratorOptions& o,
                                       State<double>* event) {
         Integrator<double> integrator(
-            makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn,
-                                         Discontinuity::kLocate}),
+            makeSystem<double>(
+                problem, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
             makeTableau<double>("radau_iia_3"), o);
         std::vector<Step> steps;
         Monitor<double> monitor;

@@ -1,5 +1,6 @@
-// Every option does what its description says, seen from outside: at which points the residual and its
-// derivatives are asked for, which terms are left out, how large the steps become, what is counted.
+// Every option does what its description says, seen from outside: at which points the residual and
+// its derivatives are asked for, which terms are left out, how large the steps become, what is
+// counted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ StepOptions controlled(StepControl control) {
   return o;
 }
 
-// HW II (IV.8.25): h_new = 0.9 h eps^(-1/(p+1)) (h / h_old) (eps_old / eps)^(1/(p+1)), where that is less than
-// without the two ratios.
+// HW II (IV.8.25): h_new = 0.9 h eps^(-1/(p+1)) (h / h_old) (eps_old / eps)^(1/(p+1)), where that
+// is less than without the two ratios.
 double gustafsson(int p, double error, double h, double error_before, double h_before) {
   const double root = 1.0 / (p + 1);
   const double trend = h / h_before * std::pow(error_before / error, root);
@@ -36,7 +37,8 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
   struct Step {
     double error, h;
   };
-  // Steps that shrink and grow, errors that fall and grow: each ratio upside down gives another number.
+  // Steps that shrink and grow, errors that fall and grow: each ratio upside down gives another
+  // number.
   const Step sequences[][3] = {{{0.5, 0.1}, {0.3, 0.07}, {0.6, 0.09}},
                                {{0.2, 0.1}, {0.7, 0.12}, {0.9, 0.05}},
                                {{0.9, 0.02}, {0.5, 0.015}, {0.8, 0.03}}};
@@ -46,7 +48,8 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
       (void)controller->decide(steps[0].error, steps[0].h);
       for (int i = 1; i < 3; ++i) {
         const auto decision = controller->decide(steps[i].error, steps[i].h);
-        const double wish = gustafsson(p, steps[i].error, steps[i].h, steps[i - 1].error, steps[i - 1].h);
+        const double wish =
+            gustafsson(p, steps[i].error, steps[i].h, steps[i - 1].error, steps[i - 1].h);
         const double ratio = wish / steps[i].h;
         const double expected = ratio >= 1 && ratio <= 1.2 ? steps[i].h : wish;
         EXPECT_TRUE(decision.accept);
@@ -56,7 +59,8 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
   }
 }
 
-// Errors below 1e-2 count as 1e-2 for the trend (ERRACC of RADAU), and a changed order brings its own past.
+// Errors below 1e-2 count as 1e-2 for the trend (ERRACC of RADAU), and a changed order brings its
+// own past.
 TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
   auto controller = makeController(controlled(StepControl::kPredictive), 3);
   (void)controller->decide(1e-9, 0.1);
@@ -66,7 +70,8 @@ TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
   controller->changeOrder(5, 0.2, 0.05);
   EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 0.2, 0.05), 1e-12);
   controller->forget();
-  EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14) << "no trend";
+  EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14)
+      << "no trend";
 }
 
 TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
@@ -180,7 +185,8 @@ TEST(Steps, AreNotBelowTheSmallestButAFailure) {
   o.step.h_min = 0.9 * least;
   EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome, Outcome::kSuccess);
   o.step.h_min = 0.3;
-  EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome, Outcome::kStepTooSmall);
+  EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome,
+            Outcome::kStepTooSmall);
 }
 
 TEST(Steps, AcceptedOnesHaveErrorsWithinTheTolerance) {
@@ -275,7 +281,8 @@ TEST(JacobianPointOption, IsWhereTheDerivativesAreAsked) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(each[each.size() - 3 + i].t, nodes[i] * h, 1e-14);
 }
 
-// k of the first residuals of the second step. The first step's stages have k = c_i h, its end k = h.
+// k of the first residuals of the second step. The first step's stages have k = c_i h, its end k =
+// h.
 TEST(PredictorOption, IsWhereNewtonStarts) {
   const double h = 0.25;
   const auto second = [&](Predictor predictor) {
@@ -341,8 +348,8 @@ TEST(JacobianTermsOption, LeaveOutWhatTheySay) {
   const double m = 1 + 0.3 * 0.6 + 0.2 * 0.4 + 0.7 * 0.5 + 0.05 * 1.5, a = 2;
   for (const auto source : {DerivativeSource::kAutomatic, DerivativeSource::kCentral}) {
     const double tolerance = source == DerivativeSource::kAutomatic ? 1e-13 : 1e-8;
-    for (const auto terms : {JacobianTerms::kFull, JacobianTerms::kNoMassVxz, JacobianTerms::kNoMass,
-                             JacobianTerms::kConstantStiffness}) {
+    for (const auto terms : {JacobianTerms::kFull, JacobianTerms::kNoMassVxz,
+                             JacobianTerms::kNoMass, JacobianTerms::kConstantStiffness}) {
       double later = 0;
       const auto D = termsOf(terms, source, &later);
       const bool vxz = terms == JacobianTerms::kNoMassVxz || terms == JacobianTerms::kNoMass;
@@ -399,7 +406,8 @@ TEST(JacobianTermsOption, NoConstraintXzDropsTheAlgebraicRows) {
   }
 }
 
-/// An oscillator whose mass depends strongly on u and v: without those terms Newton contracts more slowly.
+/// An oscillator whose mass depends strongly on u and v: without those terms Newton contracts more
+/// slowly.
 struct HeavyMass {
   Sizes sizes() const { return {.nu = 1, .nx = 1, .nz = 0, .constraints = 0}; }
   template <class T>
@@ -438,7 +446,8 @@ struct Decay {
   }
 };
 
-// Simplified Newton evaluates s residuals per iteration; the residual test needs one more set per solve.
+// Simplified Newton evaluates s residuals per iteration; the residual test needs one more set per
+// solve.
 TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
   State<double> start(Decay{}.sizes());
   start.x[0] = 1;
@@ -453,7 +462,8 @@ TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
     const char* method;
     int implicit;
   };
-  for (const auto& [method, s] : {Case{"radau_iia_3", 3}, Case{"gauss_2", 2}, Case{"lobatto_iiia_4", 3}}) {
+  for (const auto& [method, s] :
+       {Case{"radau_iia_3", 3}, Case{"gauss_2", 2}, Case{"lobatto_iiia_4", 3}}) {
     for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kModified, NewtonKind::kFull}) {
       const Counters few = counters(kind, method, 8), many = counters(kind, method, 24);
       const auto iterations = many.newton_iterations - few.newton_iterations;

@@ -144,10 +144,11 @@ void putSteps(ResultTables& results, const std::vector<JumpRun>& jumps) {
   for (const auto& jump : jumps) {
     const std::string method = "radau_iia_" + std::to_string(number++);
     runs.rows.push_back({"slider_crank", method, "", "1e-8"});
-    runs.rows.push_back(
-        {"slider_crank", method, "torque_off_at=0.5", text(1e-8 * jump.error_factor * 1e6) + "e-6"});
+    runs.rows.push_back({"slider_crank", method, "torque_off_at=0.5",
+                         text(1e-8 * jump.error_factor * 1e6) + "e-6"});
     Table steps = columns({"t", "h"});
-    for (const double t : {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8}) steps.rows.push_back({text(t), "0.1"});
+    for (const double t : {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8})
+      steps.rows.push_back({text(t), "0.1"});
     // Around the jump, and far from it a smaller one that does not count.
     steps.rows.push_back({"0.5", fmt::format("{}", 0.1 / jump.step_factor)});
     steps.rows.push_back({"0.44", "1e-9"});

@@ -84,11 +84,11 @@ TEST(RunErrors, OfReferencesAtTheTime) {
     return r;
   };
   const std::vector<Reference> references = {
-      reference("u1", 2, "0.6", 1e-9),   reference("u2", 2, "0.8", 1e-9),
-      reference("u2", 2, "0.7", 1e-3),  // a worse one
+      reference("u1", 2, "0.6", 1e-9),  reference("u2", 2, "0.8", 1e-9),
+      reference("u2", 2, "0.7", 1e-3),   // a worse one
       reference("u2", 1, "0.1", 1e-12),  // at another time
-      reference("v1", 2, "-8", 1e-9),    reference("v2", 2, "6", 1e-9),
-      reference("x", 2, "0.5", 1e-9),    reference("lambda", 2, "100", 1e-9)};
+      reference("v1", 2, "-8", 1e-9),   reference("v2", 2, "6", 1e-9),
+      reference("x", 2, "0.5", 1e-9),   reference("lambda", 2, "100", 1e-9)};
   expectGroups(errorsOf(scene(), references, off()));
   // An output counts in the error of all only.
   const RunErrors output = errorsOf(scene(), {reference("sum", 2, "1.0", 1e-9)}, off());

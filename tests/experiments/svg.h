@@ -77,9 +77,10 @@ class Svg {
     return found == curves.end() ? nothing : found->second;
   }
 
-  /// Pixels of a panel as numbers of its axes. A panel without labels of its own has those of the one
-  /// before it.
-  std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, Axis x, Axis y) const {
+  /// Pixels of a panel as numbers of its axes. A panel without labels of its own has those of the
+  /// one before it.
+  std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, Axis x,
+                                Axis y) const {
     std::vector<SvgPoint> all;
     for (const auto& p : pixels) {
       all.push_back({onAxis(labels(letter, &SvgPanel::x), p.x, x),
@@ -104,8 +105,12 @@ class Svg {
   }
 
   /// The label next to a place on an axis, of axes that name their cells.
-  std::string labelX(char letter, double pixel) const { return nearest(labels(letter, &SvgPanel::x), pixel); }
-  std::string labelY(char letter, double pixel) const { return nearest(labels(letter, &SvgPanel::y), pixel); }
+  std::string labelX(char letter, double pixel) const {
+    return nearest(labels(letter, &SvgPanel::x), pixel);
+  }
+  std::string labelY(char letter, double pixel) const {
+    return nearest(labels(letter, &SvgPanel::y), pixel);
+  }
 
  private:
   const std::vector<SvgLabel>& labels(char letter, std::vector<SvgLabel> SvgPanel::*axis) const {
@@ -131,7 +136,8 @@ class Svg {
     std::string text = "no label";
     double least = 1e300;
     for (const auto& label : labels) {
-      if (std::abs(label.pixel - pixel) < least) least = std::abs(label.pixel - pixel), text = label.text;
+      if (std::abs(label.pixel - pixel) < least)
+        least = std::abs(label.pixel - pixel), text = label.text;
     }
     return text;
   }
@@ -180,7 +186,8 @@ class Svg {
   }
 
   void readCurve(const std::string& line) {
-    static const std::regex mark("<use xlink:href='#gpPt[0-9]+' transform='translate\\((-?[0-9.]+),(-?[0-9.]+)\\)");
+    static const std::regex mark(
+        "<use xlink:href='#gpPt[0-9]+' transform='translate\\((-?[0-9.]+),(-?[0-9.]+)\\)");
     static const std::regex box("<polygon fill = '([^']*)'[^>]*points = '([^']*)'");
     // With a title in a key inside the panel: its sample is the first line and the last mark.
     if (line.find("<text>") != line.npos) with_sample_ = first_line_ = true;
@@ -211,7 +218,8 @@ class Svg {
     if (end != line.npos) in_path_ = false;
   }
 
-  // A label stands on two lines: its place, with the tick before it where ticks are drawn, and its text.
+  // A label stands on two lines: its place, with the tick before it where ticks are drawn, and its
+  // text.
   void readLabel(const std::string& line) {
     static const std::regex place(
         "<g transform=\"translate\\((-?[0-9.]+),(-?[0-9.]+)\\)\".*text-anchor=\"(middle|end)\"");
@@ -225,7 +233,8 @@ class Svg {
       return;
     }
     const bool text = to_ && line.find("<text>") != line.npos;
-    if (text && plain(line).find_first_not_of(' ') != std::string::npos) to_->push_back({pixel_, plain(line)});
+    if (text && plain(line).find_first_not_of(' ') != std::string::npos)
+      to_->push_back({pixel_, plain(line)});
     to_ = nullptr;
   }
 
@@ -260,8 +269,10 @@ inline void expectPoints(const std::vector<SvgPoint>& seen, const std::vector<Sv
                          const std::string& what, double tolerance = 5e-3) {
   ASSERT_EQ(seen.size(), expected.size()) << what;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    EXPECT_NEAR(seen[i].x, expected[i].x, tolerance * std::abs(expected[i].x) + 1e-300) << what << ", point " << i;
-    EXPECT_NEAR(seen[i].y, expected[i].y, tolerance * std::abs(expected[i].y) + 1e-300) << what << ", point " << i;
+    EXPECT_NEAR(seen[i].x, expected[i].x, tolerance * std::abs(expected[i].x) + 1e-300)
+        << what << ", point " << i;
+    EXPECT_NEAR(seen[i].y, expected[i].y, tolerance * std::abs(expected[i].y) + 1e-300)
+        << what << ", point " << i;
   }
 }
 

@@ -114,7 +114,8 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   options.jobs = 1;
   const Table runs = runStudy(study, options, quiet);
   const auto file = folder.path() / "small" / "runs.csv";
-  const auto timed = [&](double once_above, double skip_above, const char* cpu, const char* outcome) {
+  const auto timed = [&](double once_above, double skip_above, const char* cpu,
+                         const char* outcome) {
     Table table = runs;
     for (auto& row : table.rows) {
       row[table.column("cpu_s")] = cpu;

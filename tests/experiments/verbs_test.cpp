@@ -1,5 +1,5 @@
-// The verbs that work on studies, each with success and without: run, merge, compare, plot, report, claims,
-// paper. In folders of their own, on studies of seconds.
+// The verbs that work on studies, each with success and without: run, merge, compare, plot, report,
+// claims, paper. In folders of their own, on studies of seconds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +61,9 @@ class Verbs : public testing::Test {
   Table runs(const std::string& into = "results") const {
     return readTable(std::filesystem::path(results(into)) / "drift" / "runs.csv");
   }
-  bool exists(const std::string& file) const { return std::filesystem::exists(results() + "/" + file); }
+  bool exists(const std::string& file) const {
+    return std::filesystem::exists(results() + "/" + file);
+  }
 
   TemporaryFolder folder_;
 };
@@ -84,7 +86,8 @@ TEST_F(Verbs, RunMakesTablesAndAgainKeepsThem) {
 }
 
 TEST_F(Verbs, RunOfAMistakeIsStatusTwo) {
-  std::ofstream(study()) << "title = \"Small\"\n[[block]]\nscene = \"pendulun\"\nmethods = \"gauss_2\"\n";
+  std::ofstream(study())
+      << "title = \"Small\"\n[[block]]\nscene = \"pendulun\"\nmethods = \"gauss_2\"\n";
   const Ended ended = run();
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(containsAll(ended.err, {"pendulun", "'pendulum'"}));
@@ -93,8 +96,7 @@ TEST_F(Verbs, RunOfAMistakeIsStatusTwo) {
 
 TEST_F(Verbs, AFolderThatCannotBeMadeIsStatusTwo) {
   const std::string file = study() + "/results";  // below a file
-  const std::vector<std::string> verbs[] = {
-      {"run", study()}, {"report"}, {"plot", "drift"}};
+  const std::vector<std::string> verbs[] = {{"run", study()}, {"report"}, {"plot", "drift"}};
   for (auto arguments : verbs) {
     arguments.insert(arguments.end(), {"--results", file});
     const Ended ended = program(arguments);
@@ -119,7 +121,8 @@ TEST_F(Verbs, CompareSeesADifference) {
     writeTable(std::filesystem::path(results("other")) / "drift" / "runs.csv", other);
     return program({"compare", results() + "/drift", results("other") + "/drift"});
   };
-  for (const auto* column : {"error", "error_v", "drift", "residuals", "outcome", "steps_accepted"}) {
+  for (const auto* column :
+       {"error", "error_v", "drift", "residuals", "outcome", "steps_accepted"}) {
     const Ended ended = changed(column, "123");
     EXPECT_EQ(ended.status, 1) << column;
     EXPECT_TRUE(containsAll(ended.out, {column, "123", " 1 differences"}));
@@ -140,7 +143,8 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   ASSERT_EQ(run("parts", {"--shard", "1/2"}).status, 0);
   ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);
   const std::string parts = results("parts") + "/drift/shard_";
-  const Table one = readTable(parts + "1_of_2/runs.csv"), two = readTable(parts + "2_of_2/runs.csv");
+  const Table one = readTable(parts + "1_of_2/runs.csv"),
+              two = readTable(parts + "2_of_2/runs.csv");
   EXPECT_EQ(one.rows.size() + two.rows.size(), 8u);
   EXPECT_FALSE(one.rows.empty() || two.rows.empty());
   const Ended merged = program({"merge", parts + "2_of_2", parts + "1_of_2", "--study", study(),
@@ -148,7 +152,8 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   ASSERT_EQ(merged.status, 0) << merged.err;
   EXPECT_TRUE(containsAll(merged.out, {"drift", "8 runs of 2 folders"}));
   EXPECT_TRUE(std::filesystem::exists(results("merged") + "/drift/cpu_at_error.csv"));
-  const Ended same = program({"compare", results("whole") + "/drift", results("merged") + "/drift"});
+  const Ended same =
+      program({"compare", results("whole") + "/drift", results("merged") + "/drift"});
   EXPECT_EQ(same.status, 0) << same.out;
   // In the study's order, whatever that of the folders.
   const Table a = runs("whole"), b = runs("merged");
@@ -166,7 +171,9 @@ TEST_F(Verbs, MergePrefersWhatIsTimedAndRefusesOtherColumns) {
   writeTable(std::filesystem::path(a) / "runs.csv", timed);
   writeTable(std::filesystem::path(b) / "runs.csv", untimed);
   for (const auto& order : {std::vector{a, b}, std::vector{b, a}}) {
-    ASSERT_EQ(program({"merge", order[0], order[1], "--study", study(), "--results", results("m")}).status, 0);
+    ASSERT_EQ(program({"merge", order[0], order[1], "--study", study(), "--results", results("m")})
+                  .status,
+              0);
     for (const auto& row : runs("m").rows) EXPECT_NE(row[timed.column("cpu_s")], "77");
   }
   timed.columns.back() = "another";
@@ -214,12 +221,13 @@ TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
   EXPECT_EQ(program({"report", "--results", results()}).status, 1);
 }
 
-// The first signal ends the run after the step it is in; what was finished is kept, and the same command
-// goes on from there.
+// The first signal ends the run after the step it is in; what was finished is kept, and the same
+// command goes on from there.
 TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
-  std::ofstream(study()) << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
-                            "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
-                            "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
+  std::ofstream(study())
+      << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
+         "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
+         "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
   const auto file = std::filesystem::path(results()) / "drift" / "runs.csv";
   std::atomic<bool> done = false;
   std::thread signal([&] {
@@ -245,9 +253,10 @@ TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
   ASSERT_GE(kept.rows.size(), 2u);
   ASSERT_LT(kept.rows.size(), 20u) << "the machine is too fast for this test";
   for (const auto& row : kept.rows) EXPECT_EQ(textAt(kept, row, "outcome"), "success");
-  std::ofstream(study()) << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
-                            "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
-                            "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
+  std::ofstream(study())
+      << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
+         "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
+         "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
   ASSERT_EQ(program({"run", study(), "--results", results(), "--jobs", "2"}).status, 0);
   const Table whole = runs();
   ASSERT_EQ(whole.rows.size(), 20u);
@@ -284,8 +293,8 @@ TEST_F(Verbs, PaperRefusesMisuse) {
   EXPECT_EQ(program({"paper", "order"}).status, 2) << "takes no study";
 }
 
-// What `paper` runs: every study can be loaded in both variants, with something to do, and the quick
-// one has not more.
+// What `paper` runs: every study can be loaded in both variants, with something to do, and the
+// quick one has not more.
 TEST(Studies, LoadInBothVariants) {
   for (const auto& entry : builtinStudies()) {
     const Study full = loadStudy(entry.id, StudyVariant::kFull);
