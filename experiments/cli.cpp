@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -220,6 +221,9 @@ int runProgram(const std::vector<std::string>& arguments, Streams streams) {
     return Program().run(arguments, streams);
   } catch (const Misuse& misuse) {
     streams.err << "irk: " << misuse.what() << '\n';
+    return kMisuseStatus;
+  } catch (const std::filesystem::filesystem_error& error) {  // a folder of results that cannot be made
+    streams.err << "irk: " << error.what() << '\n';
     return kMisuseStatus;
   }
 }

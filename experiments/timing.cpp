@@ -59,14 +59,14 @@ std::vector<Candidate> candidates(const Study& study, Table& runs) {
   return wanted;
 }
 
+}  // namespace
+
 Timing timingOf(std::vector<double> seconds) {
   std::sort(seconds.begin(), seconds.end());
   const double least = seconds.front();
   return {least, seconds[seconds.size() / 2], (seconds.back() - least) / least,
           static_cast<int>(seconds.size())};
 }
-
-}  // namespace
 
 double timeRun(PreparedRun& run, double min_time_s) {
   benchmark::RegisterBenchmark("run",

@@ -3,11 +3,15 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <vector>
 
 #include "experiments/run_table.h"
 #include "experiments/study.h"
 
 namespace irk {
+
+/// Minimum, median, spread and number of measured times; of an even number the upper median. At least one.
+Timing timingOf(std::vector<double> seconds);
 
 /// Seconds of one integration, the mean over at least `min_time_s`. Serial: call it alone.
 double timeRun(PreparedRun& run, double min_time_s);

@@ -1,0 +1,315 @@
+// The verbs that work on studies, each with success and without: run, merge, compare, plot, report,
+// claims, paper. In folders of their own, on studies of seconds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <thread>
+
+#include "experiments/builtin_studies.h"
+#include "experiments/cli.h"
+#include "experiments/run_table.h"
+#include "experiments/study.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+struct Ended {
+  int status;
+  std::string out, err;
+};
+
+Ended program(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const int status = runProgram(arguments, {out, err});
+  return {status, out.str(), err.str()};
+}
+
+// The name of a built-in study, so that it has figures; the runs are others.
+constexpr char kDrift[] = R"(
+title = "Small"
+targets = [1e-2, 1e-4]
+[defaults]
+formulation = ["index2", "ggl"]
+methods = ["radau_iia_3", "radau_iia_5"]
+tolerances = [1e-3, 1e-5]
+[timing]
+min_time_s = 0.0005
+repetitions = 2
+[[block]]
+scene = "pendulum"
+t_end = 0.5
+)";
+
+/// A temporary folder with a study's file and results.
+class Verbs : public testing::Test {
+ protected:
+  void SetUp() override { std::ofstream(study()) << kDrift; }
+  std::string study() const { return folder_.path() / "drift.toml"; }
+  std::string results(const std::string& name = "results") const { return folder_.path() / name; }
+  Ended run(const std::string& into = "results", std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"run", study(), "--results", results(into), "--jobs", "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return program(arguments);
+  }
+  Table runs(const std::string& into = "results") const {
+    return readTable(std::filesystem::path(results(into)) / "drift" / "runs.csv");
+  }
+  bool exists(const std::string& file) const {
+    return std::filesystem::exists(results() + "/" + file);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Verbs, RunMakesTablesAndAgainKeepsThem) {
+  const Ended first = run();
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_TRUE(containsAll(first.out, {"drift", "8 runs", "8 success"}));
+  const Table table = runs();
+  ASSERT_EQ(table.rows.size(), 8u);
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(textAt(table, row, "outcome"), "success");
+    EXPECT_EQ(numberAt(table, row, "cpu_runs"), 2) << "timed";
+  }
+  EXPECT_TRUE(exists("drift/cpu_at_error.csv"));
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(runs().rows, table.rows);
+  ASSERT_EQ(run("results", {"--fresh"}).status, 0);
+  EXPECT_NE(runs().rows, table.rows) << "other times";
+}
+
+TEST_F(Verbs, RunOfAMistakeIsStatusTwo) {
+  std::ofstream(study())
+      << "title = \"Small\"\n[[block]]\nscene = \"pendulun\"\nmethods = \"gauss_2\"\n";
+  const Ended ended = run();
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(containsAll(ended.err, {"pendulun", "'pendulum'"}));
+  EXPECT_EQ(program({"run", results("no_such.toml")}).status, 2);
+}
+
+TEST_F(Verbs, AFolderThatCannotBeMadeIsStatusTwo) {
+  const std::string file = study() + "/results";  // below a file
+  const std::vector<std::string> verbs[] = {{"run", study()}, {"report"}, {"plot", "drift"}};
+  for (auto arguments : verbs) {
+    arguments.insert(arguments.end(), {"--results", file});
+    const Ended ended = program(arguments);
+    EXPECT_EQ(ended.status, 2) << arguments[0];
+    EXPECT_TRUE(containsAll(ended.err, {"irk: ", file})) << arguments[0];
+  }
+}
+
+TEST_F(Verbs, OneThreadAndSeveralMakeTheSame) {
+  ASSERT_EQ(run("several").status, 0);
+  ASSERT_EQ(program({"run", study(), "--results", results("one"), "--jobs", "1"}).status, 0);
+  const Ended same = program({"compare", results("one") + "/drift", results("several") + "/drift"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  EXPECT_TRUE(containsAll(same.out, {"8 runs and 8 runs", " 0 differences"}));
+}
+
+TEST_F(Verbs, CompareSeesADifference) {
+  ASSERT_EQ(run().status, 0);
+  const auto changed = [&](const std::string& column, const char* cell) {
+    Table other = runs();
+    other.rows.front()[other.column(column)] = cell;
+    writeTable(std::filesystem::path(results("other")) / "drift" / "runs.csv", other);
+    return program({"compare", results() + "/drift", results("other") + "/drift"});
+  };
+  for (const auto* column :
+       {"error", "error_v", "drift", "residuals", "outcome", "steps_accepted"}) {
+    const Ended ended = changed(column, "123");
+    EXPECT_EQ(ended.status, 1) << column;
+    EXPECT_TRUE(containsAll(ended.out, {column, "123", " 1 differences"}));
+  }
+  for (const auto* time : {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs"}) {
+    EXPECT_EQ(changed(time, "123").status, 0) << time;
+  }
+  Table fewer = runs();
+  fewer.rows.pop_back();
+  writeTable(std::filesystem::path(results("other")) / "drift" / "runs.csv", fewer);
+  EXPECT_EQ(program({"compare", results() + "/drift", results("other") + "/drift"}).status, 1);
+  EXPECT_EQ(program({"compare", results("other") + "/drift", results() + "/drift"}).status, 1);
+  EXPECT_EQ(program({"compare", results() + "/drift", results("nowhere")}).status, 2);
+}
+
+TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
+  ASSERT_EQ(run("whole").status, 0);
+  ASSERT_EQ(run("parts", {"--shard", "1/2"}).status, 0);
+  ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);
+  const std::string parts = results("parts") + "/drift/shard_";
+  const Table one = readTable(parts + "1_of_2/runs.csv"),
+              two = readTable(parts + "2_of_2/runs.csv");
+  EXPECT_EQ(one.rows.size() + two.rows.size(), 8u);
+  EXPECT_FALSE(one.rows.empty() || two.rows.empty());
+  const Ended merged = program({"merge", parts + "2_of_2", parts + "1_of_2", "--study", study(),
+                                "--results", results("merged")});
+  ASSERT_EQ(merged.status, 0) << merged.err;
+  EXPECT_TRUE(containsAll(merged.out, {"drift", "8 runs of 2 folders"}));
+  EXPECT_TRUE(std::filesystem::exists(results("merged") + "/drift/cpu_at_error.csv"));
+  const Ended same =
+      program({"compare", results("whole") + "/drift", results("merged") + "/drift"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  // In the study's order, whatever that of the folders.
+  const Table a = runs("whole"), b = runs("merged");
+  for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_EQ(a.rows[i].front(), b.rows[i].front());
+}
+
+TEST_F(Verbs, MergePrefersWhatIsTimedAndRefusesOtherColumns) {
+  ASSERT_EQ(run().status, 0);
+  Table timed = runs(), untimed = timed;
+  for (auto& row : untimed.rows) {
+    row[untimed.column("cpu_runs")] = "0";
+    row[untimed.column("cpu_s")] = "77";
+  }
+  const std::string a = results("a"), b = results("b");
+  writeTable(std::filesystem::path(a) / "runs.csv", timed);
+  writeTable(std::filesystem::path(b) / "runs.csv", untimed);
+  for (const auto& order : {std::vector{a, b}, std::vector{b, a}}) {
+    ASSERT_EQ(program({"merge", order[0], order[1], "--study", study(), "--results", results("m")})
+                  .status,
+              0);
+    for (const auto& row : runs("m").rows) EXPECT_NE(row[timed.column("cpu_s")], "77");
+  }
+  timed.columns.back() = "another";
+  writeTable(std::filesystem::path(a) / "runs.csv", timed);
+  const Ended refused = program({"merge", a, b, "--study", study(), "--results", results("m")});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(containsAll(refused.err, {"columns differ"}));
+}
+
+// The chain of a paper: run, plot, claims, report.
+TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
+  ASSERT_EQ(run().status, 0);
+  const Ended plotted = program({"plot", "drift", "--results", results()});
+  EXPECT_EQ(plotted.status, 0) << plotted.err;
+  for (const auto* name : {"drift_pendulum", "drift_stages", "drift_cost"}) {
+    for (const auto* ending : {".svg", ".png"}) {
+      EXPECT_TRUE(exists("report/figures/" + std::string(name) + ending)) << name << ending;
+    }
+  }
+  const Ended claims = program({"claims", "--results", results()});
+  EXPECT_EQ(claims.status, 0) << claims.err;
+  EXPECT_NE(claims.out.find("C7  "), claims.out.npos);
+  const Ended report = program({"report", "--results", results()});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_TRUE(containsAll(report.out, {"index.html"}));
+  std::ifstream in(results() + "/report/index.html");
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_TRUE(containsAll(page, {"figures/drift_pendulum.svg", "id=\"C7\"", "study_drift"}));
+  EXPECT_EQ(page.find("figures/work_slider_crank.svg"), page.npos) << "of a study that was not run";
+  EXPECT_EQ(page.find("@CLAIMS@"), page.npos);
+  EXPECT_EQ(page.find("@FIGURES@"), page.npos);
+}
+
+TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
+  const Ended nothing = program({"plot", "drift", "--results", results()});
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_TRUE(containsAll(nothing.err, {"drift_pendulum", "irk run drift"}));
+  ASSERT_EQ(run().status, 0);
+  Table damaged = runs();
+  damaged.columns[damaged.column("formulation")] = "formulatio";
+  for (auto& row : damaged.rows) row[damaged.column("scene")] = "pendulum";
+  writeTable(std::filesystem::path(results()) / "drift" / "runs.csv", damaged);
+  const Ended plotted = program({"plot", "drift", "--results", results()});
+  EXPECT_EQ(plotted.status, 1) << plotted.err;
+  EXPECT_EQ(program({"report", "--results", results()}).status, 1);
+}
+
+// The first signal ends the run after the step it is in; what was finished is kept, and the same
+// command goes on from there.
+TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
+  std::ofstream(study())
+      << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
+         "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
+         "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
+  const auto file = std::filesystem::path(results()) / "drift" / "runs.csv";
+  std::atomic<bool> done = false;
+  std::thread signal([&] {
+    while (!done) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      if (!std::filesystem::exists(file)) continue;
+      std::size_t rows = 0;
+      try {
+        rows = readTable(file).rows.size();
+      } catch (const Misuse&) {
+        continue;
+      }
+      if (rows < 2 || done) continue;
+      std::raise(SIGINT);
+      return;
+    }
+  });
+  const Ended stopped = program({"run", study(), "--results", results(), "--jobs", "2"});
+  done = true;
+  signal.join();
+  ASSERT_EQ(stopped.status, 130) << stopped.out;
+  const Table kept = runs();
+  ASSERT_GE(kept.rows.size(), 2u);
+  ASSERT_LT(kept.rows.size(), 20u) << "the machine is too fast for this test";
+  for (const auto& row : kept.rows) EXPECT_EQ(textAt(kept, row, "outcome"), "success");
+  std::ofstream(study())
+      << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
+         "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
+         "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
+  ASSERT_EQ(program({"run", study(), "--results", results(), "--jobs", "2"}).status, 0);
+  const Table whole = runs();
+  ASSERT_EQ(whole.rows.size(), 20u);
+  std::size_t same = 0;
+  for (const auto& row : kept.rows) {
+    same += static_cast<std::size_t>(std::count(whole.rows.begin(), whole.rows.end(), row));
+  }
+  EXPECT_EQ(same, kept.rows.size()) << "with their times: not made again";
+}
+
+// `paper` takes minutes even when it is quick: here it is stopped after its first tables.
+TEST_F(Verbs, PaperStopsWhenInterrupted) {
+  std::atomic<bool> done = false;
+  std::thread signal([&] {
+    const auto first = std::filesystem::path(results()) / "scenes" / "runs.csv";
+    while (!done && !std::filesystem::exists(first)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    if (!done) std::raise(SIGINT);
+  });
+  const Ended ended = program({"paper", "--quick", "--results", results(), "--jobs", "2"});
+  done = true;
+  signal.join();
+  EXPECT_EQ(ended.status, 130) << ended.err;
+  EXPECT_TRUE(exists("tableaus/tableaus.csv"));
+  EXPECT_TRUE(exists("tableaus/stability.csv"));
+  EXPECT_TRUE(exists("scenes/runs.csv"));
+  EXPECT_FALSE(exists("order/runs.csv")) << "goes on after an interrupt";
+  EXPECT_FALSE(exists("report/index.html"));
+}
+
+TEST_F(Verbs, PaperRefusesMisuse) {
+  EXPECT_EQ(program({"paper", "--jobs", "-1"}).status, 2);
+  EXPECT_EQ(program({"paper", "order"}).status, 2) << "takes no study";
+}
+
+// What `paper` runs: every study can be loaded in both variants, with something to do, and the
+// quick one has not more.
+TEST(Studies, LoadInBothVariants) {
+  for (const auto& entry : builtinStudies()) {
+    const Study full = loadStudy(entry.id, StudyVariant::kFull);
+    const Study quick = loadStudy(entry.id, StudyVariant::kQuick);
+    const auto count = [](const Study& study) {
+      std::size_t runs = 0;
+      for (const auto& series : study.series) runs += series.runs.size();
+      return runs;
+    };
+    EXPECT_EQ(full.id, entry.id);
+    EXPECT_GT(count(quick), 0u) << entry.id;
+    EXPECT_LE(count(quick), count(full)) << entry.id;
+    EXPECT_FALSE(full.title.empty()) << entry.id;
+  }
+}
+
+}  // namespace
+}  // namespace irk
