@@ -53,6 +53,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
       frozen_(system.sizes()),
       first_mode_(system.sizes()),
       other_mode_(system.sizes()),
+      rates_(system.sizes().n()),
       row_weights_(system.sizes().n()),
       sees_switches_(seesSwitches(options.step.estimate)),
       has_hidden_unknowns_(hasHiddenUnknowns(system)),
@@ -129,25 +130,36 @@ double Stepper<Real>::stepNorm(const Vec<Real>& dw, const Real& h) {
   return std::sqrt(sum / static_cast<double>(n.components()));
 }
 
+// From the start of the step to one of its stages.
+template <class Real>
+double Stepper<Real>::largestChange(const State<Real>& from, const Real& h) {
+  double most = 0;
+  for (Index i = 0; i < W_.cols(); ++i) {
+    rates_ = W_.col(i) - from.w;
+    most = std::max(most, stepNorm(rates_, h));
+  }
+  return most;
+}
+
 template <class Real>
 double Stepper<Real>::startDefect(const State<Real>& from) {
-  const double missed = stepNorm(Vec<Real>(W_ * eq_.scheme().start - from.w), stages_.h);
-  double changed = 0;
-  for (Index i = 0; i < W_.cols(); ++i) {
-    changed = std::max(changed, stepNorm(Vec<Real>(W_.col(i) - from.w), stages_.h));
-  }
+  rates_.noalias() = W_ * eq_.scheme().start;
+  rates_ -= from.w;
+  const double missed = stepNorm(rates_, stages_.h);
+  const double changed = largestChange(from, stages_.h);
   return missed > kFollows * changed ? missed : 0;
 }
 
 template <class Real>
 bool Stepper<Real>::leavesRoot(const State<Real>& from) {
   // A step that moves the solution by more than a tolerance may change its rates.
-  if (!has_hidden_unknowns_ || stepNorm(Vec<Real>(W_.col(W_.cols() - 1)), stages_.h) > 1) return false;
+  if (!has_hidden_unknowns_) return false;
+  rates_ = W_.col(W_.cols() - 1);
+  if (stepNorm(rates_, stages_.h) > 1) return false;
   const Index n = system_.sizes().nu + system_.sizes().nx;
-  const Vec<Real> start = W_.topRows(n) * eq_.scheme().start;
-  const Vec<Real> before = from.w.head(n);
-  const double jump = static_cast<double>(Real((start - before).norm()));
-  return jump > kAnotherRoot * static_cast<double>(Real(start.norm() + before.norm()));
+  rates_.noalias() = W_ * eq_.scheme().start;
+  const Real size = rates_.head(n).norm() + from.w.head(n).norm();
+  return (rates_.head(n) - from.w.head(n)).norm() > Real(kAnotherRoot) * size;
 }
 
 template <class Real>
@@ -160,8 +172,8 @@ double Stepper<Real>::roughness() {
   // One coefficient alone has zeros as a jump moves through the step, two neighbours have none in common.
   double sum = 0;
   for (Index k = W_.cols() - highest(); k < W_.cols(); ++k) {
-    const double size =
-        stepNorm(Vec<Real>(W_ * eq_.scheme().legendre_inverse_transposed.col(k)), stages_.h);
+    rates_.noalias() = W_ * eq_.scheme().legendre_inverse_transposed.col(k);
+    const double size = stepNorm(rates_, stages_.h);
     sum += size * size;
   }
   return std::sqrt(sum);
@@ -191,10 +203,7 @@ void Stepper<Real>::followModes(const State<Real>& from, const Real& h, State<Re
 // begins there; and what the switch corrects in u, v, x.
 template <class Real>
 double Stepper<Real>::changeInStep(const State<Real>& from, const Real& h, const State<Real>& to) {
-  double most = 0;
-  for (Index i = 0; i < W_.cols(); ++i) {
-    most = std::max(most, stepNorm(Vec<Real>(W_.col(i) - from.w), h));
-  }
+  double most = largestChange(from, h);
   most = std::max(most, norm_.difference(first_mode_, to, static_cast<double>(h), ones_));
   other_mode_ = to;
   return std::max(most, modeChange(h));
@@ -203,11 +212,12 @@ double Stepper<Real>::changeInStep(const State<Real>& from, const Real& h, const
 // h times the change of (a, k) from those of `other_mode_` to what its discrete state makes of them.
 template <class Real>
 double Stepper<Real>::modeChange(const Real& h) {
-  const Vec<Real> before = other_mode_.w;
+  rates_ = other_mode_.w;
   const StartReport report = consistent_->apply(other_mode_, StartCheck::kNone);
   // What cannot be determined cannot be trusted.
   if (report.outcome != Outcome::kSuccess) return std::numeric_limits<double>::infinity();
-  return stepNorm(Vec<Real>(other_mode_.w - before), h);
+  rates_ -= other_mode_.w;
+  return stepNorm(rates_, h);
 }
 
 // Whether a switch is due inside the step, whatever is at its end. `other_mode_`: the state there, in

@@ -78,6 +78,7 @@ class Stepper {
   double firstDue(const State<Real>& from, const State<Real>& to);
   bool dueInside(const State<Real>& from, const State<Real>& to, Index& index);
   double modeChange(const Real& h);
+  double largestChange(const State<Real>& from, const Real& h);
   double changeInStep(const State<Real>& from, const Real& h, const State<Real>& to);
   double stepNorm(const Vec<Real>& dw, const Real& h);
   int highest() const { return W_.cols() > 2 ? 2 : 1; }  // coefficients of `roughness`
@@ -99,6 +100,7 @@ class Stepper {
   std::unique_ptr<SwitchScan<Real>> scan_;             // `ignore` and `iterate`
   std::unique_ptr<ConsistentStart<Real>> consistent_;  // (a, k) of another mode
   State<Real> other_mode_;
+  Vec<Real> rates_;  // n
   Vec<double> row_weights_;
   bool sees_switches_;
   bool has_hidden_unknowns_;  // algebraic, of index 2, and no multipliers of position constraints

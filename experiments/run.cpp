@@ -154,7 +154,8 @@ class Prepared final : public PreparedRun {
                      .counters = solution.counters,
                      .switches = {},
                      .cpu_s = seconds};
-    if (solution.outcome == Outcome::kSuccess) {
+    // A state that violates its constraints is a final state as well: its error tells by how much.
+    if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
       record.errors = errorsOf(scene_, references_, state);
     }
     if constexpr (!std::is_same_v<Real, double>) {

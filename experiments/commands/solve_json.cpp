@@ -71,6 +71,7 @@ std::string solveJson(const RunRecord& record) {
   json["x"] = numbers(record, record.x, place);
   json["z"] = numbers(record, record.z, place);
   json["error"] = record.errors.all;
+  json["drift"] = record.errors.drift;
   json["reference"] = referenceName(record.errors.reference);
   json["steps"] = {{"accepted", c.steps_accepted},
                    {"rejected_error", c.steps_rejected_error},

@@ -10,6 +10,8 @@
 namespace irk {
 namespace {
 
+using namespace claims;
+
 std::string said(const char* id, const ResultTables& tables) {
   return std::string(verdictText(verdict(id, tables)));
 }
