@@ -53,8 +53,9 @@ int compareRow(const Table& runs, const TableRow& a, const TableRow& b, std::ost
 
 }  // namespace
 
-void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
-                    std::ostream& progress) {
+std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
+                                        const std::filesystem::path& folder,
+                                        std::ostream& progress) {
   if (study.orders) writeTable(folder / "orders.csv", orderTable(runs));
   if (!study.targets.empty()) {
     const Table costs = costTable(runs, study.targets);
@@ -68,7 +69,10 @@ void writeSummaries(const Study& study, const Table& runs, const std::filesystem
     writeTable(folder / "scaling_slopes.csv", scalingSlopes(scaling));
   }
   if (study.energy) writeTable(folder / "energy.csv", energyTable(study, runs));
-  if (study.phases) writeTable(folder / "phases.csv", phaseTable(study, runs, progress));
+  if (!study.phases) return {};
+  const Table phases = phaseTable(study, runs, progress);
+  writeTable(folder / "phases.csv", phases);
+  return uncoveredRuns(phases);
 }
 
 Table mergedRuns(const std::vector<std::string>& folders) {

@@ -1,4 +1,4 @@
-# What the parts of Newton's method take of its time, over the number of unknowns: one panel per number of
+# What the parts of an integration take of its time, over the number of unknowns: one panel per number of
 # stages, one row per stage solver.
 #   gnuplot -e "data='results/phases'; out='phases'; scene='ancf_pendulum'" shares.gp
 # Reads phases.csv. Options: scene, derivatives, solvers (one row of panels each), methods (one column each).
@@ -8,9 +8,9 @@ if (!exists("derivatives")) derivatives = 'difference_forward'
 if (!exists("solvers")) solvers = 'coupled_dense schur'
 if (!exists("methods")) methods = 'radau_iia_3 radau_iia_5 radau_iia_10'
 file = data.'/phases.csv'
-parts = "residual jacobian factorization solve"
-part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves'"
-part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B"
+parts = "residual jacobian factorization solve update step start"
+part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves' 'rest of iterations' 'rest of steps' 'start'"
+part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B 0x8FBF9F 0x4C8C6B 0xBBBBBB"
 row(d) = is("scene", scene) && is("derivatives", derivatives)
 undefine N_*
 stats file using (row(0) ? (collect(sprintf("%d", column("n"))), 1) : 0) name "N" nooutput
@@ -31,7 +31,7 @@ size_tics = "set xtics ("; do for [k = 1 : words(sizes)] {
 size_tics = size_tics.")"
 stagesIn(method) = system("echo '".method."' | sed 's/.*_//'")
 
-margin_left = columns == 1 ? 0.19 : 0.085; margin_right = 0.02; margin_top = 0.07; margin_bottom = 0.2; gap_x = 0.025; gap_y = 0.05
+margin_left = columns == 1 ? 0.19 : 0.085; margin_right = 0.02; margin_top = 0.07; margin_bottom = columns == 1 ? 0.27 : 0.2; gap_x = 0.025; gap_y = 0.05
 do for [format in formats] {
   eval open(format, columns == 1 ? 520 : 1080, 120 + 210 * lines)
   set multiplot
@@ -45,11 +45,12 @@ do for [format in formats] {
     set title when(j == 1, 's = '.stagesIn(word(methods, i))) offset 0,-0.5
     set xlabel when(j == lines, 'unknowns n of one stage') offset 0,0.3
     set ylabel when(i == 1, word(solvers, j)) offset 0.5,0 noenhanced
-    plot for [k = 1 : 4] file using (at(word(solvers, j), word(methods, i)) ? place(0) : outside):(below(k) + share(k) / 2):(0.38):(share(k) / 2) \
+    plot for [k = 1 : words(parts)] file using (at(word(solvers, j), word(methods, i)) ? place(0) : outside):(below(k) + share(k) / 2):(0.38):(share(k) / 2) \
       with boxxyerror fs solid noborder lc rgb int(word(part_colours, k)) notitle
   } }
-  eval legend(0.1)
-  plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb int(word(part_colours, k)) title word(part_titles, k)
+  eval legend(columns == 1 ? 0.16 : 0.1)
+  set key maxrows (columns == 1 ? 4 : 1)
+  plot 2 notitle, for [k = 1 : words(parts)] keyentry with boxes fs solid noborder lc rgb int(word(part_colours, k)) title word(part_titles, k)
   unset multiplot
   unset output
   eval framed

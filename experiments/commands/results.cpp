@@ -29,7 +29,7 @@ int mergeCommand(const MergeOptions& options, Streams streams) {
   const Table runs = sortedRuns(merged, study);
   const auto folder = std::filesystem::path(options.results) / study.id;
   writeTable(folder / "runs.csv", runs);
-  writeSummaries(study, runs, folder, streams.err);
+  const auto doubts = writeSummaries(study, runs, folder, streams.err);
   fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(),
              options.folders.size(), folder.string());
   if (study.states) writeTable(folder / "states.csv", mergedStates(options.folders));
@@ -38,7 +38,8 @@ int mergeCommand(const MergeOptions& options, Streams streams) {
     streams.out << audit::auditRuns(study, runs, folder, threadCount(0), streams.err);
     if (interruptFlag()) return kInterruptedStatus;
   }
-  return 0;
+  for (const auto& line : doubts) streams.err << line << '\n';
+  return doubts.empty() ? 0 : 1;
 }
 
 int compareCommand(const std::string& folder, const std::string& other, Streams streams) {

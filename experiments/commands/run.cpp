@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <map>
 
 #include "experiments/audit/audit.h"
@@ -57,12 +58,14 @@ int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
   if (!interruptFlag() && whole && study.timing.wanted) {
     timeStudy(study, folder / "runs.csv", runs, streams.err);
   }
-  if (whole) writeSummaries(study, runs, folder, streams.err);
+  std::vector<std::string> doubts;
+  if (whole) doubts = writeSummaries(study, runs, folder, streams.err);
   printSummary(study, runs, folder, streams.out);
   if (whole && study.audit) {
     streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
   }
-  if (!interruptFlag()) return 0;
+  for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
+  if (!interruptFlag()) return doubts.empty() ? 0 : 1;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;
 }
@@ -78,11 +81,13 @@ int runCommand(const RunOptions& options, Streams streams) {
 int paperCommand(const RunOptions& options, Streams streams) {
   const InterruptScope interrupts;
   tableauTable(options.runner.results.string(), streams);
+  int worst = 0;  // a study that fails does not keep the others from being run
   for (const auto id : kPaperStudies) {
     const int status = runOne(loadStudy(id, options.variant), options.runner, streams);
-    if (status != 0) return status;
+    if (status == kInterruptedStatus) return status;
+    worst = std::max(worst, status);
   }
-  return reportCommand(options.runner.results.string(), streams);
+  return std::max(worst, reportCommand(options.runner.results.string(), streams));
 }
 
 int plotCommand(const std::string& study, const std::string& results, Streams streams) {

@@ -41,7 +41,7 @@ struct Part {
   const char* name;
   void (NewtonKernel::*call)();
 };
-constexpr Part kSystemParts[] = {{"residual", &NewtonKernel::residual},
+constexpr Part kSystemParts[] = {{"residuals", &NewtonKernel::residuals},
                                  {"jacobian", &NewtonKernel::jacobian}};
 constexpr Part kSolverParts[] = {{"factorize", &NewtonKernel::factorize},
                                  {"solve", &NewtonKernel::solve},
