@@ -1,14 +1,16 @@
-// Errors of many steps add up.
+// What an error estimate is multiplied by before it is compared with the tolerance.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
+#include "core/scheme.h"
+
 namespace irk {
 
-/// What estimates of the solution's own error are multiplied by: 1 in the first kFree steps, then more, so
-/// that the errors of N steps add up to kFree (1 + log(N / kFree)) tolerances instead of N. For estimates
-/// of higher order than the step's own nothing is needed: there the true error is far below them.
+/// Errors of many steps add up: 1 in the first kFree steps, then more, so that the errors of N steps add up
+/// to kFree (1 + log(N / kFree)) tolerances instead of N. For estimates of higher order than the step's own
+/// nothing is needed: there the true error is far below them.
 class Accumulation {
  public:
   void begin() { steps_ = 0; }
@@ -19,5 +21,13 @@ class Accumulation {
   static constexpr double kFree = 50;
   std::int64_t steps_ = 0;
 };
+
+/// 1 where the stages are as accurate as there are: else (Radau IA, Lobatto IIIC, IIID) stiff components
+/// have the lower order of the stages, which no estimate of one step shows.
+template <class Real>
+double stiffCaution(const Scheme<Real>& scheme) {
+  constexpr double kCaution = 10;
+  return scheme.tableau.stage_order < scheme.s && scheme.s > 1 ? kCaution : 1;
+}
 
 }  // namespace irk

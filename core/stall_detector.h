@@ -30,7 +30,7 @@ class StallDetector {
 
  private:
   static constexpr std::int64_t kWindow = 1000;
-  static constexpr int kWindows = 20;
+  static constexpr int kWindows = 50;
   static constexpr double kFarOut = 10;
   static constexpr double kGrowth = 1.5;
   std::int64_t attempts_ = 0;

@@ -12,8 +12,10 @@
 namespace irk {
 namespace {
 
-// The least power of 2 by which the highest coefficients of the stages fall from a step to its halves.
-constexpr double kLeastDecay = 1.25;
+// Powers of 2 by which the roughness of the stages falls from a step to its halves: at least, as a part of
+// that of a smooth solution, and at most beyond it (a jump next to the middle is rough for the whole step
+// only).
+constexpr double kLeastDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
 
 /// No estimate: one step.
 template <class Real>
@@ -53,6 +55,7 @@ class Doubling final : public StepAttempt<Real> {
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
         accumulates_(options.step.estimate == ErrorEstimate::kRichardson),
+        caution_(stiffCaution(scheme)),
         looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(options.predictor == Predictor::kExtrapolated),
@@ -84,11 +87,11 @@ class Doubling final : public StepAttempt<Real> {
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
     const double start_defect = watches_start_ ? half_.startDefect(from) : 0;
-    if (looks_again_) rough_whole_ = whole_.roughness(), rough_halves_ = half_.roughness();
+    if (looks_again_) rough_whole_ = whole_.roughness(from), rough_halves_ = half_.roughness(from);
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
-    if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness());
+    if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness(middle_));
     result.error = error(to, static_cast<double>(h));
-    if (accumulates_) result.error *= accumulation_.factor();
+    if (accumulates_) result.error *= caution_ * accumulation_.factor();
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
       result.outcome = Outcome::kNotFinite;
@@ -99,7 +102,7 @@ class Doubling final : public StepAttempt<Real> {
     // ... a fast motion that both damp, ...
     if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
     // ... and 2^p - 1 divides too much where the halves do not show order p.
-    if (!resolved()) result.error = worse(result.error, order_, rough_halves_, whole_.decay());
+    if (looks_again_) result.error = worse(result.error, order_, unresolved(), 1);
     return result;
   }
   void forget() override {
@@ -131,10 +134,11 @@ class Doubling final : public StepAttempt<Real> {
  private:
   // A second look, of the order of the stages: it is below the tolerance, or it falls from the whole step
   // to its halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
-  bool resolved() const {
-    if (!looks_again_ || rough_halves_ <= 1) return true;
-    const double least = std::max(kLeastDecay, 0.5 * whole_.decay());
-    return rough_whole_ >= std::exp2(least) * rough_halves_;
+  double unresolved() const {
+    const double least = std::max(kLeastDecay, kPartOfDecay * whole_.decay());
+    if (rough_halves_ > 1 && rough_whole_ < std::exp2(least) * rough_halves_) return rough_halves_;
+    const double most = whole_.decay() + kBeyondDecay;
+    return rough_whole_ > std::exp2(most) * std::max(rough_halves_, 1.0) ? rough_whole_ : 0;
   }
   double error(const State<Real>& fine, double h) const {
     if (!scalar_) return norm_.difference(coarse_, fine, h, factor_);
@@ -147,6 +151,7 @@ class Doubling final : public StepAttempt<Real> {
   Vec<double> factor_;
   bool scalar_;
   bool accumulates_;            // not the paper's estimates
+  double caution_;
   Accumulation accumulation_;
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart

@@ -12,6 +12,9 @@ constexpr int kDiscontinuousIterations = 10;
 // A first step after a restart follows the motion where the stages' polynomial misses (a, k) at its
 // start by less than this part of what they change over the step.
 constexpr double kFollows = 0.1;
+// It is not asked for more than this, in tolerances: in index 3 a start within the tolerance changes
+// velocities by as much, whatever the step.
+constexpr double kStartTolerances = 10;
 
 // Rates that differ from those before by this part of their size are those of another root.
 constexpr double kAnotherRoot = 0.25;
@@ -147,7 +150,7 @@ double Stepper<Real>::startDefect(const State<Real>& from) {
   rates_ -= from.w;
   const double missed = stepNorm(rates_, stages_.h);
   const double changed = largestChange(from, stages_.h);
-  return missed > kFollows * changed ? missed : 0;
+  return missed > kStartTolerances && missed > kFollows * changed ? missed : 0;
 }
 
 template <class Real>
@@ -168,13 +171,19 @@ int Stepper<Real>::decay() const {
 }
 
 template <class Real>
-double Stepper<Real>::roughness() {
+double Stepper<Real>::roughness(const State<Real>& from) {
   // One coefficient alone has zeros as a jump moves through the step, two neighbours have none in common.
   double sum = 0;
   for (Index k = W_.cols() - highest(); k < W_.cols(); ++k) {
     rates_.noalias() = W_ * eq_.scheme().legendre_inverse_transposed.col(k);
     const double size = stepNorm(rates_, stages_.h);
     sum += size * size;
+  }
+  if (eq_.scheme().stiffly_accurate) {
+    rates_.noalias() = W_ * eq_.scheme().start;
+    rates_ -= from.w;
+    const double missed = stepNorm(rates_, stages_.h);
+    if (missed > kStartTolerances) sum += missed * missed;
   }
   return std::sqrt(sum);
 }
@@ -226,10 +235,18 @@ template <class Real>
 bool Stepper<Real>::dueInside(const State<Real>& from, const State<Real>& to, Index& index) {
   const auto due = scan_->first(from, stages_, to);
   if (scan_->report().outcome != Outcome::kSuccess) index = scan_->report().index;
-  if (due.empty()) return index >= 0;
-  index = due.front().index;
-  other_mode_ = scan_->at(due.front().high);
-  return true;
+  if (!due.empty()) {
+    index = due.front().index;
+    other_mode_ = scan_->at(due.front().high);
+    return true;
+  }
+  // A stage is an extremum of nothing: it may be due between two samples that are not.
+  for (Index i = eq_.scheme().first; i < eq_.scheme().s && index < 0; ++i) {
+    const SwitchReport report = switches_.evaluate(eq_.stage(W_, i));
+    index = report.outcome == Outcome::kSuccess ? switches_.due() : report.index;
+    if (index >= 0) other_mode_ = scan_->at(eq_.scheme().c[i]);
+  }
+  return index >= 0;
 }
 
 // The discrete state is frozen over the step, updated at its end, and the step solved again with

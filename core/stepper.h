@@ -53,8 +53,9 @@ class Stepper {
   bool leavesRoot(const State<Real>& from);
 
   /// Of the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in
-  /// the stages' polynomial. They fall with h^decay() where the step resolves the motion.
-  double roughness();
+  /// the stages' polynomial and, of stiffly accurate methods, what it misses of (a, k) at the start. They
+  /// fall with h^decay() where the step resolves the motion.
+  double roughness(const State<Real>& from);
   int decay() const;
 
   /// Allocates what the first attempt would, where the pattern is known.

@@ -72,7 +72,8 @@ VariableOrder<Real>::VariableOrder(const System<Real>& system,
   for (const auto& scheme : schemes) {
     members_.push_back(
         std::make_unique<Member>(system, scheme, options, jacobian, norm, counters));
-    members_.back()->exigence = exigence(scheme, schemes.back(), options.tolerances);
+    members_.back()->exigence =
+        stiffCaution(scheme) * exigence(scheme, schemes.back(), options.tolerances);
   }
   past_ = &member().stepper.stages();
 }

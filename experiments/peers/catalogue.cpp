@@ -62,7 +62,7 @@ void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scen
   if (spec.discontinuity == Discontinuity::kIterate) {
     refuse(peer, spec.discontinuity, "a peer's steps cannot be repeated from outside");
   }
-  if (spec.discontinuity == Discontinuity::kLocate && !peer.finds_roots) {
+  if (scene.switches > 0 && spec.discontinuity == Discontinuity::kLocate && !peer.finds_roots) {
     refuse(peer, spec.discontinuity, "the library has no root finding");
   }
   if (scene.constraints > 0) refuseFormulation(peer, spec.formulation);

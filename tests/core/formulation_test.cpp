@@ -30,9 +30,15 @@ State<Real> mechanicalStart() {
   return s;
 }
 
+// What the last step leaves of the multiplier.
+IntegratorOptions withStages(IntegratorOptions options) {
+  options.multipliers = Multipliers::kStages;
+  return options;
+}
+
 Solution<mp50> mechanical(const char* method, int steps, Formulation formulation) {
   return integrate<mp50>(Mechanical{}, mechanicalStart<mp50>(), 1, makeTableau<mp50>(method),
-                         fixedSteps(1.0 / steps), formulation);
+                         withStages(fixedSteps(1.0 / steps)), formulation);
 }
 
 constexpr double kNotStated = -100;

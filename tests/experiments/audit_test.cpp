@@ -77,7 +77,9 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
     }
     // What is left open is the default, whatever that is.
     if (treatment == kDefaultTreatment || treatment == kNoSwitches) {
-      EXPECT_EQ(spec.discontinuity, RunSpec{}.discontinuity);
+      RunSpec configured;
+      findField("configuration").set(configured, spec.configuration);
+      EXPECT_EQ(spec.discontinuity, configured.discontinuity);
     } else {
       EXPECT_EQ(idOf(spec.discontinuity), treatment);
     }

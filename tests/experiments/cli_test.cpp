@@ -36,7 +36,7 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
                                "--t-end", "1", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error",
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error", "drift",
                                                  "reference", "steps", "counters", "cpu_s", "spec"}));
   EXPECT_EQ(json["reference"], "file");
   EXPECT_EQ(keysOf(json["steps"]),
@@ -136,7 +136,7 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
       {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
       {{"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, {"step", "tol"}},
       {{"solve", "kepler", "--control", "fixed"}, {"step", "> 0"}},
-      {{"solve", "kepler", "--estimate", "none"}, {"control", "paper", "none"}},
+      {{"solve", "kepler", "--estimate", "none"}, {"control", "predictive", "none"}},
       {{"solve", "kepler", "--t-end", "-1"}, {"t_end", "-1"}},
       {{"solve", "kepler", "--set", "ee=0.5"}, {"'ee'", "'e'", "kepler"}},
       {{"solve", "kepler", "--set", "k"}, {"'k'", "name=value"}},

@@ -196,7 +196,7 @@ TEST(Peers, LocatedSwitchesRestart) {
 TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
   const auto scene = relayScene();
   for (const auto& peer : peerCatalogue()) {
-    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=kepler"));
+    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=kepler;discontinuity=ignore"));
     const auto end = integrator.integrate(scene.start, kRelayEnd);
     ASSERT_EQ(end.outcome, Outcome::kSuccess) << peer.id << ": " << end.detail;
     EXPECT_EQ(end.counters.switches, 1) << peer.id;

@@ -58,7 +58,7 @@ TEST(RunSpec, EveryFieldChangesTheKey) {
                                                          {"control", "fixed"},
                                                          {"norm", "absolute"},
                                                          {"summation", "plain"},
-                                                         {"multipliers", "consistent"},
+                                                         {"multipliers", "stages"},
                                                          {"order", "variable"},
                                                          {"storage", "dense"},
                                                          {"max_stages", "7"},

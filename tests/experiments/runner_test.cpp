@@ -164,6 +164,7 @@ orders = true
 [[block]]
 scene = "mechanical_dae"
 scalar = "mp50"
+multipliers = "stages"
 formulation = ["index2", "index3", "index2_projected"]
 methods = ["gauss_2", "radau_iia_2"]
 refine_most = 128

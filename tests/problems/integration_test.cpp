@@ -20,6 +20,7 @@ double growthOf(const std::string& scene) { return scene == "kepler" ? 3e4 : 1e4
 IntegratorOptions optionsFor(const std::string& scene) {
   IntegratorOptions o;
   o.tolerances.rtol = o.tolerances.atol = kTolerance;
+  o.step.control = StepControl::kPaper;  // with its safety factor of 4
   // Index 3 without a mechanical structure: no tolerance of 1e-10 in double precision.
   if (scene == "index3_nonlinear") {
     o.step.control = StepControl::kFixed;
