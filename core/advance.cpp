@@ -40,7 +40,13 @@ Advance<Real>::Advance(const System<Real>& system, const Scheme<Real>& scheme,
       locates_(!switches_.none() && system.discontinuity() == Discontinuity::kLocate),
       switches_now_(!locates_ && system.discontinuity() != Discontinuity::kSmooth),
       state_(system.sizes()),
-      next_(system.sizes()) {}
+      next_(system.sizes()) {
+  const auto& powers = system.errorPowers().v;
+  const bool index3 = std::any_of(powers.begin(), powers.end(), [](int p) { return p > 0; });
+  if (index3 && locates_) {
+    projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
+  }
+}
 
 template <class Real>
 Outcome Advance<Real>::begin(const State<Real>& start, double length,
@@ -201,6 +207,10 @@ Outcome Advance<Real>::restartAtSwitch() {
     const Outcome modes = settle();
     if (modes != Outcome::kSuccess) return modes;
     restart();
+    if (projection_) {
+      const Outcome projected = projection_->apply(state_);
+      if (projected != Outcome::kSuccess) return projected;
+    }
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;

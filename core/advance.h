@@ -10,6 +10,7 @@
 #include "core/event_location.h"
 #include "core/integrator.h"
 #include "core/jacobian.h"
+#include "core/projection.h"
 
 namespace irk {
 
@@ -59,6 +60,9 @@ class Advance {
   Counters& counters_;
   ErrorNorm<Real>& norm_;
   ConstraintCheck<Real> constraints_;
+  /// Index 3: velocities obey their constraint to the error of a step only, which the short steps after a
+  /// restart would make accelerations of. Null in other formulations.
+  std::unique_ptr<VelocityProjection<Real>> projection_;
   Switches<Real> switches_;
   EventLocator<Real> locator_;
   bool ends_consistent_;

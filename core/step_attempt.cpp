@@ -16,6 +16,8 @@ namespace {
 // that of a smooth solution, and at most beyond it (a jump next to the middle is rough for the whole step
 // only).
 constexpr double kLeastDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
+// Rough for the whole step only: above so many tolerances.
+constexpr double kRough = 10;
 
 /// No estimate: one step.
 template <class Real>
@@ -137,8 +139,8 @@ class Doubling final : public StepAttempt<Real> {
   double unresolved() const {
     const double least = std::max(kLeastDecay, kPartOfDecay * whole_.decay());
     if (rough_halves_ > 1 && rough_whole_ < std::exp2(least) * rough_halves_) return rough_halves_;
-    const double most = whole_.decay() + kBeyondDecay;
-    return rough_whole_ > std::exp2(most) * std::max(rough_halves_, 1.0) ? rough_whole_ : 0;
+    const double most = std::exp2(whole_.decay() + kBeyondDecay);
+    return rough_whole_ > kRough && rough_whole_ > most * rough_halves_ ? rough_whole_ : 0;
   }
   double error(const State<Real>& fine, double h) const {
     if (!scalar_) return norm_.difference(coarse_, fine, h, factor_);

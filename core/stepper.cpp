@@ -67,8 +67,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
   if (system.projectsVelocity()) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
-  const Discontinuity mode = system.discontinuity();
-  if (!switches_.none() && (mode == Discontinuity::kIgnore || mode == Discontinuity::kIterate)) {
+  if (!switches_.none() && system.discontinuity() != Discontinuity::kLocate) {
     scan_ = std::make_unique<SwitchScan<Real>>(system);
     consistent_ = std::make_unique<ConsistentStart<Real>>(system, options.derivatives, false);
   }
@@ -199,9 +198,8 @@ void Stepper<Real>::followModes(const State<Real>& from, const Real& h, State<Re
   first_mode_ = to;
   const SwitchReport report = switches_.settle(to, smooth ? Jumps::kNone : Jumps::kDone);
   if (report.index >= 0) result.switched = report.index;
-  if (smooth) return;
-  result.outcome = report.outcome;
-  if (!sees_switches_ || report.outcome != Outcome::kSuccess) return;
+  if (!smooth) result.outcome = report.outcome;
+  if (!sees_switches_ || result.outcome != Outcome::kSuccess) return;
   Index inside = -1;
   if (report.count == 0 && !dueInside(from, first_mode_, inside)) return;
   if (inside >= 0) result.switched = inside;

@@ -24,7 +24,7 @@ struct StepResult {
   /// Of a step in which a switch becomes due, in the error norm: what the wrong mode does over the
   /// whole step. `iterate`: the difference between the step in its first mode and in its last; where
   /// the switch comes and goes inside the step, h times the change of (a, k) that it makes. `ignore`
-  /// with an estimate that sees switches: h times the largest change of (a, k) in the step.
+  /// and `smooth` with an estimate that sees switches: h times the largest change of (a, k) in the step.
   double mode_error = 0;
 };
 
@@ -98,7 +98,7 @@ class Stepper {
   Switches<Real> switches_;
   State<Real> frozen_;      // `iterate`: the start with another discrete state
   State<Real> first_mode_;  // and the end in the first one
-  std::unique_ptr<SwitchScan<Real>> scan_;             // `ignore` and `iterate`
+  std::unique_ptr<SwitchScan<Real>> scan_;             // but in `locate`
   std::unique_ptr<ConsistentStart<Real>> consistent_;  // (a, k) of another mode
   State<Real> other_mode_;
   Vec<Real> rates_;  // n

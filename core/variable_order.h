@@ -61,7 +61,7 @@ class VariableOrder final : public StepAttempt<Real> {
     EmbeddedEstimate<Real> estimate;
     int order;
     bool accumulates;     ///< its estimate is hardly larger than the error, and its steps are many
-    static constexpr int kMaxAccumulating = 3;
+    static constexpr int kMaxAccumulating = 4;
     int epoch = 0;        ///< in which it last forgot
     double exigence = 1;  ///< of its estimate, so that all members err alike
   };

@@ -162,12 +162,13 @@ struct Undeclared {
   }
 };
 
-// 2^p - 1 is 131071 with nine stages: only where the halves show that order.
+// 2^p - 1 is 131071 with nine stages: only where the halves show that order. (Gauss' stages do not reach the
+// ends of a step: what jumps there, and is not declared, no estimate sees.)
 TEST(Success, DoublingSeesAJumpThatNobodyDeclares) {
   for (const double at : {0.0123, 0.3, 0.5123, 0.77, 0.9}) {
     const Undeclared problem{at};
     const State<double> start(problem.sizes());
-    for (const char* method : {"radau_iia_5", "radau_iia_9", "gauss_7", "lobatto_iiic_6"}) {
+    for (const char* method : {"radau_iia_3", "radau_iia_5", "radau_iia_9", "lobatto_iiic_6"}) {
       for (const double tol : {1e-4, 1e-8}) {
         const auto s = integrate<double>(problem, start, 1, makeTableau<double>(method), adaptive(tol));
         ASSERT_EQ(s.outcome, Outcome::kSuccess) << method << s.detail;

@@ -128,7 +128,7 @@ TEST(Peers, WhatCannotWorkIsRefused) {
       EXPECT_TRUE(containsAll(refusal(id, "scene=index2_nonlinear"), {id, "index2_nonlinear"}));
     }
     if (!peer.finds_roots) {
-      EXPECT_TRUE(containsAll(refusal(id, "scene=kepler;discontinuity=locate"), {id, "locate"}));
+      EXPECT_TRUE(containsAll(refusal(id, "scene=stick_slip;discontinuity=locate"), {id, "locate"}));
     }
   }
   const RunSpec fixed = spec("cvode_bdf", "scene=kepler;control=fixed;h=0.1");
@@ -174,7 +174,7 @@ TEST(Peers, LocatedSwitchesRestart) {
   const auto scene = relayScene();
   for (const auto& peer : peerCatalogue()) {
     if (!peer.finds_roots) continue;
-    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=kepler;discontinuity=locate"));
+    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=stick_slip;discontinuity=locate"));
     double at = 0;
     Monitor<double> monitor;
     monitor.switched = [&at](const SwitchRecord<double>& record) { at = record.t; };
