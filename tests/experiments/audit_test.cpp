@@ -264,6 +264,54 @@ TEST(Run, IntegratesFromAnotherStart) {
   EXPECT_THROW((void)integrateFrom(spec, scene.start), Misuse);
 }
 
+// A table of made-up judgements.
+Table judgements(const std::vector<std::vector<std::string>>& rows) {
+  return {{}, {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command"}, rows};
+}
+
+TEST(AuditSummary, CountsAndSortsByExcess) {
+  const Table audit = judgements({
+      {"default", "default", "hires", "gauss", "index2", "right", "0", "1e-3", "a"},
+      {"default", "ignore", "hires", "gauss", "index2", "wrong", "9", "1e-3", "nine times the bar"},
+      {"default", "locate", "kaps", "gauss", "index2", "wrong", "5e-3", "1e-6", "five times"},
+      {"paper", "no switches", "kaps", "radau_ia", "ggl", "unjudged", "nan", "1e-6", "d"},
+      {"paper", "smooth", "kaps", "radau_ia", "ggl", "ill_conditioned", "nan", "1e-6", "e"},
+      {"paper", "iterate", "kaps", "radau_ia", "ggl", "failed", "nan", "1e-6", "f"},
+  });
+  const Table summary = summaryTable(audit);
+  const auto row = [&](const std::string& by, const std::string& group) {
+    for (const auto& r : summary.rows) {
+      if (r[0] == by && r[1] == group) return TableRow(r.begin() + 2, r.end());
+    }
+    return TableRow{};
+  };
+  // runs, right, failed, wrong, ill_conditioned, unjudged
+  EXPECT_EQ(row("all", "all"), (TableRow{"6", "1", "1", "2", "1", "1"}));
+  EXPECT_EQ(row("configuration", "default"), (TableRow{"3", "1", "0", "2", "0", "0"}));
+  EXPECT_EQ(row("bar", "default"), (TableRow{"2", "1", "0", "1", "0", "0"}));
+  EXPECT_EQ(row("bar", "paper"), (TableRow{"1", "0", "0", "0", "0", "1"}));
+  EXPECT_EQ(row("configuration_treatment", "paper: smooth"), (TableRow{"1", "0", "0", "0", "1", "0"}));
+  EXPECT_EQ(row("formulation", "ggl"), (TableRow{"3", "0", "1", "0", "1", "1"}));
+  const std::string text = summaryText(audit, summary, 2);
+  ASSERT_NE(text.find("five times"), text.npos);
+  EXPECT_LT(text.find("nine times the bar"), text.find("five times"));
+  EXPECT_EQ(summaryText(audit, summary, 1).find("five times"), std::string::npos);
+}
+
+TEST(FinalStates, AreKeptUnlessFresh) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "states.csv";
+  RunRecord record;
+  record.u = vec({1, 2});
+  record.v = vec({3, 0.1});
+  record.x = vec({kUnknown});
+  FinalStates(file, {}, false).append("key", record);
+  EXPECT_TRUE(FinalStates(file, {}, false).has("key"));
+  EXPECT_EQ(vectorText(readStates(file).at("key")), "1 2 3 0.10000000000000001 nan");
+  EXPECT_EQ(mergedStates({folder.path(), folder.path()}).rows.size(), 2u);
+  EXPECT_FALSE(FinalStates(file, {}, true).has("key"));
+}
+
 constexpr const char* kSmall = "title = 'small'\n[audit]\nruns = 60\ntime_limit = 0.5\n";
 
 TEST(Audit, StudyDrawsInsteadOfBlocks) {
