@@ -217,6 +217,54 @@ TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
   }
 }
 
+/// On for t in (0.5, 0.5 + width): due inside a step, at neither end.
+struct Blink {
+  double width;
+  Sizes sizes() const {
+    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.d[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    const bool on = p.d[0] > T(0.5);
+    g[0] = on ? T(-1.0) : T((p.t - 0.5) * (0.5 + width - p.t));
+    g[1] = on ? T(p.t - 0.5 - width) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>&, T* d) const {
+    d[0] = T(i == 0 ? 1.0 : 0.0);
+  }
+};
+
+// `iterate` looks at the modes at the ends of a step, and at its stages.
+TEST(Iterate, SeesAModeThatComesAndGoes) {
+  for (const double width : {0.2, 0.1}) {
+    const Blink problem{width};
+    IntegratorOptions options = located(1e-6);
+    options.step.h = 1;
+    const Result r =
+        run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+    EXPECT_NEAR(r.solution.state.x[0], width, 1e-4);
+  }
+}
+
+// After a rejection with a switch in the step the next one ends at 0.98 of the way to it: what is
+// left shrinks by 50 each time.
+TEST(Iterate, ComesCloseToASwitchInFewSteps) {
+  const Kink problem;
+  IntegratorOptions options = located(1e-6);
+  options.step.h = 1;
+  const Result r =
+      run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
+  ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+  EXPECT_LE(r.solution.counters.steps_rejected_error, 6);
+  EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-4);
+}
+
 /// x' = -rate (x - 1), and a million times as fast from t = 0.5 on.
 struct Stiffening {
   Sizes sizes() const {
