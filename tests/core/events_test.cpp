@@ -417,20 +417,51 @@ TEST(Events, StepsAddUp) {
   }
 }
 
-// Four solved steps are usual. Worse guesses cost more: a wrong slope, or a place in the other half
-// step.
-TEST(Events, AreFoundInFewSteps) {
-  for (const double at : {0.31, 0.62, 0.93}) {
-    Clocks problem{{at, 7}};
-    IntegratorOptions options = located(1e-8);
-    options.step.h = 1;
-    const Result with =
-        run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
-    ASSERT_EQ(with.solution.outcome, Outcome::kSuccess);
-    ASSERT_EQ(with.events.size(), 1u);
-    // Three solves per attempt: the whole step, those that look for the root, the rest.
-    EXPECT_LE(with.solution.counters.solves, 3 * (1 + 4 + 6)) << at;
+/// A nonlinear pendulum; due below a level, once.
+struct Passing {
+  double level;
+  Sizes sizes() const {
+    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
   }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.u[0] = -4.0 * sin(p.u[0]) - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(level - p.u[0]);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+// Re-solving a step to its switch takes about four attempts with two factorizations each; a wrong
+// slope, or a guess in the wrong half of the step, takes half as many again and more.
+TEST(Events, AreFoundInFewAttempts) {
+  std::int64_t more = 0, events = 0;
+  for (const double tol : {1e-4, 1e-8}) {
+    for (const double level : {0.9, 0.7, 0.4, 0.1, -0.3}) {
+      for (const char* method : {"radau_iia_2", "radau_iia_5"}) {
+        const auto factorizations = [&](double at) {
+          const Passing problem{at};
+          State<double> start(problem.sizes());
+          start.u[0] = 1;
+          IntegratorOptions options = located(tol);
+          options.step.h = 0.3;
+          const Result r = run(problem, start, 1.2, Discontinuity::kLocate, options, method);
+          EXPECT_EQ(r.solution.outcome, Outcome::kSuccess);
+          events += static_cast<std::int64_t>(r.events.size());
+          return r.solution.counters.factorizations;
+        };
+        more += factorizations(level) - factorizations(-9);
+      }
+    }
+  }
+  EXPECT_EQ(events, 20);
+  EXPECT_LE(more, 9 * events);
 }
 
 /// x' = x, from 1; due where x reaches `level`, and where t reaches `at`. The steps' dense output
