@@ -38,7 +38,8 @@ struct Clocks {
   }
   template <class T>
   void switching(const Point<T>& p, T* g) const {
-    for (int i = 0; i < 2; ++i) g[i] = p.d[i] > T(0.5) ? T(-1.0) : T(p.t - at[i]);
+    using std::exp;  // no root is met exactly
+    for (int i = 0; i < 2; ++i) g[i] = p.d[i] > T(0.5) ? T(-1.0) : T(exp(p.t) - exp(at[i]));
   }
   template <class T>
   void onSwitch(Index i, const Point<T>& p, T* d) const {
@@ -216,6 +217,54 @@ TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
   }
 }
 
+/// On for t in (0.5, 0.5 + width): due inside a step, at neither end.
+struct Blink {
+  double width;
+  Sizes sizes() const {
+    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.d[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    const bool on = p.d[0] > T(0.5);
+    g[0] = on ? T(-1.0) : T((p.t - 0.5) * (0.5 + width - p.t));
+    g[1] = on ? T(p.t - 0.5 - width) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>&, T* d) const {
+    d[0] = T(i == 0 ? 1.0 : 0.0);
+  }
+};
+
+// `iterate` looks at the modes at the ends of a step, and at its stages.
+TEST(Iterate, SeesAModeThatComesAndGoes) {
+  for (const double width : {0.2, 0.1}) {
+    const Blink problem{width};
+    IntegratorOptions options = located(1e-6);
+    options.step.h = 1;
+    const Result r =
+        run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+    EXPECT_NEAR(r.solution.state.x[0], width, 1e-4);
+  }
+}
+
+// After a rejection with a switch in the step the next one ends at 0.98 of the way to it: what is
+// left shrinks by 50 each time.
+TEST(Iterate, ComesCloseToASwitchInFewSteps) {
+  const Kink problem;
+  IntegratorOptions options = located(1e-6);
+  options.step.h = 1;
+  const Result r =
+      run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
+  ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+  EXPECT_LE(r.solution.counters.steps_rejected_error, 6);
+  EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-4);
+}
+
 /// x' = -rate (x - 1), and a million times as fast from t = 0.5 on.
 struct Stiffening {
   Sizes sizes() const {
@@ -264,15 +313,17 @@ struct Step {
   int iterations;
 };
 
-/// A driven oscillator whose spring is softer from t = 0.5 on: smooth, nothing is rejected.
+/// A driven oscillator whose spring has another stiffness from t = 0.5 on.
 struct Spring {
+  double factor;
   Sizes sizes() const {
     return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
   }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::sin;
-    r.u[0] = sin(3.0 * p.t) - (9.0 - 5.0 * p.d[0]) * sin(p.u[0]) - p.a[0];
+    const double k = p.d[0] > T(0.5) ? 9 * factor : 9;
+    r.u[0] = sin(3.0 * p.t) - k * sin(p.u[0]) - p.a[0];
   }
   template <class T>
   void switching(const Point<T>& p, T* g) const {
@@ -284,50 +335,180 @@ struct Spring {
   }
 };
 
+struct SpringRun {
+  std::vector<Step> steps;
+  State<double> event;
+  int attempts = 0, attempts_at_event = 0, attempts_of_first = 0;  // the first step after the event
+};
+
+SpringRun springRun(const Spring& problem, const State<double>& start,
+                    const IntegratorOptions& options) {
+  Integrator<double> integrator(
+      makeSystem<double>(problem,
+                         {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
+      makeTableau<double>("radau_iia_3"), options);
+  SpringRun run;
+  Monitor<double> monitor;
+  monitor.interrupt = [&] { return ++run.attempts, Outcome::kSuccess; };
+  monitor.accepted = [&](const StepRecord<double>& s) {
+    run.steps.push_back({s.t, s.h, s.error, s.newton_iterations});
+    if (s.t > 0.5 + 1e-6 && run.attempts_of_first == 0) {
+      run.attempts_of_first = run.attempts - run.attempts_at_event;
+    }
+  };
+  monitor.switched = [&](const SwitchRecord<double>& s) {
+    run.event = s.state;
+    run.attempts_at_event = run.attempts;
+  };
+  const auto solution = integrator.integrate(start, 3.0, monitor);
+  EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  return run;
+}
+
 // After an event nothing of before it decides: not the polynomial, the Jacobian, Newton's
 // contraction, nor the controller's memory of errors and steps. The same steps as of an integration
 // that begins there.
 TEST(Events, ARestartIsANewStart) {
-  const Spring problem;
   for (const auto control : {StepControl::kPredictive, StepControl::kPaper, StepControl::kHotint}) {
     for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
-      IntegratorOptions options = located(1e-7);
-      options.step.control = control;
-      options.step.estimate = estimate;
-      const auto integrate_from = [&](const State<double>& start, const IntegratorOptions& o,
-                                      State<double>* event) {
-        Integrator<double> integrator(
-            makeSystem<double>(
-                problem, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
-            makeTableau<double>("radau_iia_3"), o);
-        std::vector<Step> steps;
-        Monitor<double> monitor;
-        monitor.accepted = [&](const StepRecord<double>& s) {
-          steps.push_back({s.t, s.h, s.error, s.newton_iterations});
+      int compared = 0;
+      for (const double factor : {0.4, 0.8, 1.05, 1.1, 1.15, 1.2, 1.3, 1.5}) {
+        const Spring problem{factor};
+        IntegratorOptions options = located(1e-7);
+        options.step.control = control;
+        options.step.estimate = estimate;
+        State<double> start(problem.sizes());
+        start.u[0] = 0.7;
+        const SpringRun whole = springRun(problem, start, options);
+        const auto after = std::find_if(whole.steps.begin(), whole.steps.end(),
+                                        [](const Step& s) { return s.t > 0.5 + 1e-6; });
+        ASSERT_NE(after, whole.steps.end());
+        if (whole.attempts_of_first != 1) continue;  // rejected: the fresh run does not know of it
+        ++compared;
+        options.step.h = after->h;
+        const SpringRun fresh = springRun(problem, whole.event, options);
+        const std::vector<Step> rest(after, whole.steps.end());
+        ASSERT_EQ(fresh.steps.size(), rest.size()) << idOf(control) << idOf(estimate) << factor;
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+          EXPECT_NEAR(fresh.steps[i].h, rest[i].h, 1e-4 * rest[i].h)
+              << idOf(control) << " " << idOf(estimate) << " " << factor << " step " << i;
+          EXPECT_NEAR(fresh.steps[i].iterations, rest[i].iterations, 1)  // round-off at thresholds
+              << idOf(control) << " " << idOf(estimate) << " " << factor << " step " << i;
+        }
+      }
+      EXPECT_GE(compared, 3) << idOf(control) << " " << idOf(estimate);
+    }
+  }
+}
+
+// Also a step that ends at an event is recorded with its own size.
+TEST(Events, StepsAddUp) {
+  for (const bool fixed : {false, true}) {
+    IntegratorOptions options = fixed ? fixedSteps(0.17) : located(1e-7);
+    State<double> start(Spring{2}.sizes());
+    start.u[0] = 0.7;
+    const SpringRun run = springRun({2}, start, options);
+    double t = 0;
+    for (const Step& s : run.steps) {
+      EXPECT_NEAR(s.h, s.t - t, 1e-13) << "at t = " << s.t;
+      t = s.t;
+    }
+    EXPECT_EQ(t, 3);
+  }
+}
+
+/// A nonlinear pendulum; due below a level, once.
+struct Passing {
+  double level;
+  Sizes sizes() const {
+    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.u[0] = -4.0 * sin(p.u[0]) - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(level - p.u[0]);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+// Re-solving a step to its switch takes about four attempts with two factorizations each; a wrong
+// slope, or a guess in the wrong half of the step, takes half as many again and more.
+TEST(Events, AreFoundInFewAttempts) {
+  std::int64_t more = 0, events = 0;
+  for (const double tol : {1e-4, 1e-8}) {
+    for (const double level : {0.9, 0.7, 0.4, 0.1, -0.3}) {
+      for (const char* method : {"radau_iia_2", "radau_iia_5"}) {
+        const auto factorizations = [&](double at) {
+          const Passing problem{at};
+          State<double> start(problem.sizes());
+          start.u[0] = 1;
+          IntegratorOptions options = located(tol);
+          options.step.h = 0.3;
+          const Result r = run(problem, start, 1.2, Discontinuity::kLocate, options, method);
+          EXPECT_EQ(r.solution.outcome, Outcome::kSuccess);
+          events += static_cast<std::int64_t>(r.events.size());
+          return r.solution.counters.factorizations;
         };
-        monitor.switched = [&](const SwitchRecord<double>& s) {
-          if (event) *event = s.state;
-        };
-        const auto solution = integrator.integrate(start, 3.0, monitor);
-        EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
-        return steps;
-      };
-      State<double> start(problem.sizes()), event(problem.sizes());
-      start.u[0] = 0.7;
-      std::vector<Step> whole = integrate_from(start, options, &event);
-      const auto after =
-          std::find_if(whole.begin(), whole.end(), [](const Step& s) { return s.t > 0.5 + 1e-6; });
-      ASSERT_NE(after, whole.end());
-      IntegratorOptions again = options;
-      again.step.h = after->h;
-      const std::vector<Step> fresh = integrate_from(event, again, nullptr);
-      const std::vector<Step> rest(after, whole.end());
-      ASSERT_EQ(fresh.size(), rest.size()) << idOf(control) << " " << idOf(estimate);
-      for (std::size_t i = 0; i < rest.size(); ++i) {
-        EXPECT_NEAR(fresh[i].h, rest[i].h, 1e-4 * rest[i].h)
-            << idOf(control) << " " << idOf(estimate) << " step " << i;
-        EXPECT_EQ(fresh[i].iterations, rest[i].iterations)
-            << idOf(control) << " " << idOf(estimate) << " step " << i;
+        more += factorizations(level) - factorizations(-9);
+      }
+    }
+  }
+  EXPECT_EQ(events, 20);
+  EXPECT_LE(more, 9 * events);
+}
+
+/// x' = x, from 1; due where x reaches `level`, and where t reaches `at`. The steps' dense output
+/// is of low order: which of the two comes first only solved steps tell.
+struct Race {
+  double level, at;
+  bool swapped;
+  Sizes sizes() const {
+    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.x[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    using std::exp;
+    g[swapped ? 1 : 0] = p.d[swapped ? 1 : 0] > T(0.5) ? T(-1.0) : T(p.x[0] - level);
+    g[swapped ? 0 : 1] = p.d[swapped ? 0 : 1] > T(0.5) ? T(-1.0) : T(exp(p.t) - exp(at));
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>&, T* d) const {
+    d[i] = T(1.0);
+  }
+};
+
+TEST(Events, OfARaceAreOrderedBySolvedSteps) {
+  for (const double tol : {1e-3, 1e-5, 1e-8}) {
+    for (const double lag : {0.03, 0.003, 0.0003, -0.0003, -0.003, -0.03}) {
+      if (std::abs(lag) < 200 * tol) continue;
+      for (const double crossing : {0.4, 0.7, 1.1}) {
+        for (const bool swapped : {false, true}) {
+          const Race problem{std::exp(crossing), crossing + lag, swapped};
+          State<double> start(problem.sizes());
+          start.x[0] = 1;
+          IntegratorOptions options = located(tol);
+          options.step.h = 1.5;
+          for (const char* method : {"radau_iia_2", "radau_iia_3"}) {
+            const Result r = run(problem, start, 1.5, Discontinuity::kLocate, options, method);
+            ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+            ASSERT_EQ(r.events.size(), 2u);
+            const bool by_level = (lag > 0) != swapped;
+            EXPECT_EQ(r.events[0].index, by_level ? 0 : 1) << tol << " " << lag << " " << crossing;
+            EXPECT_NEAR(r.events[0].t, std::min(crossing, crossing + lag), 100 * tol);
+            EXPECT_NEAR(r.events[1].t, std::max(crossing, crossing + lag), 100 * tol);
+          }
+        }
       }
     }
   }

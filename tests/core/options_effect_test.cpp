@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "core/controller.h"
+#include "core/error_norm.h"
 #include "core/linearization.h"
+#include "core/step_attempt.h"
 #include "tests/core/support.h"
 
 namespace irk::test {
@@ -69,6 +71,8 @@ TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
   (void)controller->decide(0.4, 0.1);
   controller->changeOrder(5, 0.2, 0.05);
   EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 0.2, 0.05), 1e-12);
+  controller->changeOrder(5, 1e-9, 0.05);
+  EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 1e-2, 0.05), 1e-12);
   controller->forget();
   EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14)
       << "no trend";
@@ -129,6 +133,13 @@ TEST(Paper, ForgetsGammaAtARestartAndAtAnotherOrder) {
   const auto restarted = damped();
   restarted->forget();
   EXPECT_NEAR(restarted->decide(1e-2, 0.05).h, plain, 1e-12);
+  const auto elsewhere = damped();
+  elsewhere->forget();
+  EXPECT_NEAR(elsewhere->decide(1e-2, 0.04).h, 0.8 * plain, 1e-12) << "another step: no gamma";
+  const auto failed = makeController(controlled(StepControl::kPaper), 3);
+  failed->afterFailure(0.1);
+  failed->forget();
+  EXPECT_NEAR(failed->decide(1e-9, 0.05).h, 0.25, 1e-12) << "a restart knows of no failure";
   const auto changed = damped();
   changed->changeOrder(1, 0.5, 0.05);
   EXPECT_NEAR(changed->decide(1e-2, 0.05).h, 0.05 * 5, 1e-12);  // f = 5
@@ -187,6 +198,35 @@ TEST(Steps, AreNotBelowTheSmallestButAFailure) {
   o.step.h_min = 0.3;
   EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome,
             Outcome::kStepTooSmall);
+}
+
+TEST(Steps, OfVariableOrderAreNeverAboveTheLargest) {
+  IntegratorOptions o = adaptive(1e-7);
+  o.step.control = StepControl::kPredictive;
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  o.order = OrderControl::kVariable;
+  for (const double largest : {0.3, 0.1, 0.05}) {
+    o.step.h_max = largest;
+    Integrator<double> integrator(makeSystem<double>(Riccati{}),
+                                  makeMethods<double>("radau_iia_3", 13, 5), o);
+    double most = 0;
+    Monitor<double> monitor;
+    monitor.accepted = [&](const StepRecord<double>& s) { most = std::max(most, s.h); };
+    ASSERT_EQ(integrator.integrate(riccatiStart<double>(), 20, monitor).outcome, Outcome::kSuccess);
+    EXPECT_LE(most, largest * (1 + 1e-9));
+    EXPECT_GE(most, 0.5 * largest);
+  }
+}
+
+TEST(Steps, AttemptsAreCountedAgainstTheirLimit) {
+  IntegratorOptions o = adaptive(1e-7);
+  o.step.control = StepControl::kPredictive;
+  o.step.estimate = ErrorEstimate::kRichardson;
+  const Counters c = taken(Riccati{}, riccatiStart<double>(), 4, o).solution.counters;
+  o.step.max_steps = c.steps_accepted + c.steps_rejected_error + c.steps_rejected_newton;
+  EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 4, o).solution.outcome, Outcome::kSuccess);
+  --o.step.max_steps;
+  EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 4, o).solution.outcome, Outcome::kMaxSteps);
 }
 
 TEST(Steps, AcceptedOnesHaveErrorsWithinTheTolerance) {
@@ -295,6 +335,16 @@ TEST(PredictorOption, IsWhereNewtonStarts) {
     found.resize(2);  // the two stages of the first iteration
     return found;
   };
+  // A last step that is shorter: 0.4 of the one before.
+  IntegratorOptions o = oneStep(h);
+  o.predictor = Predictor::kExtrapolated;
+  int shorter = 0;
+  for (const auto& one : askedBy(o, 1.4 * h, "radau_iia_2")) {
+    if (one.dual || one.t <= h * (1 + 1e-12)) continue;
+    EXPECT_NEAR(one.k, one.t, 1e-13) << "k = t is extrapolated exactly";
+    ++shorter;
+  }
+  EXPECT_GE(shorter, 2);
   const double c[] = {1.0 / 3, 1};
   const auto previous = second(Predictor::kPrevious);
   const auto constant = second(Predictor::kAcceleration);
@@ -436,6 +486,144 @@ TEST(JacobianTermsOption, CostIterationsNotAccuracy) {
     EXPECT_GT(less.counters.newton_iterations, full.counters.newton_iterations) << idOf(terms);
     EXPECT_NEAR(less.state.u[0], full.state.u[0], 1e-11) << idOf(terms);
   }
+}
+
+/// x' = -rate x, and 1.8 times (or another factor) as fast from t = 0.09 on.
+struct Faster {
+  double factor = 1.8;
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = (p.t > T(0.09) ? -1e4 * factor : -1e4) * p.x[0] - p.k[0];
+  }
+};
+
+// Two steps of the midpoint rule, h = 0.1. The first one takes an iteration; in the second one the
+// kept matrix 1 + 500 stands for 1 + 900, so that residuals shrink by 400/501 = 0.798 until a new
+// Jacobian is made. The paper's (3.2) and (3.4), iteration by iteration.
+TEST(PapersNewton, FollowsItsRules) {
+  State<double> start(Faster{}.sizes());
+  start.x[0] = 1;
+  const auto run = [&](double tolerance, double limit, int after, int most) {
+    IntegratorOptions o = fixedSteps(0.1);
+    o.newton.kind = NewtonKind::kModified;
+    o.newton.residual_tolerance = tolerance;
+    o.newton.contractivity_limit = limit;
+    o.newton.contractivity_after = after;
+    o.newton.max_iterations = most;
+    o.predictor = Predictor::kAcceleration;
+    o.jacobian_point = JacobianPoint::kStart;
+    const auto solution =
+        integrate<double>(Faster{}, start, 0.2, makeTableau<double>("gauss_1"), o);
+    EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+    return solution.counters;
+  };
+  EXPECT_EQ(run(1e-1, 0.9, 3, 25).newton_iterations, 1 + 11) << "0.798^11 < 0.1";
+  EXPECT_EQ(run(1e-2, 0.9, 3, 25).newton_iterations, 1 + 21);
+  EXPECT_EQ(run(1e-2, 0.9, 3, 25).newton_restarts, 0);
+  EXPECT_EQ(run(1e-2, 0.9, 3, 25).jacobians, 1);
+  for (const int after : {1, 3, 6}) {
+    const Counters c = run(1e-2, 0.7, after, 25);
+    EXPECT_EQ(c.newton_iterations, 1 + after + 1 + 1) << "one more than " << after;
+    EXPECT_EQ(c.newton_restarts, 1);
+    EXPECT_EQ(c.jacobians, 2);
+  }
+  EXPECT_EQ(run(1e-2, 0.9, 3, 10).newton_iterations, 1 + 10 + 1) << "max_iterations";
+  EXPECT_EQ(run(1e-2, 0.79, 3, 25).newton_restarts, 1) << "just above the limit";
+  EXPECT_EQ(run(1e-2, 0.81, 3, 25).newton_restarts, 0) << "just below it";
+}
+
+// With 2.5 times the rate increments grow by 1.5: Newton fails, and starts again with a new
+// Jacobian. All of its iterations belong to the step.
+TEST(Counted, IterationsOfStepsAreThoseOfTheRun) {
+  State<double> start(Faster{}.sizes());
+  start.x[0] = 1;
+  for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kModified}) {
+    IntegratorOptions o = fixedSteps(0.1);
+    o.newton.kind = kind;
+    o.predictor = Predictor::kAcceleration;
+    Integrator<double> integrator(makeSystem<double>(Faster{2.5}), makeTableau<double>("gauss_1"),
+                                  o);
+    std::int64_t sum = 0;
+    Monitor<double> monitor;
+    monitor.accepted = [&](const StepRecord<double>& s) { sum += s.newton_iterations; };
+    const auto solution = integrator.integrate(start, 0.4, monitor);
+    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+    EXPECT_EQ(solution.counters.newton_restarts, 1) << idOf(kind);
+    EXPECT_EQ(sum, solution.counters.newton_iterations) << idOf(kind);
+  }
+}
+
+// Weights atol scale + rtol |y|, powers of h by index, the mean over (u, v, x, z): number by
+// number.
+TEST(ErrorNorms, AreWhatTheirOptionsSay) {
+  const auto system = makeSystem<double>(CartesianPendulum{}, {Formulation::kIndex3});
+  Vec<double> scale(5);
+  scale << 1, 2, 3, 4, 5;
+  State<double> y(CartesianPendulum{}.sizes()), p = y, q = y;
+  y.u << 10, 20;
+  y.v << -30, 40;
+  y.z() << 50;
+  p.u << 1, 2;
+  p.v << 3, 4;
+  p.z() << 5;
+  const Vec<double> ones = Vec<double>::Ones(5);
+  const double h = 0.5;
+  ErrorNorm<double> mixed(*system, {0.01, 0.1, NormKind::kMixed}, scale);
+  mixed.update(y);
+  // v times h, z times h^2.
+  const double e[] = {1 / (0.1 + 0.1), 2 / (0.2 + 0.2), 1.5 / (0.3 + 0.3), 2 / (0.4 + 0.4),
+                      1.25 / (0.5 + 0.5)};
+  double sum = 0;
+  for (const double one : e) sum += one * one;
+  EXPECT_NEAR(mixed.difference(p, q, h, ones), std::sqrt(sum / 5), 1e-13);
+  EXPECT_NEAR(mixed.magnitude(p, h), std::sqrt(sum / 5), 1e-13);
+  Vec<double> factor(5);
+  factor << 0, 0, 0, 0, 2;
+  EXPECT_NEAR(mixed.difference(p, q, h, factor), std::sqrt(2.5 * 2.5 / 5), 1e-13);
+  ErrorNorm<double> absolute(*system, {0.01, 0.1, NormKind::kAbsolute}, scale);
+  absolute.update(y);
+  EXPECT_NEAR(absolute.difference(p, q, h, ones),
+              std::sqrt(1 + 4 + 1.5 * 1.5 + 4 + 1.25 * 1.25) / 0.1, 1e-12);
+}
+
+TEST(ErrorNorms, WeighEveryComponentByItself) {
+  const auto system = makeSystem<double>(Coupled{});
+  State<double> y(Coupled{}.sizes()), zero = y;
+  y.u << 1, 2;
+  y.v << 4, 8;
+  y.x << 16;
+  y.z() << 32;
+  ErrorNorm<double> norm(*system, {0.5, 1e-300, NormKind::kMixed}, {});
+  norm.update(y);
+  Vec<double> one = Vec<double>::Zero(6);
+  for (Index i = 0; i < 5; ++i) {
+    one.setZero();
+    one[i] = 1;
+    EXPECT_NEAR(norm.difference(y, zero, 1, one), 2 / std::sqrt(6), 1e-13) << "component " << i;
+  }
+}
+
+// 2^q - 1 by the order q of each component: HW II, tables VII.4.1 and VII.6.1 for the stages'
+// orders.
+TEST(RichardsonFactors, AreOfTheComponentsOrders) {
+  const auto orders = [](const char* method, Formulation formulation, ErrorEstimate estimate) {
+    const auto system = makeSystem<double>(CartesianPendulum{}, {formulation});
+    const Vec<double> factor =
+        doublingFactors(Scheme<double>(makeTableau<double>(method)), *system, estimate);
+    std::vector<double> found;
+    for (const double f : factor) found.push_back(std::round(1e6 * std::log2(1 / f + 1)) / 1e6);
+    return found;
+  };
+  using Orders = std::vector<double>;
+  constexpr auto kOwn = ErrorEstimate::kRichardson, kAll = ErrorEstimate::kDoubling;
+  // u1, u2, v1, v2, z
+  EXPECT_EQ(orders("radau_iia_3", Formulation::kIndex2, kOwn), (Orders{5, 5, 5, 5, 3}));
+  EXPECT_EQ(orders("radau_iia_3", Formulation::kIndex3, kOwn), (Orders{5, 5, 3, 3, 2}));
+  EXPECT_EQ(orders("radau_iia_3", Formulation::kIndex1, kOwn), (Orders{5, 5, 5, 5, 5}));
+  EXPECT_EQ(orders("gauss_3", Formulation::kIndex2, kOwn), (Orders{6, 6, 3, 3, 3}));
+  EXPECT_EQ(orders("gauss_3", Formulation::kIndex3, kOwn), (Orders{3, 3, 3, 3, 2}));
+  EXPECT_EQ(orders("radau_iia_3", Formulation::kIndex3, kAll), (Orders{5, 5, 5, 5, 5}));
 }
 
 struct Decay {

@@ -1,0 +1,40 @@
+// The embedded estimate is filtered twice in the first step and after rejections, HW II (IV.8.20).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// x' = -1e6 (x - cos t): what it starts off by is gone at once.
+struct Relaxing {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    r.x[0] = -1e6 * (p.x[0] - cos(p.t)) - p.k[0];
+  }
+};
+
+// Filtered once the estimate of a step over the transient is about what the start is off by, 20
+// tolerances, although the step has no such error.
+TEST(EmbeddedEstimate, OfAFirstStepOverATransientRejectsNothing) {
+  for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
+    IntegratorOptions o = adaptive(1e-4);
+    o.step.estimate = ErrorEstimate::kEmbedded;
+    o.step.control = StepControl::kPredictive;
+    o.step.h = 0.1;
+    State<double> start(Relaxing{}.sizes());
+    start.x[0] = 1 + 4e-3;
+    const auto s = integrate<double>(Relaxing{}, start, 0.1, makeTableau<double>(method), o);
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+    EXPECT_EQ(s.counters.steps_accepted, 1) << method;
+    EXPECT_EQ(s.counters.steps_rejected_error, 0) << method;
+    EXPECT_NEAR(s.state.x[0], std::cos(0.1), 1e-5) << method;
+  }
+}
+
+}  // namespace
+}  // namespace irk::test
