@@ -32,7 +32,7 @@ struct Strictness {
   double tolerance;
   double steps;  // at least so many over the whole time
 };
-constexpr Strictness kStrictnesses[] = {{1e-12, 100}, {1e-12, 2000}, {1e-11, 500}};
+constexpr Strictness kStrictnesses[] = {{1e-12, 100}, {1e-12, 2000}, {1e-11, 500}, {1e-9, 1000}};
 constexpr Strictness kIgnoring{1e-8, 1000};
 
 class Search {

@@ -439,7 +439,8 @@ struct Passing {
 };
 
 // Re-solving a step to its switch takes about four attempts with two factorizations each; a wrong
-// slope, or a guess in the wrong half of the step, takes half as many again and more.
+// slope, or a guess in the wrong half of the step, takes half as many again and more. The first step after
+// the restart has to follow (a, k) at its start: one attempt more.
 TEST(Events, AreFoundInFewAttempts) {
   std::int64_t more = 0, events = 0;
   for (const double tol : {1e-4, 1e-8}) {
@@ -461,7 +462,7 @@ TEST(Events, AreFoundInFewAttempts) {
     }
   }
   EXPECT_EQ(events, 20);
-  EXPECT_LE(more, 9 * events);
+  EXPECT_LE(more, 11 * events);
 }
 
 /// x' = x, from 1; due where x reaches `level`, and where t reaches `at`. The steps' dense output

@@ -683,8 +683,9 @@ TEST(FigureCurves, Shares) {
   add(10, "schur", 0.1, 0.2, 0.3, 0.4);
   drawing.put("phases.csv",
               {"scene", "derivatives", "solver", "method", "n", "factorization_s", "share_residual",
-               "share_jacobian", "share_factorization", "share_solve"},
-              rows);
+               "share_jacobian", "share_factorization", "share_solve", "share_update", "share_step",
+               "share_start"},
+              rows, "0");
   const Svg svg = drawing.draw("shares.gp", "methods='radau_iia_3'");
   const auto heights = [&](char panel, int part) {
     std::map<std::string, std::pair<double, double>>
@@ -798,6 +799,64 @@ TEST(FigureCurves, Stability) {
   for (const auto& p : star.line('a', 3, kLin, kLin)) {  // |1 - z| = |e^-z|
     EXPECT_NEAR(std::log(std::hypot(p.x - 1, p.y)) + p.x, 0, 0.1) << p.x << " " << p.y;
   }
+}
+
+// Widths of the bars are shares of the runs.
+TEST(FigureCurves, Audit) {
+  Drawing drawing;
+  const auto row = [](const char* by, const char* group) {
+    return Cells{{"by", by},     {"group", group}, {"runs", "200"},           {"right", "100"},
+                 {"failed", "60"}, {"wrong", "20"},  {"ill_conditioned", "12"}, {"unjudged", "8"}};
+  };
+  drawing.put("audit_summary.csv",
+              {"by", "group", "runs", "right", "failed", "wrong", "ill_conditioned", "unjudged"},
+              {row("all", "all"), row("scene", "kepler"), row("scene", "hires"),
+               row("configuration", "default"), row("treatment", "locate"), row("family", "gauss")});
+  const Svg svg = drawing.draw("audit.gp", "");
+  const auto width = [&](char panel, int part) {
+    double low = 1e300, high = -1e300;
+    for (const auto& [colour, corners] : svg.curve(panel, part).boxes) {
+      for (const auto& c : corners) low = std::min(low, c.x), high = std::max(high, c.x);
+    }
+    return high - low;
+  };
+  for (const char panel : {'a', 'b', 'c', 'd'}) {
+    const double whole = width(panel, 1) / 0.5;
+    EXPECT_NEAR(width(panel, 2) / whole, 0.3, 0.01) << panel;
+    EXPECT_NEAR(width(panel, 3) / whole, 0.1, 0.01) << panel;
+    EXPECT_NEAR(width(panel, 4) / whole, 0.1, 0.01) << panel;
+  }
+}
+
+TEST(FigureCurves, AuditErrors) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* configuration, const char* judgement, double tolerance,
+                       double ratio) {
+    rows.push_back({{"run", std::to_string(rows.size())},
+                    {"configuration", configuration},
+                    {"judgement", judgement},
+                    {"treatment", "default"},
+                    {"tolerance", exact(tolerance)},
+                    {"error", exact(tolerance * ratio)}});
+  };
+  for (const char* configuration : {"default", "paper", "embedded", "variable"}) {
+    add(configuration, "right", 1e-4, 0.01);
+    add(configuration, "right", 1e-8, 100);
+    add(configuration, "wrong", 1e-6, 1e6);
+  }
+  drawing.put("audit.csv", {"run", "configuration", "judgement", "treatment", "tolerance", "error"},
+              rows);
+  const Svg svg = drawing.draw("audit_errors.gp", "");  // the third panel has both axes' labels
+  auto right = svg.marks('c', 1, kLog, kLog), wrong = svg.marks('c', 3, kLog, kLog);
+  ASSERT_EQ(right.size(), 2u);
+  std::sort(right.begin(), right.end(), [](const auto& p, const auto& q) { return p.y < q.y; });
+  EXPECT_NEAR(std::log10(right[0].y), -2, 0.1);
+  EXPECT_NEAR(std::log10(right[0].x), -4, 0.4);
+  EXPECT_NEAR(std::log10(right[1].y), 2, 0.1);
+  EXPECT_NEAR(std::log10(right[1].x), -8, 0.4);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NEAR(std::log10(wrong[0].y), 6, 0.1);
 }
 
 // No script is left out above.
