@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/scheme.h"
@@ -18,16 +19,25 @@ class Accumulation {
   double factor() const { return std::max(1.0, static_cast<double>(steps_) / kFree); }
 
  private:
-  static constexpr double kFree = 50;
+  static constexpr double kFree = 20;
   std::int64_t steps_ = 0;
 };
 
-/// 1 where the stages are as accurate as there are: else (Radau IA, Lobatto IIIC, IIID) stiff components
-/// have the lower order of the stages, which no estimate of one step shows.
+/// Whether errors of stiff components decay from step to step, |R(infinity)| < 1. Else they add up.
+template <class Real>
+bool dampsStiffErrors(const Scheme<Real>& scheme) {
+  using std::abs;
+  if (!scheme.regular || scheme.first > 0) return false;
+  return abs(Real(Real(1) - scheme.d.sum())) < Real(0.99);
+}
+
+/// 1 where stiff components have the order of the others and are damped. Else (Gauss, Radau IA, all Lobatto
+/// families) they have the order of the stages or no damping, which no estimate of one step shows.
 template <class Real>
 double stiffCaution(const Scheme<Real>& scheme) {
   constexpr double kCaution = 10;
-  return scheme.tableau.stage_order < scheme.s && scheme.s > 1 ? kCaution : 1;
+  const bool as_accurate = scheme.tableau.stage_order >= scheme.s || scheme.s == 1;
+  return as_accurate && dampsStiffErrors(scheme) ? 1 : kCaution;
 }
 
 }  // namespace irk

@@ -140,7 +140,7 @@ class PredictiveController final : public StepController {
   static constexpr double kErrorFloor = 1e-2;
   static constexpr double kKeepUpTo = 1.2;
   static constexpr double kFutile = 0.98;  // of error^exponent
-  static constexpr int kFutileSteps = 5;   // in a row
+  static constexpr int kFutileSteps = 40;  // in a row
   static constexpr int kBarredSteps = 10;
 
   double exponent_, least_root_;       // and kErrorFloor^exponent

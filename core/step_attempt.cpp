@@ -16,6 +16,8 @@ namespace {
 // that of a smooth solution, and at most beyond it (a jump next to the middle is rough for the whole step
 // only).
 constexpr double kLeastDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
+// The estimate is of the solution that is kept, so that errors of all steps count; the paper's s_min.
+constexpr double kReserve = 4;
 // Rough for the whole step only: above so many tolerances.
 constexpr double kRough = 10;
 
@@ -57,7 +59,7 @@ class Doubling final : public StepAttempt<Real> {
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
         accumulates_(options.step.estimate == ErrorEstimate::kRichardson),
-        caution_(stiffCaution(scheme)),
+        caution_(std::max(kReserve, stiffCaution(scheme))),
         looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(options.predictor == Predictor::kExtrapolated),

@@ -77,6 +77,9 @@ template <class Real>
 void Stepper<Real>::solve(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                           State<Real>& to, JacobianUse use, StepResult& result) {
   eq_.begin(from, h);
+  // Where modes change inside a solve or from one to the next, the contraction of the last one says nothing:
+  // believed, it would end the iteration after one correction with the Jacobian of another mode.
+  if (scan_) newton_->forget();
   start_values_.fill(past, from, h, W_);
   NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
   const NewtonResult newton = newton_->solve(context, W_);
@@ -238,7 +241,7 @@ bool Stepper<Real>::dueInside(const State<Real>& from, const State<Real>& to, In
     other_mode_ = scan_->at(due.front().high);
     return true;
   }
-  // A stage is an extremum of nothing: it may be due between two samples that are not.
+  // A switch can be due at a stage that lies between two samples.
   for (Index i = eq_.scheme().first; i < eq_.scheme().s && index < 0; ++i) {
     const SwitchReport report = switches_.evaluate(eq_.stage(W_, i));
     index = report.outcome == Outcome::kSuccess ? switches_.due() : report.index;

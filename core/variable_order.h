@@ -55,12 +55,14 @@ class VariableOrder final : public StepAttempt<Real> {
           stepper(system, s, options, jacobian, norm, counters),
           estimate(system, s, options, jacobian, stepper.matrix(), norm, counters),
           order(EmbeddedEstimate<Real>::order(s)),
-          accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating)) {}
+          accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) ||
+                      !dampsStiffErrors(s)) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
     int order;
-    bool accumulates;     ///< its estimate is hardly larger than the error, and its steps are many
+    /// Its estimate is hardly larger than the error, and its steps are many; or errors do not decay.
+    bool accumulates;
     static constexpr int kMaxAccumulating = 4;
     int epoch = 0;        ///< in which it last forgot
     double exigence = 1;  ///< of its estimate, so that all members err alike
