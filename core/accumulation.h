@@ -5,23 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/options.h"
 #include "core/scheme.h"
 
 namespace irk {
-
-/// Errors of many steps add up: 1 in the first kFree steps, then more, so that the errors of N steps add up
-/// to kFree (1 + log(N / kFree)) tolerances instead of N. For estimates of higher order than the step's own
-/// nothing is needed: there the true error is far below them.
-class Accumulation {
- public:
-  void begin() { steps_ = 0; }
-  void accepted() { ++steps_; }
-  double factor() const { return std::max(1.0, static_cast<double>(steps_) / kFree); }
-
- private:
-  static constexpr double kFree = 20;
-  std::int64_t steps_ = 0;
-};
 
 /// Whether errors of stiff components decay from step to step, |R(infinity)| < 1. Else they add up.
 template <class Real>
@@ -39,5 +26,24 @@ double stiffCaution(const Scheme<Real>& scheme) {
   const bool as_accurate = scheme.tableau.stage_order >= scheme.s || scheme.s == 1;
   return as_accurate && dampsStiffErrors(scheme) ? 1 : kCaution;
 }
+
+/// Errors of many steps add up: `caution` in the first kFree steps, then more, so that the errors of N steps
+/// add up to kFree (1 + log(N / kFree)) tolerances instead of N. For estimates of higher order than the
+/// step's own nothing is needed: there the true error is far below them. At most kMost, so that an error that
+/// does not fall with the step does not shrink it without end, and not below kFinest: there round-off begins.
+class Accumulation {
+ public:
+  Accumulation(double caution, const Tolerances& tolerances)
+      : caution_(caution),
+        most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMost)) {}
+  /// After so many accepted steps; 0 for estimates that need no more than caution.
+  double factor(std::int64_t steps) const {
+    return std::min(most_, caution_ * std::max(1.0, static_cast<double>(steps) / kFree));
+  }
+
+ private:
+  static constexpr double kFree = 50, kMost = 30, kFinest = 5e-13;
+  double caution_, most_;
+};
 
 }  // namespace irk

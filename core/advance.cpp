@@ -208,13 +208,14 @@ Outcome Advance<Real>::restartAtSwitch() {
     if (modes != Outcome::kSuccess) return modes;
     restart();
     if (projection_) {
-      const Outcome projected = projection_->apply(state_);
+      const Outcome projected = projection_->applyToPositions(state_);
       if (projected != Outcome::kSuccess) return projected;
     }
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
-    if (report.determined) attempt_.restart();
+    // In index 3 the stages' accelerations are of low order: what they miss at the start says nothing.
+    if (report.determined && !projection_) attempt_.restart();
     const SwitchReport at = switches_.evaluate(state_);
     blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;
     if (at.outcome != Outcome::kSuccess || blamed_ < 0) return at.outcome;

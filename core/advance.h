@@ -60,8 +60,8 @@ class Advance {
   Counters& counters_;
   ErrorNorm<Real>& norm_;
   ConstraintCheck<Real> constraints_;
-  /// Index 3: velocities obey their constraint to the error of a step only, which the short steps after a
-  /// restart would make accelerations of. Null in other formulations.
+  /// Index 3: positions and velocities obey their constraints to the error of a step only, of which the short
+  /// steps after a restart would make velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;
   Switches<Real> switches_;
   EventLocator<Real> locator_;

@@ -1,6 +1,7 @@
 #include "core/error_norm.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/multiprecision.h"
@@ -37,9 +38,15 @@ ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& toleran
 
 template <class Real>
 void ErrorNorm<Real>::update(const State<Real>& y) {
+  const auto leaveOut = [&] {
+    constexpr double kNothing = std::numeric_limits<double>::infinity();
+    if (leaves_multipliers_out_) {
+      weight_.segment(2 * sizes_.nu + sizes_.nx, sizes_.constraints).setConstant(kNothing);
+    }
+  };
   if (tolerances_.norm == NormKind::kAbsolute) {
     weight_.setConstant(tolerances_.atol);
-    return;
+    return leaveOut();
   }
   const auto weigh = [&](Index offset, const auto& part) {
     for (Index i = 0; i < part.size(); ++i) {
@@ -51,6 +58,7 @@ void ErrorNorm<Real>::update(const State<Real>& y) {
   weigh(sizes_.nu, y.v);
   weigh(2 * sizes_.nu, y.x);
   weigh(2 * sizes_.nu + sizes_.nx, y.z());
+  leaveOut();
 }
 
 template <class Real>

@@ -15,6 +15,10 @@ class ErrorNorm {
   /// `scale`: magnitudes of u, v, x, z; empty = 1. Keeps a reference to the system.
   ErrorNorm(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale);
 
+  /// From the next update on multipliers of position constraints count nothing: where a method does not
+  /// determine them and they are solved anew at the end, their errors are nobody's.
+  void leaveMultipliersOut() { leaves_multipliers_out_ = true; }
+
   /// Weights from the magnitudes of `y`, before a step. Absolute norm: weights atol.
   void update(const State<Real>& y);
 
@@ -50,6 +54,7 @@ class ErrorNorm {
   Tolerances tolerances_;
   Vec<double> scale_;   // u, v, x, z
   Vec<double> weight_;  // the same
+  bool leaves_multipliers_out_ = false;
 };
 
 }  // namespace irk

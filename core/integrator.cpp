@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/accumulation.h"
 #include "core/advance.h"
 #include "core/counting.h"
 #include "core/multiprecision.h"
@@ -88,6 +89,8 @@ class Integrator<Real>::Run {
     }
     const Scheme<Real>& scheme = schemes_[methods.start];
     for (const auto& member : schemes_) refuseIllegal(member, *system_, options_);
+    const bool solved_anew = options_.multipliers == Multipliers::kConsistent;
+    if (solved_anew && !dampsStiffErrors(scheme)) norm_.leaveMultipliersOut();
     jacobian_ = std::make_unique<SharedJacobian<Real>>(counted_, scheme, options_, counters_);
     attempt_ = makeStepAttempt<Real>(counted_, schemes_, methods.start, options_, *jacobian_, norm_,
                                      counters_);

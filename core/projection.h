@@ -18,8 +18,13 @@ class VelocityProjection {
   VelocityProjection(const System<Real>& system, DerivativeSource source, Counters& counters);
   /// Changes state.v. kSingular or kNotFinite where the projection does not exist.
   [[nodiscard]] Outcome apply(State<Real>& state);
+  /// First the positions on g = 0 in the same way, then the velocities. For a start of index 3, whose short
+  /// steps make velocities g / h of what is left of g.
+  [[nodiscard]] Outcome applyToPositions(State<Real>& state);
 
  private:
+  Outcome solve(Level level, const State<Real>& state);
+
   const System<Real>& system_;
   Sizes sizes_;
   Counters& counters_;

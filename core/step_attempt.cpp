@@ -21,6 +21,12 @@ constexpr double kReserve = 4;
 // Rough for the whole step only: above so many tolerances.
 constexpr double kRough = 10;
 
+template <class Real>
+bool isIndex3(const System<Real>& system) {
+  const auto& powers = system.errorPowers().v;
+  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
+}
+
 /// No estimate: one step.
 template <class Real>
 class Single final : public StepAttempt<Real> {
@@ -58,8 +64,8 @@ class Doubling final : public StepAttempt<Real> {
         norm_(norm),
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
-        accumulates_(options.step.estimate == ErrorEstimate::kRichardson),
-        caution_(std::max(kReserve, stiffCaution(scheme))),
+        accumulates_(options.step.estimate == ErrorEstimate::kRichardson && !isIndex3(system)),
+        accumulation_(std::max(kReserve, stiffCaution(scheme)), options.tolerances),
         looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(options.predictor == Predictor::kExtrapolated),
@@ -95,7 +101,7 @@ class Doubling final : public StepAttempt<Real> {
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
     if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness(middle_));
     result.error = error(to, static_cast<double>(h));
-    if (accumulates_) result.error *= caution_ * accumulation_.factor();
+    if (accumulates_) result.error *= accumulation_.factor(steps_);
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
       result.outcome = Outcome::kNotFinite;
@@ -115,7 +121,7 @@ class Doubling final : public StepAttempt<Real> {
   }
   void begin() override {
     forget();
-    accumulation_.begin();
+    steps_ = 0;
     continues_ = watches_start_ = false;
   }
   void restart() override {
@@ -126,7 +132,7 @@ class Doubling final : public StepAttempt<Real> {
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
     watches_start_ = false;
     continues_ = true;
-    accumulation_.accepted();
+    ++steps_;
     return StepAttempt<Real>::accepted(result, h, h_next);
   }
   int order() const override { return order_; }
@@ -154,9 +160,9 @@ class Doubling final : public StepAttempt<Real> {
   const ErrorNorm<Real>& norm_;
   Vec<double> factor_;
   bool scalar_;
-  bool accumulates_;            // not the paper's estimates
-  double caution_;
+  bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
   Accumulation accumulation_;
+  std::int64_t steps_ = 0;  // accepted
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
   bool continues_ = false;      // a step of the same mode

@@ -72,8 +72,7 @@ VariableOrder<Real>::VariableOrder(const System<Real>& system,
   for (const auto& scheme : schemes) {
     members_.push_back(
         std::make_unique<Member>(system, scheme, options, jacobian, norm, counters));
-    members_.back()->exigence =
-        stiffCaution(scheme) * exigence(scheme, schemes.back(), options.tolerances);
+    members_.back()->exigence = exigence(scheme, schemes.back(), options.tolerances);
   }
   past_ = &member().stepper.stages();
 }
@@ -105,7 +104,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
   result.error = estimate.error * member().exigence;
-  if (member().accumulates) result.error *= accumulation_.factor();
+  result.error *= member().accumulation.factor(member().accumulates ? steps_ : 0);
   result.error = worse(result.error, order(), result.mode_error, 1);
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
@@ -131,7 +130,7 @@ void VariableOrder<Real>::begin() {
   past_at_ = at_;
   solved_ = false;
   continues_ = watches_start_ = false;
-  accumulation_.begin();
+  steps_ = 0;
   failures_ = 0;
   forget();
 }
@@ -172,7 +171,7 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
   ++since_change_;
   watches_start_ = false;
   continues_ = true;
-  accumulation_.accepted();
+  ++steps_;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);

@@ -56,13 +56,15 @@ class VariableOrder final : public StepAttempt<Real> {
           estimate(system, s, options, jacobian, stepper.matrix(), norm, counters),
           order(EmbeddedEstimate<Real>::order(s)),
           accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) ||
-                      !dampsStiffErrors(s)) {}
+                      !dampsStiffErrors(s)),
+          accumulation(stiffCaution(s), options.tolerances) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
     int order;
     /// Its estimate is hardly larger than the error, and its steps are many; or errors do not decay.
     bool accumulates;
+    Accumulation accumulation;
     static constexpr int kMaxAccumulating = 4;
     int epoch = 0;        ///< in which it last forgot
     double exigence = 1;  ///< of its estimate, so that all members err alike
@@ -87,7 +89,7 @@ class VariableOrder final : public StepAttempt<Real> {
   std::shared_ptr<const Pattern> reserved_;  // that every member has seen
   int epoch_ = 0;                      // members that are not in use forget when they come to it
   bool again_ = true;                  // filter twice: after a start and a rejection
-  Accumulation accumulation_;
+  std::int64_t steps_ = 0;             // accepted
   bool watches_start_ = false;         // the first step after a restart
   bool continues_ = false;             // a step of the same mode
   int since_change_ = 0;               // accepted steps

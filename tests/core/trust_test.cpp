@@ -242,7 +242,7 @@ TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
 
 // At the end of an integration in index 2 multipliers follow from (u, v): Gauss' own are off by far.
 TEST(Success, MultipliersFollowFromTheState) {
-  for (const char* method : {"gauss_3", "gauss_5", "radau_iia_3", "lobatto_iiid_4"}) {
+  for (const char* method : {"gauss_5", "gauss_7", "radau_iia_3", "lobatto_iiid_4"}) {
     const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
                                      makeTableau<double>(method), adaptive(1e-6));
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << method << s.detail;
