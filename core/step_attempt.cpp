@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/accumulation.h"
 #include "core/embedded.h"
@@ -122,16 +123,19 @@ class Doubling final : public StepAttempt<Real> {
   void begin() override {
     forget();
     steps_ = 0;
-    continues_ = watches_start_ = false;
+    continues_ = restarted_ = watches_start_ = false;
   }
   void restart() override {
     forget();
     continues_ = false;
-    watches_start_ = true;
+    restarted_ = watches_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
-    watches_start_ = false;
-    continues_ = true;
+    // A restart at the end of this very step came first.
+    if (!std::exchange(restarted_, false)) {
+      watches_start_ = false;
+      continues_ = true;
+    }
     ++steps_;
     return StepAttempt<Real>::accepted(result, h, h_next);
   }
@@ -165,6 +169,7 @@ class Doubling final : public StepAttempt<Real> {
   std::int64_t steps_ = 0;  // accepted
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
+  bool restarted_ = false;      // since the last step was taken over
   bool continues_ = false;      // a step of the same mode
   Index worst_ = -1;
   double rough_whole_ = 0, rough_halves_ = 0;

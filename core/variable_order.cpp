@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/multiprecision.h"
 
@@ -129,7 +130,7 @@ void VariableOrder<Real>::begin() {
   past_ = &member().stepper.stages();
   past_at_ = at_;
   solved_ = false;
-  continues_ = watches_start_ = false;
+  continues_ = restarted_ = watches_start_ = false;
   steps_ = 0;
   failures_ = 0;
   forget();
@@ -169,8 +170,11 @@ auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptRe
 template <class Real>
 NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
   ++since_change_;
-  watches_start_ = false;
-  continues_ = true;
+  // A restart at the end of this very step came first.
+  if (!std::exchange(restarted_, false)) {
+    watches_start_ = false;
+    continues_ = true;
+  }
   ++steps_;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};

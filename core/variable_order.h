@@ -38,7 +38,7 @@ class VariableOrder final : public StepAttempt<Real> {
   void restart() override {
     forget();
     continues_ = false;
-    watches_start_ = true;
+    restarted_ = watches_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   int order() const override;
@@ -91,6 +91,7 @@ class VariableOrder final : public StepAttempt<Real> {
   bool again_ = true;                  // filter twice: after a start and a rejection
   std::int64_t steps_ = 0;             // accepted
   bool watches_start_ = false;         // the first step after a restart
+  bool restarted_ = false;             // since the last step was taken over
   bool continues_ = false;             // a step of the same mode
   int since_change_ = 0;               // accepted steps
   double lower_error_;                 // of the member below, NaN if not known

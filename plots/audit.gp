@@ -18,7 +18,7 @@ upTo(k) = below(k) + (k == 3 && column("wrong") > 0 && share(k) < least ? least 
 # Panels: what is compared, its title, and where it stands (fractions of the figure).
 groupings = "scene configuration treatment family"
 titles = "'by scene' 'by configuration' 'by treatment of switches' 'by family of methods'"
-lefts = "0.035 0.535 0.535 0.535"
+lefts = "0.035 0.515 0.515 0.515"
 undefine N_*
 stats file using (is("by", 'all') ? column("runs") : NaN) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(file) }
