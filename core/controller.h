@@ -1,4 +1,4 @@
-// Step size control: deciders that know no matrices.
+// Step-size controllers; they see error estimates and step sizes only.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,9 @@ class StepController {
   virtual StepDecision decide(double error, double h) = 0;
   /// After Newton failed: the step to try next.
   virtual double afterFailure(double h) = 0;
-  /// A restart: what came before says nothing.
+  /// After a restart: forgets the steps before it.
   virtual void forget() = 0;
-  /// Errors are h^(order+1) from now on; that of the last step h would have been `error`.
+  /// From now on errors fall with h^(order+1); with the new order the last step h would have had `error`.
   virtual void changeOrder(int order, double error, double h) = 0;
 };
 

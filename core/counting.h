@@ -1,4 +1,4 @@
-// Decorators that count: no strategy can forget it.
+// Decorators that count evaluations, so that no strategy can forget to.
 #pragma once
 
 #include <atomic>

@@ -5,8 +5,8 @@
 
 namespace irk {
 
-/// Parts of a step, at whose ends switches are looked for: what rises above 0 and returns between two
-/// of them is not seen.
+/// Switching functions are sampled at the ends of this many equal parts of a step. A function that rises above 0
+/// and returns between two samples is not seen by them; core/switch_scan.h looks for it.
 constexpr Index kParts = 8;
 
 template <class Real>

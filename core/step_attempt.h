@@ -39,10 +39,10 @@ class StepAttempt {
   /// One step of size h from `from` to `to` (not aliased).
   [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h,
                                               State<Real>& to) = 0;
-  /// A new integration: the same bits as of a new attempt.
+  /// Resets all history: the next integration is bitwise that of a new object.
   virtual void begin() { forget(); }
-  /// What was solved predicts badly: Newton has failed, or the mode has changed. (A step with too
-  /// large an error is a good prediction of a shorter one.)
+  /// Forgets the last solved step, which is a bad prediction after a failure of Newton's method or a change of mode.
+  /// (A step with too large an error is a good prediction of a shorter one.)
   virtual void forget() = 0;
   /// After a restart from a consistent (a, k): the first step has to follow them.
   virtual void restart() { forget(); }

@@ -10,7 +10,7 @@ namespace irk {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// The order is thought over after this many accepted steps, and again after as many.
+// The order is reconsidered every kLeastStay accepted steps.
 constexpr int kLeastStay = 7;
 // Progress per work must grow by this factor: new factors, worse start values.
 constexpr double kGain = 1.2;

@@ -18,7 +18,7 @@ struct Stability {
   double imaginary_limit;  ///< the same for i [-imaginary_limit, imaginary_limit]
 };
 
-/// What differs from zero by `tolerance` relative to its terms is zero.
+/// Quantities below `tolerance` times their largest term count as zero.
 Stability analyzeStability(const StabilityFunction& R, double tolerance);
 
 /// Largest r_0 with |R(r e^(i phi))| <= 1 for 0 <= r <= r_0; inf if there is no largest.
