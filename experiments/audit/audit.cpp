@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "experiments/final_states.h"
+#include "experiments/interrupt.h"
 #include "experiments/numbers.h"
 #include "experiments/run_table.h"
 
@@ -101,6 +102,11 @@ std::string auditRuns(const Study& study, const Table& runs, const std::filesyst
   std::set<Question> questions;
   for (const auto& run : drawn) questions.insert(questionOf(run.spec));
   const Answers answers = answersTo(questions, folder / "references.csv", jobs, progress);
+  if (interruptFlag()) {
+    // Runs without their references would count as unjudged, and wrong ones would seem few.
+    for (const char* table : {"audit.csv", "audit_summary.csv"}) std::filesystem::remove(folder / table);
+    return "interrupted: not all references are known, so no run is judged yet\n";
+  }
   const Table audit = auditTable(drawn, runs, readStates(folder / "states.csv"), answers);
   const Table summary = summaryTable(audit);
   writeTable(folder / "audit.csv", audit);

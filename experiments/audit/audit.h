@@ -25,7 +25,8 @@ Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
 Table summaryTable(const Table& audit);
 
 /// Writes references.csv, audit.csv and audit_summary.csv of the study's runs into `folder`; returns the
-/// lines of summaryText. After an interrupt: of the runs and references that there are.
+/// lines of summaryText. After an interrupt neither audit.csv nor its summary is there; the references found
+/// so far are kept.
 std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder,
                       int jobs, std::ostream& progress);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -11,6 +12,7 @@
 #include "experiments/audit/dice.h"
 #include "experiments/commands/commands.h"
 #include "experiments/final_states.h"
+#include "experiments/interrupt.h"
 #include "experiments/report.h"
 #include "experiments/run_table.h"
 #include "experiments/runner.h"
@@ -438,6 +440,25 @@ TEST_F(SmallAudit, GoesOnWhereItWas) {
   const auto found = readStates(folder() / "states.csv");
   ASSERT_TRUE(found.contains(lost[0]));
   EXPECT_EQ(vectorText(found.at(lost[0])), lost[1]);
+}
+
+// Without their references, wrong runs would count as unjudged ones.
+TEST_F(SmallAudit, InterruptedLeavesNoCounts) {
+  TemporaryFolder copy;
+  std::filesystem::copy(folder(), copy.path(), std::filesystem::copy_options::recursive);
+  const auto references = readTable(copy.path() / "references.csv");
+  std::string text;
+  {
+    const InterruptScope interrupts;
+    std::raise(SIGINT);
+    text = auditRuns(*study_, *runs_, copy.path(), 2, quiet_);
+  }
+  EXPECT_TRUE(containsAll(text, {"interrupted"}));
+  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit.csv"));
+  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit_summary.csv"));
+  EXPECT_EQ(readTable(copy.path() / "references.csv").rows, references.rows);
+  const InterruptScope uninterrupted;  // the flag is false again
+  EXPECT_EQ(auditRuns(*study_, *runs_, copy.path(), 2, quiet_), *text_);
 }
 
 TEST_F(SmallAudit, IsDrawn) {
