@@ -1,5 +1,5 @@
 # Where a method works: digits of accuracy over stages and step (or tolerance, or stiffness), one panel per
-# family. A run that failed has no colour and a mark that says why.
+# family. A run that failed has no colour and a mark that says why; a grey column is a method that there is not.
 #   gnuplot -e "data='results/failure_constraints'; out='map'; scene='pendulum'; only='formulation=index3'" failure_map.gp
 # Reads runs.csv. Options: scene, only (quoted words column=value, which all rows must have), y (h, rtol, or a
 # parameter of the scene: the magnitude of its number in the column settings, y_default where there is none), y_label, panel_by (a column), panels (its values
@@ -71,16 +71,30 @@ level_tics = "set ytics ("; do for [k = 1 : words(levels)] {
   level_tics = level_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', levelText(real(word(levels, k))), k) }
 level_tics = level_tics.")"
 
+# Numbers of stages without any row in a panel: the family has no such method.
+absent_stages = ""
+do for [i = 1 : n] {
+  collected = ""
+  stats file using (inPanel(i) ? (collect(sprintf("%d", stageNumber(0))), 1) : NaN) name "L" nooutput
+  do for [k = 1 : words(stages)] { if (!position(collected, sprintf("%d", k))) { absent_stages = absent_stages.sprintf(" %d:%d", i, k) } }
+}
+panelOf(pair) = int(pair[1 : strstrt(pair, ':') - 1]); stageOf(pair) = int(pair[strstrt(pair, ':') + 1 : *])
+absent_colour = 0xe4e4e4
+
 columns = n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4
 lines = (n + columns - 1) / columns
-margin_left = columns == 1 ? 0.16 : columns == 2 ? 0.13 : 0.1; margin_right = columns == 1 ? 0.16 : 0.09
+width = columns == 1 ? 560 : columns == 2 ? 860 : 1080
+# Room for the longest label of the levels, and for the axis' name left of it.
+longest = 0
+do for [k = 1 : words(levels)] { length = strlen(levelText(real(word(levels, k)))); longest = length > longest ? length : longest }
+margin_left = (44.0 + 7.5 * longest) / width; margin_right = columns == 1 ? 0.16 : 0.09
 margin_top = lines == 1 ? 0.1 : 0.06
 height = 110 + 42 * lines + lines * (words(levels) < 9 ? 200 : 20 * words(levels))
 legend_height = 34.0 / height
 margin_bottom = legend_height + 52.0 / height
 gap_x = 0.02; gap_y = 40.0 / height
 do for [format in formats] {
-  eval open(format, columns == 1 ? 560 : columns == 2 ? 860 : 1080, height)
+  eval open(format, width, height)
   set multiplot
   set palette defined (0 '#7f0d1d', 0.06 '#c4452f', 0.12 '#f0a35e', 0.25 '#fbe3a6', 0.45 '#b9dcc4', 0.7 '#4a9fb5', 1 '#123c69')
   set cbrange [0 : 16]; set cbtics 4 scale 0
@@ -96,18 +110,25 @@ do for [format in formats] {
     set xlabel when(i > n - columns, 'stages s') offset 0,0.4
     set ylabel when((i - 1) % columns == 0, y_label) offset 0,0 textcolor rgb ink
     unset key
+    unset object
+    do for [pair in absent_stages] {
+      if (panelOf(pair) == i) { set object rectangle from stageOf(pair) - 0.5, 0.5 to stageOf(pair) + 0.5, words(levels) + 0.5 \
+        behind fs solid noborder fc rgb absent_colour }
+    }
     if (i == n) { set colorbox user origin 1 - margin_right + 0.015, margin_bottom size 0.015, 1 - margin_top - margin_bottom
       set cblabel quantity_label textcolor rgb ink } else { unset colorbox }
     plot file using (inPanel(i) && good(0) ? stageNumber(0) : outside):(levelNumber(0)):(0.5):(0.5):(digits(0)) \
            with boxxyerror fs solid noborder palette notitle, \
          for [k = 1 : words(seen)] file using (inPanel(i) && is("outcome", word(seen, k)) ? stageNumber(0) : outside):(levelNumber(0)) \
-           with points pt causePoint(position(causes, word(seen, k))) ps 0.75 lw 1.4 \
+           with points pt causePoint(position(causes, word(seen, k))) ps 0.9 lw 2 \
            lc rgb (word(seen, k) eq 'refused' ? 0x999999 : failure_colour) notitle
   }
-  if (words(seen) > 0) {
+  unset object
+  if (words(seen) + words(absent_stages) > 0) {
     eval legend(legend_height)
     unset colorbox
-    plot 2 notitle, for [k = 1 : words(seen)] keyentry with points pt causePoint(position(causes, word(seen, k))) ps 0.75 lw 1.4 \
+    plot 2 notitle, for [k = 1 : words(absent_stages) > 0] keyentry with points pt 5 ps 1.4 lc rgb absent_colour title (panel_by eq 'family' ? 'no such method' : 'no run'), \
+      for [k = 1 : words(seen)] keyentry with points pt causePoint(position(causes, word(seen, k))) ps 0.9 lw 2 \
       lc rgb (word(seen, k) eq 'refused' ? 0x999999 : failure_colour) title causeTitle(position(causes, word(seen, k)))
   }
   unset multiplot

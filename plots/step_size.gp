@@ -42,9 +42,16 @@ do for [format in formats] {
       set arrow j from first real(word(jumps(i), j)), graph 0 to first real(word(jumps(i), j)), graph 1 nohead \
         back lw 5 lc rgb 0xF3D9D9
     }
-    plot for [k = 1 : count] file(i, k) using "t":(positive(column("h"))) \
-      with fsteps lw 1.4 lc rgb Colour[k] notitle
-    unset arrow
+    here = ""
+    do for [k = 1 : count] { here = here.(there(i, k) ? sprintf(" %d", k) : "") }
+    if (words(here) > 0) {
+      plot for [k in here] file(i, number(k)) using "t":(positive(column("h"))) \
+        with fsteps lw 1.4 lc rgb Colour[number(k)] notitle
+    } else {
+      set label 1 'no run' at graph 0.5, graph 0.5 center textcolor rgb ink
+      plot least / 10 notitle  # below the panel
+    }
+    unset arrow; unset label 1
   }
   eval legend(0.1)
   plot 2 notitle, for [k = 1 : count] keyentry with lines lw 1.6 lc rgb Colour[k] \

@@ -72,8 +72,8 @@ do for [format in formats] {
              with linespoints lw 1.2 dt stageDash(stage(k)) pt stagePoint(stage(k)) ps 0.7 \
              lc rgb stageColour(stage(k)) title word(stages, k), \
            for [k = 1 : count] file using (failed(stage(k))):(level(k)) \
-             with points pt failure_point ps 0.6 lw 1.5 lc rgb stageColour(stage(k)) notitle, \
-           keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
+             with points pt failure_point ps 0.85 lw 2.2 lc rgb stageColour(stage(k)) notitle, \
+           keyentry with points pt failure_point ps 0.85 lw 2.2 lc rgb ink title 'failed'
     }
     unset multiplot
   }

@@ -399,6 +399,15 @@ TEST(FigureCurves, FailureMap) {
   add(2, "0.01", "1e-4", "success", "1e-12", "1e-3");
   add(3, "0.1", "1e-3", "newton_failed", "nan", "nan");
   add(3, "0.01", "1e-4", "success", "1e-3", "1e-6");
+  rows.push_back({{"scene", "pendulum"},  // of two numbers of stages this family has one
+                  {"settings", ""},
+                  {"family", "lobatto_iiia"},
+                  {"stages", "3"},
+                  {"h", "0.1"},
+                  {"rtol", "1e-3"},
+                  {"outcome", "success"},
+                  {"error", "1e-6"},
+                  {"error_u", "1e-6"}});
   drawing.put("runs.csv",
               {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error", "error_u"},
               rows);
@@ -427,6 +436,8 @@ TEST(FigureCurves, FailureMap) {
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(svg.labelX('a', failed[0].x), "3");
   EXPECT_EQ(svg.labelY('a', failed[0].y), "10^-1");
+  EXPECT_EQ(svg.occurrences("<text>no such method</text>"), 1);
+  EXPECT_EQ(svg.occurrences("fill = 'rgb(228, 228, 228)'"), 1) << "the column of the method that there is not";
 }
 
 const std::vector<std::string> kOrderColumns = {
@@ -479,28 +490,38 @@ TEST(FigureCurves, OrderVsStages) {
 TEST(FigureCurves, OrderVsStiffness) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* settings, int s, double order) {
+  const auto add = [&](const char* settings, int s, const char* order, const char* theory = "nan",
+                       const char* verdict = "agrees") {
     rows.push_back({{"scene", "prothero_robinson"},
                     {"settings", settings},
                     {"component", "x"},
                     {"power_of", "h"},
                     {"family", "gauss"},
                     {"stages", std::to_string(s)},
-                    {"order", exact(order)},
-                    {"theory", "17"},
+                    {"order", order},
+                    {"theory", theory},
                     {"confidence", "0.3"},
-                    {"verdict", "agrees"}});
+                    {"verdict", verdict}});
   };
-  add("lambda=-1e2", 2, 3.9);
-  add("lambda=-1e4", 2, 2.5);
-  add("", 2, 2.1);  // -1e8
-  add("lambda=-1e2", 3, 5.9);
-  add("lambda=-1e4", 3, 4.4);
-  add("lambda=-1e8/h", 2, 11);  // no single stiffness
+  add("lambda=-1e2", 2, "3.9");
+  add("lambda=-1e4", 2, "2.5");
+  add("", 2, "2.1", "3");  // -1e8
+  add("lambda=-1e2", 3, "5.9");
+  add("lambda=-1e4", 3, "nan", "nan", "not_measurable");
+  add("", 3, "4.4");
+  add("lambda=-1e8/h", 2, "11");  // no single stiffness
   drawing.put("orders.csv", kOrderColumns, rows);
   const Svg svg = drawing.draw("order_vs_stiffness.gp", "scene='prothero_robinson'");
-  expectPoints(svg.marks('a', 1, kLog, kLin), {{1e2, 3.9}, {1e4, 2.5}, {1e8, 2.1}}, "s = 2", 1e-2);
-  expectPoints(svg.marks('a', 2, kLog, kLin), {{1e2, 5.9}, {1e4, 4.4}}, "s = 3", 1e-2);
+  // Curves of two numbers of stages each: theory's bars, the lines, the triangles.
+  expectPoints(svg.line('a', 1, kLog, kLin), {{4e7, 3}, {2.5e8, 3}}, "theory", 2e-2);
+  expectPoints(svg.marks('a', 3, kLog, kLin), {{1e2, 3.9}, {1e4, 2.5}, {1e8, 2.1}}, "s = 2", 1e-2);
+  expectPoints(svg.marks('a', 4, kLog, kLin), {{1e2, 5.9}, {1e8, 4.4}}, "s = 3", 1e-2);
+  EXPECT_EQ(svg.curve('a', 3).pieces, 1);
+  EXPECT_EQ(svg.curve('a', 4).pieces, 2) << "a line over what is not measurable";
+  const auto lost = svg.marks('a', 6, kLog, kLin);
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_NEAR(std::log10(lost[0].x), 4, 0.2);
+  EXPECT_LT(lost[0].y, 2.1) << "below all orders";
 }
 
 TEST(FigureCurves, OverStages) {
@@ -737,7 +758,7 @@ TEST(FigureCurves, StepSize) {
   put("slider_crank.radau_iia_2.csv", {{0, NAN}, {0.1, 0.1}, {0.4, 0.3}, {1, 0.6}});
   put("slider_crank.radau_iia_5.csv", {{0, NAN}, {0.01, 0.01}, {0.05, 0.04}, {1, 0.95}});
   put("other.radau_iia_2.csv", {{0, NAN}, {0.2, 0.2}, {1, 0.8}});
-  put("other.radau_iia_5.csv", {{0, NAN}, {0.5, 0.5}, {1, 0.5}});
+  // No file other.radau_iia_5.csv: that run was not made, and its curve is left out without a warning.
   const Svg svg = drawing.draw(
       "step_size.gp",
       "cases='slider_crank other'; methods='radau_iia_2 radau_iia_5'; marks=\"'0.5'\"");

@@ -26,6 +26,7 @@ struct SvgPoint {
 struct SvgCurve {
   std::vector<SvgPoint> marks;
   std::vector<SvgPoint> line;
+  int pieces = 0;  ///< of the line, which may have gaps
   std::vector<std::pair<std::string, std::vector<SvgPoint>>> boxes;  ///< colour, corners
 };
 
@@ -61,8 +62,11 @@ class Svg {
  public:
   explicit Svg(const std::filesystem::path& file) {
     std::ifstream in(file);
-    for (std::string line; std::getline(in, line);) read(line);
+    for (std::string line; std::getline(in, line); text_ += line + '\n') read(line);
   }
+
+  /// How often a text is in the file.
+  int occurrences(const std::string& text) const { return count(text_, text.c_str()); }
 
   /// Panels are 'a', 'b', ... in the order in which they are drawn.
   const SvgPanel& panel(char letter) const {
@@ -212,9 +216,9 @@ class Svg {
       first_line_ = false;
       from = std::min(line.find('M', from + 1), end);
     }
-    for (const auto& p : points(line.substr(from, end == line.npos ? end : end - from))) {
-      inside_->line.push_back(p);
-    }
+    const std::string data = line.substr(from, end == line.npos ? end : end - from);
+    for (const auto& p : points(data)) inside_->line.push_back(p);
+    inside_->pieces += count(data, "M");
     if (end != line.npos) in_path_ = false;
   }
 
@@ -255,6 +259,7 @@ class Svg {
     return text;
   }
 
+  std::string text_;
   std::map<char, SvgPanel> panels_;
   std::vector<SvgLabel> x_, y_;  // of the next panel
   std::vector<SvgLabel>* to_ = nullptr;
