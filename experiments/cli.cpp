@@ -178,9 +178,18 @@ class Program {
     merge->add_option("folders", folders_, "folders with a runs.csv each")->required();
     merge->add_option("--study", study_, "id or TOML file, if the tables' own is not built in");
     addResults(*merge);
-    auto* compare = verb(app_, "compare", "two folders of results, times aside",
-                         [this](Streams s) { return compareCommand(folders_[0], folders_[1], s); });
-    compare->add_option("folders", folders_, "two folders")->required()->expected(2);
+    auto* compare = verb(app_, "compare", "what differs between two studies or trees of results",
+                         [this](Streams s) { return compareCommand(compare_, s); });
+    compare->add_option("first", compare_.first, "folder of a study or of results")->required();
+    compare->add_option("second", compare_.second, "another one")->required();
+    compare->add_option("--errors", compare_.errors, "a factor: errors differ from it on")
+        ->capture_default_str();
+    compare->add_option("--times", compare_.times, "a percentage: ratios of times up to it are noise")
+        ->capture_default_str();
+    compare->add_option("--alpha", compare_.alpha, "how probably noise alone makes a time differ")
+        ->capture_default_str();
+    compare->add_option("--counters", compare_.counters, "a percentage: counters differ from it on")
+        ->capture_default_str();
   }
 
   void addReference() {
@@ -211,6 +220,7 @@ class Program {
   std::vector<std::string> folders_, methods_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
+  CompareOptions compare_;
   ReferenceOptions reference_;
 };
 

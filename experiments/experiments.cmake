@@ -5,6 +5,7 @@ irk_library(experiments)
 file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/audit/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/compare/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/reference/*.cpp)
 target_sources(irk_experiments PRIVATE ${parts})

@@ -21,38 +21,6 @@
 #include "experiments/scaling.h"
 
 namespace irk {
-namespace {
-
-using RowsByKey = std::map<std::string, const TableRow*>;
-
-RowsByKey byKey(const Table& runs) {
-  RowsByKey rows;
-  for (const auto& row : runs.rows) rows[row.front()] = &row;
-  return rows;
-}
-
-std::string runName(const Table& runs, const TableRow& row) {
-  return fmt::format("{} {} {} h={} rtol={}", textAt(runs, row, "scene"),
-                     textAt(runs, row, "settings"), textAt(runs, row, "method"),
-                     textAt(runs, row, "h"), textAt(runs, row, "rtol"));
-}
-
-bool isComparable(const std::string& column) {
-  return !column.starts_with("cpu_") && column != "detail";
-}
-
-int compareRow(const Table& runs, const TableRow& a, const TableRow& b, std::ostream& out) {
-  int differences = 0;
-  for (std::size_t i = 0; i < runs.columns.size(); ++i) {
-    if (!isComparable(runs.columns[i]) || a[i] == b[i]) continue;
-    ++differences;
-    fmt::print(out, "{}: {} = {} and {}\n", runName(runs, a), runs.columns[i], a[i], b[i]);
-  }
-  return differences;
-}
-
-}  // namespace
-
 std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
                                         const std::filesystem::path& folder,
                                         std::ostream& progress) {
@@ -99,35 +67,6 @@ Table mergedRuns(const std::vector<std::string>& folders) {
     }
   }
   return merged;
-}
-
-int compareRuns(const Table& runs, const Table& other, std::ostream& out) {
-  if (runs.columns != other.columns) throw Misuse("the two tables have different columns");
-  const RowsByKey a = byKey(runs), b = byKey(other);
-  int differences = 0, both = 0;
-  double log_ratio = 0;
-  for (const auto& [key, row] : a) {
-    const auto match = b.find(key);
-    if (match == b.end()) {
-      ++differences;
-      fmt::print(out, "{}: only in the first\n", runName(runs, *row));
-      continue;
-    }
-    differences += compareRow(runs, *row, *match->second, out);
-    const double ratio = numberAt(runs, *match->second, "cpu_s") / numberAt(runs, *row, "cpu_s");
-    if (!(ratio > 0) || std::isinf(ratio)) continue;
-    ++both;
-    log_ratio += std::log(ratio);
-  }
-  for (const auto& [key, row] : b) {
-    if (a.contains(key)) continue;
-    ++differences;
-    fmt::print(out, "{}: only in the second\n", runName(other, *row));
-  }
-  fmt::print(out, "{} runs and {} runs: {} differences", a.size(), b.size(), differences);
-  if (both > 0) fmt::print(out, "; CPU time second / first: {:.3g}", std::exp(log_ratio / both));
-  out << '\n';
-  return differences;
 }
 
 }  // namespace irk

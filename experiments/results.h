@@ -1,4 +1,4 @@
-// Folders of results: what is computed from runs.csv, merging, comparing.
+// Folders of results: what is computed from runs.csv, merging.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,5 @@ namespace irk {
 /// All rows of the folders' runs.csv; of rows with one key a timed one wins. Throws Misuse for
 /// tables of different studies or columns.
 Table mergedRuns(const std::vector<std::string>& folders);
-
-/// Rows of two runs.csv by key; times and details aside. Prints differences; returns their number.
-int compareRuns(const Table& runs, const Table& other, std::ostream& out);
 
 }  // namespace irk

@@ -72,7 +72,12 @@ struct MergeOptions {
   std::string results = "results";
 };
 int mergeCommand(const MergeOptions& options, Streams streams);
-/// 0: the same numbers, times aside; 1: they differ.
-int compareCommand(const std::string& folder, const std::string& other, Streams streams);
+
+struct CompareOptions {
+  std::string first, second;  ///< folders of a study, or of results
+  std::string errors = "2", times = "5%", alpha = "0.05", counters = "0%";
+};
+/// 0: no difference beyond noise; 1: there are some.
+int compareCommand(const CompareOptions& options, Streams streams);
 
 }  // namespace irk

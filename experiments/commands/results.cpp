@@ -42,12 +42,4 @@ int mergeCommand(const MergeOptions& options, Streams streams) {
   return doubts.empty() ? 0 : 1;
 }
 
-int compareCommand(const std::string& folder, const std::string& other, Streams streams) {
-  const auto read = [](const std::string& from) {
-    return readTable(std::filesystem::path(from) / "runs.csv");
-  };
-  const Table runs = read(folder);
-  return compareRuns(runs, read(other), streams.out) == 0 ? 0 : 1;
-}
-
 }  // namespace irk

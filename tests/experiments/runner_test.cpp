@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "experiments/compare/folders.h"
 #include "experiments/orders.h"
 #include "experiments/results.h"
 #include "experiments/run_table.h"
@@ -53,18 +54,6 @@ TEST(Runner, OneAndTwoThreadsMakeTheSameRows) {
       EXPECT_EQ(a.rows[i][c], b.rows[i][c]) << "row " << i << ", " << a.columns[c];
     }
   }
-  std::ostringstream differences;
-  EXPECT_EQ(compareRuns(a, b, differences), 0) << differences.str();
-}
-
-TEST(Runner, CompareSeesADifference) {
-  const TemporaryFolder folder;
-  std::ostringstream out;
-  const Table a = runStudy(small(), options(folder, 2), out);
-  Table b = a;
-  b.rows[0][b.column("residuals")] = "1";
-  b.rows.pop_back();
-  EXPECT_EQ(compareRuns(a, b, out), 2);
 }
 
 TEST(Runner, MisuseInsideASweepIsARow) {
@@ -117,8 +106,8 @@ TEST(Runner, ShardsTogetherAreTheWhole) {
   }
   const Table merged = sortedRuns(mergedRuns(parts), small());
   const Table whole = runStudy(small(), options(folder, 1), quiet);
-  std::ostringstream differences;
-  EXPECT_EQ(compareRuns(whole, merged, differences), 0) << differences.str();
+  const auto comparison = compare::compareRuns({whole, {}}, {merged, {}}, {.times = 10});
+  EXPECT_TRUE(comparison.differences.empty()) << compare::textOf("", comparison);
   RunnerOptions bad;
   EXPECT_TRUE(containsAll(misuseOf([&] { parseShard("4/3", bad); }), {"shard", "4", "3"}));
   EXPECT_TRUE(containsAll(misuseOf([&] { parseShard("half", bad); }), {"shard", "half", "i/n"}));

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "core/misuse.h"
+#include "experiments/commands/commands.h"
+#include "experiments/compare/folders.h"
+
+namespace irk {
+namespace {
+
+// `5%` as 0.05.
+double percentage(std::string_view name, const std::string& text) {
+  constexpr NumberRange kRange{[](double x) { return x >= 0 && x <= 1000; }, "0% to 1000%"};
+  if (!text.ends_with('%')) {
+    throw Misuse(fmt::format("{} = '{}': a percentage is expected, 0% to 1000%", name, text));
+  }
+  return parseNumber(name, text.substr(0, text.size() - 1), kRange) / 100;
+}
+
+compare::Limits limitsOf(const CompareOptions& options) {
+  constexpr NumberRange kFactor{[](double x) { return x >= 1 && x <= 1e15; }, "a factor, 1 to 1e15"};
+  constexpr NumberRange kAlpha{[](double x) { return x > 0 && x < 1; }, "0 < alpha < 1"};
+  return {.errors = parseNumber("errors", options.errors, kFactor),
+          .times = percentage("times", options.times),
+          .alpha = parseNumber("alpha", options.alpha, kAlpha),
+          .counters = percentage("counters", options.counters)};
+}
+
+}  // namespace
+
+int compareCommand(const CompareOptions& options, Streams streams) {
+  const compare::Limits limits = limitsOf(options);
+  const auto first = compare::runsIn(options.first), second = compare::runsIn(options.second);
+  std::size_t differences = 0;
+  const auto tellMissing = [&](const auto& from, const auto& in, const char* which) {
+    for (const auto& [study, file] : from) {
+      if (in.contains(study)) continue;
+      ++differences;
+      fmt::print(streams.out, "{}: only in the {} ({})\n", study, which, file.string());
+    }
+  };
+  tellMissing(first, second, "first");
+  tellMissing(second, first, "second");
+  for (const auto& [study, file] : first) {
+    const auto other = second.find(study);
+    if (other == second.end()) continue;
+    const auto comparison =
+        compare::compareRuns(compare::readRuns(file), compare::readRuns(other->second), limits);
+    differences += comparison.differences.size();
+    streams.out << compare::textOf(study, comparison);
+  }
+  return differences == 0 ? 0 : 1;
+}
+
+}  // namespace irk
