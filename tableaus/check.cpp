@@ -99,7 +99,8 @@ double distance(const Mat<mp80>& x, const Mat<mp80>& y) {
 
 // B, C and D alone cannot tell the three Lobatto IIIC-like families apart, the coefficients can.
 void checkFamilyMember(const Subject& subject, const Family& family, Findings& findings) {
-  const auto& [tableau, analysis] = subject;
+  const auto& tableau = subject.tableau;  // no structured binding: clang 14 captures none
+  const auto& analysis = subject.analysis;
   const SimplifyingOrders orders = family.orders(tableau.stages());
   const auto contradict = [&](Place place, const std::string& text) {
     add(findings, Verdict::kContradiction, place, "family", text);
