@@ -133,8 +133,11 @@ Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
                              id));
   }
   const Family& family = familyOf(member ? member->family : id);
-  const Index least = family.minStages();
+  // Their estimate would not see forces that change with time: EmbeddedEstimate.
+  Index least = family.minStages();
+  while (family.orders(least).q < 1) ++least;
   const Index given = member ? stagesOf(id, *member) : least;
+  least = std::min(least, given);
   const Index most = std::max(max_stages, given);
   const Index start = member ? given : std::clamp(first, least, most);
   std::vector<Tableau<Real>> members;

@@ -32,7 +32,8 @@ Tableau<Real> makeTableau(std::string_view id_or_file);
 /// Whether it is the id of a family, without a number of stages.
 bool isFamily(std::string_view id);
 
-/// For variable order: the members of a family up to `max_stages`. Of an id as `radau_iia_5` that member is
+/// For variable order: the members of a family of stage order 1 at least, up to `max_stages`. Of an id as
+/// `radau_iia_5` that member is
 /// the first used, and in any case there; of a family's id that with the number of stages next to
 /// `first`. Throws Misuse as makeTableau, and for a tableau file.
 template <class Real>

@@ -190,6 +190,16 @@ TEST(EmbeddedEstimate, RefusesASingularA) {
                Misuse);
 }
 
+// Radau IA with one stage lies at c = 0 with a = 1: neither it nor its estimate sees a force that grows from 0.
+TEST(EmbeddedEstimate, RefusesStageOrderZero) {
+  IntegratorOptions o = adaptive(1e-6);
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  EXPECT_THROW(
+      Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_1"), o), Misuse);
+  EXPECT_NO_THROW(
+      Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_2"), o));
+}
+
 TEST(EmbeddedEstimate, ControlsTheErrorOfRuns) {
   for (const char* method : {"radau_iia_3", "radau_iia_4", "gauss_3", "lobatto_iiic_4"}) {
     for (const double tol : {1e-4, 1e-7, 1e-10}) {

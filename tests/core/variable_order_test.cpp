@@ -151,6 +151,7 @@ TEST(VariableOrder, AFamilyBeginsWithTheStagesAskedFor) {
   EXPECT_EQ(startOf("radau_iia", 13, 6), 6);
   EXPECT_EQ(startOf("radau_iia", 5, 9), 5) << "no more than max_stages";
   EXPECT_EQ(startOf("lobatto_iiic", 13, 1), 2) << "the smallest there is";
+  EXPECT_EQ(startOf("radau_ia", 13, 1), 2) << "stage order 0 has no estimate";
   EXPECT_EQ(startOf("radau_iia_9", 5, 2), 9) << "a given member counts";
   EXPECT_THROW(makeMethods<double>("radau", 13, 5), Misuse);
   EXPECT_THROW(makeMethods<double>("radau_iia_x", 13, 5), Misuse);
