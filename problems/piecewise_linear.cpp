@@ -1,6 +1,7 @@
 #include "problems/piecewise_linear.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
@@ -63,6 +64,20 @@ Vec<Real> switching(const System<Real>& system, const State<Real>& s) {
   return g;
 }
 
+// A time in (0, step) at which g > 0, where g is not above 0 at both ends; 0 if there is none. Over a quarter of the
+// fastest time g rises and falls at most once: it may be the least of two smooth functions.
+template <class Real, class F>
+Real positiveInside(const F& g, const Real& step, const Real& at_start, const Real& at_end) {
+  const Real middle = g(Real(step / 2));
+  const auto [least, most] = std::minmax({at_start, middle, at_end});
+  if (middle > 0) return step / 2;
+  if (most + (most - least) < 0) return 0;  // a peak cannot rise by more than all three differ
+  constexpr int kBits = 40;
+  const auto negative = [&](const Real& tau) { return Real(-g(tau)); };
+  const auto [at, value] = boost::math::tools::brent_find_minima(negative, Real(0), step, kBits);
+  return value < 0 ? at : Real(0);
+}
+
 }  // namespace
 
 template <class Real>
@@ -76,17 +91,22 @@ State<Real> PiecewiseLinear<Real>::operator()(const Real& t) const {
     Real first = step;
     Index due = -1;
     for (Index i = 0; i < after.size(); ++i) {
-      if (!(after[i] > 0)) continue;
       const auto g = [&](const Real& tau) {
         return tau > 0 ? switching(*system, phase.after(tau, s))[i] : before[i];
       };
+      Real end = step, at_end = after[i];
+      if (!(at_end > 0)) {
+        end = before[i] < 0 ? positiveInside(g, step, before[i], after[i]) : Real(0);
+        if (!(end > 0)) continue;
+        at_end = g(end);
+      }
       std::uintmax_t iterations = 200;
       const auto narrow = [](const Real& a, const Real& b) {
         return b - a <= 2 * Eigen::NumTraits<Real>::epsilon() * b;
       };
       const Real root = before[i] < 0
-                            ? boost::math::tools::toms748_solve(g, Real(0), step, before[i],
-                                                                after[i], narrow, iterations)
+                            ? boost::math::tools::toms748_solve(g, Real(0), end, before[i], at_end, narrow,
+                                                                iterations)
                                   .second
                             : Real(0);
       if (due < 0 || root < first) {

@@ -5,7 +5,7 @@
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 
 #include "problems/elliptic.h"
-#include "tests/problems/scene_cases.h"
+#include "tests/problems/scene_run.h"
 
 namespace irk::test {
 namespace {
@@ -42,6 +42,21 @@ TEST(Exact, SolvesTheEquations) {
       rate(above.v, below.v, s.a());
       rate(above.x, below.x, s.k());
     }
+  }
+}
+
+// The force passes the yield force for 4 ms, between two of the exact solution's steps. Two integrators of other
+// families agree on what the slider has moved.
+TEST(Exact, SeesAYieldShorterThanAStep) {
+  const SceneCase c{"elastoplastic",
+                    {{"Fy", "1.85"}, {"Omega", "11.7"}, {"P0", "0.459"}, {"k", "128"}, {"m", "1.45"}}};
+  const auto exact = makeScene<double>(c.id, c.settings).exact(1.8);
+  EXPECT_GT(exact.x[0], 1e-5);
+  for (const char* method : {"radau_iia_7", "gauss_6"}) {
+    const Result r = run(c, 1.8, Discontinuity::kLocate, 1e-11, method);
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess);
+    EXPECT_NEAR(r.solution.state.x[0], exact.x[0], 1e-11) << method;
+    EXPECT_NEAR(r.solution.state.u[0], exact.u[0], 1e-11) << method;
   }
 }
 
