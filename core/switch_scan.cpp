@@ -1,8 +1,9 @@
 #include "core/switch_scan.h"
 
-#include <cstdint>
-
+#include <algorithm>
 #include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <cstdint>
 
 #include "core/multiprecision.h"
 
@@ -11,7 +12,10 @@ namespace {
 
 // A maximum is looked for where the samples' parabola, raised by this many times its height over a
 // sample, would pass 0. The height is at most an eighth of the second difference.
-constexpr double kCaution = 4;
+constexpr double kCaution = 8;
+// A corner, as of the least of two functions, shows in a third difference above this part of the second. Next to an
+// end of the step it hides its peak from the parabola: a probe at this part of a sample's distance sees it.
+constexpr double kCorner = 0.25, kProbe = 1e-3;
 // Of the search for a maximum: bits of theta, and evaluations.
 constexpr int kPeakBits = 20;
 constexpr std::uintmax_t kPeakEvaluations = 40;
@@ -65,18 +69,36 @@ void SwitchScan<Real>::look(Index j, Index last) {
     if (g_(i, j) > Real(0)) {
       due_.push_back({i, partOf<Real>(j > 0 ? j - 1 : 0), partOf<Real>(j)});
     }
-    if (j < 2) continue;
-    const Real left = g_(i, j - 2), middle = g_(i, j - 1), right = g_(i, j);
-    const Real bend = 2 * middle - left - right;
-    if (!(bend > Real(0))) continue;  // no maximum between them
-    if (middle >= left && middle >= right) {
-      lookForPeak(i, j - 2, j, middle, bend);
-    } else if (j == 2 && left > middle && 4 * middle > 3 * left + right) {
-      lookForPeak(i, 0, 1, left, bend);
-    } else if (j == last && right > middle && 4 * middle > 3 * right + left) {
-      lookForPeak(i, j - 1, j, right, bend);
-    }
+    lookBetween(i, j, last);
+    if (j == 3) lookForCorner(i, 0, 1);
+    if (j == last && j > 3) lookForCorner(i, j, -1);
   }
+}
+
+template <class Real>
+void SwitchScan<Real>::lookBetween(Index i, Index j, Index last) {
+  if (j < 2) return;
+  const Real left = g_(i, j - 2), middle = g_(i, j - 1), right = g_(i, j);
+  const Real bend = 2 * middle - left - right;
+  if (!(bend > Real(0))) return;  // no maximum between them
+  if (middle >= left && middle >= right) {
+    lookForPeak(i, j - 2, j, middle, bend);
+  } else if (j == 2 && left > middle && 4 * middle > 3 * left + right) {
+    lookForPeak(i, 0, 1, left, bend);
+  } else if (j == last && right > middle && 4 * middle > 3 * right + left) {
+    lookForPeak(i, j - 1, j, right, bend);
+  }
+}
+
+template <class Real>
+void SwitchScan<Real>::lookForCorner(Index i, Index end, Index inwards) {
+  using std::abs;
+  const Real g0 = g_(i, end), g1 = g_(i, end + inwards), g2 = g_(i, end + 2 * inwards);
+  const Real bend = 2 * g1 - g0 - g2, third = g_(i, end + 3 * inwards) - 3 * g2 + 3 * g1 - g0;
+  if (!(bend > Real(0)) || !(g0 > g1) || !(abs(third) > Real(kCorner) * bend)) return;
+  const Real rise = value(partOf<Real>(end) + Real(kProbe) * partOf<Real>(inwards), i) - g0;
+  if (!(g0 + rise / Real(kProbe) > Real(0))) return;
+  lookForPeak(i, std::min(end, end + inwards), std::max(end, end + inwards), g0, rise / Real(kProbe));
 }
 
 template <class Real>

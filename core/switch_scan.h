@@ -18,8 +18,9 @@ struct DueInside {
 };
 
 /// Samples the switching functions at kParts + 1 points of a solved step. A function that rises above
-/// 0 and returns between two samples is found where a parabola through three samples comes close to 0:
-/// there its maximum is looked for on the stages' polynomial. Owns scratch; keeps references.
+/// 0 and returns between two samples is found where a parabola through three samples comes close to 0, or
+/// where a corner next to an end of the step hides a peak: there its maximum is looked for on the stages'
+/// polynomial. Owns scratch; keeps references.
 template <class Real>
 class SwitchScan {
  public:
@@ -44,6 +45,8 @@ class SwitchScan {
  private:
   bool sample(Index j, const State<Real>& from, const State<Real>& end);
   void look(Index j, Index last);
+  void lookBetween(Index i, Index j, Index last);
+  void lookForCorner(Index i, Index end, Index inwards);
   void lookForPeak(Index i, Index left, Index right, const Real& g, const Real& bend);
 
   Switches<Real> switches_;

@@ -114,6 +114,41 @@ TEST(Success, SwitchThatComesAndGoesBetweenTwoSamplesIsFound) {
   }
 }
 
+/// On between `on` and `off`; the switching function is the least of a steep and a flat one, as that of a slider which
+/// yields while it moves: a corner without a maximum that a parabola through samples could show.
+struct Tent {
+  double on, off, up, down;
+  Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.d[0] * (2.0 - p.d[0]) - p.k[0];  // 1 while d = 1
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    const T rises = up * (p.t - on), falls = down * (off - p.t);
+    g[0] = p.d[0] > T(1.5) ? T(-1.0) : p.d[0] > T(0.5) ? T(p.t - off) : rises < falls ? rises : falls;
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = p.d[0] + 1.0;
+  }
+};
+
+TEST(Success, CornerThatRisesAboveZeroNextToAnEndOfAStepIsFound) {
+  for (const Tent problem : {Tent{0.004, 0.008, 4, 1}, Tent{0.01, 0.011, 1, 1}, Tent{0.02, 0.1, 9, 2},
+                             Tent{0.06, 0.065, 2, 1}, Tent{0.992, 0.996, 1, 4}, Tent{0.94, 0.95, 1, 2}}) {
+    const State<double> start(problem.sizes());
+    for (IntegratorOptions options : {adaptive(1e-8), embedded(1e-8)}) {
+      options.step.h = 1;  // the whole interval is the first step
+      const Result r = run(problem, start, 1, Discontinuity::kLocate, options);
+      ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+      ASSERT_EQ(r.events.size(), 2u) << problem.on;
+      EXPECT_NEAR(r.events[0].t, problem.on, 1e-10);
+      EXPECT_NEAR(r.solution.state.x[0], problem.off - problem.on, 1e-10) << problem.on;
+    }
+  }
+}
+
 /// Two switching functions whose roots lie in one step: each adds its own rate.
 struct Pair {
   double first, second;
