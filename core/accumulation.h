@@ -42,8 +42,24 @@ class Accumulation {
   }
 
  private:
-  static constexpr double kFree = 50, kMost = 30, kFinest = 5e-13;
+  static constexpr double kFree = 50, kMost = 300, kFinest = 5e-14;
   double caution_, most_;
+};
+
+/// The estimated errors of all steps, added up: where errors of stiff components decay the result is better, where
+/// the motion amplifies them it is worse. Above the bar nothing speaks for the result.
+class ErrorSum {
+ public:
+  explicit ErrorSum(const Tolerances& tolerances)
+      : bar_(kBar + kRoundOff / std::max(tolerances.rtol, tolerances.atol)) {}
+  void begin() { sum_ = 0; }
+  /// In tolerances.
+  void add(double error) { sum_ += error; }
+  bool aboveBar() const { return sum_ > bar_; }
+
+ private:
+  static constexpr double kBar = 1000, kRoundOff = 1e-9;  // tolerances; absolute
+  double bar_, sum_ = 0;
 };
 
 }  // namespace irk

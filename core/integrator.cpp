@@ -79,7 +79,8 @@ class Integrator<Real>::Run {
         options_(validated(options)),
         counted_(*system_, counters_, options_.threads),
         schemes_(methods.members.begin(), methods.members.end()),
-        norm_(counted_, options_.tolerances, scale) {
+        norm_(counted_, options_.tolerances, scale),
+        error_sum_(options_.tolerances) {
     const bool one = methods.members.size() == 1;
     if (methods.start >= methods.members.size() ||
         (!one && options_.order != OrderControl::kVariable)) {
@@ -194,6 +195,7 @@ class Integrator<Real>::Run {
     if (length_ == 0) return advance_->success();
     double h = std::min(firstStep(), options_.step.h_max);
     stall_.begin(static_cast<double>(state().t));
+    error_sum_.begin();
     Outcome worst = Outcome::kStepTooSmall;  // what a step below the smallest is called
     for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
       const Outcome caller = askCaller();
@@ -241,6 +243,10 @@ class Integrator<Real>::Run {
       }
       if (outcome != Outcome::kSuccess) {
         return advance_->failed(outcome, size, "switch not passed");
+      }
+      error_sum_.add(result.added);
+      if (error_sum_.aboveBar()) {
+        return advance_->failed(Outcome::kInaccurate, size, because("the steps' errors add up").c_str());
       }
       const NextStep next = attempt_->accepted(result, size, h);
       h = std::min(next.h, options_.step.h_max);
@@ -304,6 +310,7 @@ class Integrator<Real>::Run {
   std::unique_ptr<StepController> controller_;
   std::unique_ptr<Advance<Real>> advance_;
   StallDetector stall_;
+  ErrorSum error_sum_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   int order_;

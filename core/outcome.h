@@ -18,6 +18,7 @@ enum class Outcome {
   kChattering,         ///< switches follow each other without time passing
   kStalled,            ///< steps stay so small that the end is out of reach
   kDrift,              ///< the end is reached, but it violates the position constraints
+  kInaccurate,         ///< the estimated errors of all steps add up to more than 1000 tolerances
 };
 
 /// The name in tables: `success`, `newton_failed`, ...
@@ -35,6 +36,7 @@ constexpr std::string_view name(Outcome outcome) {
     case Outcome::kChattering: return "chattering";
     case Outcome::kStalled: return "stalled";
     case Outcome::kDrift: return "drift";
+    case Outcome::kInaccurate: return "inaccurate";
   }
   return "?";
 }

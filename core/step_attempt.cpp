@@ -102,7 +102,10 @@ class Doubling final : public StepAttempt<Real> {
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
     if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness(middle_));
     result.error = error(to, static_cast<double>(h));
-    if (accumulates_) result.error *= accumulation_.factor(steps_);
+    if (accumulates_) {
+      result.added = result.error;
+      result.error *= accumulation_.factor(steps_);
+    }
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
       result.outcome = Outcome::kNotFinite;

@@ -11,6 +11,8 @@ struct AttemptResult : StepResult {
   /// Estimate in the error norm, accepted up to 1; NaN without one. Of variable order: times what is
   /// asked of the member.
   double error = 0;
+  /// What an accepted step adds to the error of the result, in tolerances; 0 where it is far below the estimate.
+  double added = 0;
 };
 
 /// What an accepted step means for the next one.

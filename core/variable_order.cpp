@@ -104,6 +104,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
       again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
+  result.added = member().adds ? estimate.error : 0;
   result.error = estimate.error * member().exigence;
   result.error *= member().accumulation.factor(member().accumulates ? steps_ : 0);
   result.error = worse(result.error, order(), result.mode_error, 1);

@@ -57,6 +57,7 @@ class VariableOrder final : public StepAttempt<Real> {
           order(EmbeddedEstimate<Real>::order(s)),
           accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) ||
                       !dampsStiffErrors(s)),
+          adds(s.tableau.order <= order),
           accumulation(stiffCaution(s), options.tolerances) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
@@ -64,6 +65,7 @@ class VariableOrder final : public StepAttempt<Real> {
     int order;
     /// Its estimate is hardly larger than the error, and its steps are many; or errors do not decay.
     bool accumulates;
+    bool adds;  ///< its estimate is of the order of the error
     Accumulation accumulation;
     static constexpr int kMaxAccumulating = 4;
     int epoch = 0;        ///< in which it last forgot
