@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/text.h"
 #include "experiments/numbers.h"
 
@@ -32,7 +35,13 @@ class FileReader {
   StudyValue value(std::string_view key, const toml::node& node) const {
     StudyValue value{{}, place(node.source())};
     if (const auto* list = node.as_array()) {
-      for (const auto& item : *list) value.items.push_back(scalar(key, item));
+      for (const auto& item : *list) {
+        auto text = scalar(key, item);
+        if (std::find(value.items.begin(), value.items.end(), text) != value.items.end()) {
+          refuse(item, fmt::format("{}: '{}' twice in the list", key, text));
+        }
+        value.items.push_back(std::move(text));
+      }
       if (value.items.empty()) refuse(node, fmt::format("{}: an empty list", key));
     } else {
       value.items.push_back(scalar(key, node));
@@ -45,16 +54,22 @@ class FileReader {
     refuse(node, fmt::format("{}: a table is expected", key));
   }
 
-  /// Overwrites `keys` with what the table holds; `quick` inside it is left out.
-  void merge(const toml::table& from, StudyKeys& keys) const {
+  enum class Quick { kRefused, kLeftOut };
+
+  /// Overwrites `keys` with what the table holds.
+  void merge(const toml::table& from, StudyKeys& keys, Quick quick) const {
     for (const auto& [key, node] : from) {
-      if (key.str() != "quick")
-        keys.insert_or_assign(std::string(key.str()), value(key.str(), node));
+      if (key.str() == "quick") {
+        if (quick == Quick::kLeftOut) continue;
+        refuse(node, "a table 'quick' in this table has no effect: [quick], [block.quick], [timing.quick] or "
+                     "[audit.quick] is expected");
+      }
+      keys.insert_or_assign(std::string(key.str()), value(key.str(), node));
     }
   }
 
   void mergeQuick(const toml::table& from, StudyKeys& keys) const {
-    if (const auto* quick = from.get("quick")) merge(table("quick", *quick), keys);
+    if (const auto* quick = from.get("quick")) merge(table("quick", *quick), keys, Quick::kRefused);
   }
 
  private:
@@ -71,7 +86,7 @@ void readStudyTable(const FileReader& reader, const std::string& key, const toml
                     bool quick, StudyKeys& study) {
   const toml::table& table = reader.table(key, node);
   StudyKeys keys;
-  reader.merge(table, keys);
+  reader.merge(table, keys, FileReader::Quick::kLeftOut);
   if (quick) reader.mergeQuick(table, keys);
   study[key] = {{"true"}, reader.place(node.source())};
   for (auto& [name, value] : keys) study[key + "." + name] = std::move(value);
@@ -89,7 +104,35 @@ void readStudyKey(const FileReader& reader, std::string_view key, const toml::no
   study[std::string(key)] = reader.value(key, node);
 }
 
+// toml++ (3.3) asserts that a table's header goes on with its name, in a build without assertions it reads on:
+// `[` at the end of a line ends the program. Lines that begin so are refused, those inside of lists as well: a study
+// has no lists of lists.
+void refuseNamelessTables(std::string_view text, const FileReader& reader) {
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || static_cast<unsigned char>(c) >= 0x80; };
+  const auto mayBegin = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-\"']").find(c) != std::string_view::npos;
+  };
+  const auto trimmed = [&](std::string_view line) {
+    while (!line.empty() && isBlank(line.front())) line.remove_prefix(1);
+    return line;
+  };
+  for (toml::source_index number = 1; !text.empty();) {
+    const auto end = std::min(text.find_first_of("\n\v\f\r"), text.size());
+    const auto line = trimmed(text.substr(0, end));
+    if (line.starts_with('[')) {
+      const auto name = trimmed(line.substr(line.starts_with("[[") ? 2 : 1));
+      if (name.empty() || !mayBegin(name.front())) {
+        throw Misuse(fmt::format("{}: a table's name is expected after '['", reader.place({{number, 1}, {}, {}})));
+      }
+    }
+    if (end < text.size() && text[end] == '\n') ++number;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
 toml::table parsed(std::string_view text, const FileReader& reader) {
+  refuseNamelessTables(text, reader);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -108,17 +151,20 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
 
   StudyKeys defaults;
   if (const auto* node = root.get("defaults"))
-    reader.merge(reader.table("defaults", *node), defaults);
+    reader.merge(reader.table("defaults", *node), defaults, FileReader::Quick::kRefused);
   const auto* blocks = root.get_as<toml::array>("block");
   if (root.contains("audit")) {
-    if (blocks) throw Misuse(file + ": [audit] draws its runs: no [[block]] beside it");
+    for (const auto* key : {"block", "defaults", "quick"}) {
+      const auto* node = root.get(key);
+      if (node) reader.refuse(*node, fmt::format("{}: [audit] draws its runs: no {} beside it", key, key));
+    }
     return result;
   }
   if (!blocks || blocks->empty()) throw Misuse(file + ": no [[block]]: a study needs at least one");
   for (const auto& node : *blocks) {
     const toml::table& block = reader.table("block", node);
     StudyKeys keys = defaults;
-    reader.merge(block, keys);
+    reader.merge(block, keys, FileReader::Quick::kLeftOut);
     if (quick) reader.mergeQuick(root, keys);
     if (quick) reader.mergeQuick(block, keys);
     keys.try_emplace("scene", StudyValue{{}, reader.place(node.source())});
