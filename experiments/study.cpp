@@ -191,7 +191,9 @@ Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
     }
   } else if (find(keys, "refine_most")) {
     series.end = SeriesEnd::kAsymptotic;
-    const double start = makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+    const double start = atPlace(*find(keys, "scene"), [&] {
+      return makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+    });
     for (const int n : divisions(refineMost(keys))) {
       append([&](RunSpec& run) { setFixedStep(run, (run.t_end - start) / n); });
     }

@@ -129,6 +129,7 @@ std::size_t check(const SceneReferences& references, const std::filesystem::path
 }  // namespace
 
 int referenceCommand(const ReferenceOptions& options, Streams streams) {
+  const auto scenes = scenesWanted(options.scenes);
   if (!options.out.empty() && options.into_sources) {
     throw Misuse("--out and --into-sources: one folder is expected");
   }
@@ -138,7 +139,6 @@ int referenceCommand(const ReferenceOptions& options, Streams streams) {
   if (options.out.empty() && !options.into_sources && !options.check) {
     throw Misuse("no --out FOLDER for the files: give one, --into-sources, or --check");
   }
-  const auto scenes = scenesWanted(options.scenes);
   const auto independent = independentValues();
   const auto folder = options.out.empty() ? referenceFolder() : std::filesystem::path(options.out);
   const InterruptScope interrupts;
