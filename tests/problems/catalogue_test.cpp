@@ -106,11 +106,16 @@ TEST(Catalogue, RefusesScalarsThatASceneDoesNotOffer) {
   EXPECT_NO_THROW(makeScene<mp50>(entry, {}));
   entry.id = "mine";
   entry.make_mp50 = {};
-  EXPECT_EQ(misuseOf([&] { makeScene<mp50>(entry, {}); }).find("scalar = 'mp50': scene mine offers double; with mp50: "), 0U);
+  const std::string message = misuseOf([&] { makeScene<mp50>(entry, {}); });
+  EXPECT_EQ(message.find("scalar = 'mp50': scene mine offers double; with mp50: "), 0U) << message;
   EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }), "");
   entry.make = {};
   EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }).find("scalar = 'double': scene mine offers none"), 0U);
-  entry.make = [](const Settings&) { return Scene<double>{}; };
+  entry.make = [](const Settings&) {
+    auto scene = makeScene<double>("kepler");
+    scene.system = {};
+    return scene;
+  };
   EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }), "scene mine makes no system");
 }
 
