@@ -74,12 +74,14 @@ constexpr const char* kScalarId<mp100> = "mp100";
 template <class Real>
 [[noreturn]] void refuseScalar(const SceneEntry& refused) {
   std::string offers, offering;
-  const auto append = [](std::string& list, const std::string& word) { list += (list.empty() ? "" : ", ") + word; };
-  if (refused.make) append(offers, "double");
-  if (refused.make_mp50) append(offers, "mp50");
-  if (refused.make_mp100) append(offers, "mp100");
+  const auto append = [](std::string& list, const char* comma, const std::string& word) {
+    list += (list.empty() ? "" : comma) + word;
+  };
+  if (refused.make) append(offers, " and ", "double");
+  if (refused.make_mp50) append(offers, " and ", "mp50");
+  if (refused.make_mp100) append(offers, " and ", "mp100");
   for (const SceneEntry& entry : sceneCatalogue()) {
-    if (makerOf<Real>(entry)) append(offering, entry.id);
+    if (makerOf<Real>(entry)) append(offering, ", ", entry.id);
   }
   const std::string id = kScalarId<Real>;
   throw Misuse("scalar = '" + id + "': scene " + refused.id + " offers " + (offers.empty() ? "none" : offers) +
