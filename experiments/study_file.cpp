@@ -193,9 +193,9 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
     reader.merge(reader.table("defaults", *node), defaults, FileReader::Quick::kRefused);
   const auto* blocks = root.get_as<toml::array>("block");
   if (root.contains("audit")) {
-    for (const auto* key : {"block", "defaults", "quick"}) {
+    for (const auto& [key, name] : {std::pair("block", "[[block]]"), {"defaults", "[defaults]"}, {"quick", "[quick]"}}) {
       const auto* node = root.get(key);
-      if (node) reader.refuse(*node, fmt::format("{}: [audit] draws its runs: no {} beside it", key, key));
+      if (node) reader.refuse(*node, fmt::format("[audit] draws its runs: no {} beside it", name));
     }
     return result;
   }

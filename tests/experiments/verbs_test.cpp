@@ -209,6 +209,7 @@ TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
 }
 
 TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
+  std::filesystem::create_directories(results());
   const Ended nothing = program({"plot", "drift", "--results", results()});
   EXPECT_EQ(nothing.status, 1);
   EXPECT_TRUE(containsAll(nothing.err, {"'drift'", "irk run drift"}));
