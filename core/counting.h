@@ -16,6 +16,7 @@ class CountingSystem final : public System<Real> {
   CountingSystem(const System<Real>& inner, Counters& counters, int threads = 1)
       : inner_(inner), counters_(counters), threads_(threads) {}
   Sizes sizes() const override { return inner_.sizes(); }
+  Sizes sceneSizes() const override { return inner_.sceneSizes(); }
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
     count(counters_.residuals);
     inner_.evaluate(level, p, r);

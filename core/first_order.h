@@ -24,6 +24,7 @@ class FirstOrderForm final : public System<Real> {
   explicit FirstOrderForm(std::shared_ptr<const System<Real>> inner);
 
   Sizes sizes() const override { return sizes_; }
+  Sizes sceneSizes() const override { return inner_sizes_; }
   /// All levels are the same: there are no constraints left. NaN where D0 is singular.
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override;
   /// Implicit differentiation: D0 dw = -dr at fixed w = (a, k, z).

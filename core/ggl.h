@@ -29,6 +29,7 @@ class GglSystem final : public System<Real> {
   }
 
   Sizes sizes() const override { return sizes_; }
+  Sizes sceneSizes() const override { return inner_; }
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
     evaluateAt(level, p, r.data());
   }

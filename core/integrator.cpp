@@ -10,6 +10,7 @@
 #include "core/counting.h"
 #include "core/multiprecision.h"
 #include "core/stall_detector.h"
+#include "core/system_check.h"
 
 namespace irk {
 namespace {
@@ -23,6 +24,13 @@ IntegratorOptions validated(IntegratorOptions options) {
     options.newton.kappa = std::numeric_limits<double>::min();
   }
   return options;
+}
+
+template <class Real>
+std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> system,
+                                            const Vec<double>& scale) {
+  requireSystem(system.get(), scale);
+  return system;
 }
 
 template <class Real>
@@ -75,7 +83,7 @@ class Integrator<Real>::Run {
  public:
   Run(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
       const IntegratorOptions& options, const Vec<double>& scale)
-      : system_(std::move(system)),
+      : system_(checked(std::move(system), scale)),
         options_(validated(options)),
         counted_(*system_, counters_, options_.threads),
         schemes_(methods.members.begin(), methods.members.end()),
@@ -105,10 +113,9 @@ class Integrator<Real>::Run {
                            const Monitor<Real>& monitor) {
     counters_ = {};
     monitor_ = &monitor;
-    if (!(start.t <= t_end)) {
-      throw Misuse("t_end = " + std::to_string(static_cast<double>(t_end)) +
-                   " lies before the start, t = " + std::to_string(static_cast<double>(start.t)));
-    }
+    requireStart(*system_, start, t_end);
+    const std::string not_finite = notFinite(start);
+    if (!not_finite.empty()) return {Outcome::kNotFinite, "at the start: " + not_finite, start, counters_};
     length_ = static_cast<double>(Real(t_end - start.t));
     const Outcome outcome = advance_->begin(start, length_, monitor);
     followOrder(1, 0);

@@ -48,6 +48,7 @@
 
 #include "core/constraint_views.h"
 #include "core/misuse.h"
+#include "core/system_check.h"
 
 namespace irk {
 
@@ -86,10 +87,11 @@ constexpr Index kMostDiscrete = 16;
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
  public:
-  /// Throws Misuse for `smooth` where the problem switches but has no regularisation, and for `ignore`
+  /// Throws Misuse for sizes that cannot be (core/system_check.h), for `smooth` where the problem switches but has no regularisation, and for `ignore`
   /// and `iterate` where its state jumps: they go on over a switch.
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
+    requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
     if (sizes_.discrete > kMostDiscrete || sizes_.switches > kMostDiscrete) {
       throw Misuse("a problem has " + std::to_string(sizes_.discrete) + " discrete states and " +
                    std::to_string(sizes_.switches) + " switching functions, allowed are " +
@@ -209,6 +211,10 @@ class ProblemSystem final : public System<Real> {
   const P& problem() const { return problem_; }
 
  private:
+  static constexpr bool kHasConstraints =
+      requires(const P& problem, const Point<Real>& p, Real* g) {
+    problem.constraints(p.t, p.u, g);
+  };
   static constexpr bool kHasSwitching =
       requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.switching(p, out);

@@ -131,6 +131,8 @@ class System {
   virtual ~System() = default;
 
   virtual Sizes sizes() const = 0;
+  /// Those of the scene's unknowns, which fromScene takes.
+  virtual Sizes sceneSizes() const { return sizes(); }
 
   /// r (n rows) at p. No aliasing between p and r. Writes every row; never throws; what cannot be
   /// computed is NaN.

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -10,6 +9,7 @@
 #include "core/text.h"
 #include "experiments/build_info.h"
 #include "experiments/commands/commands.h"
+#include "experiments/failure.h"
 
 namespace irk {
 namespace {
@@ -20,6 +20,20 @@ std::string optionName(std::string_view field) {
   std::string name = "--" + std::string(field);
   std::replace(name.begin() + 2, name.end(), '_', '-');
   return name;
+}
+
+// No option and no argument has an empty value; CLI11 would take `--method= x` as `--method x`.
+void refuseEmpty(const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument.empty()) {
+      throw Misuse(i == 0 ? "an empty argument: a verb is expected, see irk --help"
+                          : "an empty value after '" + arguments[i - 1] + "': a value is expected");
+    }
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
+      throw Misuse("an empty value in '" + argument + "': a value is expected");
+    }
+  }
 }
 
 /// The verbs, their options and what each one does when it is chosen.
@@ -40,24 +54,46 @@ class Program {
   }
 
   int run(std::vector<std::string> arguments, Streams streams) {
-    requireKnownVerb(arguments);
+    refuseEmpty(arguments);
+    requireKnownVerb(app_, arguments, 0);
+    requireKnownOption(arguments);
+    const std::string help = helpOf(arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
       app_.parse(arguments);
     } catch (const CLI::ParseError& error) {
-      return app_.exit(error, streams.out, streams.err) == 0 ? 0 : kMisuseStatus;
+      if (error.get_exit_code() == 0) return app_.exit(error, streams.out, streams.err);  // --help, --version
+      throw Misuse(std::string(error.what()) + "; see " + help);
     }
     return action_(streams);
   }
 
  private:
-  void requireKnownVerb(const std::vector<std::string>& arguments) {
-    if (arguments.empty() || arguments.front().starts_with('-')) return;
+  // Argument i is one of the parent's verbs, where it has some; so is the next one, of that verb.
+  static void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments,
+                               std::size_t i) {
+    const auto verbs = parent.get_subcommands({});
+    if (verbs.empty() || i == arguments.size() || arguments[i].starts_with('-')) return;
     std::vector<std::string> known;
-    for (const auto* sub : app_.get_subcommands({})) known.push_back(sub->get_name());
-    if (std::find(known.begin(), known.end(), arguments.front()) == known.end()) {
-      throw Misuse(unknownName("verb", arguments.front(), known));
+    for (auto* sub : verbs) {
+      known.push_back(sub->get_name());
+      if (known.back() == arguments[i]) return requireKnownVerb(*sub, arguments, i + 1);
     }
+    throw Misuse(unknownName("verb", arguments[i], known));
+  }
+
+  // Before a verb; behind it CLI11 names what it does not know.
+  static void requireKnownOption(const std::vector<std::string>& arguments) {
+    const std::vector<std::string> known{"--help", "-h", "--version"};
+    if (arguments.empty() || !arguments.front().starts_with('-')) return;
+    if (std::find(known.begin(), known.end(), arguments.front()) == known.end()) {
+      throw Misuse(unknownName("option before a verb", arguments.front(), known));
+    }
+  }
+
+  static std::string helpOf(const std::vector<std::string>& arguments) {
+    const bool verb = !arguments.empty() && !arguments.front().starts_with('-');
+    return verb ? "irk " + arguments.front() + " --help" : "irk --help";
   }
 
   CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning,
@@ -108,10 +144,11 @@ class Program {
     sub->add_option("--set", solve_.settings, "name=value, a parameter of the scene")
         ->take_all()
         ->expected(1);
-    sub->add_option("--step", solve_.step, "fixed steps (first step with --control paper)");
+    sub->add_option("--step", solve_.step, "fixed steps (first step with --control paper, and of a peer)");
     sub->add_option("--tol", solve_.tol, "rtol and atol");
     sub->add_flag("--json", solve_.json, "print one JSON object");
-    sub->add_option("--plot", solve_.plot, "draw the solution to FILE.svg and FILE.png");
+    sub->add_option("--plot", solve_.plot,
+                    "draw the solution to FILE.svg and FILE.png, in a folder that exists");
     for (const auto& field : specFields()) {
       const bool special = field.name == "scene" || field.name == "settings" || field.name == "h";
       if (special) continue;
@@ -203,7 +240,9 @@ class Program {
     sub->add_option("--jobs", jobs_, "threads; 0 = one per processor");
     sub->add_flag("--check", reference_.check,
                   "write nothing; status 1 if a file disagrees with what is computed");
-    sub->add_option("--out", reference_.out, "folder of the files (problems/reference)");
+    sub->add_option("--out", reference_.out, "folder of the files");
+    sub->add_flag("--into-sources", reference_.into_sources,
+                  "write to problems/reference of the sources instead of --out");
   }
 
   int parseJobs() const {
@@ -227,15 +266,15 @@ class Program {
 }  // namespace
 
 int runProgram(const std::vector<std::string>& arguments, Streams streams) {
+  int status = 0;
   try {
-    return Program().run(arguments, streams);
-  } catch (const Misuse& misuse) {
-    streams.err << "irk: " << misuse.what() << '\n';
-    return kMisuseStatus;
-  } catch (const std::filesystem::filesystem_error& error) {  // a folder of results that cannot be made
-    streams.err << "irk: " << error.what() << '\n';
-    return kMisuseStatus;
+    status = Program().run(arguments, streams);
+  } catch (...) {
+    status = reportException(streams.err);
   }
+  if (streams.out.flush()) return status;
+  if (status == 0) printErrorLine(streams.err, "the output cannot be written: is the disk full?");
+  return status == 0 ? kFailedStatus : status;
 }
 
 }  // namespace irk

@@ -7,6 +7,7 @@
 
 namespace irk {
 
+inline constexpr int kFailedStatus = 1;
 inline constexpr int kMisuseStatus = 2;
 inline constexpr int kInterruptedStatus = 130;  ///< as shells report SIGINT
 
@@ -15,8 +16,9 @@ struct Streams {
   std::ostream& err;
 };
 
-/// Runs `irk arguments...`. Returns the exit status: 0 done, 1 the run failed, kMisuseStatus with a
-/// message on `err`, kInterruptedStatus.
+/// Runs `irk arguments...`. Returns the exit status: 0 done; kFailedStatus; kMisuseStatus with one line
+/// `irk: what, where, what is allowed` on `err`; kInterruptedStatus. Throws nothing. Output that cannot be written is
+/// a failure.
 int runProgram(const std::vector<std::string>& arguments, Streams streams);
 
 }  // namespace irk

@@ -1,9 +1,12 @@
 #include "experiments/environment.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 
+#include "core/misuse.h"
 #include "experiments/build_info.h"
 
 namespace irk {
@@ -42,9 +45,25 @@ std::string dateText() {
 }
 
 std::filesystem::path homeFolder() {
-  if (const char* home = std::getenv("IRK_HOME")) return home;
-  if (std::filesystem::is_directory("plots")) return ".";
-  return buildInfo().source_dir;
+  namespace fs = std::filesystem;
+  const auto isHome = [](const fs::path& folder) {
+    std::error_code none;
+    return fs::is_regular_file(folder / "plots" / "figures.txt", none);
+  };
+  if (const char* home = std::getenv("IRK_HOME")) {
+    if (isHome(home)) return home;
+    throw Misuse(fmt::format("IRK_HOME = '{}': a folder with plots/figures.txt is expected", home));
+  }
+  const fs::path sources = buildInfo().source_dir;
+  if (isHome(sources)) return sources;
+  // The tree was moved: the program lies below it, in build/release.
+  std::error_code error;
+  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (int up = 0; up < 3 && !error; ++up, folder = folder.parent_path()) {
+    if (isHome(folder)) return folder;
+  }
+  throw Misuse(fmt::format("no plots/figures.txt in {} or above the program: set IRK_HOME to the folder of the sources",
+                           sources.string()));
 }
 
 }  // namespace irk

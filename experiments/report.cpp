@@ -11,14 +11,17 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <ostream>
 #include <string_view>
 
+#include "core/input_file.h"
 #include "core/misuse.h"
+#include "core/text.h"
 #include "experiments/claims/claims.h"
 #include "experiments/environment.h"
+#include "experiments/failure.h"
+#include "experiments/figure_path.h"
 #include "experiments/html.h"
 #include "experiments/order_fit.h"
 #include "experiments/study.h"
@@ -93,14 +96,12 @@ std::string shellQuoted(std::string_view text) {
   return quoted;
 }
 
-bool hasResults(const Figure& figure, const ReportOptions& options) {
-  return std::filesystem::is_directory(options.results / figure.study);
+std::string commandOf(const std::string& study) {
+  return study == kTableaus ? "tableau table" : "run " + study;
 }
 
-std::string readText(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Misuse(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+bool hasResults(const Figure& figure, const ReportOptions& options) {
+  return std::filesystem::is_directory(options.results / figure.study);
 }
 
 std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
@@ -111,6 +112,27 @@ std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
     }
   }
   return studies;
+}
+
+// `study` has figures and results; without a study: any has results.
+void requireResults(const std::string& study, const std::vector<Figure>& figures,
+                    const ReportOptions& options) {
+  const auto studies = studiesOf(figures);
+  if (!study.empty() && std::find(studies.begin(), studies.end(), study) == studies.end()) {
+    throw Misuse(unknownName("study with figures", study, studies));
+  }
+  requireResultsFolder(options.results);
+  requirePlainPath("--results", options.results.string());
+  const bool found = std::any_of(figures.begin(), figures.end(), [&](const Figure& figure) {
+    return (study.empty() || figure.study == study) && hasResults(figure, options);
+  });
+  if (found) return;
+  if (study.empty()) {
+    throw Failure(fmt::format("no tables of any study in '{}': irk run STUDY makes them",
+                              options.results.string()));
+  }
+  throw Failure(fmt::format("no results of study '{}' in '{}': irk {} makes them", study,
+                            options.results.string(), commandOf(study)));
 }
 
 std::string studyTitle(const std::string& id) {
@@ -150,6 +172,12 @@ std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions&
 
 }  // namespace
 
+void requireResultsFolder(const std::filesystem::path& results) {
+  std::error_code none;
+  if (std::filesystem::is_directory(results, none)) return;
+  throw Misuse(fmt::format("--results '{}': a folder of results is expected", results.string()));
+}
+
 std::vector<Figure> readFigures(const std::filesystem::path& file) {
   constexpr std::size_t kFields = 6;
   std::ifstream in(file);
@@ -184,15 +212,15 @@ bool drawFigure(const std::string& script, const std::string& commands,
 }
 
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
+  const auto figures = readFigures(options.home / "plots" / "figures.txt");
+  requireResults(study, figures, options);
   std::filesystem::create_directories(figureFolder(options));
   int failures = 0;
-  for (const auto& figure : readFigures(options.home / "plots" / "figures.txt")) {
+  for (const auto& figure : figures) {
     if (!study.empty() && figure.study != study) continue;
     if (!hasResults(figure, options)) {
-      if (!study.empty()) ++failures;
-      const auto command = figure.study == kTableaus ? "tableau table" : "run " + figure.study;
       fmt::print(err, "figure {}: no results of study '{}' yet: irk {}\n", figure.name,
-                 figure.study, command);
+                 figure.study, commandOf(figure.study));
       continue;
     }
     if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) {
@@ -204,7 +232,7 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
 
 std::filesystem::path writeReport(const ReportOptions& options) {
   const auto figures = readFigures(options.home / "plots" / "figures.txt");
-  std::string page = readText(options.home / "plots" / "report.html");
+  std::string page = readInputFile(options.home / "plots" / "report.html");
   std::string orders, environment;
   for (const auto& study : studiesOf(figures)) {
     const auto folder = options.results / study;
@@ -230,7 +258,7 @@ std::filesystem::path writeReport(const ReportOptions& options) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream out(path, std::ios::binary);
   if (!(out << page).flush()) {
-    throw Misuse(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+    throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
   }
   return path;
 }

@@ -13,6 +13,9 @@ struct Figure {
   std::string study, script, name, title, caption, assignments;
 };
 
+/// Throws Misuse where there is no such folder.
+void requireResultsFolder(const std::filesystem::path& results);
+
 /// Throws Misuse with file and line for a line of another form.
 std::vector<Figure> readFigures(const std::filesystem::path& file);
 
@@ -27,7 +30,8 @@ bool drawFigure(const std::string& script, const std::string& commands,
 
 /// Draws results/report/figures/<name>.svg and .png for every figure whose study has results;
 /// `study` empty: for all studies. Returns the number of figures that failed, each with a message
-/// on `err`.
+/// on `err`. Throws Misuse for a study without figures and for results that are no folder, Failure where nothing
+/// that is asked for has results.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
 /// Writes results/report/index.html from plots/report.html and returns its path.

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
+#include "core/input_file.h"
 #include "core/text.h"
 #include "experiments/audit/draw.h"
 #include "experiments/builtin_studies.h"
@@ -20,10 +21,6 @@
 
 namespace irk {
 namespace {
-
-// Keys of a block that are no fields of a spec.
-constexpr std::string_view kSweepKeys[] = {"families",   "stages", "methods",
-                                           "tolerances", "steps",  "refine_most"};
 
 template <class F>
 auto atPlace(const StudyValue& value, F&& f) {
@@ -53,6 +50,13 @@ double number(const StudyKeys& keys, std::string_view key, double fallback,
   return atPlace(*value, [&] { return parseNumber(key, single(key, *value), range); });
 }
 
+std::int64_t integer(const StudyKeys& keys, std::string_view key, std::int64_t fallback,
+                     std::int64_t min, std::int64_t max) {
+  const auto* value = find(keys, key);
+  if (!value) return fallback;
+  return atPlace(*value, [&] { return parseInteger(key, single(key, *value), min, max); });
+}
+
 std::vector<double> numbers(const StudyValue& value, std::string_view key,
                             const NumberRange& range) {
   std::vector<double> all;
@@ -80,8 +84,17 @@ std::vector<Index> stageList(const StudyValue& value) {
   };
   for (const std::string_view item : value.items) {
     const auto dots = item.find("..");
-    const auto last = dots == item.npos ? integer(item) : integer(item.substr(dots + 2));
-    for (auto s = integer(item.substr(0, dots)); s <= last; ++s) stages.push_back(s);
+    const auto first = integer(item.substr(0, dots));
+    const auto last = dots == item.npos ? first : integer(item.substr(dots + 2));
+    if (first > last) {
+      throw Misuse(fmt::format("{}: stages = '{}': the first number is above the last", value.place, item));
+    }
+    for (auto s = first; s <= last; ++s) {
+      if (std::find(stages.begin(), stages.end(), s) != stages.end()) {
+        throw Misuse(fmt::format("{}: stages: {} twice, in '{}' again", value.place, s, item));
+      }
+      stages.push_back(s);
+    }
   }
   return stages;
 }
@@ -119,6 +132,11 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
   if (methods.empty()) {
     throw Misuse(find(keys, "scene")->place + ": no methods: give methods, or families and stages");
   }
+  std::set<std::string_view> known;
+  for (const auto& method : methods) {
+    if (known.insert(method).second) continue;
+    throw Misuse(fmt::format("{}: method '{}' twice, in methods and in families", families->place, method));
+  }
   return methods;
 }
 
@@ -130,9 +148,7 @@ std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   std::stable_partition(ordered.begin(), ordered.end(),
                         [](const auto& key) { return key.first == "configuration"; });
   for (const auto& [key, value] : ordered) {
-    if (std::find(std::begin(kSweepKeys), std::end(kSweepKeys), key) != std::end(kSweepKeys)) {
-      continue;
-    }
+    if (!isSpecKey(key)) continue;
     const auto& field = atPlace(
         value, [&]() -> const auto& { return findField(key); });
     std::vector<RunSpec> product;
@@ -153,6 +169,10 @@ void setFixedStep(RunSpec& spec, double h) {
   spec.options.step.h = h;
 }
 
+int refineMost(const StudyKeys& keys) {
+  return static_cast<int>(integer(keys, "refine_most", 2, 2, 1'000'000'000));
+}
+
 Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
   Series series;
   const auto append = [&](auto&& change) {
@@ -171,10 +191,10 @@ Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
     }
   } else if (find(keys, "refine_most")) {
     series.end = SeriesEnd::kAsymptotic;
-    constexpr NumberRange kMost{[](double x) { return x >= 2 && x <= 1e9; }, "2 <= N <= 1e9"};
-    const double most = number(keys, "refine_most", 2, kMost);
-    const double start = makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
-    for (const int n : divisions(static_cast<int>(most))) {
+    const double start = atPlace(*find(keys, "scene"), [&] {
+      return makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+    });
+    for (const int n : divisions(refineMost(keys))) {
       append([&](RunSpec& run) { setFixedStep(run, (run.t_end - start) / n); });
     }
   } else {
@@ -183,10 +203,20 @@ Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
   return series;
 }
 
+std::size_t runsOfSeries(const StudyKeys& keys) {
+  if (const auto* tolerances = find(keys, "tolerances")) return tolerances->items.size();
+  if (const auto* steps = find(keys, "steps")) return steps->items.size();
+  return find(keys, "refine_most") ? divisions(refineMost(keys)).size() : 1;
+}
+
 void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
   const auto& scene = *find(keys, "scene");
   if (scene.items.empty()) throw Misuse(scene.place + ": the block names no scene");
+  refuseContradictions(keys);
   const auto methods = methodList(keys);
+  refusePeersInSweeps(keys, methods);
+  const auto most = integer(keys, "most_runs", kMostRuns, 1, kMostRunsAsked);
+  refuseTooMany(keys, methods.size(), runsOfSeries(keys), most);
   for (RunSpec spec : specProduct(keys)) {
     spec = atPlace(scene, [&] { return resolved(spec); });
     for (const auto& method : methods) {
@@ -213,12 +243,12 @@ void refuseUnknown(const StudyKeys& keys, const std::string& table,
 }
 
 TimingOptions timingOptions(const StudyKeys& keys) {
-  constexpr NumberRange kCount{[](double x) { return x >= 1 && x <= 1000; }, "1 to 1000"};
+  constexpr std::int64_t kMostRepetitions = 1000;
   TimingOptions timing;
   timing.wanted = find(keys, "timing") != nullptr;
   timing.min_time_s = number(keys, "timing.min_time_s", timing.min_time_s, kPositive);
-  timing.repetitions =
-      static_cast<int>(number(keys, "timing.repetitions", timing.repetitions, kCount));
+  timing.repetitions = static_cast<int>(
+      integer(keys, "timing.repetitions", timing.repetitions, 1, kMostRepetitions));
   timing.once_above_s = number(keys, "timing.once_above_s", timing.once_above_s, kPositive);
   timing.skip_above_s = number(keys, "timing.skip_above_s", timing.skip_above_s, kPositive);
   refuseUnknown(keys, "timing", {"min_time_s", "repetitions", "once_above_s", "skip_above_s"});
@@ -226,11 +256,11 @@ TimingOptions timingOptions(const StudyKeys& keys) {
 }
 
 AuditOptions auditOptions(const StudyKeys& keys) {
-  constexpr NumberRange kCount{[](double x) { return x >= 1 && x <= 1e6; }, "1 to 1e6"};
+  constexpr std::int64_t kMost = 1'000'000, kLargestSeed = std::numeric_limits<std::int64_t>::max();
   AuditOptions audit;
-  audit.runs = static_cast<int>(number(keys, "audit.runs", audit.runs, kCount));
-  audit.seed = static_cast<std::uint64_t>(number(keys, "audit.seed", 1, kNotNegative));
-  audit.variants = static_cast<int>(number(keys, "audit.variants", audit.variants, kCount));
+  audit.runs = static_cast<int>(integer(keys, "audit.runs", audit.runs, 1, kMost));
+  audit.seed = static_cast<std::uint64_t>(integer(keys, "audit.seed", 1, 0, kLargestSeed));
+  audit.variants = static_cast<int>(integer(keys, "audit.variants", audit.variants, 1, kMost));
   audit.time_limit = number(keys, "audit.time_limit", audit.time_limit, kPositive);
   refuseUnknown(keys, "audit", {"runs", "seed", "variants", "time_limit"});
   return audit;
@@ -305,12 +335,12 @@ Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
     known.emplace_back(study.id);
   }
   const std::filesystem::path path(id_or_file);
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) {
+  std::error_code error;
+  const auto kind = std::filesystem::status(path, error).type();
+  if (kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none) {
     throw Misuse(unknownName("study or file", id_or_file, known));
   }
-  const std::string toml{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return parseStudy(toml, path.string(), variant);
+  return parseStudy(readInputFile(path), path.string(), variant);
 }
 
 }  // namespace irk

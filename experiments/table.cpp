@@ -6,9 +6,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 
+#include "core/input_file.h"
 #include "core/misuse.h"
 #include "core/text.h"
 
@@ -125,9 +125,7 @@ std::string csvLine(const TableRow& row) {
 }
 
 Table readTable(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Misuse(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = readInputFile(path, kMostTableBytes);
   Table table;
   Reader reader(text);
   while (!reader.atEnd() && reader.isComment()) {

@@ -72,6 +72,9 @@ const SceneEntry& findScene(std::string_view id);
 /// that the scene does not offer.
 template <class Real>
 Scene<Real> makeScene(std::string_view id, const Settings& settings = {});
+/// The same of an entry that need not be in the catalogue.
+template <class Real>
+Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings);
 
 /// A checked value of problems/reference/*.csv.
 struct Reference {

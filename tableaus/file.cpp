@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 
+#include "core/input_file.h"
 #include "core/misuse.h"
 #include "tableaus/families.h"
 
@@ -53,13 +52,7 @@ std::string blockText(const Mat<mp80>& block) {
 }  // namespace
 
 TableauFile openTableau(const std::string& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw Misuse(fmt::format("tableau file '{}' is a folder", path));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw Misuse(fmt::format("tableau file '{}' cannot be read", path));
-  return parseTableau(text, path);
+  return parseTableau(readInputFile(path), path);
 }
 
 TableauFile readTableau(const std::string& path) {

@@ -19,7 +19,7 @@ struct SolveOptions {
   std::vector<std::pair<std::string, std::string>> fields;
   std::vector<std::string> settings;  ///< name=value
   std::string step, tol;              ///< empty: not given
-  std::string plot;                   ///< a file for the figure, without its ending
+  std::string plot;                   ///< a file for the figure, in a folder that exists; .svg or .png is cut off
   bool json = false;
 };
 int solveCommand(const SolveOptions& options, Streams streams);
@@ -47,7 +47,8 @@ struct ReferenceOptions {
   std::vector<std::string> scenes;  ///< empty: all
   int jobs = 0;                     ///< threads; 0 = one per processor
   bool check = false;               ///< compare the files with what is computed, write nothing
-  std::string out;                  ///< folder of the files; empty: problems/reference
+  std::string out;                  ///< folder of the files; empty: that of the sources, see into_sources
+  bool into_sources = false;        ///< write there; checking needs no permission
 };
 /// Computes references. 1: a run failed, an exact solution is contradicted, or (check) a file does
 /// not say what was computed.

@@ -130,6 +130,15 @@ std::size_t check(const SceneReferences& references, const std::filesystem::path
 
 int referenceCommand(const ReferenceOptions& options, Streams streams) {
   const auto scenes = scenesWanted(options.scenes);
+  if (!options.out.empty() && options.into_sources) {
+    throw Misuse("--out and --into-sources: one folder is expected");
+  }
+  if (options.check && options.into_sources) {
+    throw Misuse("--check and --into-sources: checking writes nothing");
+  }
+  if (options.out.empty() && !options.into_sources && !options.check) {
+    throw Misuse("no --out FOLDER for the files: give one, --into-sources, or --check");
+  }
   const auto independent = independentValues();
   const auto folder = options.out.empty() ? referenceFolder() : std::filesystem::path(options.out);
   const InterruptScope interrupts;

@@ -8,6 +8,7 @@
 #include "experiments/claims/claims.h"
 #include "experiments/commands/commands.h"
 #include "experiments/environment.h"
+#include "experiments/failure.h"
 #include "experiments/interrupt.h"
 #include "experiments/report.h"
 #include "experiments/results.h"
@@ -51,6 +52,14 @@ void printSummary(const Study& study, const Table& runs, const std::filesystem::
   out << '\n';
 }
 
+// Empty, or what all runs were refused for: a study that cannot work.
+std::string allRefused(const std::string& study, const Table& runs) {
+  const auto isRefused = [&](const TableRow& row) { return textAt(runs, row, "outcome") == "refused"; };
+  if (runs.rows.empty() || !std::all_of(runs.rows.begin(), runs.rows.end(), isRefused)) return {};
+  return fmt::format("{}: all {} runs were refused, the first one for: {}", study, runs.rows.size(),
+                     textAt(runs, runs.rows.front(), "detail"));
+}
+
 int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
   Table runs = runStudy(study, options, streams.err);
   const auto folder = studyFolder(study, options);
@@ -65,7 +74,9 @@ int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
     streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
   }
   for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
-  if (!interruptFlag()) return doubts.empty() ? 0 : 1;
+  const std::string refused = allRefused(study.id, runs);
+  if (!refused.empty()) printErrorLine(streams.err, refused);
+  if (!interruptFlag()) return doubts.empty() && refused.empty() ? 0 : 1;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;
 }
@@ -96,6 +107,7 @@ int plotCommand(const std::string& study, const std::string& results, Streams st
 }
 
 int claimsCommand(const std::string& results, Streams streams) {
+  requireResultsFolder(results);
   streams.out << claims::claimsText(claims::ResultTables(results));
   return 0;
 }

@@ -2,14 +2,19 @@
 #include <fmt/ostream.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "core/text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/environment.h"
+#include "experiments/failure.h"
+#include "experiments/figure_path.h"
 #include "experiments/interrupt.h"
+#include "experiments/peers/catalogue.h"
 #include "experiments/report.h"
 #include "experiments/trajectory.h"
+#include "experiments/unused_options.h"
 
 namespace irk {
 namespace {
@@ -24,6 +29,7 @@ void applyStep(const SolveOptions& options, RunSpec& spec) {
   auto& step = spec.options.step;
   constexpr NumberRange kStep{[](double h) { return h > 0; }, "step > 0"};
   step.h = parseNumber("step", options.step, kStep);
+  if (findPeer(spec.method)) return;  // its first step
   if (!given(options, "control")) step.control = StepControl::kFixed;
   if (step.control != StepControl::kFixed) return;
   if (!given(options, "estimate")) step.estimate = ErrorEstimate::kNone;
@@ -79,21 +85,48 @@ void printRecord(std::ostream& out, const RunRecord& record,
   fmt::print(out, "{:<22} {:.3g}\n", "cpu_s", record.cpu_s);
 }
 
+/// A new folder below the system's temporary one, removed with what is in it.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = std::filesystem::temp_directory_path() / "irk_solve_XXXXXX";
+    if (!mkdtemp(name.data())) throw Failure("no temporary folder " + name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 // Runs with the solution recorded in a temporary folder, and draws it.
 RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot,
-                       std::ostream& err) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / fmt::format("irk_solve_{}", specKey(spec));
-  std::filesystem::create_directories(folder);
-  const auto file = folder / (spec.scene + ".csv");
+                       std::ostream& err, bool& drawn) {
+  const auto home = homeFolder();
+  const auto out = figurePath("--plot", plot);
+  const ScratchFolder folder;
+  const auto file = folder.path() / (spec.scene + ".csv");
   const RunRecord record = executeWithTrajectory(spec, watch, file);
-  const auto out = std::filesystem::path(plot).replace_extension();
-  drawFigure("scene_solution.gp",
-             fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'", folder.string(),
-                         out.string(), spec.scene, file.stem().string()),
-             homeFolder(), err);
-  std::filesystem::remove_all(folder);
+  drawn = drawFigure("scene_solution.gp",
+                     fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'",
+                                 folder.path().string(), out.string(), spec.scene,
+                                 file.stem().string()),
+                     home, err);
   return record;
+}
+
+std::vector<std::string> givenFields(const SolveOptions& options) {
+  std::vector<std::string> given;
+  for (const auto& [field, value] : options.fields) given.push_back(field);
+  if (!options.step.empty()) given.emplace_back("step");
+  if (!options.tol.empty()) given.emplace_back("tol");
+  return given;
 }
 
 }  // namespace
@@ -101,7 +134,13 @@ RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::strin
 RunSpec solveSpec(const SolveOptions& options) {
   RunSpec spec;
   findField("scene").set(spec, options.scene);
-  for (const auto& setting : options.settings) addSetting(spec.settings, setting);
+  for (const auto& setting : options.settings) {
+    const std::size_t before = spec.settings.size();
+    addSetting(spec.settings, setting);
+    if (spec.settings.size() == before) {
+      throw Misuse(fmt::format("--set {}: '{}' is set twice", setting, setting.substr(0, setting.find('='))));
+    }
+  }
   applyTolerance(options, spec);
   const auto set = [&](bool configuration) {
     for (const auto& [field, value] : options.fields) {
@@ -111,23 +150,26 @@ RunSpec solveSpec(const SolveOptions& options) {
   set(true);  // other fields override what it sets
   set(false);
   applyStep(options, spec);
-  return resolved(spec);
+  spec = resolved(spec);
+  refuseUnused(spec, givenFields(options));
+  return spec;
 }
 
 int solveCommand(const SolveOptions& options, Streams streams) {
   const RunSpec spec = solveSpec(options);
   const InterruptScope interrupts;
   const Watch watch{&interruptFlag(), {}, {}};
+  bool drawn = true;
   const RunRecord record = options.plot.empty()
                                ? execute(spec, watch)
-                               : solveAndPlot(spec, watch, options.plot, streams.err);
+                               : solveAndPlot(spec, watch, options.plot, streams.err, drawn);
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {
     printRecord(streams.out, record, makeScene<double>(spec.scene, settingsAtStep(spec)).names);
   }
   if (interruptFlag()) return kInterruptedStatus;
-  return record.succeeded() ? 0 : 1;
+  return record.succeeded() && drawn ? 0 : 1;
 }
 
 }  // namespace irk

@@ -3,6 +3,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/environment.h"
+#include "experiments/figure_path.h"
 #include "experiments/report.h"
 #include "experiments/tableau_table.h"
 #include "tableaus/report.h"
@@ -25,11 +26,13 @@ int tableauExport(const std::string& id_or_file, Streams streams) {
   return 0;
 }
 
-int tableauPlot(const std::vector<std::string>& methods, const std::string& out, Streams streams) {
+int tableauPlot(const std::vector<std::string>& methods, const std::string& figure, Streams streams) {
+  const auto home = homeFolder();
+  const std::string out = figurePath("--out", figure).string();
   const std::string table = out + ".csv";
   writeTable(table, tableauTables(methods).stability);
   const auto commands = fmt::format("table='{}'; out='{}'; views='region star'", table, out);
-  if (!drawFigure("stability.gp", commands, homeFolder(), streams.err)) return 1;
+  if (!drawFigure("stability.gp", commands, home, streams.err)) return 1;
   fmt::print(streams.out, "{0}.svg, {0}.png, {0}.csv\n", out);
   return 0;
 }

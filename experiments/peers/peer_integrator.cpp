@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/system_check.h"
 #include "experiments/run.h"
 
 namespace irk {
@@ -75,11 +76,11 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
                                            const Monitor<double>& monitor) {
   counters_ = {};
   chatter_ = {};
+  requireStart(*system_, start, t_end);
+  const std::string not_finite = notFinite(start);
+  if (!not_finite.empty()) return {Outcome::kNotFinite, "at the start: " + not_finite, start, counters_};
   state_ = system_->fromScene(start);
   length_ = t_end - state_.t;
-  if (!(length_ >= 0)) {
-    throw Misuse(fmt::format("t_end = {} lies before the start, t = {}", t_end, state_.t));
-  }
   StartReport report = settle(monitor);
   if (report.outcome == Outcome::kSuccess) report = begin(t_end, StartCheck::kConstraints);
   if (report.outcome == Outcome::kSuccess) report = run(t_end, monitor);

@@ -100,6 +100,25 @@ TEST(Catalogue, RefusesUnknownWords) {
   EXPECT_NE(message.find("did you mean 'smooth'"), std::string::npos) << message;
 }
 
+// An empty function would be called: std::bad_function_call.
+TEST(Catalogue, RefusesScalarsThatASceneDoesNotOffer) {
+  SceneEntry entry = findScene("kepler");
+  EXPECT_NO_THROW(makeScene<mp50>(entry, {}));
+  entry.id = "mine";
+  entry.make_mp50 = {};
+  const std::string message = misuseOf([&] { makeScene<mp50>(entry, {}); });
+  EXPECT_EQ(message.find("scalar = 'mp50': scene mine offers double; with mp50: "), 0U) << message;
+  EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }), "");
+  entry.make = {};
+  EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }).find("scalar = 'double': scene mine offers none"), 0U);
+  entry.make = [](const Settings&) {
+    auto scene = makeScene<double>("kepler");
+    scene.system = {};
+    return scene;
+  };
+  EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }), "scene mine makes no system");
+}
+
 TEST(Catalogue, DefaultsAreAllowedValues) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     for (const Parameter& p : entry.parameters) {
