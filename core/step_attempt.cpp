@@ -104,7 +104,7 @@ class Doubling final : public StepAttempt<Real> {
     result.error = error(to, static_cast<double>(h));
     if (accumulates_) {
       result.added = result.error;
-      result.error *= accumulation_.factor(steps_);
+      result.error = accumulation_.asked(result.error, steps_, static_cast<double>(from.t), static_cast<double>(h));
     }
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
@@ -126,6 +126,7 @@ class Doubling final : public StepAttempt<Real> {
   void begin() override {
     forget();
     steps_ = 0;
+    accumulation_.begin();
     continues_ = restarted_ = watches_start_ = false;
   }
   void restart() override {

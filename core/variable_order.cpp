@@ -106,7 +106,8 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   result.outcome = estimate.outcome;
   result.added = member().adds ? estimate.error : 0;
   result.error = estimate.error * member().exigence;
-  result.error *= member().accumulation.factor(member().accumulates ? steps_ : 0);
+  result.error = member().accumulation.asked(result.error, member().accumulates ? steps_ : 0,
+                                             static_cast<double>(from.t), static_cast<double>(h));
   result.error = worse(result.error, order(), result.mode_error, 1);
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
@@ -133,6 +134,7 @@ void VariableOrder<Real>::begin() {
   solved_ = false;
   continues_ = restarted_ = watches_start_ = false;
   steps_ = 0;
+  for (auto& m : members_) m->accumulation.begin();
   failures_ = 0;
   forget();
 }
