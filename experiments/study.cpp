@@ -242,6 +242,21 @@ std::vector<Series> auditSeries(const AuditOptions& options) {
   return series;
 }
 
+// A file's results are in the folder of its name.
+void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
+  const std::string id = file.stem().string();
+  const auto refuse = [&](std::string_view what) {
+    throw Misuse(fmt::format("{}: '{}' is {}: give the file another name, as its results are kept under it", file.string(),
+                             id, what));
+  };
+  for (const auto* folder : {"quick", "report", "tableaus"}) {
+    if (id == folder) refuse("a folder of results");
+  }
+  for (const auto& study : builtinStudies()) {
+    if (study.id == id && study.toml != toml) refuse("a built-in study");
+  }
+}
+
 }  // namespace
 
 std::vector<int> divisions(int most) {
@@ -278,14 +293,10 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   }
   study.profile = flag(text.study, "profile");
   study.timing = timingOptions(text.study);
-  const bool quick = variant == StudyVariant::kQuick;
-  const auto other = quick ? StudyVariant::kFull : StudyVariant::kQuick;
-  const StudyFile other_text = parseStudyFile(toml, file, other);
   if (find(text.study, "audit")) {
     study.audit = auditOptions(text.study);
     study.states = true;
     study.series = auditSeries(*study.audit);
-    study.other_variant = auditSeries(auditOptions(other_text.study));
     return study;
   }
   for (const auto& block : text.blocks) {
@@ -293,7 +304,6 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
     appendBlock(block, study.series);
     refuseVariableOrder(study, block, first);
   }
-  for (const auto& block : other_text.blocks) appendBlock(block, study.other_variant);
   return study;
 }
 
@@ -310,6 +320,7 @@ Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
     throw Misuse(unknownName("study or file", id_or_file, known));
   }
   const std::string toml{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  refuseTakenName(path, toml);
   return parseStudy(toml, path.string(), variant);
 }
 

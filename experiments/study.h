@@ -47,8 +47,6 @@ struct Study {
   std::string id;
   std::string title;
   std::vector<Series> series;
-  /// Of the other variant: a quick run throws no finished full run away.
-  std::vector<Series> other_variant;
   bool orders = false;          ///< fit orders: orders.csv
   bool trajectories = false;    ///< write the solution over time of every run: <scene>.<method>.csv
   bool estimates = false;       ///< compare estimated with true errors of steps: estimates.csv
@@ -65,8 +63,8 @@ struct Study {
 
 enum class StudyVariant { kFull, kQuick };
 
-/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is
-/// allowed.
+/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is allowed, and for a
+/// file with another study whose name is a built-in one's, or that of a folder of results: they would share a folder.
 Study loadStudy(std::string_view id_or_file, StudyVariant variant);
 
 /// The specs of all runs by their keys; the study must outlive them.

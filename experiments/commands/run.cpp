@@ -12,6 +12,7 @@
 #include "experiments/report.h"
 #include "experiments/results.h"
 #include "experiments/run_table.h"
+#include "experiments/store/failure.h"
 #include "experiments/timing.h"
 
 namespace irk {
@@ -52,11 +53,13 @@ void printSummary(const Study& study, const Table& runs, const std::filesystem::
 }
 
 int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
-  Table runs = runStudy(study, options, streams.err);
   const auto folder = studyFolder(study, options);
+  store::Store store(folder, study.id, store::Use::kWrite, options.store, streams.err);
+  Table runs = runStudy(study, options, store, streams.err);
   const bool whole = options.shards == 1;
-  if (!interruptFlag() && whole && study.timing.wanted) {
-    timeStudy(study, folder / "runs.csv", runs, streams.err);
+  if (!interruptFlag() && whole && study.timing.wanted && refusedTimes(runs).empty()) {
+    timeStudy(study, store, runs, streams.err);
+    runs = readTable(folder / "runs.csv");
   }
   std::vector<std::string> doubts;
   if (whole) doubts = writeSummaries(study, runs, folder, streams.err);
@@ -83,7 +86,12 @@ int paperCommand(const RunOptions& options, Streams streams) {
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // a study that fails does not keep the others from being run
   for (const auto id : kPaperStudies) {
-    const int status = runOne(loadStudy(id, options.variant), options.runner, streams);
+    int status = 1;
+    try {
+      status = runOne(loadStudy(id, options.variant), options.runner, streams);
+    } catch (const store::StoreFailure& failure) {
+      fmt::print(streams.err, "irk: {}\n", failure.what());
+    }
     if (status == kInterruptedStatus) return status;
     worst = std::max(worst, status);
   }

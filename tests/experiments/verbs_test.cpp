@@ -15,7 +15,7 @@
 #include "experiments/cli.h"
 #include "experiments/run_table.h"
 #include "experiments/study.h"
-#include "tests/experiments/support.h"
+#include "tests/experiments/study_runs.h"
 
 namespace irk {
 namespace {
@@ -31,8 +31,8 @@ Ended program(const std::vector<std::string>& arguments) {
   return {status, out.str(), err.str()};
 }
 
-// The name of a built-in study, so that it has figures; the runs are others.
-constexpr char kDrift[] = R"(
+// Scenes and formulations as of the built-in study `drift`, whose figures then can be drawn from it.
+constexpr char kSmall[] = R"(
 title = "Small"
 targets = [1e-2, 1e-4]
 [defaults]
@@ -50,8 +50,8 @@ t_end = 0.5
 /// A temporary folder with a study's file and results.
 class Verbs : public testing::Test {
  protected:
-  void SetUp() override { std::ofstream(study()) << kDrift; }
-  std::string study() const { return folder_.path() / "drift.toml"; }
+  void SetUp() override { std::ofstream(study()) << kSmall; }
+  std::string study() const { return folder_.path() / "small.toml"; }
   std::string results(const std::string& name = "results") const { return folder_.path() / name; }
   Ended run(const std::string& into = "results", std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"run", study(), "--results", results(into), "--jobs", "2"};
@@ -59,7 +59,7 @@ class Verbs : public testing::Test {
     return program(arguments);
   }
   Table runs(const std::string& into = "results") const {
-    return readTable(std::filesystem::path(results(into)) / "drift" / "runs.csv");
+    return readTable(std::filesystem::path(results(into)) / "small" / "runs.csv");
   }
   bool exists(const std::string& file) const {
     return std::filesystem::exists(results() + "/" + file);
@@ -71,14 +71,14 @@ class Verbs : public testing::Test {
 TEST_F(Verbs, RunMakesTablesAndAgainKeepsThem) {
   const Ended first = run();
   ASSERT_EQ(first.status, 0) << first.err;
-  EXPECT_TRUE(containsAll(first.out, {"drift", "8 runs", "8 success"}));
+  EXPECT_TRUE(containsAll(first.out, {"small", "8 runs", "8 success"}));
   const Table table = runs();
   ASSERT_EQ(table.rows.size(), 8u);
   for (const auto& row : table.rows) {
     EXPECT_EQ(textAt(table, row, "outcome"), "success");
     EXPECT_EQ(numberAt(table, row, "cpu_runs"), 2) << "timed";
   }
-  EXPECT_TRUE(exists("drift/cpu_at_error.csv"));
+  EXPECT_TRUE(exists("small/cpu_at_error.csv"));
   ASSERT_EQ(run().status, 0);
   EXPECT_EQ(runs().rows, table.rows);
   ASSERT_EQ(run("results", {"--fresh"}).status, 0);
@@ -108,7 +108,7 @@ TEST_F(Verbs, AFolderThatCannotBeMadeIsStatusTwo) {
 TEST_F(Verbs, OneThreadAndSeveralMakeTheSame) {
   ASSERT_EQ(run("several").status, 0);
   ASSERT_EQ(program({"run", study(), "--results", results("one"), "--jobs", "1"}).status, 0);
-  const Ended same = program({"compare", results("one") + "/drift", results("several") + "/drift", "--times", "1000%"});
+  const Ended same = program({"compare", results("one") + "/small", results("several") + "/small", "--times", "1000%"});
   EXPECT_EQ(same.status, 0) << same.out;
   EXPECT_TRUE(containsAll(same.out, {"8 runs and 8 runs: 0 differences"}));
 }
@@ -119,8 +119,8 @@ TEST_F(Verbs, CompareSeesADifference) {
   const auto changed = [&](const std::string& column, const char* cell) {
     Table other = runs();
     other.rows.front()[other.column(column)] = cell;
-    writeTable(std::filesystem::path(results("other")) / "drift" / "runs.csv", other);
-    return program({"compare", results() + "/drift", results("other") + "/drift"});
+    writeTable(std::filesystem::path(results("other")) / "small" / "runs.csv", other);
+    return program({"compare", results() + "/small", results("other") + "/small"});
   };
   for (const auto* column :
        {"error", "error_v", "drift", "residuals", "outcome", "steps_accepted", "cpu_s"}) {
@@ -133,17 +133,17 @@ TEST_F(Verbs, CompareSeesADifference) {
   }
   Table fewer = runs();
   fewer.rows.pop_back();
-  writeTable(std::filesystem::path(results("other")) / "drift" / "runs.csv", fewer);
-  EXPECT_EQ(program({"compare", results() + "/drift", results("other") + "/drift"}).status, 1);
-  EXPECT_EQ(program({"compare", results("other") + "/drift", results() + "/drift"}).status, 1);
-  EXPECT_EQ(program({"compare", results() + "/drift", results("nowhere")}).status, 2);
+  writeTable(std::filesystem::path(results("other")) / "small" / "runs.csv", fewer);
+  EXPECT_EQ(program({"compare", results() + "/small", results("other") + "/small"}).status, 1);
+  EXPECT_EQ(program({"compare", results("other") + "/small", results() + "/small"}).status, 1);
+  EXPECT_EQ(program({"compare", results() + "/small", results("nowhere")}).status, 2);
 }
 
 TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   ASSERT_EQ(run("whole").status, 0);
   ASSERT_EQ(run("parts", {"--shard", "1/2"}).status, 0);
   ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);
-  const std::string parts = results("parts") + "/drift/shard_";
+  const std::string parts = results("parts") + "/small/shard_";
   const Table one = readTable(parts + "1_of_2/runs.csv"),
               two = readTable(parts + "2_of_2/runs.csv");
   EXPECT_EQ(one.rows.size() + two.rows.size(), 8u);
@@ -151,42 +151,45 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   const Ended merged = program({"merge", parts + "2_of_2", parts + "1_of_2", "--study", study(),
                                 "--results", results("merged")});
   ASSERT_EQ(merged.status, 0) << merged.err;
-  EXPECT_TRUE(containsAll(merged.out, {"drift", "8 runs of 2 folders"}));
-  EXPECT_TRUE(std::filesystem::exists(results("merged") + "/drift/cpu_at_error.csv"));
+  EXPECT_TRUE(containsAll(merged.out, {"small", "8 runs of 2 folders"}));
+  EXPECT_TRUE(std::filesystem::exists(results("merged") + "/small/cpu_at_error.csv"));
   const Ended same =
-      program({"compare", results("whole") + "/drift", results("merged") + "/drift", "--times", "1000%"});
+      program({"compare", results("whole") + "/small", results("merged") + "/small", "--times", "1000%"});
   EXPECT_EQ(same.status, 0) << same.out;
   // In the study's order, whatever that of the folders.
   const Table a = runs("whole"), b = runs("merged");
   for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_EQ(a.rows[i].front(), b.rows[i].front());
 }
 
-TEST_F(Verbs, MergePrefersWhatIsTimedAndRefusesOtherColumns) {
+TEST_F(Verbs, MergePrefersWhatIsTimedAndKnowsItsColumns) {
   ASSERT_EQ(run().status, 0);
   Table timed = runs(), untimed = timed;
   for (auto& row : untimed.rows) {
     row[untimed.column("cpu_runs")] = "0";
     row[untimed.column("cpu_s")] = "77";
+    row[untimed.column("date")] = "2099-01-01T00:00:00Z";
   }
   const std::string a = results("a"), b = results("b");
   writeTable(std::filesystem::path(a) / "runs.csv", timed);
   writeTable(std::filesystem::path(b) / "runs.csv", untimed);
   for (const auto& order : {std::vector{a, b}, std::vector{b, a}}) {
-    ASSERT_EQ(program({"merge", order[0], order[1], "--study", study(), "--results", results("m")})
-                  .status,
-              0);
-    for (const auto& row : runs("m").rows) EXPECT_NE(row[timed.column("cpu_s")], "77");
+    const std::string into = results(order[0] == a ? "m" : "n");
+    const Ended merged = program({"merge", order[0], order[1], "--study", study(), "--results", into});
+    ASSERT_EQ(merged.status, 0) << merged.err;
+    EXPECT_TRUE(containsAll(merged.out, {"expected 8, found 8, missing 0, duplicate 8"}));
+    for (const auto& row : readTable(into + "/small/runs.csv").rows) EXPECT_NE(row[timed.column("cpu_s")], "77");
   }
   timed.columns.back() = "another";
   writeTable(std::filesystem::path(a) / "runs.csv", timed);
-  const Ended refused = program({"merge", a, b, "--study", study(), "--results", results("m")});
+  const Ended refused = program({"merge", a, "--study", study(), "--results", results("o")});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(containsAll(refused.err, {"columns differ"}));
+  EXPECT_TRUE(containsAll(refused.err, {"columns", "no run of this version"}));
 }
 
 // The chain of a paper: run, plot, claims, report.
 TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
   ASSERT_EQ(run().status, 0);
+  std::filesystem::rename(results() + "/small", results() + "/drift");
   const Ended plotted = program({"plot", "drift", "--results", results()});
   EXPECT_EQ(plotted.status, 0) << plotted.err;
   for (const auto* name : {"drift_pendulum", "drift_stages", "drift_cost"}) {
@@ -214,6 +217,7 @@ TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
   EXPECT_TRUE(containsAll(nothing.err, {"drift_pendulum", "irk run drift"}));
   ASSERT_EQ(run().status, 0);
   Table damaged = runs();
+  std::filesystem::rename(results() + "/small", results() + "/drift");
   damaged.columns[damaged.column("formulation")] = "formulatio";
   for (auto& row : damaged.rows) row[damaged.column("scene")] = "pendulum";
   writeTable(std::filesystem::path(results()) / "drift" / "runs.csv", damaged);
@@ -229,19 +233,12 @@ TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
       << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
          "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
          "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
-  const auto file = std::filesystem::path(results()) / "drift" / "runs.csv";
+  const auto folder = std::filesystem::path(results()) / "small";
   std::atomic<bool> done = false;
   std::thread signal([&] {
     while (!done) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      if (!std::filesystem::exists(file)) continue;
-      std::size_t rows = 0;
-      try {
-        rows = readTable(file).rows.size();
-      } catch (const Misuse&) {
-        continue;
-      }
-      if (rows < 2 || done) continue;
+      if (rowsInParts(folder) < 2 || done) continue;
       std::raise(SIGINT);
       return;
     }
@@ -272,7 +269,7 @@ TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
 TEST_F(Verbs, PaperStopsWhenInterrupted) {
   std::atomic<bool> done = false;
   std::thread signal([&] {
-    const auto first = std::filesystem::path(results()) / "scenes" / "runs.csv";
+    const auto first = std::filesystem::path(results()) / "quick" / "scenes" / "runs.csv";
     while (!done && !std::filesystem::exists(first)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
@@ -282,11 +279,11 @@ TEST_F(Verbs, PaperStopsWhenInterrupted) {
   done = true;
   signal.join();
   EXPECT_EQ(ended.status, 130) << ended.err;
-  EXPECT_TRUE(exists("tableaus/tableaus.csv"));
-  EXPECT_TRUE(exists("tableaus/stability.csv"));
-  EXPECT_TRUE(exists("scenes/runs.csv"));
-  EXPECT_FALSE(exists("order/runs.csv")) << "goes on after an interrupt";
-  EXPECT_FALSE(exists("report/index.html"));
+  EXPECT_TRUE(exists("quick/tableaus/tableaus.csv"));
+  EXPECT_TRUE(exists("quick/tableaus/stability.csv"));
+  EXPECT_TRUE(exists("quick/scenes/runs.csv"));
+  EXPECT_FALSE(exists("quick/order/runs.csv")) << "goes on after an interrupt";
+  EXPECT_FALSE(exists("quick/report/index.html"));
 }
 
 TEST_F(Verbs, PaperRefusesMisuse) {
