@@ -16,7 +16,7 @@
 #include "experiments/report.h"
 #include "experiments/run_table.h"
 #include "experiments/runner.h"
-#include "tests/experiments/support.h"
+#include "tests/experiments/study_runs.h"
 
 namespace irk::audit {
 namespace {

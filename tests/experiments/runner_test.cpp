@@ -283,7 +283,7 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
   timeStudy(study, store, again, quiet);
   for (const auto& row : again.rows) {
     EXPECT_EQ(numberAt(again, row, "cpu_runs"), succeededAt(again, row) ? 3 : 0);
-    if (succeededAt(again, row)) EXPECT_TRUE(row[all].starts_with("0.25 0.5 ")) << row[all];
+    EXPECT_EQ(row[all].starts_with("0.25 0.5 "), succeededAt(again, row)) << row[all];
   }
 }
 

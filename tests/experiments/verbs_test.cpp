@@ -186,6 +186,67 @@ TEST_F(Verbs, MergePrefersWhatIsTimedAndKnowsItsColumns) {
   EXPECT_TRUE(containsAll(refused.err, {"columns", "no run of this version"}));
 }
 
+TEST_F(Verbs, MergeSaysWhatIsMissing) {
+  ASSERT_EQ(run("parts", {"--shard", "2/3"}).status, 0);
+  const std::string shard = results("parts") + "/small/shard_2_of_3";
+  std::vector<std::string> arguments{"merge", shard, "--study", study(), "--results", results("merged")};
+  const Ended missing = program(arguments);
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_TRUE(containsAll(missing.out, {"expected 8, found 2, missing 6",
+                                        "irk run " + study() + " --shard 1/3 --results " + results("parts"),
+                                        "irk run " + study() + " --shard 3/3 --results " + results("parts")}));
+  EXPECT_EQ(missing.out.find("--shard 2/3"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(results("merged") + "/small/runs.csv"));
+  arguments.emplace_back("--partial");
+  EXPECT_EQ(program(arguments).status, 0);
+  EXPECT_EQ(runs("merged").rows.size(), 2u);
+  // Rows that are there count: the rest is made where they were merged.
+  EXPECT_EQ(run("merged").status, 0);
+  EXPECT_EQ(runs("merged").rows.size(), 8u);
+}
+
+TEST_F(Verbs, MergeRefusesTwoStudies) {
+  ASSERT_EQ(run().status, 0);
+  const std::string other = folder_.path() / "other.toml";
+  std::ofstream(other) << kSmall;
+  ASSERT_EQ(program({"run", other, "--results", results()}).status, 0);
+  const Ended ended = program({"merge", results() + "/small", results() + "/other", "--study", study()});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(containsAll(ended.err, {"two studies", "'small'", "'other'"}));
+}
+
+TEST_F(Verbs, AFileDoesNotDisturbABuiltInStudy) {
+  const std::string peers = folder_.path() / "peers.toml";
+  std::ofstream(peers) << kSmall;
+  const Ended ended = program({"run", peers, "--results", results()});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(containsAll(ended.err, {"peers.toml", "built-in study", "another name"}));
+  EXPECT_FALSE(exists("peers"));
+}
+
+TEST_F(Verbs, QuickResultsAreATreeOfTheirOwn) {
+  std::ofstream(study(), std::ios::app) << "[block.quick]\nmethods = \"radau_iia_3\"\n";
+  ASSERT_EQ(run().status, 0);
+  ASSERT_EQ(run("results", {"--quick"}).status, 0);
+  EXPECT_EQ(runs().rows.size(), 8u);
+  EXPECT_EQ(readTable(results() + "/quick/small/runs.csv").rows.size(), 4u);
+  std::filesystem::rename(results() + "/quick/small", results() + "/quick/drift");
+  EXPECT_EQ(program({"report", "--quick", "--results", results()}).status, 0);
+  EXPECT_TRUE(exists("quick/report/index.html"));
+  EXPECT_FALSE(exists("report/index.html"));
+}
+
+TEST_F(Verbs, ASecondWriterIsStatusOne) {
+  std::filesystem::create_directories(results() + "/small");
+  std::ofstream(results() + "/small/lock") << "elsewhere 4711 2026-01-01T00:00:00Z\n";
+  const Ended ended = run();
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_TRUE(containsAll(ended.err, {"elsewhere", "4711", "2026-01-01T00:00:00Z", "--wait"}));
+  const Ended status = program({"status", study(), "--results", results()});
+  EXPECT_EQ(status.status, 0);
+  EXPECT_TRUE(containsAll(status.out, {"8 runs to make", "4711"}));
+}
+
 // The chain of a paper: run, plot, claims, report.
 TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
   ASSERT_EQ(run().status, 0);
