@@ -21,6 +21,7 @@
 #include "experiments/environment.h"
 #include "experiments/html.h"
 #include "experiments/order_fit.h"
+#include "experiments/results.h"
 #include "experiments/study.h"
 #include "experiments/table.h"
 
@@ -185,8 +186,15 @@ bool drawFigure(const std::string& script, const std::string& commands,
 
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
   std::filesystem::create_directories(figureFolder(options));
+  const auto figures = readFigures(options.home / "plots" / "figures.txt");
   int failures = 0;
-  for (const auto& figure : readFigures(options.home / "plots" / "figures.txt")) {
+  for (const auto& of : studiesOf(figures)) {
+    const auto refusal = refusedTimes(options.results / of / "runs.csv");
+    if (refusal.empty() || (!study.empty() && of != study)) continue;
+    ++failures;
+    fmt::print(err, "figures of {} have no times: {}\n", of, refusal);
+  }
+  for (const auto& figure : figures) {
     if (!study.empty() && figure.study != study) continue;
     if (!hasResults(figure, options)) {
       if (!study.empty()) ++failures;

@@ -26,8 +26,8 @@ bool drawFigure(const std::string& script, const std::string& commands,
                 const std::filesystem::path& home, std::ostream& err);
 
 /// Draws results/report/figures/<name>.svg and .png for every figure whose study has results;
-/// `study` empty: for all studies. Returns the number of figures that failed, each with a message
-/// on `err`.
+/// `study` empty: for all studies. Returns the number of figures that failed, and of studies whose figures lack times
+/// as they are of several processors, each with a message on `err`.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
 /// Writes results/report/index.html from plots/report.html and returns its path.

@@ -1,6 +1,8 @@
 #include "experiments/results.h"
 
+#include <fstream>
 #include <ostream>
+#include <string>
 #include <utility>
 
 #include "experiments/cost_at_error.h"
@@ -14,9 +16,18 @@
 
 namespace irk {
 
-std::string refusedTimes(const Table& runs) {
-  for (const auto& [key, value] : runs.head) {
+std::string refusedTimes(const TableHead& head) {
+  for (const auto& [key, value] : head) {
     if (key == store::kTimesRefused) return value;
+  }
+  return {};
+}
+
+std::string refusedTimes(const std::filesystem::path& runs) {
+  const auto start = "# " + std::string(store::kTimesRefused) + ": ";
+  std::ifstream in(runs);
+  for (std::string line; std::getline(in, line) && line.starts_with('#');) {
+    if (line.starts_with(start)) return line.substr(start.size());
   }
   return {};
 }
@@ -25,7 +36,7 @@ std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
                                         const std::filesystem::path& folder,
                                         std::ostream& progress) {
   std::vector<std::string> doubts;
-  const std::string refusal = refusedTimes(runs);
+  const std::string refusal = refusedTimes(runs.head);
   if (!refusal.empty()) doubts.push_back(refusal);
   if (study.orders) writeTable(folder / "orders.csv", orderTable(runs));
   if (!study.targets.empty()) {

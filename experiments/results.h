@@ -12,7 +12,9 @@
 namespace irk {
 
 /// Why a runs.csv has no times: they are of several processors. Empty where it has them.
-std::string refusedTimes(const Table& runs);
+std::string refusedTimes(const TableHead& head);
+/// The same of a file, of which only the head is read.
+std::string refusedTimes(const std::filesystem::path& runs);
 
 /// orders.csv, cpu_at_error.csv, estimates.csv, energy.csv, phases.csv, scaling.csv and profile.csv, as the study asks.
 /// Where the times are of several processors (store::kTimesRefused) there is no profile, and costs have no times.

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -27,16 +28,19 @@
 namespace irk {
 namespace {
 
-// f(0), ..., f(count - 1) on several threads. Throws the first exception of any of them.
+// f(0), ..., f(count - 1) on several threads. Throws the first exception of any of them; then the rest is left out.
 template <class F>
 void inParallel(std::size_t count, int threads, F&& f) {
   std::mutex mutex;
   std::exception_ptr failure;
+  std::atomic<bool> failed = false;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < count; ++i) {
+    if (failed) continue;
     try {
       f(i);
     } catch (...) {
+      failed = true;
       const std::lock_guard lock(mutex);
       if (!failure) failure = std::current_exception();
     }

@@ -52,12 +52,12 @@ void printSummary(const Study& study, const Table& runs, const std::filesystem::
   out << '\n';
 }
 
-int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
+int runStored(const Study& study, const RunnerOptions& options, Streams streams) {
   const auto folder = studyFolder(study, options);
   store::Store store(folder, study.id, store::Use::kWrite, options.store, streams.err);
   Table runs = runStudy(study, options, store, streams.err);
   const bool whole = options.shards == 1;
-  if (!interruptFlag() && whole && study.timing.wanted && refusedTimes(runs).empty()) {
+  if (!interruptFlag() && whole && study.timing.wanted && refusedTimes(runs.head).empty()) {
     timeStudy(study, store, runs, streams.err);
     runs = readTable(folder / "runs.csv");
   }
@@ -73,6 +73,15 @@ int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
   return kInterruptedStatus;
 }
 
+int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
+  try {
+    return runStored(study, options, streams);
+  } catch (const store::StoreFailure& failure) {
+    fmt::print(streams.err, "irk: {}\n", failure.what());
+    return interruptFlag() ? kInterruptedStatus : 1;
+  }
+}
+
 }  // namespace
 
 int runCommand(const RunOptions& options, Streams streams) {
@@ -86,12 +95,7 @@ int paperCommand(const RunOptions& options, Streams streams) {
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // a study that fails does not keep the others from being run
   for (const auto id : kPaperStudies) {
-    int status = 1;
-    try {
-      status = runOne(loadStudy(id, options.variant), options.runner, streams);
-    } catch (const store::StoreFailure& failure) {
-      fmt::print(streams.err, "irk: {}\n", failure.what());
-    }
+    const int status = runOne(loadStudy(id, options.variant), options.runner, streams);
     if (status == kInterruptedStatus) return status;
     worst = std::max(worst, status);
   }

@@ -90,7 +90,9 @@ void resume(benchmark::State& state) {
     const double before = heldBytes();
     const store::Store store(folder.path(), "benchmark", store::Use::kWrite, {}, quiet);
     std::size_t found = 0;
-    for (const auto key : all) found += store.finished(key) ? 1 : 0;
+    for (const auto each : all) {
+      if (store.finished(each)) ++found;
+    }
     if (found != all.size()) state.SkipWithError("rows are lost");
     state.counters["memory_bytes_per_row"] = (heldBytes() - before) / static_cast<double>(state.range(0));
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -352,6 +353,34 @@ TEST_F(Results, KilledRunsKeepWhatIsFinished) {
   expectSame(run("killed", {}, kLong), undisturbed);
 }
 
+// A limit on the length of files stands for a full disk: the row that does not fit is cut.
+TEST_F(Results, AFullDiskLosesNoFinishedRun) {
+  const Table undisturbed = run("undisturbed");
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4000, 4000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      run();
+    } catch (const store::StoreFailure& failure) {
+      const bool said = containsAll(failure.what(), {"cannot write", "parts"});
+      _exit(said ? 7 : 8);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  const auto kept = reader().runs().size();
+  EXPECT_GT(kept, 2u);
+  EXPECT_LT(kept, 9u);
+  expectSame(run(), undisturbed);
+  EXPECT_EQ(static_cast<std::size_t>(made()), 9 - kept);
+  EXPECT_TRUE(containsAll(told_.str(), {"1 rows cannot be read"}));
+}
+
 // --- Stale rows, environments.
 
 TEST_F(Results, StaleRowsAreKeptOrRemade) {
@@ -415,7 +444,7 @@ TEST_F(Results, TimesOfTwoMachinesAreNotJoined) {
   run();
   moveToOtherMachine("results", 5);
   const Table refused = run();
-  const auto refusal = refusedTimes(refused);
+  const auto refusal = refusedTimes(refused.head);
   EXPECT_TRUE(containsAll(refusal, {"2 processors", "'Other processor' (5 rows, environments abc)", processorName(), "(4 rows",
                                     "--times here", "--fresh"}));
   for (const auto& row : refused.rows) {
@@ -423,6 +452,7 @@ TEST_F(Results, TimesOfTwoMachinesAreNotJoined) {
     EXPECT_GT(numberAt(refused, row, "residuals"), 0) << "counters are joined";
     EXPECT_FALSE(std::isnan(numberAt(refused, row, "error")));
   }
+  EXPECT_EQ(refusedTimes(folder() / "runs.csv"), refusal);
   writeTable(folder() / "profile.csv", {{}, {"ratio"}, {}});
   EXPECT_EQ(writeSummaries(costs, refused, folder(), told_), std::vector{refusal});
   EXPECT_FALSE(std::filesystem::exists(folder() / "profile.csv"));
@@ -437,7 +467,7 @@ TEST_F(Results, TimesOfTwoMachinesAreNotJoined) {
   // Here: the others' times do not count, and the timing pass measures them again.
   const store::StoreOptions here{.times = store::Times::kHere};
   Table chosen = run("results", here);
-  EXPECT_TRUE(refusedTimes(chosen).empty());
+  EXPECT_TRUE(refusedTimes(chosen.head).empty());
   EXPECT_EQ(std::count_if(chosen.rows.begin(), chosen.rows.end(),
                           [&](const auto& row) { return std::isnan(numberAt(chosen, row, "cpu_s")); }), 5);
   costs.timing = {true, 1e-4, 2, 0.5, 3};
@@ -446,7 +476,7 @@ TEST_F(Results, TimesOfTwoMachinesAreNotJoined) {
     timeStudy(costs, writer, chosen, told_);
   }
   const Table timed = run();
-  EXPECT_TRUE(refusedTimes(timed).empty()) << "all are of this machine now";
+  EXPECT_TRUE(refusedTimes(timed.head).empty()) << "all are of this machine now";
   for (const auto& row : timed.rows) {
     EXPECT_EQ(numberAt(timed, row, "cpu_runs"), 2);
     EXPECT_EQ(textAt(timed, row, "cpu_environment"), thisEnvironment().front());

@@ -272,6 +272,27 @@ TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
   EXPECT_EQ(page.find("@FIGURES@"), page.npos);
 }
 
+TEST_F(Verbs, FiguresDoNotJoinTimesOfTwoMachines) {
+  ASSERT_EQ(run().status, 0);
+  const auto part = partsOf(results() + "/small").front();
+  Table rows = readTable(part);
+  for (auto& row : rows.rows) {
+    if (textAt(rows, row, "formulation") == "ggl") row[rows.column("cpu_environment")] = "elsewhere";
+  }
+  writeTable(part, rows);
+  const Ended refused = run();
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_TRUE(containsAll(refused.err, {"2 processors", "elsewhere", "--times here"}));
+  std::filesystem::rename(results() + "/small", results() + "/drift");
+  const Ended plotted = program({"plot", "drift", "--results", results()});
+  EXPECT_EQ(plotted.status, 1);
+  EXPECT_TRUE(containsAll(plotted.err, {"figures of drift have no times", "2 processors"}));
+  std::filesystem::rename(results() + "/drift", results() + "/small");
+  const Ended here = run("results", {"--times", "here"});
+  EXPECT_EQ(here.status, 0) << here.err;
+  for (const auto& row : runs().rows) EXPECT_EQ(numberAt(rows, row, "cpu_runs"), 2);
+}
+
 TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
   const Ended nothing = program({"plot", "drift", "--results", results()});
   EXPECT_EQ(nothing.status, 1);
