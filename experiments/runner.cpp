@@ -77,10 +77,11 @@ class Sweep {
     inParallel(work_.size(), threads, [this](std::size_t i) { runSeries(work_[i]); });
   }
 
-  Table result() {
+  std::vector<std::uint64_t> exported() {
     progress_.reset();
-    store_.exportTables(inOrder(keys_));
-    return readTable(store_.folder() / "runs.csv");
+    auto order = inOrder(keys_);
+    store_.exportTables(order);
+    return order;
   }
 
  private:
@@ -221,15 +222,17 @@ std::vector<std::uint64_t> inOrder(const RunKeys& keys) {
   return order;
 }
 
-Table runStudy(const Study& study, const RunnerOptions& options, store::Store& store, std::ostream& progress) {
+std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
+                                    std::ostream& progress) {
   Sweep sweep(study, options, store, progress);
   sweep.run(threadCount(options.jobs));
-  return sweep.result();
+  return sweep.exported();
 }
 
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
   store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
-  return runStudy(study, options, store, progress);
+  makeRuns(study, options, store, progress);
+  return readTable(store.folder() / "runs.csv");
 }
 
 }  // namespace irk

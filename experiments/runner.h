@@ -36,12 +36,13 @@ RunKeys runKeys(const Study& study, const RunnerOptions& options);
 /// One after the other, each once.
 std::vector<std::uint64_t> inOrder(const RunKeys& keys);
 
-/// Makes the runs that are not in the store yet and returns all of them, in the study's order whatever the number of
-/// threads: what is then in runs.csv, too. After an interrupt: what there is. Progress goes to `progress`. Throws
-/// store::StoreFailure.
-Table runStudy(const Study& study, const RunnerOptions& options, store::Store& store, std::ostream& progress);
+/// Makes the runs that are not in the store yet and exports the tables: all runs, in the study's order whatever the
+/// number of threads. After an interrupt: what there is. Returns the keys in that order. Progress goes to `progress`.
+/// Throws store::StoreFailure.
+std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
+                                    std::ostream& progress);
 
-/// The same with a store of its own, in studyFolder.
+/// The same with a store of its own, in studyFolder; returns the exported runs.csv.
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress);
 
 }  // namespace irk

@@ -147,40 +147,18 @@ std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   return specs;
 }
 
-void setFixedStep(RunSpec& spec, double h) {
-  spec.options.step.control = StepControl::kFixed;
-  spec.options.step.estimate = ErrorEstimate::kNone;
-  spec.options.step.h = h;
-}
-
 Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
-  Series series;
-  const auto append = [&](auto&& change) {
-    series.runs.push_back(spec);
-    change(series.runs.back());
-  };
   if (const auto* tolerances = find(keys, "tolerances")) {
-    series.end = SeriesEnd::kTooLong;
-    for (const double tol : numbers(*tolerances, "tolerances", kPositive)) {
-      append(
-          [tol](RunSpec& run) { run.options.tolerances.rtol = run.options.tolerances.atol = tol; });
-    }
-  } else if (const auto* steps = find(keys, "steps")) {
-    for (const double h : numbers(*steps, "steps", kPositive)) {
-      append([h](RunSpec& run) { setFixedStep(run, h); });
-    }
-  } else if (find(keys, "refine_most")) {
-    series.end = SeriesEnd::kAsymptotic;
-    constexpr NumberRange kMost{[](double x) { return x >= 2 && x <= 1e9; }, "2 <= N <= 1e9"};
-    const double most = number(keys, "refine_most", 2, kMost);
-    const double start = makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
-    for (const int n : divisions(static_cast<int>(most))) {
-      append([&](RunSpec& run) { setFixedStep(run, (run.t_end - start) / n); });
-    }
-  } else {
-    append([](RunSpec&) {});
+    return {{spec, Swept::kTolerances, numbers(*tolerances, "tolerances", kPositive)}, SeriesEnd::kTooLong};
   }
-  return series;
+  if (const auto* steps = find(keys, "steps")) return {{spec, Swept::kStep, numbers(*steps, "steps", kPositive)}};
+  if (!find(keys, "refine_most")) return {spec};
+  constexpr NumberRange kMost{[](double x) { return x >= 2 && x <= 1e9; }, "2 <= N <= 1e9"};
+  const double most = number(keys, "refine_most", 2, kMost);
+  const double start = makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+  std::vector<double> steps;
+  for (const int n : divisions(static_cast<int>(most))) steps.push_back((spec.t_end - start) / n);
+  return {{spec, Swept::kStep, std::move(steps)}, SeriesEnd::kAsymptotic};
 }
 
 void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
@@ -238,7 +216,7 @@ AuditOptions auditOptions(const StudyKeys& keys) {
 
 std::vector<Series> auditSeries(const AuditOptions& options) {
   std::vector<Series> series;
-  for (const auto& run : audit::drawnRuns(options)) series.push_back({{run.spec}});
+  for (const auto& run : audit::drawnRuns(options)) series.push_back({run.spec});
   return series;
 }
 
@@ -269,12 +247,18 @@ std::vector<int> divisions(int most) {
   return all;
 }
 
-std::map<std::string, const RunSpec*> specsByKey(const Study& study) {
-  std::map<std::string, const RunSpec*> specs;
-  for (const auto& series : study.series) {
-    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
+SpecsByKey::SpecsByKey(const Study& study) : study_(study) {
+  for (std::size_t i = 0; i < study.series.size(); ++i) {
+    const SeriesRuns& runs = study.series[i].runs;
+    for (std::size_t run = 0; run < runs.size(); ++run) places_[specKey(runs[run])] = {i, run};
   }
-  return specs;
+}
+
+std::optional<RunSpec> SpecsByKey::find(const std::string& key) const {
+  const auto found = places_.find(key);
+  if (found == places_.end()) return {};
+  const auto& [series, run] = found->second;
+  return study_.series[series].runs[run];
 }
 
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {

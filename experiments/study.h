@@ -7,9 +7,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/run_spec.h"
+#include "experiments/series_runs.h"
 
 namespace irk {
 
@@ -22,7 +24,7 @@ enum class SeriesEnd {
 
 /// Runs of one method on one scene, from the easiest to the hardest: made in this order.
 struct Series {
-  std::vector<RunSpec> runs;
+  SeriesRuns runs;
   SeriesEnd end = SeriesEnd::kAll;
 };
 
@@ -67,8 +69,17 @@ enum class StudyVariant { kFull, kQuick };
 /// file with another study whose name is a built-in one's, or that of a folder of results: they would share a folder.
 Study loadStudy(std::string_view id_or_file, StudyVariant variant);
 
-/// The specs of all runs by their keys; the study must outlive them.
-std::map<std::string, const RunSpec*> specsByKey(const Study& study);
+/// The specs of all runs by their keys; the study must outlive it.
+class SpecsByKey {
+ public:
+  explicit SpecsByKey(const Study& study);
+  /// Nothing where the study has no such run.
+  std::optional<RunSpec> find(const std::string& key) const;
+
+ private:
+  const Study& study_;
+  std::map<std::string, std::pair<std::size_t, std::size_t>> places_;  // number of the series, and in it
+};
 
 /// From TOML text; `file` names it in messages.
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);

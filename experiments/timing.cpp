@@ -35,7 +35,7 @@ class Collector final : public benchmark::BenchmarkReporter {
 
 struct Candidate {
   TableRow* row;
-  const RunSpec* spec;
+  RunSpec spec;
   double seconds;  // of the accuracy run, wherever it was made
   int repetitions;
   std::vector<double> measured;  // by a pass that was interrupted, to begin with
@@ -64,17 +64,17 @@ double lengthOf(const store::Store& store, const Table& runs, const TableRow& ro
 }
 
 std::vector<Candidate> candidates(const Study& study, const store::Store& store, Table& runs) {
-  const auto specs = specsByKey(study);
+  const SpecsByKey specs(study);
   std::vector<Candidate> wanted;
   for (auto& row : runs.rows) {
     const auto spec = specs.find(row.front());
     // What stale rows' counters say, this code's times would not belong to.
     const bool stale = textAt(runs, row, "code") != buildInfo().code;
-    if (spec == specs.end() || stale || !succeededAt(runs, row)) continue;
+    if (!spec || stale || !succeededAt(runs, row)) continue;
     const double seconds = lengthOf(store, runs, row);
     const int repetitions = seconds > study.timing.once_above_s ? 1 : study.timing.repetitions;
     if (seconds > study.timing.skip_above_s || numberAt(runs, row, "cpu_runs") >= repetitions) continue;
-    wanted.push_back({&row, spec->second, seconds, repetitions, measuredHere(store, runs, row)});
+    wanted.push_back({&row, *spec, seconds, repetitions, measuredHere(store, runs, row)});
   }
   return wanted;
 }
@@ -114,7 +114,7 @@ void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostrea
         const bool measured = static_cast<std::size_t>(round) < candidate.measured.size();
         if (measured || round >= candidate.repetitions || interruptFlag()) continue;
         const double start = wallSeconds();
-        RunSpec unlimited = *candidate.spec;
+        RunSpec unlimited = candidate.spec;
         unlimited.time_limit = 0;
         const auto run = prepare(unlimited);
         // A run so long that it is not repeated within the measurement: what it allocates once is there.

@@ -100,6 +100,25 @@ class Results : public testing::Test {
   std::ostringstream told_;
 };
 
+// A process of its own; its exit status is 0, `f`'s, or 9 after an exception.
+template <class F>
+pid_t startProcess(F&& f) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  int status = 9;
+  try {
+    status = f();
+  } catch (...) {
+  }
+  _exit(status);
+}
+
+int exitStatusOf(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 std::set<std::string> keysOf(const Table& runs) {
   std::set<std::string> keys;
   for (const auto& row : runs.rows) keys.insert(row.front());
@@ -285,13 +304,13 @@ TEST_F(Results, ASecondWriterWaits) {
 }
 
 TEST_F(Results, TheLockOfADeadProcessIsTakenOver) {
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = startProcess([&] {
     std::ostringstream quiet;
     const Store held(folder(), "small", Use::kWrite, {}, quiet);
     _exit(0);  // without removing it
-  }
-  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    return 1;
+  });
+  ASSERT_EQ(exitStatusOf(child), 0);
   ASSERT_TRUE(std::filesystem::exists(folder() / "lock"));
   EXPECT_EQ(run().rows.size(), 9u);
   EXPECT_TRUE(containsAll(told_.str(), {std::to_string(child), "is no more"}));
@@ -310,17 +329,14 @@ TEST_F(Results, TwoWritersAtOnceLoseNothing) {
     record.detail = "a \"detail\", with\na line end";
     for (int i = 0; i < kRows; ++i) rows.append(runRow(hexText(first + static_cast<std::uint64_t>(i)), "small", record));
   };
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = startProcess([&] {
     write(1);
-    _exit(0);
-  }
+    return 0;
+  });
   std::thread other([&] { write(10'000); });
   write(20'000);
   other.join();
-  int status = 1;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_EQ(status, 0);
+  EXPECT_EQ(exitStatusOf(child), 0);
   const Store read = reader();
   EXPECT_EQ(read.runs().size(), 3u * kRows);
   EXPECT_EQ(read.runs().damaged(), 0u);
@@ -331,12 +347,11 @@ TEST_F(Results, KilledRunsKeepWhatIsFinished) {
   const Table undisturbed = run("undisturbed", {}, kLong);
   std::set<std::string> finished;
   for (const int rows : {1, 4, 9}) {
-    const pid_t child = fork();
-    if (child == 0) {
+    const pid_t child = startProcess([&] {
       std::ostringstream quiet;
       runStudy(study(kLong), options("killed"), quiet);
-      _exit(0);
-    }
+      return 0;
+    });
     while (rowsInParts(folder("killed")) < rows && waitpid(child, nullptr, WNOHANG) == 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -356,23 +371,18 @@ TEST_F(Results, KilledRunsKeepWhatIsFinished) {
 // A limit on the length of files stands for a full disk: the row that does not fit is cut.
 TEST_F(Results, AFullDiskLosesNoFinishedRun) {
   const Table undisturbed = run("undisturbed");
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = startProcess([&] {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{4000, 4000};
     setrlimit(RLIMIT_FSIZE, &limit);
     try {
       run();
     } catch (const store::StoreFailure& failure) {
-      const bool said = containsAll(failure.what(), {"cannot write", "parts"});
-      _exit(said ? 7 : 8);
+      return containsAll(failure.what(), {"cannot write", "parts"}) ? 7 : 8;
     }
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 7);
+    return 0;
+  });
+  EXPECT_EQ(exitStatusOf(child), 7);
   const auto kept = reader().runs().size();
   EXPECT_GT(kept, 2u);
   EXPECT_LT(kept, 9u);
