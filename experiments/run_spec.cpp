@@ -335,7 +335,9 @@ Settings settingsAtStep(const RunSpec& spec) {
 std::string canonicalText(const RunSpec& spec) {
   std::string text;
   for (const auto& field : kFields) {
-    text += fmt::format("{}{}={}", text.empty() ? "" : ";", field.name, field.get(spec));
+    if (!text.empty()) text += ';';
+    text.append(field.name) += '=';
+    text += field.get(spec);
   }
   return text;
 }
@@ -351,7 +353,7 @@ std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameter
   auto text = canonicalText(spec);
   for (const auto& parameter : parameters) {
     if (!spec.settings.contains(parameter.name)) {
-      text += fmt::format(";{}={}", parameter.name, parameter.default_value);
+      text.append(";").append(parameter.name).append("=").append(parameter.default_value);
     }
   }
   return text + ";coefficients=" + coefficients(spec);
