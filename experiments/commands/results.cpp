@@ -61,8 +61,10 @@ std::string commandsOf(const MergeOptions& options, const store::MergeReport& re
   std::filesystem::path first = options.folders.front();
   if (!first.has_filename()) first = first.parent_path();
   if (shards > 0) results = first.parent_path().parent_path().string();
+  const bool quick = options.variant == StudyVariant::kQuick;
+  if (quick) results = std::filesystem::path(results).parent_path().string();  // --quick adds its own folder
   const auto command = [&](const std::string& shard) {
-    return fmt::format("  irk run {}{}{}{}\n", study, options.variant == StudyVariant::kQuick ? " --quick" : "", shard,
+    return fmt::format("  irk run {}{}{}{}\n", study, quick ? " --quick" : "", shard,
                        results.empty() ? "" : " --results " + results);
   };
   if (shards == 0) return command("");

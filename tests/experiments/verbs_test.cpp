@@ -205,6 +205,29 @@ TEST_F(Verbs, MergeSaysWhatIsMissing) {
   EXPECT_EQ(runs("merged").rows.size(), 8u);
 }
 
+// The commands that it prints, run as they are, make what is missing.
+TEST_F(Verbs, MergePrintsCommandsThatWork) {
+  std::vector<std::string> arguments{"run", study(), "--quick", "--results", results("parts"), "--shard", "1/2"};
+  ASSERT_EQ(program(arguments).status, 0);
+  const auto merged = [&](std::vector<std::string> more) {
+    std::vector<std::string> merge{"merge", results("parts") + "/quick/small/shard_1_of_2", "--study", study(), "--quick",
+                                   "--results", results("merged")};
+    merge.insert(merge.end(), more.begin(), more.end());
+    return program(merge);
+  };
+  const Ended missing = merged({});
+  ASSERT_EQ(missing.status, 1);
+  const auto at = missing.out.find("  irk run ");
+  ASSERT_NE(at, std::string::npos) << missing.out;
+  std::istringstream command(missing.out.substr(at + 6));
+  arguments.clear();
+  for (std::string word; command >> word;) arguments.push_back(word);
+  ASSERT_EQ(program(arguments).status, 0) << missing.out;
+  const Ended whole = merged({results("parts") + "/quick/small/shard_2_of_2"});
+  EXPECT_EQ(whole.status, 0) << whole.out;
+  EXPECT_EQ(readTable(results("merged") + "/quick/small/runs.csv").rows.size(), 8u);
+}
+
 TEST_F(Verbs, MergeRefusesTwoStudies) {
   ASSERT_EQ(run().status, 0);
   const std::string other = folder_.path() / "other.toml";
@@ -242,6 +265,8 @@ TEST_F(Verbs, ASecondWriterIsStatusOne) {
   const Ended ended = run();
   EXPECT_EQ(ended.status, 1);
   EXPECT_TRUE(containsAll(ended.err, {"elsewhere", "4711", "2026-01-01T00:00:00Z", "--wait"}));
+  EXPECT_EQ(run("results", {"--stale", "forget"}).status, 2);
+  EXPECT_EQ(run("results", {"--times", "there"}).status, 2);
   const Ended status = program({"status", study(), "--results", results()});
   EXPECT_EQ(status.status, 0);
   EXPECT_TRUE(containsAll(status.out, {"8 runs to make", "4711"}));
