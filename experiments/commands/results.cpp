@@ -86,6 +86,11 @@ int mergeCommand(MergeOptions options, Streams streams) {
     throw Misuse(fmt::format("the folders hold the study '{}', not '{}'", named, study.id));
   }
   const auto folder = std::filesystem::path(options.results) / study.id;
+  for (const auto& from : options.folders) {
+    std::error_code none;
+    if (!std::filesystem::equivalent(from, folder, none)) continue;
+    throw Misuse(fmt::format("{}: the rows are merged there, and those that are there count: leave it out", from));
+  }
   store::Store merged(folder, study.id, store::Use::kWrite, options.store, streams.err);
   std::vector<const store::Store*> all{&merged};
   for (const auto& store : stores) all.push_back(store.get());

@@ -236,6 +236,9 @@ TEST_F(Verbs, MergeRefusesTwoStudies) {
   const Ended ended = program({"merge", results() + "/small", results() + "/other", "--study", study()});
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(containsAll(ended.err, {"two studies", "'small'", "'other'"}));
+  const Ended itself = program({"merge", results() + "/small", "--study", study(), "--results", results()});
+  EXPECT_EQ(itself.status, 2);
+  EXPECT_TRUE(containsAll(itself.err, {"merged there", "leave it out"}));
 }
 
 TEST_F(Verbs, AFileDoesNotDisturbABuiltInStudy) {
@@ -312,6 +315,8 @@ TEST_F(Verbs, FiguresDoNotJoinTimesOfTwoMachines) {
   const Ended plotted = program({"plot", "drift", "--results", results()});
   EXPECT_EQ(plotted.status, 1);
   EXPECT_TRUE(containsAll(plotted.err, {"figures of drift have no times", "2 processors"}));
+  const Ended claims = program({"claims", "--results", results()});
+  EXPECT_TRUE(containsAll(claims.out, {"study drift: times of 2 processors"}));
   std::filesystem::rename(results() + "/drift", results() + "/small");
   const Ended here = run("results", {"--times", "here"});
   EXPECT_EQ(here.status, 0) << here.err;
