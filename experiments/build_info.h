@@ -8,6 +8,7 @@ namespace irk {
 struct BuildInfo {
   std::string_view version;   ///< of the project
   std::string_view commit;    ///< git describe --always --dirty; `unknown` outside a repository
+  std::string_view code;      ///< fingerprint of the sources that decide the numbers of a run
   std::string_view compiler;  ///< id and version
   std::string_view flags;
   std::string_view source_dir;  ///< where plots/ is looked for when IRK_HOME is not set

@@ -104,22 +104,47 @@ class Program {
   }
 
   void addRunnerOptions(CLI::App& sub) {
-    sub.add_flag("--quick", quick_, "the small variant of each study");
     sub.add_flag("--fresh", fresh_, "make finished runs again");
+    sub.add_flag("--wait", wait_, "wait where another process writes to the same study");
+    sub.add_option("--stale", stale_, "runs that other code has made: keep | remake")
+        ->check(CLI::IsMember({"keep", "remake"}))
+        ->capture_default_str();
     sub.add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    addTimes(sub);
+    addQuick(sub);
     addResults(sub);
+  }
+  void addTimes(CLI::App& sub) {
+    sub.add_option("--times", times_, "all | here: only those measured on this processor count")
+        ->check(CLI::IsMember({"all", "here"}))
+        ->capture_default_str();
   }
   void addResults(CLI::App& sub) {
     sub.add_option("--results", results_, "folder of the results")->capture_default_str();
+  }
+  void addQuick(CLI::App& sub) {
+    sub.add_flag("--quick", quick_, "the small variant of each study, in RESULTS/quick");
+  }
+  // Full and quick results are trees of their own.
+  std::string results() const { return quick_ ? results_ + "/quick" : results_; }
+  StudyVariant variant() const { return quick_ ? StudyVariant::kQuick : StudyVariant::kFull; }
+
+  store::StoreOptions storeOptions() const {
+    store::StoreOptions options;
+    if (fresh_) options.finished = store::FinishedRuns::kRunAgain;
+    if (stale_ == "remake") options.stale = store::StaleRows::kRemake;
+    if (times_ == "here") options.times = store::Times::kHere;
+    if (wait_) options.if_locked = store::IfLocked::kWait;
+    return options;
   }
 
   RunOptions runOptions() {
     RunOptions options;
     options.study = study_;
-    options.variant = quick_ ? StudyVariant::kQuick : StudyVariant::kFull;
-    options.runner.results = results_;
+    options.variant = variant();
+    options.runner.results = results();
     options.runner.jobs = parseJobs();
-    options.runner.finished = fresh_ ? FinishedRuns::kRunAgain : FinishedRuns::kKeep;
+    options.runner.store = storeOptions();
     if (!shard_.empty()) parseShard(shard_, options.runner);
     return options;
   }
@@ -136,6 +161,12 @@ class Program {
     sub->add_option("study", study_, "id or TOML file")->required();
     sub->add_option("--shard", shard_, "i/n: this part of n, for array jobs; see merge");
     addRunnerOptions(*sub);
+    auto* status = verb(app_, "status", "how far a study is: planned, finished, failed, stale, foreign, time needed",
+                        [this](Streams s) { return statusCommand(runOptions(), s); });
+    status->add_option("study", study_, "id or TOML file")->required();
+    status->add_option("--shard", shard_, "i/n: this part of n only");
+    addQuick(*status);
+    addResults(*status);
   }
 
   void addSolve() {
@@ -197,22 +228,29 @@ class Program {
 
   void addPlots() {
     auto* plot = verb(app_, "plot", "the figures of a study",
-                      [this](Streams s) { return plotCommand(study_, results_, s); });
+                      [this](Streams s) { return plotCommand(study_, results(), s); });
     plot->add_option("study", study_, "id")->required();
+    addQuick(*plot);
     addResults(*plot);
     auto* report = verb(app_, "report", "all figures and the report page",
-                        [this](Streams s) { return reportCommand(results_, s); });
+                        [this](Streams s) { return reportCommand(results(), s); });
+    addQuick(*report);
     addResults(*report);
     auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
-                        [this](Streams s) { return claimsCommand(results_, s); });
+                        [this](Streams s) { return claimsCommand(results(), s); });
+    addQuick(*judged);
     addResults(*judged);
   }
 
   void addMerging() {
     auto* merge = verb(app_, "merge", "join the results of shards", [this](Streams s) {
-      return mergeCommand({folders_, study_, results_}, s);
+      return mergeCommand({folders_, study_, results(), variant(), partial_, storeOptions()}, s);
     });
-    merge->add_option("folders", folders_, "folders with a runs.csv each")->required();
+    merge->add_option("folders", folders_, "folders of one study, or of its shards")->required();
+    merge->add_flag("--partial", partial_, "merge although runs are missing, or disagree");
+    merge->add_flag("--wait", wait_, "wait where another process writes to the same study");
+    addTimes(*merge);
+    addQuick(*merge);
     merge->add_option("--study", study_, "id or TOML file, if the tables' own is not built in");
     addResults(*merge);
     auto* compare = verb(app_, "compare", "what differs between two studies or trees of results",
@@ -252,7 +290,8 @@ class Program {
 
   CLI::App app_;
   Action action_;
-  bool quick_ = false, fresh_ = false;
+  bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false;
+  std::string stale_ = "keep", times_ = "all";
   std::string study_, shard_, what_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::string out_ = "stability";

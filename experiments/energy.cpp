@@ -84,12 +84,12 @@ Table energyTable(const Study& study, const Table& runs) {
   Table table{runs.head, seriesColumns(runs), {}};
   table.columns.insert(table.columns.end(),
                        {"h", "t", "energy_error", "drift", "scatter", "largest"});
-  const auto specs = specsByKey(study);
+  const SpecsByKey specs(study);
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto found = specs.find(run->front());
-      if (found == specs.end() || !succeededAt(runs, *run) || interruptFlag()) continue;
-      const RunSpec spec = resolved(*found->second);
+      if (!found || !succeededAt(runs, *run) || interruptFlag()) continue;
+      const RunSpec spec = resolved(*found);
       const auto scene = makeScene<mp50>(spec.scene, settingsAtStep(spec));
       const auto* energy = energyOf(scene);
       const bool fixed = spec.options.step.control == StepControl::kFixed;

@@ -1,18 +1,25 @@
 #include "experiments/environment.h"
 
 #include <fmt/format.h>
+#include <gsl/gsl_version.h>
+#include <omp.h>
+#include <sundials/sundials_config.h>
+#include <unistd.h>
 
+#include <Eigen/Core>
+#include <boost/version.hpp>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 
 #include "core/misuse.h"
 #include "experiments/build_info.h"
+#include "experiments/numbers.h"
 
 namespace irk {
 namespace {
 
-std::string cpuName() {
+std::string readProcessorName() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {
     const auto colon = line.find(": ");
@@ -21,7 +28,55 @@ std::string cpuName() {
   return "unknown";
 }
 
+double memoryInGb() {
+  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  return bytes / (1 << 30);
+}
+
+std::string libraryVersions() {
+  return fmt::format("Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION);
+}
+
+TableRow makeEnvironment() {
+  const BuildInfo& build = buildInfo();
+  TableRow row{"",
+               std::string(build.commit),
+               std::string(build.version),
+               hostName(),
+               processorName(),
+               std::to_string(omp_get_num_procs()),
+               fmt::format("{:.1f}", memoryInGb()),
+               std::string(build.compiler),
+               std::string(build.flags),
+               libraryVersions()};
+  row.front() = hexText(fnv1a(csvLine(row)));
+  row.push_back(dateText());
+  return row;
+}
+
 }  // namespace
+
+std::vector<std::string> environmentColumns() {
+  return {"environment", "commit",   "version", "host",      "cpu",       "cores",
+          "memory_gb",   "compiler", "flags",   "libraries", "first_date"};
+}
+
+const TableRow& thisEnvironment() {
+  static const TableRow row = makeEnvironment();
+  return row;
+}
+
+const std::string& processorName() {
+  static const std::string name = readProcessorName();
+  return name;
+}
+
+std::string hostName() {
+  char name[256] = "";
+  if (gethostname(name, sizeof name - 1) != 0 || name[0] == '\0') return "unknown";
+  return name;
+}
 
 TableHead environmentHead(const std::string& study, int threads) {
   const BuildInfo& build = buildInfo();
@@ -30,7 +85,7 @@ TableHead environmentHead(const std::string& study, int threads) {
           {"commit", std::string(build.commit)},
           {"compiler", std::string(build.compiler)},
           {"flags", std::string(build.flags)},
-          {"cpu", cpuName()},
+          {"cpu", processorName()},
           {"threads", std::to_string(threads)},
           {"date", dateText()}};
 }

@@ -1,8 +1,9 @@
-// Where and when numbers were made: the head of every table.
+// Where and when numbers were made: the head of tables, and the rows of environments.csv.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/table.h"
 
@@ -10,6 +11,15 @@ namespace irk {
 
 /// study, version, commit, compiler, flags, cpu, threads, date.
 TableHead environmentHead(const std::string& study, int threads);
+
+/// Of environments.csv: environment (its id), commit, version, host, cpu, cores, memory_gb, compiler, flags, libraries,
+/// first_date.
+std::vector<std::string> environmentColumns();
+/// Those of this program on this machine. The id is a hash of all but the date.
+const TableRow& thisEnvironment();
+/// Name of the processor.
+const std::string& processorName();
+std::string hostName();
 
 /// Now, UTC, ISO 8601.
 std::string dateText();

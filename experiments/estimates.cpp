@@ -132,19 +132,19 @@ Table estimateTable(const Study& study, const Table& runs) {
   Table table{runs.head, seriesColumns(runs), {}};
   table.columns.insert(table.columns.end(), {"rtol", "t", "h", "group", "difference", "error",
                                              "doubling", "richardson"});
-  const auto specs = specsByKey(study);
+  const SpecsByKey specs(study);
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
-      if (spec == specs.end() || !succeededAt(runs, *run) || interruptFlag() ||
-          findPeer(spec->second->method) ||
-          spec->second->options.step.estimate == ErrorEstimate::kNone ||
-          spec->second->scalar != ScalarKind::kDouble) {
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() ||
+          findPeer(spec->method) ||
+          spec->options.step.estimate == ErrorEstimate::kNone ||
+          spec->scalar != ScalarKind::kDouble) {
         continue;
       }
-      const StepSampler sampler(*spec->second);
+      const StepSampler sampler(*spec);
       for (const Step& step : sampler.steps()) {
-        appendStep(sampler, step, *spec->second, series.name, runs, *run, table);
+        appendStep(sampler, step, *spec, series.name, runs, *run, table);
       }
     }
   }

@@ -7,7 +7,8 @@ file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/audit/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/compare/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp
-                                  ${CMAKE_SOURCE_DIR}/experiments/reference/*.cpp)
+                                  ${CMAKE_SOURCE_DIR}/experiments/reference/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/store/*.cpp)
 target_sources(irk_experiments PRIVATE ${parts})
 target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
                       PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark
@@ -47,3 +48,6 @@ target_link_libraries(irk PRIVATE irk::experiments irk_options)
 
 add_executable(irk_kernels experiments/kernels/stage_solvers.cpp)
 target_link_libraries(irk_kernels PRIVATE irk::experiments irk_options benchmark::benchmark)
+
+add_executable(irk_store experiments/kernels/store.cpp)
+target_link_libraries(irk_store PRIVATE irk::experiments irk_options benchmark::benchmark fmt::fmt)

@@ -195,20 +195,20 @@ std::vector<std::string> uncoveredRuns(const Table& phases) {
 
 Table phaseTable(const Study& study, const Table& runs, std::ostream& out) {
   Table table{runs.head, phaseColumns(runs), {}};
-  const auto specs = specsByKey(study);
+  const SpecsByKey specs(study);
   Progress progress(out, study.id + " phases");
   for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
       const auto& kind = textAt(runs, *run, "settings");
-      if (spec == specs.end() || !succeededAt(runs, *run) || interruptFlag() ||
-          findPeer(spec->second->method)) {
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() ||
+          findPeer(spec->method)) {
         progress.skipped(kind);
         continue;
       }
       const double start = wallSeconds();
-      table.rows.push_back(phaseRow(runs, *run, series.name, *spec->second));
+      table.rows.push_back(phaseRow(runs, *run, series.name, *spec));
       progress.finished(kind, wallSeconds() - start);
     }
   }

@@ -24,6 +24,7 @@
 #include "experiments/figure_path.h"
 #include "experiments/html.h"
 #include "experiments/order_fit.h"
+#include "experiments/results.h"
 #include "experiments/study.h"
 #include "experiments/table.h"
 
@@ -216,6 +217,12 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
   requireResults(study, figures, options);
   std::filesystem::create_directories(figureFolder(options));
   int failures = 0;
+  for (const auto& of : studiesOf(figures)) {
+    const auto refusal = refusedTimes(options.results / of / "runs.csv");
+    if (refusal.empty() || (!study.empty() && of != study)) continue;
+    ++failures;
+    fmt::print(err, "figures of {} have no times: {}\n", of, refusal);
+  }
   for (const auto& figure : figures) {
     if (!study.empty() && figure.study != study) continue;
     if (!hasResults(figure, options)) {

@@ -29,9 +29,9 @@ bool drawFigure(const std::string& script, const std::string& commands,
                 const std::filesystem::path& home, std::ostream& err);
 
 /// Draws results/report/figures/<name>.svg and .png for every figure whose study has results;
-/// `study` empty: for all studies. Returns the number of figures that failed, each with a message
-/// on `err`. Throws Misuse for a study without figures and for results that are no folder, Failure where nothing
-/// that is asked for has results.
+/// `study` empty: for all studies. Returns the number of figures that failed, and of studies whose figures lack times
+/// as they are of several processors, each with a message on `err`. Throws Misuse for a study without figures and for
+/// results that are no folder, Failure where nothing that is asked for has results.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
 /// Writes results/report/index.html from plots/report.html and returns its path.

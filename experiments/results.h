@@ -1,4 +1,4 @@
-// Folders of results: what is computed from runs.csv, merging.
+// What is computed from runs.csv.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,16 @@
 
 namespace irk {
 
+/// Why a runs.csv has no times: they are of several processors. Empty where it has them.
+std::string refusedTimes(const TableHead& head);
+/// The same of a file, of which only the head is read.
+std::string refusedTimes(const std::filesystem::path& runs);
+
 /// orders.csv, cpu_at_error.csv, estimates.csv, energy.csv, phases.csv, scaling.csv and profile.csv, as the study asks.
+/// Where the times are of several processors (store::kTimesRefused) there is no profile, and costs have no times.
 /// Returns one line for every number that must not be believed; all tables are written all the same.
 [[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
                                                       const std::filesystem::path& folder,
                                                       std::ostream& progress);
-
-/// All rows of the folders' runs.csv; of rows with one key a timed one wins. Throws Misuse for
-/// tables of different studies or columns.
-Table mergedRuns(const std::vector<std::string>& folders);
 
 }  // namespace irk

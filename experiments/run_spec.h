@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/options.h"
 #include "problems/scene.h"
@@ -78,7 +79,11 @@ Settings settingsAtStep(const RunSpec& spec);
 std::string canonicalText(const RunSpec& spec);
 RunSpec parseSpec(std::string_view text);
 
-/// 16 hexadecimal digits from the resolved spec, the version and the contents of a method file.
+/// All that decides a run but code: the canonical text of the resolved spec, the scene's parameters at their defaults, a
+/// hash of the method's A, b and c, or of a method file's contents.
+std::string keyText(const RunSpec& resolved, const std::vector<Parameter>& parameters);
+
+/// 16 hexadecimal digits: a hash of keyText. What the code is stands beside it in a row (`code`).
 std::string specKey(const RunSpec& spec);
 
 /// What a user would call the integrator: a peer's id, `variable` or another configuration with variable

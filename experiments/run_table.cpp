@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/build_info.h"
+#include "experiments/environment.h"
 #include "experiments/numbers.h"
 
 namespace irk {
@@ -16,7 +18,10 @@ constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
                                         "error_x", "error_z", "drift"};
-constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs"};
+constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all",
+                                       "cpu_environment"};
+// Which code made a row, where, when, and when it was asked for anew (--fresh).
+constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
 
 void append(std::vector<std::string>& to, std::span<const std::string_view> names) {
   to.insert(to.end(), names.begin(), names.end());
@@ -47,6 +52,7 @@ std::vector<std::string> runColumns() {
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
   append(columns, kTimes);
   columns.emplace_back("detail");
+  append(columns, kOrigin);
   return columns;
 }
 
@@ -60,7 +66,9 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift}) row.push_back(numberText(error));
   record.counters.forEach(
       [&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
-  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", record.detail});
+  const std::string& environment = thisEnvironment().front();
+  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", "", environment, record.detail,
+                         std::string(buildInfo().code), environment, dateText(), ""});
   return row;
 }
 
@@ -92,7 +100,18 @@ void setTiming(const Table& table, TableRow& row, const Timing& timing) {
   row[table.column("cpu_s")] = numberText(timing.minimum_s);
   row[table.column("cpu_median_s")] = numberText(timing.median_s);
   row[table.column("cpu_spread")] = numberText(timing.spread);
-  row[table.column("cpu_runs")] = std::to_string(timing.runs);
+  row[table.column("cpu_runs")] = std::to_string(timing.all_s.size());
+  std::string all;
+  for (const double seconds : timing.all_s) all += (all.empty() ? "" : " ") + numberText(seconds);
+  row[table.column("cpu_all")] = all;
+  row[table.column("cpu_environment")] = thisEnvironment().front();
+  row[table.column("date")] = dateText();
+}
+
+void forgetTiming(const Table& table, TableRow& row) {
+  for (const char* name : {"cpu_s", "cpu_median_s", "cpu_spread"}) row[table.column(name)] = "nan";
+  row[table.column("cpu_runs")] = "0";
+  row[table.column("cpu_all")].clear();
 }
 
 double numberAt(const Table& table, const TableRow& row, std::string_view column) {

@@ -10,7 +10,8 @@ namespace irk {
 /// relative.
 std::vector<std::string> runColumns();
 
-/// `key`: specKey of the record's spec. Timing columns are empty until the timing pass.
+/// `key`: specKey of the record's spec. Timing columns are empty until the timing pass, but for cpu_s, the time of the
+/// run itself. The row is of this program, of this machine and of now.
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record);
 
 /// The columns that tell series apart: every field of a spec but h, rtol and atol, and what is derived from
@@ -30,9 +31,12 @@ struct Timing {
   double minimum_s;
   double median_s;
   double spread;  ///< (max - min) / min
-  int runs;
+  std::vector<double> all_s;  ///< each repetition, in the order in which they were made
 };
+/// Measured here and now.
 void setTiming(const Table& table, TableRow& row, const Timing& timing);
+/// As if no time of the run were known.
+void forgetTiming(const Table& table, TableRow& row);
 
 /// Cells by name.
 double numberAt(const Table& table, const TableRow& row, std::string_view column);

@@ -1,233 +1,184 @@
 #include "experiments/runner.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <ostream>
+#include <unordered_set>
 
 #include "core/misuse.h"
 #include "experiments/clock.h"
-#include "experiments/environment.h"
 #include "experiments/final_states.h"
 #include "experiments/interrupt.h"
 #include "experiments/numbers.h"
 #include "experiments/progress.h"
 #include "experiments/run_table.h"
 #include "experiments/series_rules.h"
-#include "experiments/step_planner.h"
+#include "experiments/series_walk.h"
+#include "experiments/store/facts.h"
 #include "experiments/trajectory.h"
 #include "tableaus/catalogue.h"
 
 namespace irk {
 namespace {
 
-// What tells how long a run lasts, but for its number of stages: series come in their order.
-// Of planned series the steps to come are not known.
-std::string kindOf(const RunSpec& spec, SeriesEnd end) {
-  const auto& tolerances = spec.options.tolerances;
-  const bool planned = end == SeriesEnd::kAsymptotic;
-  return fmt::format("{} {} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings),
-                     idOf(spec.formulation), planned ? spec.method : "",
-                     planned ? 0 : spec.options.step.h,
-                     std::max(tolerances.rtol, tolerances.atol));
-}
-
-// A planned series has usually so many runs.
-constexpr std::size_t kPlannedRuns = 11;
-
-GroupErrors groupErrors(const Table& table, const TableRow& row) {
-  return {numberAt(table, row, "error_u"), numberAt(table, row, "error_v"),
-          numberAt(table, row, "error_x"), numberAt(table, row, "error_z")};
-}
-
-// Renames the file to one that is not there yet: runs.old.csv, runs.old2.csv, ...
-std::filesystem::path setAside(const std::filesystem::path& file) {
-  std::filesystem::path to;
-  for (int i = 1; to.empty() || std::filesystem::exists(to); ++i) {
-    to = file;
-    to.replace_extension(fmt::format("old{}{}", i == 1 ? "" : std::to_string(i),
-                                     file.extension().string()));
+// f(0), ..., f(count - 1) on several threads. Throws the first exception of any of them; then the rest is left out.
+template <class F>
+void inParallel(std::size_t count, int threads, F&& f) {
+  std::mutex mutex;
+  std::exception_ptr failure;
+  std::atomic<bool> failed = false;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < count; ++i) {
+    if (failed) continue;
+    try {
+      f(i);
+    } catch (...) {
+      failed = true;
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
   }
-  std::filesystem::rename(file, to);
-  return to;
-}
-
-// The rows that a former run of the study left behind.
-Table finishedRuns(const std::filesystem::path& file, const Study& study,
-                   const RunnerOptions& options, std::ostream& out) {
-  Table fresh{environmentHead(study.id, threadCount(options.jobs)), runColumns(), {}};
-  if (options.finished == FinishedRuns::kRunAgain || !std::filesystem::exists(file)) return fresh;
-  const Table found = readTable(file);
-  if (found.columns != fresh.columns) {
-    out << fmt::format("{}: written by another version, its runs are made again; the old table is kept as {}\n",
-                       file.string(), setAside(file).filename().string());
-    return fresh;
-  }
-  const auto commit = [](const Table& t) {
-    const auto at = std::find_if(t.head.begin(), t.head.end(),
-                                 [](const auto& entry) { return entry.first == "commit"; });
-    return at == t.head.end() ? std::string() : at->second;
-  };
-  fresh.rows = sortedRuns(found, study).rows;
-  if (commit(found) != commit(fresh) && !fresh.rows.empty()) {
-    out << fmt::format("{}: {} runs of commit {} are kept; --fresh makes them again\n",
-                       file.string(), fresh.rows.size(), commit(found));
-  }
-  return fresh;
+  if (failure) std::rethrow_exception(failure);
 }
 
 /// What the threads of one sweep share.
 class Sweep {
  public:
-  Sweep(const Study& study, const RunnerOptions& options, std::ostream& out)
-      : study_(study),
-        folder_(studyFolder(study, options)),
-        table_(finishedRuns(folder_ / "runs.csv", study, options, out)),
-        writer_(folder_ / "runs.csv", table_) {
+  Sweep(const Study& study, const RunnerOptions& options, store::Store& store, std::ostream& out)
+      : study_(study), store_(store), keys_(runKeys(study, options)) {
     for (std::size_t i = 0; i < study.series.size(); ++i) {
-      const auto turn = static_cast<int>(i % static_cast<std::size_t>(options.shards));
-      if (turn + 1 == options.shard) work_.push_back(&study.series[i]);
+      if (!keys_[i].empty()) work_.push_back(i);
     }
+    tellStale(out);
     progress_.emplace(out, study.id);
-    for (const auto* series : work_) {
-      const auto& runs = series->runs;
-      const bool planned = series->end == SeriesEnd::kAsymptotic;
-      const std::size_t count = planned ? std::min(kPlannedRuns, runs.size()) : runs.size();
-      for (std::size_t i = 0; i < count; ++i) progress_->expect(kindOf(runs[i], series->end));
-    }
-    for (const auto& row : table_.rows) finished_[row.front()] = row;
-    if (study.states) {
-      const bool fresh = options.finished == FinishedRuns::kRunAgain;
-      states_.emplace(folder_ / "states.csv", table_.head, fresh);
+    for (const std::size_t i : work_) {
+      const Series& series = study.series[i];
+      const std::size_t expected = expectedRuns(series);
+      for (std::size_t run = 0; run < expected; ++run) progress_->expect(kindOf(series.runs[run], series.end));
     }
   }
 
   /// Throws the first exception of any thread.
   void run(int threads) {
     // Long ones first, so that no thread is left alone at the end: more stages cost more.
-    const auto stages = [](const Series* series) {
-      const RunSpec& spec = series->runs.front();
+    const auto stages = [this](std::size_t series) {
+      const RunSpec& spec = study_.series[series].runs.front();
       return isFamily(spec.method) ? spec.max_stages : stagesInId(spec.method);
     };
-    std::stable_sort(work_.begin(), work_.end(), [&](const Series* a, const Series* b) {
-      return stages(a) > stages(b);
-    });
-    std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (std::size_t i = 0; i < work_.size(); ++i) {
-      try {
-        runSeries(*work_[i]);
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        if (!failure) failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
+    std::stable_sort(work_.begin(), work_.end(),
+                     [&](std::size_t a, std::size_t b) { return stages(a) > stages(b); });
+    inParallel(work_.size(), threads, [this](std::size_t i) { runSeries(work_[i]); });
   }
 
-  Table result() {
+  std::vector<std::uint64_t> exported() {
     progress_.reset();
-    for (const auto& [key, row] : finished_) table_.rows.push_back(row);
-    table_ = sortedRuns(table_, study_);
-    writeTable(folder_ / "runs.csv", table_);
-    return table_;
+    auto order = inOrder(keys_);
+    store_.exportTables(order);
+    return order;
   }
 
  private:
-  void runSeries(const Series& series) {
-    if (series.end == SeriesEnd::kAsymptotic) return runPlanned(series);
-    const TableRow* too_long = nullptr;
-    for (const auto& spec : series.runs) {
-      const TableRow* row = finishedOrMade(spec, kindOf(spec, series.end), too_long);
-      if (!row) return;
-      const auto& outcome = textAt(table_, *row, "outcome");
-      if (series.end == SeriesEnd::kTooLong && ranTooLong(outcome)) too_long = row;
+  void tellStale(std::ostream& out) const {
+    std::size_t stale = 0;
+    for (const std::size_t i : work_) {
+      for (const auto key : keys_[i]) {
+        const auto* entry = store_.finished(key);
+        if (entry && !store_.runs().isCurrent(*entry)) ++stale;
+      }
     }
+    if (stale == 0) return;
+    fmt::print(out, "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
+                    "them again\n",
+               study_.id, stale);
   }
 
-  void runPlanned(const Series& series) {
-    std::vector<double> steps;
-    for (const auto& run : series.runs) steps.push_back(run.options.step.h);
-    StepPlanner planner(std::move(steps), epsilonOf(series.runs.front().scalar));
-    const std::string kind = kindOf(series.runs.front(), series.end);
-    std::size_t expected = std::min(kPlannedRuns, series.runs.size());
-    while (const auto i = planner.next()) {
-      if (expected == 0) {
+  void runSeries(std::size_t index) {
+    const Series& series = study_.series[index];
+    const bool planned = series.end == SeriesEnd::kAsymptotic;
+    SeriesWalk walk(series);
+    std::size_t expected = expectedRuns(series);
+    while (const auto run = walk.next()) {
+      const RunSpec& spec = series.runs[*run];
+      const std::string kind = kindOf(planned ? series.runs.front() : spec, series.end);
+      if (expected > 0) {
+        --expected;
+      } else {
         const std::lock_guard lock(mutex_);
         progress_->expect(kind);
-      } else {
-        --expected;
       }
-      const TableRow* row = finishedOrMade(series.runs[*i], kind, nullptr);
-      if (!row) return;
-      const auto& outcome = textAt(table_, *row, "outcome");
-      if (succeededAt(table_, *row)) {
-        planner.record(*i, groupErrors(table_, *row));
-      } else {
-        planner.recordFailure(*i);
-      }
-      if (outcome == "refused" || ranTooLong(outcome)) planner.endProbe();
+      const auto facts = finishedOrMade(spec, keys_[index][*run], kind, planned, tooLongRow(index, walk));
+      if (!facts) return;
+      walk.record(*run, *facts);
     }
+    const std::string kind = kindOf(series.runs.front(), series.end);
     const std::lock_guard lock(mutex_);
     for (; expected > 0; --expected) progress_->skipped(kind);
   }
 
-  // Null after an interrupt.
-  const TableRow* finishedOrMade(const RunSpec& spec, const std::string& kind,
-                                 const TableRow* too_long) {
-    if (interruptFlag()) return nullptr;
-    const std::string key = specKey(spec);
+  std::optional<TableRow> tooLongRow(std::size_t index, const SeriesWalk& walk) {
+    const auto run = walk.tooLong();
+    if (!run) return {};
+    const std::lock_guard lock(mutex_);
+    const store::Rows& runs = store_.runs();
+    return runs.row(*runs.find(keys_[index][*run]));
+  }
+
+  // Nothing after an interrupt.
+  std::optional<RunFacts> finishedOrMade(const RunSpec& spec, std::uint64_t key, const std::string& kind, bool planned,
+                                      const std::optional<TableRow>& too_long) {
+    if (interruptFlag()) return {};
     {
       const std::lock_guard lock(mutex_);
-      const auto found = finished_.find(key);
-      if (found != finished_.end() && hasSolution(key, spec)) {
+      const store::Entry* entry = store_.finished(key);
+      if (entry && hasSolution(key, spec)) {
         progress_->skipped(kind);
-        return &found->second;
+        return store::factsOf(store_.runs(), *entry, planned);
       }
     }
     const double start = wallSeconds();
-    const RunRecord record = too_long ? notMade(spec, *too_long, table_) : make(spec);
-    if (record.outcome == name(Outcome::kInterrupted)) return nullptr;
+    const RunRecord record = too_long ? notMade(spec, *too_long, columns_) : make(spec);
+    if (record.outcome == name(Outcome::kInterrupted)) return {};
+    const std::string text = hexText(key);
     const std::lock_guard lock(mutex_);
-    TableRow& row = finished_[key] = runRow(key, study_.id, record);
-    writer_.append(row);
-    if (states_) states_->append(key, record);
+    if (study_.states) store_.addState(text, vectorText(componentsOf(record)));
+    store_.addRun(runRow(text, study_.id, record));
     if (too_long) {
       progress_->skipped(kind);
     } else {
       progress_->finished(kind, wallSeconds() - start);
     }
-    return &row;
+    const RunErrors& errors = record.errors;
+    return RunFacts{record.outcome, {errors.u, errors.v, errors.x, errors.z}};
   }
 
   // What the study keeps of a finished run beside its row is there.
-  bool hasSolution(const std::string& key, const RunSpec& spec) const {
-    if (states_ && !states_->has(key)) return false;
-    return !study_.trajectories || std::filesystem::exists(trajectoryPath(folder_, spec));
+  bool hasSolution(std::uint64_t key, const RunSpec& spec) const {
+    if (study_.states && !store_.hasState(key)) return false;
+    return !study_.trajectories || std::filesystem::exists(trajectoryPath(store_.folder(), spec));
   }
 
   RunRecord make(const RunSpec& spec) const {
     const Watch watch{&interruptFlag(), {}, {}};
     return withoutMachine(orRefused(spec, [&] {
-      return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(folder_, spec))
+      return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(store_.folder(), spec))
                                  : execute(spec, watch);
     }));
   }
 
   const Study& study_;
-  std::filesystem::path folder_;
-  Table table_;
-  RowWriter writer_;
-  std::optional<FinalStates> states_;
-  std::vector<const Series*> work_;
+  store::Store& store_;
+  const RunKeys keys_;
+  const Table columns_{{}, runColumns(), {}};
+  std::vector<std::size_t> work_;  // series
   std::mutex mutex_;
   std::optional<Progress> progress_;
-  std::map<std::string, TableRow> finished_;  // by key; rows stay where they are
 };
 
 }  // namespace
@@ -250,27 +201,38 @@ std::filesystem::path studyFolder(const Study& study, const RunnerOptions& optio
 
 int threadCount(int jobs) { return jobs > 0 ? jobs : omp_get_num_procs(); }
 
-Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
-  Sweep sweep(study, options, progress);
-  sweep.run(threadCount(options.jobs));
-  return sweep.result();
+RunKeys runKeys(const Study& study, const RunnerOptions& options) {
+  RunKeys keys(study.series.size());
+  inParallel(keys.size(), threadCount(options.jobs), [&](std::size_t i) {
+    const auto turn = static_cast<int>(i % static_cast<std::size_t>(options.shards));
+    if (turn + 1 != options.shard) return;
+    for (const auto& spec : study.series[i].runs) keys[i].push_back(store::keyNumber(specKey(spec)));
+  });
+  return keys;
 }
 
-Table sortedRuns(const Table& runs, const Study& study) {
-  std::map<std::string_view, const TableRow*> by_key;
-  for (const auto& row : runs.rows) by_key[row.front()] = &row;
-  Table sorted{runs.head, runs.columns, {}};
-  for (const auto* all : {&study.series, &study.other_variant}) {
-    for (const auto& series : *all) {
-      for (const auto& spec : series.runs) {
-        const auto found = by_key.find(specKey(spec));
-        if (found == by_key.end()) continue;
-        sorted.rows.push_back(*found->second);
-        by_key.erase(found);
-      }
+std::vector<std::uint64_t> inOrder(const RunKeys& keys) {
+  std::vector<std::uint64_t> order;
+  std::unordered_set<std::uint64_t> there;
+  for (const auto& series : keys) {
+    for (const auto key : series) {
+      if (there.insert(key).second) order.push_back(key);
     }
   }
-  return sorted;
+  return order;
+}
+
+std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
+                                    std::ostream& progress) {
+  Sweep sweep(study, options, store, progress);
+  sweep.run(threadCount(options.jobs));
+  return sweep.exported();
+}
+
+Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
+  store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
+  makeRuns(study, options, store, progress);
+  return readTable(store.folder() / "runs.csv");
 }
 
 }  // namespace irk

@@ -1,23 +1,24 @@
 // Accuracy runs of a study: parallel, resumable, interruptible.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "experiments/store/store.h"
 #include "experiments/study.h"
 #include "experiments/table.h"
 
 namespace irk {
 
-enum class FinishedRuns { kKeep, kRunAgain };
-
 struct RunnerOptions {
   std::filesystem::path results = "results";
   int jobs = 0;               ///< >= 0; 0 = one per processor
   int shard = 1, shards = 1;  ///< 1 <= shard <= shards: every shards-th series
-  FinishedRuns finished = FinishedRuns::kKeep;
+  store::StoreOptions store;
 };
 
 /// `i/n` of --shard. Throws Misuse.
@@ -29,12 +30,19 @@ std::filesystem::path studyFolder(const Study& study, const RunnerOptions& optio
 /// The number of threads that `jobs` stands for.
 int threadCount(int jobs);
 
-/// Makes the runs that are not in runs.csv yet and returns all of them, in the study's order
-/// whatever the number of threads. After an interrupt: what there is. Progress goes to `progress`.
-Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress);
+/// The keys of all runs, series by series; none of series that are another shard's.
+using RunKeys = std::vector<std::vector<std::uint64_t>>;
+RunKeys runKeys(const Study& study, const RunnerOptions& options);
+/// One after the other, each once.
+std::vector<std::uint64_t> inOrder(const RunKeys& keys);
 
-/// One row per key, the last one of each, in the order of the study; rows of no run of the study
-/// are left out.
-Table sortedRuns(const Table& runs, const Study& study);
+/// Makes the runs that are not in the store yet and exports the tables: all runs, in the study's order whatever the
+/// number of threads. After an interrupt: what there is. Returns the keys in that order. Progress goes to `progress`.
+/// Throws Failure.
+std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
+                                    std::ostream& progress);
+
+/// The same with a store of its own, in studyFolder; returns the exported runs.csv.
+Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress);
 
 }  // namespace irk

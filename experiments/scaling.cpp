@@ -81,20 +81,20 @@ TableRow slopeRow(TableRow row, const Points& points) {
 Table scalingTable(const Study& study, const Table& runs, std::ostream& out) {
   Table table{runs.head, seriesColumns(runs), {}};
   table.columns.insert(table.columns.end(), {"n", "step_s", "step_cpu_s", "iterations"});
-  const auto specs = specsByKey(study);
+  const SpecsByKey specs(study);
   Progress progress(out, study.id + " steps");
   for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto& kind = textAt(runs, *run, "settings");
       const auto found = specs.find(run->front());
-      const bool ours = found != specs.end() && !findPeer(found->second->method);
+      const bool ours = found && !findPeer(found->method);
       if (!ours || !succeededAt(runs, *run) || interruptFlag()) {
         progress.skipped(kind);
         continue;
       }
       const double start = wallSeconds();
-      const StepCost cost = measure(resolved(*found->second));
+      const StepCost cost = measure(resolved(*found));
       TableRow row = series.name;
       for (const double x : {cost.n, cost.wall_s, cost.cpu_s, cost.iterations}) {
         row.push_back(numberText(x));

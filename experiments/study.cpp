@@ -147,10 +147,11 @@ std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   std::vector<std::pair<std::string, StudyValue>> ordered(keys.begin(), keys.end());
   std::stable_partition(ordered.begin(), ordered.end(),
                         [](const auto& key) { return key.first == "configuration"; });
-  for (const auto& [key, value] : ordered) {
+  for (const auto& entry : ordered) {
+    const std::string& key = entry.first;
+    const StudyValue& value = entry.second;
     if (!isSpecKey(key)) continue;
-    const auto& field = atPlace(
-        value, [&]() -> const auto& { return findField(key); });
+    const auto& field = atPlace(value, [&]() -> const auto& { return findField(key); });
     std::vector<RunSpec> product;
     for (const auto& spec : specs) {
       for (const auto& item : value.items) {
@@ -163,44 +164,22 @@ std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   return specs;
 }
 
-void setFixedStep(RunSpec& spec, double h) {
-  spec.options.step.control = StepControl::kFixed;
-  spec.options.step.estimate = ErrorEstimate::kNone;
-  spec.options.step.h = h;
-}
-
 int refineMost(const StudyKeys& keys) {
   return static_cast<int>(integer(keys, "refine_most", 2, 2, 1'000'000'000));
 }
 
 Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
-  Series series;
-  const auto append = [&](auto&& change) {
-    series.runs.push_back(spec);
-    change(series.runs.back());
-  };
   if (const auto* tolerances = find(keys, "tolerances")) {
-    series.end = SeriesEnd::kTooLong;
-    for (const double tol : numbers(*tolerances, "tolerances", kPositive)) {
-      append(
-          [tol](RunSpec& run) { run.options.tolerances.rtol = run.options.tolerances.atol = tol; });
-    }
-  } else if (const auto* steps = find(keys, "steps")) {
-    for (const double h : numbers(*steps, "steps", kPositive)) {
-      append([h](RunSpec& run) { setFixedStep(run, h); });
-    }
-  } else if (find(keys, "refine_most")) {
-    series.end = SeriesEnd::kAsymptotic;
-    const double start = atPlace(*find(keys, "scene"), [&] {
-      return makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
-    });
-    for (const int n : divisions(refineMost(keys))) {
-      append([&](RunSpec& run) { setFixedStep(run, (run.t_end - start) / n); });
-    }
-  } else {
-    append([](RunSpec&) {});
+    return {{spec, Swept::kTolerances, numbers(*tolerances, "tolerances", kPositive)}, SeriesEnd::kTooLong};
   }
-  return series;
+  if (const auto* steps = find(keys, "steps")) return {{spec, Swept::kStep, numbers(*steps, "steps", kPositive)}};
+  if (!find(keys, "refine_most")) return {spec};
+  const double start = atPlace(*find(keys, "scene"), [&] {
+    return makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+  });
+  std::vector<double> steps;
+  for (const int n : divisions(refineMost(keys))) steps.push_back((spec.t_end - start) / n);
+  return {{spec, Swept::kStep, std::move(steps)}, SeriesEnd::kAsymptotic};
 }
 
 std::size_t runsOfSeries(const StudyKeys& keys) {
@@ -268,8 +247,23 @@ AuditOptions auditOptions(const StudyKeys& keys) {
 
 std::vector<Series> auditSeries(const AuditOptions& options) {
   std::vector<Series> series;
-  for (const auto& run : audit::drawnRuns(options)) series.push_back({{run.spec}});
+  for (const auto& run : audit::drawnRuns(options)) series.push_back({run.spec});
   return series;
+}
+
+// A file's results are in the folder of its name.
+void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
+  const std::string id = file.stem().string();
+  const auto refuse = [&](std::string_view what) {
+    throw Misuse(fmt::format("{}: '{}' is {}: give the file another name, as its results are kept under it", file.string(),
+                             id, what));
+  };
+  for (const auto* folder : {"quick", "report", "tableaus"}) {
+    if (id == folder) refuse("a folder of results");
+  }
+  for (const auto& study : builtinStudies()) {
+    if (study.id == id && study.toml != toml) refuse("a built-in study");
+  }
 }
 
 }  // namespace
@@ -284,12 +278,18 @@ std::vector<int> divisions(int most) {
   return all;
 }
 
-std::map<std::string, const RunSpec*> specsByKey(const Study& study) {
-  std::map<std::string, const RunSpec*> specs;
-  for (const auto& series : study.series) {
-    for (const auto& spec : series.runs) specs[specKey(spec)] = &spec;
+SpecsByKey::SpecsByKey(const Study& study) : study_(study) {
+  for (std::size_t i = 0; i < study.series.size(); ++i) {
+    const SeriesRuns& runs = study.series[i].runs;
+    for (std::size_t run = 0; run < runs.size(); ++run) places_[specKey(runs[run])] = {i, run};
   }
-  return specs;
+}
+
+std::optional<RunSpec> SpecsByKey::find(const std::string& key) const {
+  const auto found = places_.find(key);
+  if (found == places_.end()) return {};
+  const auto& [series, run] = found->second;
+  return study_.series[series].runs[run];
 }
 
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
@@ -308,14 +308,10 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   }
   study.profile = flag(text.study, "profile");
   study.timing = timingOptions(text.study);
-  const bool quick = variant == StudyVariant::kQuick;
-  const auto other = quick ? StudyVariant::kFull : StudyVariant::kQuick;
-  const StudyFile other_text = parseStudyFile(toml, file, other);
   if (find(text.study, "audit")) {
     study.audit = auditOptions(text.study);
     study.states = true;
     study.series = auditSeries(*study.audit);
-    study.other_variant = auditSeries(auditOptions(other_text.study));
     return study;
   }
   for (const auto& block : text.blocks) {
@@ -323,7 +319,6 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
     appendBlock(block, study.series);
     refuseVariableOrder(study, block, first);
   }
-  for (const auto& block : other_text.blocks) appendBlock(block, study.other_variant);
   return study;
 }
 
@@ -340,7 +335,9 @@ Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
   if (kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none) {
     throw Misuse(unknownName("study or file", id_or_file, known));
   }
-  return parseStudy(readInputFile(path), path.string(), variant);
+  const std::string toml = readInputFile(path);
+  refuseTakenName(path, toml);
+  return parseStudy(toml, path.string(), variant);
 }
 
 }  // namespace irk

@@ -7,9 +7,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/run_spec.h"
+#include "experiments/series_runs.h"
 
 namespace irk {
 
@@ -22,7 +24,7 @@ enum class SeriesEnd {
 
 /// Runs of one method on one scene, from the easiest to the hardest: made in this order.
 struct Series {
-  std::vector<RunSpec> runs;
+  SeriesRuns runs;
   SeriesEnd end = SeriesEnd::kAll;
 };
 
@@ -47,8 +49,6 @@ struct Study {
   std::string id;
   std::string title;
   std::vector<Series> series;
-  /// Of the other variant: a quick run throws no finished full run away.
-  std::vector<Series> other_variant;
   bool orders = false;          ///< fit orders: orders.csv
   bool trajectories = false;    ///< write the solution over time of every run: <scene>.<method>.csv
   bool estimates = false;       ///< compare estimated with true errors of steps: estimates.csv
@@ -65,12 +65,21 @@ struct Study {
 
 enum class StudyVariant { kFull, kQuick };
 
-/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is
-/// allowed.
+/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is allowed, and for a
+/// file with another study whose name is a built-in one's, or that of a folder of results: they would share a folder.
 Study loadStudy(std::string_view id_or_file, StudyVariant variant);
 
-/// The specs of all runs by their keys; the study must outlive them.
-std::map<std::string, const RunSpec*> specsByKey(const Study& study);
+/// The specs of all runs by their keys; the study must outlive it.
+class SpecsByKey {
+ public:
+  explicit SpecsByKey(const Study& study);
+  /// Nothing where the study has no such run.
+  std::optional<RunSpec> find(const std::string& key) const;
+
+ private:
+  const Study& study_;
+  std::map<std::string, std::pair<std::size_t, std::size_t>> places_;  // number of the series, and in it
+};
 
 /// From TOML text; `file` names it in messages.
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);

@@ -11,6 +11,7 @@
 #include "core/input_file.h"
 #include "core/misuse.h"
 #include "core/text.h"
+#include "experiments/failure.h"
 
 namespace irk {
 namespace {
@@ -100,7 +101,7 @@ std::string startOf(const Table& table) {
 }
 
 [[noreturn]] void cannotWrite(const std::filesystem::path& path) {
-  throw Misuse(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ RowWriter::RowWriter(const std::filesystem::path& path, const Table& table) {
 
 void RowWriter::append(const TableRow& row) {
   std::fputs((csvLine(row) + '\n').c_str(), file_.get());
-  if (std::fflush(file_.get()) != 0) throw Misuse("cannot write a row: is the disk full?");
+  if (std::fflush(file_.get()) != 0) throw Failure("cannot write a row: is the disk full?");
 }
 
 }  // namespace irk

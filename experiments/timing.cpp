@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "experiments/build_info.h"
 #include "experiments/clock.h"
+#include "experiments/environment.h"
 #include "experiments/interrupt.h"
+#include "experiments/numbers.h"
 #include "experiments/progress.h"
 #include "experiments/runner.h"
 
@@ -32,11 +35,10 @@ class Collector final : public benchmark::BenchmarkReporter {
 
 struct Candidate {
   TableRow* row;
-  const RunSpec* spec;
-  double seconds;  // of the accuracy run
+  RunSpec spec;
+  double seconds;  // of the accuracy run, wherever it was made
   int repetitions;
-  int there;  // of a pass that was interrupted
-  std::vector<double> measured;
+  std::vector<double> measured;  // by a pass that was interrupted, to begin with
 };
 
 // Runs of about the same length take about the same time to be timed.
@@ -44,17 +46,35 @@ std::string kindOf(const Candidate& candidate) {
   return std::to_string(std::ilogb(candidate.seconds));
 }
 
-std::vector<Candidate> candidates(const Study& study, Table& runs) {
-  const auto specs = specsByKey(study);
+// The repetitions that a row has of this processor. Of a row whose times do not count (forgetTiming) none.
+std::vector<double> measuredHere(const store::Store& store, const Table& runs, const TableRow& row) {
+  if (store.processor(textAt(runs, row, "cpu_environment")) != processorName()) return {};
+  std::vector<double> seconds;
+  std::istringstream in(textAt(runs, row, "cpu_all"));
+  for (std::string word; in >> word;) seconds.push_back(cellNumber(word));
+  return seconds;
+}
+
+// Also where the time does not count, as it was measured elsewhere.
+double lengthOf(const store::Store& store, const Table& runs, const TableRow& row) {
+  const double seconds = numberAt(runs, row, "cpu_s");
+  const auto* entry = store.runs().find(store::keyNumber(row.front()));
+  if (!std::isnan(seconds) || !entry) return seconds;
+  return numberAt(runs, store.runs().row(*entry), "cpu_s");
+}
+
+std::vector<Candidate> candidates(const Study& study, const store::Store& store, Table& runs) {
+  const SpecsByKey specs(study);
   std::vector<Candidate> wanted;
   for (auto& row : runs.rows) {
     const auto spec = specs.find(row.front());
-    const double seconds = numberAt(runs, row, "cpu_s");
+    // What stale rows' counters say, this code's times would not belong to.
+    const bool stale = textAt(runs, row, "code") != buildInfo().code;
+    if (!spec || stale || !succeededAt(runs, row)) continue;
+    const double seconds = lengthOf(store, runs, row);
     const int repetitions = seconds > study.timing.once_above_s ? 1 : study.timing.repetitions;
-    const int there = static_cast<int>(numberAt(runs, row, "cpu_runs"));
-    if (spec == specs.end() || there >= repetitions || !succeededAt(runs, row)) continue;
-    if (seconds > study.timing.skip_above_s) continue;
-    wanted.push_back({&row, spec->second, seconds, repetitions, there, {}});
+    if (seconds > study.timing.skip_above_s || numberAt(runs, row, "cpu_runs") >= repetitions) continue;
+    wanted.push_back({&row, *spec, seconds, repetitions, measuredHere(store, runs, row)});
   }
   return wanted;
 }
@@ -62,10 +82,10 @@ std::vector<Candidate> candidates(const Study& study, Table& runs) {
 }  // namespace
 
 Timing timingOf(std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  const double least = seconds.front();
-  return {least, seconds[seconds.size() / 2], (seconds.back() - least) / least,
-          static_cast<int>(seconds.size())};
+  std::vector<double> sorted = seconds;
+  std::sort(sorted.begin(), sorted.end());
+  const double least = sorted.front();
+  return {least, sorted[sorted.size() / 2], (sorted.back() - least) / least, std::move(seconds)};
 }
 
 double timeRun(PreparedRun& run, double min_time_s) {
@@ -80,34 +100,35 @@ double timeRun(PreparedRun& run, double min_time_s) {
   return collector.seconds;
 }
 
-void timeStudy(const Study& study, const std::filesystem::path& file, Table& runs,
-               std::ostream& out) {
-  auto wanted = candidates(study, runs);
+void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostream& out) {
+  auto wanted = candidates(study, store, runs);
   {
     Progress progress(out, study.id + " timing");
     for (const auto& candidate : wanted) {
-      for (int i = 0; i < candidate.repetitions; ++i) progress.expect(kindOf(candidate));
+      for (auto i = candidate.measured.size(); i < static_cast<std::size_t>(candidate.repetitions); ++i) {
+        progress.expect(kindOf(candidate));
+      }
     }
-    RowWriter writer(file, runs);
     for (int round = 0; round < study.timing.repetitions; ++round) {
       for (auto& candidate : wanted) {
-        if (round >= candidate.repetitions || interruptFlag()) continue;
+        const bool measured = static_cast<std::size_t>(round) < candidate.measured.size();
+        if (measured || round >= candidate.repetitions || interruptFlag()) continue;
         const double start = wallSeconds();
-        RunSpec unlimited = *candidate.spec;
+        RunSpec unlimited = candidate.spec;
         unlimited.time_limit = 0;
         const auto run = prepare(unlimited);
         // A run so long that it is not repeated within the measurement: what it allocates once is there.
         if (candidate.repetitions > 1 && candidate.seconds > study.timing.min_time_s) run->integrate();
         candidate.measured.push_back(timeRun(*run, study.timing.min_time_s));
-        if (round + 1 > candidate.there) {
-          setTiming(runs, *candidate.row, timingOf(candidate.measured));
-          writer.append(*candidate.row);
-        }
+        setTiming(runs, *candidate.row, timingOf(candidate.measured));
+        store.addTimes(*candidate.row);
         progress.finished(kindOf(candidate), wallSeconds() - start);
       }
     }
   }
-  writeTable(file, runs);
+  std::vector<std::uint64_t> keys;
+  for (const auto& row : runs.rows) keys.push_back(store::keyNumber(row.front()));
+  store.exportTables(keys);
 }
 
 }  // namespace irk

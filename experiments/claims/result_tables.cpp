@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "experiments/results.h"
+
 namespace irk::claims {
 
 void ResultTables::put(const std::string& study, const std::string& name, Table table) {
@@ -16,7 +20,11 @@ const Table& ResultTables::table(std::string_view study, std::string_view name) 
   if (results_.empty() || !std::filesystem::exists(file)) {
     throw MissingResults(fmt::format("study {} has not been run: no {}.csv", study, name));
   }
-  return tables_[key] = readTable(file);
+  Table read = readTable(file);
+  // A claim on costs would compare nothing with nothing.
+  const auto refusal = read.hasColumn("cpu_s") ? refusedTimes(read.head) : std::string();
+  if (!refusal.empty()) throw MissingResults(fmt::format("study {}: {}", study, refusal));
+  return tables_[key] = std::move(read);
 }
 
 }  // namespace irk::claims

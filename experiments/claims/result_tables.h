@@ -11,7 +11,8 @@
 
 namespace irk::claims {
 
-/// A study's results are not there. Not a misuse: a claim then is `not measurable`.
+/// A study's results are not there, or their times are of several processors and not joined. Not a misuse: a claim then
+/// is `not measurable`.
 class MissingResults : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -67,12 +67,19 @@ int reportCommand(const std::string& results, Streams streams);
 /// The paper's claims and what the results say about them.
 int claimsCommand(const std::string& results, Streams streams);
 
+/// How far a study is. Always 0.
+int statusCommand(const RunOptions& options, Streams streams);
+
 struct MergeOptions {
   std::vector<std::string> folders;
   std::string study;  ///< id or file; empty: the study that the tables name
   std::string results = "results";
+  StudyVariant variant = StudyVariant::kFull;
+  bool partial = false;  ///< merge although runs are missing or conflict
+  store::StoreOptions store;
 };
-int mergeCommand(const MergeOptions& options, Streams streams);
+/// 1: something is missing or conflicts, and `partial` is not set; then nothing is written.
+int mergeCommand(MergeOptions options, Streams streams);
 
 struct CompareOptions {
   std::string first, second;  ///< folders of a study, or of results

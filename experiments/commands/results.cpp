@@ -3,36 +3,112 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <memory>
+#include <set>
 
 #include "experiments/audit/audit.h"
 #include "experiments/commands/commands.h"
-#include "experiments/final_states.h"
 #include "experiments/interrupt.h"
+#include "experiments/failure.h"
+#include "experiments/store/merge.h"
 
 namespace irk {
 namespace {
 
-std::string studyNamed(const Table& runs, const MergeOptions& options) {
-  if (!options.study.empty()) return options.study;
-  const auto named = std::find_if(runs.head.begin(), runs.head.end(),
-                                  [](const auto& entry) { return entry.first == "study"; });
-  if (named == runs.head.end()) throw Misuse("the tables name no study: give --study ID|FILE");
-  return named->second;
+using Stores = std::vector<std::unique_ptr<store::Store>>;
+
+Stores openAll(const MergeOptions& options, std::ostream& err) {
+  Stores stores;
+  for (const auto& folder : options.folders) {
+    if (!std::filesystem::is_directory(folder)) throw Misuse(fmt::format("{}: a folder of a study is expected", folder));
+    stores.push_back(std::make_unique<store::Store>(folder, "", store::Use::kRead, store::StoreOptions(), err));
+  }
+  return stores;
+}
+
+// The one study that all rows name. Throws Misuse for none and for two.
+std::string studyOf(const Stores& stores) {
+  const auto studies = store::studiesIn(stores);
+  if (studies.empty()) throw Misuse("no run of this version in any of the folders");
+  if (studies.size() > 1) {
+    const auto& [first, in_first] = *studies.begin();
+    const auto& [second, in_second] = *std::next(studies.begin());
+    throw Misuse(fmt::format("two studies at once: '{}' in {}, '{}' in {}", first, in_first, second, in_second));
+  }
+  return studies.begin()->first;
+}
+
+// n of a folder `shard_<i>_of_<n>`; 0 of another one.
+std::size_t shardsOf(std::filesystem::path folder) {
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const auto name = folder.filename().string();
+  const auto of = name.rfind("_of_");
+  std::size_t shards = 0;
+  if (!name.starts_with("shard_") || of == name.npos) return 0;
+  std::from_chars(name.data() + of + 4, name.data() + name.size(), shards);
+  return shards;
+}
+
+// The commands that make what is missing.
+std::string commandsOf(const MergeOptions& options, const store::MergeReport& report) {
+  const std::string& study = options.study;
+  std::string results = options.results;
+  std::set<std::size_t> counts;
+  for (const auto& folder : options.folders) counts.insert(shardsOf(folder));
+  const std::size_t shards = counts.size() == 1 ? *counts.begin() : 0;
+  std::filesystem::path first = options.folders.front();
+  if (!first.has_filename()) first = first.parent_path();
+  if (shards > 0) results = first.parent_path().parent_path().string();
+  const bool quick = options.variant == StudyVariant::kQuick;
+  if (quick) results = std::filesystem::path(results).parent_path().string();  // --quick adds its own folder
+  const auto command = [&](const std::string& shard) {
+    return fmt::format("  irk run {}{}{}{}\n", study, quick ? " --quick" : "", shard,
+                       results.empty() ? "" : " --results " + results);
+  };
+  if (shards == 0) return command("");
+  std::set<std::size_t> missing;
+  for (const auto series : report.missing_series) missing.insert(series % shards + 1);
+  std::string text;
+  for (const auto shard : missing) text += command(fmt::format(" --shard {}/{}", shard, shards));
+  return text;
 }
 
 }  // namespace
 
-int mergeCommand(const MergeOptions& options, Streams streams) {
-  const Table merged = mergedRuns(options.folders);
-  const Study study = loadStudy(studyNamed(merged, options), StudyVariant::kFull);
-  const Table runs = sortedRuns(merged, study);
+int mergeCommand(MergeOptions options, Streams streams) {
+  const Stores stores = openAll(options, streams.err);
+  const auto named = studyOf(stores);
+  if (options.study.empty()) options.study = named;
+  const Study study = loadStudy(options.study, options.variant);
+  if (study.id != named) {
+    throw Misuse(fmt::format("the folders hold the study '{}', not '{}'", named, study.id));
+  }
   const auto folder = std::filesystem::path(options.results) / study.id;
-  writeTable(folder / "runs.csv", runs);
+  for (const auto& from : options.folders) {
+    std::error_code none;
+    if (!std::filesystem::equivalent(from, folder, none)) continue;
+    throw Misuse(fmt::format("{}: the rows are merged there, and those that are there count: leave it out", from));
+  }
+  store::Store merged(folder, study.id, store::Use::kWrite, options.store, streams.err);
+  std::vector<const store::Store*> all{&merged};
+  for (const auto& store : stores) all.push_back(store.get());
+  const RunKeys keys = runKeys(study, {});
+  const auto report = store::reportOf(study, keys, all);
+  fmt::print(streams.out, "{}: {}", study.id, store::textOf(report));
+  if (report.missing > 0) streams.out << "still to be run:\n" << commandsOf(options, report);
+  const bool refused = !options.partial && (report.missing > 0 || !report.conflicts.empty());
+  if (refused) {
+    streams.err << "nothing is merged; --partial merges what there is\n";
+    return 1;
+  }
+  for (const auto& store : stores) merged.takeOver(*store);
+  merged.exportTables(inOrder(keys));
+  const Table runs = readTable(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);
   fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(),
              options.folders.size(), folder.string());
-  if (study.states) writeTable(folder / "states.csv", mergedStates(options.folders));
   if (study.audit) {
     const InterruptScope interrupts;
     streams.out << audit::auditRuns(study, runs, folder, threadCount(0), streams.err);

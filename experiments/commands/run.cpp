@@ -43,42 +43,80 @@ constexpr std::string_view kPaperStudies[] = {"scenes",
                                               "failure_stability",
                                               "failure_newton"};
 
-void printSummary(const Study& study, const Table& runs, const std::filesystem::path& folder,
+void printSummary(const Study& study, const store::Store& store, const std::vector<std::uint64_t>& keys,
                   std::ostream& out) {
-  std::map<std::string, int> outcomes;
-  for (const auto& row : runs.rows) ++outcomes[textAt(runs, row, "outcome")];
-  fmt::print(out, "{}: {} runs in {}", study.id, runs.rows.size(), folder.string());
+  std::map<std::string, std::size_t> outcomes;
+  std::size_t runs = 0;
+  for (const auto key : keys) {
+    const auto* entry = store.runs().find(key);
+    if (!entry) continue;
+    ++runs;
+    ++outcomes[store.runs().name(entry->outcome)];
+  }
+  fmt::print(out, "{}: {} runs in {}", study.id, runs, store.folder().string());
   for (const auto& [outcome, count] : outcomes) fmt::print(out, ", {} {}", count, outcome);
   out << '\n';
 }
 
 // Empty, or what all runs were refused for: a study that cannot work.
-std::string allRefused(const std::string& study, const Table& runs) {
-  const auto isRefused = [&](const TableRow& row) { return textAt(runs, row, "outcome") == "refused"; };
-  if (runs.rows.empty() || !std::all_of(runs.rows.begin(), runs.rows.end(), isRefused)) return {};
-  return fmt::format("{}: all {} runs were refused, the first one for: {}", study, runs.rows.size(),
-                     textAt(runs, runs.rows.front(), "detail"));
+std::string allRefused(const std::string& study, const store::Store& store, const std::vector<std::uint64_t>& keys) {
+  std::size_t runs = 0;
+  const store::Entry* first = nullptr;
+  for (const auto key : keys) {
+    const auto* entry = store.runs().find(key);
+    if (!entry) continue;
+    if (store.runs().name(entry->outcome) != "refused") return {};
+    if (!first) first = entry;
+    ++runs;
+  }
+  if (!first) return {};
+  const Table columns{{}, runColumns(), {}};
+  return fmt::format("{}: all {} runs were refused, the first one for: {}", study, runs,
+                     textAt(columns, store.runs().row(*first), "detail"));
 }
 
-int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
-  Table runs = runStudy(study, options, streams.err);
+// A table of all runs takes some kilobytes of memory for each.
+bool needsTable(const Study& study) {
+  return study.orders || study.estimates || study.scaling || study.energy || study.phases || study.audit ||
+         study.timing.wanted || !study.targets.empty();
+}
+
+int runStored(const Study& study, const RunnerOptions& options, Streams streams) {
   const auto folder = studyFolder(study, options);
-  const bool whole = options.shards == 1;
-  if (!interruptFlag() && whole && study.timing.wanted) {
-    timeStudy(study, folder / "runs.csv", runs, streams.err);
-  }
+  store::Store store(folder, study.id, store::Use::kWrite, options.store, streams.err);
+  const auto keys = makeRuns(study, options, store, streams.err);
+  const auto file = folder / "runs.csv";
   std::vector<std::string> doubts;
-  if (whole) doubts = writeSummaries(study, runs, folder, streams.err);
-  printSummary(study, runs, folder, streams.out);
-  if (whole && study.audit) {
-    streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
+  if (const auto refusal = refusedTimes(file); !refusal.empty()) doubts.push_back(refusal);
+  if (options.shards > 1 || !needsTable(study)) {
+    printSummary(study, store, keys, streams.out);
+  } else {
+    Table runs = readTable(file);
+    if (!interruptFlag() && study.timing.wanted && doubts.empty()) {
+      timeStudy(study, store, runs, streams.err);
+      runs = readTable(file);
+    }
+    doubts = writeSummaries(study, runs, folder, streams.err);
+    printSummary(study, store, keys, streams.out);
+    if (study.audit) {
+      streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
+    }
   }
   for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
-  const std::string refused = allRefused(study.id, runs);
+  const std::string refused = allRefused(study.id, store, keys);
   if (!refused.empty()) printErrorLine(streams.err, refused);
   if (!interruptFlag()) return doubts.empty() && refused.empty() ? 0 : 1;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;
+}
+
+int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
+  try {
+    return runStored(study, options, streams);
+  } catch (const Failure& failure) {
+    printErrorLine(streams.err, failure.what());
+    return interruptFlag() ? kInterruptedStatus : kFailedStatus;
+  }
 }
 
 }  // namespace

@@ -171,12 +171,13 @@ TEST(RunRow, ColumnsAreNamedOnce) {
 
 TEST(RunRow, TimesGoToTheirColumns) {
   Table table{{}, runColumns(), {runRow("key", "study", distinct())}};
-  setTiming(table, table.rows.front(), {0.25, 0.5, 2.5, 9});
+  setTiming(table, table.rows.front(), {0.25, 0.5, 2.5, {0.75, 0.25, 0.5}});
   const TableRow& row = table.rows.front();
   EXPECT_EQ(numberAt(table, row, "cpu_s"), 0.25);
   EXPECT_EQ(numberAt(table, row, "cpu_median_s"), 0.5);
   EXPECT_EQ(numberAt(table, row, "cpu_spread"), 2.5);
-  EXPECT_EQ(numberAt(table, row, "cpu_runs"), 9);
+  EXPECT_EQ(numberAt(table, row, "cpu_runs"), 3);
+  EXPECT_EQ(textAt(table, row, "cpu_all"), "0.75 0.25 0.5");
 }
 
 // What a series runs through, and all else tells series apart.

@@ -109,6 +109,7 @@ TEST(RunTable, ATableOfAnotherVersionIsSetAside) {
   const auto results = folder.path() / "small";
   const Table old{{{"study", "small"}}, {"key", "scene"}, {{"0123", "kepler"}}};
   for (const char* name : {"runs.old.csv", "runs.old2.csv"}) {
+    std::filesystem::remove_all(results / "parts");  // a version without parts
     writeTable(results / "runs.csv", old);
     std::ostringstream told;
     const Table runs = runStudy(study, options, told);

@@ -1,8 +1,14 @@
 // Small studies, made for one test.
 #pragma once
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiments/runner.h"
 #include "tests/experiments/support.h"
@@ -24,6 +30,33 @@ inline StudyRuns runsOf(std::string_view toml) {
   StudyRuns made{parseStudy(toml, "small.toml", StudyVariant::kFull), {}};
   made.runs = runStudy(made.study, options, quiet);
   return made;
+}
+
+/// The part files of a study's folder whose names begin with `table`, sorted.
+inline std::vector<std::filesystem::path> partsOf(const std::filesystem::path& folder, std::string_view table = "runs") {
+  std::vector<std::filesystem::path> parts;
+  if (!std::filesystem::is_directory(folder / "parts")) return parts;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "parts")) {
+    const auto name = entry.path().filename().string();
+    if (name.starts_with(table) && name.ends_with(".csv")) parts.push_back(entry.path());
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+inline std::string contentsOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Whole lines in the parts, without those of the columns.
+inline std::ptrdiff_t rowsInParts(const std::filesystem::path& folder) {
+  std::ptrdiff_t rows = 0;
+  for (const auto& part : partsOf(folder)) {
+    const std::string text = contentsOf(part);
+    rows += std::max<std::ptrdiff_t>(std::count(text.begin(), text.end(), '\n') - 1, 0);
+  }
+  return rows;
 }
 
 }  // namespace irk

@@ -62,12 +62,12 @@ TEST(TimingOf, MinimumMedianSpreadAndNumber) {
   EXPECT_EQ(odd.minimum_s, 2);
   EXPECT_EQ(odd.median_s, 4);
   EXPECT_EQ(odd.spread, 3.5);
-  EXPECT_EQ(odd.runs, 5);
+  EXPECT_EQ(odd.all_s, (std::vector<double>{5, 2, 9, 3, 4}));
   const Timing even = timingOf({8, 1, 2, 4});
   EXPECT_EQ(even.minimum_s, 1);
   EXPECT_EQ(even.median_s, 4);
   EXPECT_EQ(even.spread, 7);
-  EXPECT_EQ(even.runs, 4);
+  EXPECT_EQ(even.all_s.size(), 4u);
   const Timing one = timingOf({0.5});
   EXPECT_EQ(one.minimum_s, 0.5);
   EXPECT_EQ(one.median_s, 0.5);
@@ -92,7 +92,8 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
   Table runs = runStudy(study, options, quiet);
   study.timing = {true, 1e-3, 5, 10, 20};
   const auto file = folder.path() / "small" / "runs.csv";
-  timeStudy(study, file, runs, quiet);
+  store::Store store(file.parent_path(), study.id, store::Use::kWrite, {}, quiet);
+  timeStudy(study, store, runs, quiet);
   const Table read = readTable(file);
   ASSERT_EQ(read.rows.size(), 2u);
   for (const auto& row : read.rows) {
@@ -113,7 +114,7 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   options.results = folder.path();
   options.jobs = 1;
   const Table runs = runStudy(study, options, quiet);
-  const auto file = folder.path() / "small" / "runs.csv";
+  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
   const auto timed = [&](double once_above, double skip_above, const char* cpu,
                          const char* outcome) {
     Table table = runs;
@@ -122,7 +123,7 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
       row[table.column("outcome")] = outcome;
     }
     study.timing = {true, 1e-4, 3, once_above, skip_above};
-    timeStudy(study, file, table, quiet);
+    timeStudy(study, store, table, quiet);
     return table;
   };
   const auto repetitions = [](const Table& table) {

@@ -1,0 +1,126 @@
+// The store of results with 1e4, 1e5 and 1e6 rows: appending, reading all parts again (resume), looking a run up by its
+// key, exporting runs.csv. Bytes of a row on disk, and of memory held for a row, as counters. In a folder of TMPDIR.
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/numbers.h"
+#include "experiments/run_table.h"
+#include "experiments/store/store.h"
+
+namespace irk {
+namespace {
+
+constexpr std::int64_t kFewest = 10'000, kMost = 1'000'000;
+
+/// A folder with n rows, made once for each n and removed at the end.
+class Folder {
+ public:
+  explicit Folder(std::int64_t rows)
+      : path_(std::filesystem::temp_directory_path() / ("irk_store_" + std::to_string(getpid()) + "_" + std::to_string(rows))) {}
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::uint64_t keyOf(std::int64_t i) { return fnv1a(std::to_string(i)); }
+
+RunRecord record() {
+  RunRecord made;
+  made.spec.scene = "slider_crank";
+  made.spec = resolved(made.spec);
+  made.family = "radau_iia";
+  made.stages = 3;
+  made.outcome = "success";
+  made.errors = {1e-9 / 3, 1e-9 / 7, 1e-9 / 11, 0, 1e-9 / 13, 1e-15 / 3};
+  made.cpu_s = 0.1 / 3;
+  return made;
+}
+
+void fill(const std::filesystem::path& folder, std::int64_t rows) {
+  std::ostringstream quiet;
+  store::Store store(folder, "benchmark", store::Use::kWrite, {}, quiet);
+  const RunRecord made = record();
+  for (std::int64_t i = 0; i < rows; ++i) store.addRun(runRow(hexText(keyOf(i)), "benchmark", made));
+}
+
+std::vector<std::uint64_t> keys(std::int64_t rows) {
+  std::vector<std::uint64_t> all;
+  for (std::int64_t i = 0; i < rows; ++i) all.push_back(keyOf(i));
+  return all;
+}
+
+double heldBytes() { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); }
+
+void countRows(benchmark::State& state) {
+  state.counters["per_row"] = benchmark::Counter(static_cast<double>(state.range(0)),
+                                                 benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void append(benchmark::State& state) {
+  for ([[maybe_unused]] auto _ : state) {
+    const Folder folder(state.range(0));
+    fill(folder.path(), state.range(0));
+    double bytes = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder.path() / "parts")) {
+      bytes += static_cast<double>(file.file_size());
+    }
+    state.counters["disk_bytes_per_row"] = bytes / static_cast<double>(state.range(0));
+  }
+  countRows(state);
+}
+
+void resume(benchmark::State& state) {
+  const Folder folder(state.range(0));
+  fill(folder.path(), state.range(0));
+  const auto all = keys(state.range(0));
+  std::ostringstream quiet;
+  for ([[maybe_unused]] auto _ : state) {
+    const double before = heldBytes();
+    const store::Store store(folder.path(), "benchmark", store::Use::kWrite, {}, quiet);
+    std::size_t found = 0;
+    for (const auto each : all) {
+      if (store.finished(each)) ++found;
+    }
+    if (found != all.size()) state.SkipWithError("rows are lost");
+    state.counters["memory_bytes_per_row"] = (heldBytes() - before) / static_cast<double>(state.range(0));
+  }
+  countRows(state);
+}
+
+void exportRuns(benchmark::State& state) {
+  const Folder folder(state.range(0));
+  fill(folder.path(), state.range(0));
+  const auto all = keys(state.range(0));
+  std::ostringstream quiet;
+  store::Store store(folder.path(), "benchmark", store::Use::kWrite, {}, quiet);
+  for ([[maybe_unused]] auto _ : state) store.exportTables(all);
+  countRows(state);
+}
+
+// What a run costs before it is known to be finished.
+void key(benchmark::State& state) {
+  const RunSpec spec = record().spec;
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(specKey(spec));
+}
+
+BENCHMARK(key);
+BENCHMARK(append)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(resume)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(exportRuns)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace irk
+
+BENCHMARK_MAIN();

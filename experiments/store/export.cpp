@@ -1,0 +1,160 @@
+// The tables that are exported from a store's rows.
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "experiments/build_info.h"
+#include "experiments/environment.h"
+#include "experiments/run_table.h"
+#include "experiments/failure.h"
+#include "experiments/store/store.h"
+
+namespace irk::store {
+namespace {
+
+// Writes beside the target and renames, so that no reader ever sees half a table.
+void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
+  const std::filesystem::path beside = file.string() + ".new";
+  std::ofstream out(beside, std::ios::binary);
+  write(out);
+  if (!out.flush()) throw Failure(fmt::format("cannot write {}: {}", beside.string(), std::strerror(errno)));
+  out.close();
+  std::filesystem::rename(beside, file);
+}
+
+std::string startOf(const TableHead& head, const std::vector<std::string>& columns) {
+  std::string text;
+  for (const auto& [key, value] : head) text += fmt::format("# {}: {}\n", key, value);
+  return text + csvLine(columns) + '\n';
+}
+
+std::string joined(const std::set<std::string>& texts) { return fmt::format("{}", fmt::join(texts, " | ")); }
+
+std::string textOf(std::uint32_t seconds) {
+  const std::time_t time = seconds;
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+std::string Store::refusalOfTimes(std::span<const std::uint64_t> keys) const {
+  struct Measured {
+    std::size_t rows = 0;
+    std::set<std::string> environments;
+  };
+  std::map<std::string, std::string> processors;  // by environment
+  std::map<std::string, Measured> measured;       // by processor
+  for (const auto key : keys) {
+    const Entry* entry = runs_.find(key);
+    if (!entry || runs_.name(entry->outcome) != name(Outcome::kSuccess)) continue;
+    const auto& environment = runs_.name(entry->cpu_environment);
+    const auto [at, added] = processors.try_emplace(environment);
+    if (added) at->second = processor(environment);
+    if (options_.times == Times::kHere && at->second != processorName()) continue;
+    auto& here = measured[at->second];
+    ++here.rows;
+    here.environments.insert(environment);
+  }
+  if (measured.size() < 2) return {};
+  std::string text = fmt::format("times of {} processors are not joined:", measured.size());
+  for (const auto& [processor, its] : measured) {
+    text += fmt::format(" '{}' ({} rows, environments {}),", processor, its.rows, fmt::join(its.environments, " "));
+  }
+  return text + " so runs.csv has none. Either --times here, which keeps those of this processor and measures the others "
+                "again if the study has a timing pass, or --fresh";
+}
+
+TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& refusal) const {
+  std::map<std::uint16_t, std::size_t> codes, environments;
+  std::uint32_t first = ~0u, last = 0;
+  for (const auto key : keys) {
+    const Entry* entry = runs_.find(key);
+    if (!entry) continue;
+    ++codes[entry->code];
+    ++environments[entry->environment];
+    first = std::min(first, entry->date);
+    last = std::max(last, entry->date);
+  }
+  TableHead head{{"study", study_}};
+  std::string made_by;
+  for (const auto& [code, rows] : codes) {
+    const bool current = runs_.name(code) == buildInfo().code;
+    made_by += fmt::format("{}{} ({} rows{})", made_by.empty() ? "" : ", ", runs_.name(code), rows, current ? "" : ", stale");
+  }
+  head.emplace_back("code", made_by);
+  const auto columns = environmentColumns();
+  for (const char* name : {"version", "commit", "host", "compiler", "flags", "libraries", "cpu"}) {
+    const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+    std::set<std::string> values;
+    for (const auto& [environment, rows] : environments) {
+      const Entry* entry = environments_.find(keyNumber(runs_.name(environment)));
+      values.insert(entry ? environments_.row(*entry)[at] : "unknown");
+    }
+    head.emplace_back(name, joined(values));
+  }
+  if (last > 0) head.emplace_back("date", first == last ? textOf(last) : fmt::format("{} to {}", textOf(first), textOf(last)));
+  if (!refusal.empty()) head.emplace_back(kTimesRefused, refusal);
+  return head;
+}
+
+void Store::exportRuns(std::span<const std::uint64_t> keys, const std::string& refusal) const {
+  const Table names{{}, runs_.columns(), {}};
+  writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
+    out << startOf(head(keys, refusal), runs_.columns());
+    for (const auto key : keys) {
+      const Entry* entry = runs_.find(key);
+      if (!entry) continue;
+      const bool times_count = refusal.empty() && (options_.times == Times::kAll || timedHere(*entry));
+      if (times_count) {
+        out << runs_.line(*entry) << '\n';
+      } else {
+        TableRow row = runs_.row(*entry);
+        forgetTiming(names, row);
+        out << csvLine(row) << '\n';
+      }
+    }
+  });
+}
+
+void Store::exportStates(std::span<const std::uint64_t> keys) const {
+  writeWhole(folder_ / "states.csv", [&](std::ostream& out) {
+    out << startOf({{"study", study_}}, states_.columns());
+    for (const auto key : keys) {
+      if (const Entry* entry = states_.find(key)) out << states_.line(*entry) << '\n';
+    }
+  });
+}
+
+void Store::exportEnvironments() const {
+  std::vector<Entry> all;
+  environments_.forEach([&all](const Entry& entry) { all.push_back(entry); });
+  std::sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.part, a.offset) < std::pair(b.part, b.offset);
+  });
+  writeWhole(folder_ / "environments.csv", [&](std::ostream& out) {
+    out << startOf({{"study", study_}}, environments_.columns());
+    for (const auto& entry : all) out << environments_.line(entry) << '\n';
+  });
+}
+
+std::string Store::exportTables(std::span<const std::uint64_t> keys) {
+  const auto refusal = refusalOfTimes(keys);
+  exportRuns(keys, refusal);
+  exportEnvironments();
+  if (states_.size() > 0) exportStates(keys);
+  return refusal;
+}
+
+}  // namespace irk::store

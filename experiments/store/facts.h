@@ -1,0 +1,12 @@
+// What a stored row says about the runs after it.
+#pragma once
+
+#include "experiments/series_walk.h"
+#include "experiments/store/rows.h"
+
+namespace irk::store {
+
+/// With errors only where the series is planned: they have to be read again.
+RunFacts factsOf(const Rows& runs, const Entry& entry, bool planned);
+
+}  // namespace irk::store

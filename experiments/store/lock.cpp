@@ -1,0 +1,108 @@
+#include "experiments/store/lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <sstream>
+#include <thread>
+#include <tuple>
+
+#include "experiments/environment.h"
+#include "experiments/interrupt.h"
+#include "experiments/failure.h"
+
+namespace irk::store {
+namespace {
+
+constexpr auto kPause = std::chrono::milliseconds(100);
+
+struct Holder {
+  std::string host = "unknown", date = "unknown";
+  long process = 0;  ///< 0: unknown
+  std::string text;  ///< of the file
+
+  bool isDead() const {
+    return process > 0 && host == hostName() && kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+  }
+};
+
+Holder readHolder(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  Holder holder;
+  holder.text = {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::istringstream words(holder.text);
+  Holder read;
+  if (words >> read.host >> read.process >> read.date) {
+    read.text = holder.text;
+    return read;
+  }
+  return holder;
+}
+
+// Renaming is atomic: of two processes that find a dead one's lock, one gets it. What it got may by then be a new one.
+bool removeDead(const std::filesystem::path& file, const Holder& dead) {
+  const std::filesystem::path aside = file.string() + fmt::format(".of_dead.{}.{}", hostName(), getpid());
+  if (rename(file.c_str(), aside.c_str()) != 0) return false;
+  const bool is_dead = readHolder(aside).text == dead.text;
+  if (!is_dead) std::ignore = link(aside.c_str(), file.c_str());
+  unlink(aside.c_str());
+  return is_dead;
+}
+
+}  // namespace
+
+bool Lock::create() {
+  const int file = open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0 && errno == EEXIST) return false;
+  const bool written = file >= 0 && write(file, text_.data(), text_.size()) == static_cast<ssize_t>(text_.size());
+  if (!written) {
+    const int error = errno;
+    if (file >= 0) unlink(file_.c_str());
+    if (file >= 0) close(file);
+    throw Failure(fmt::format("cannot write {}: {}", file_.string(), std::strerror(error)));
+  }
+  close(file);
+  return true;
+}
+
+Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messages)
+    : file_(folder / "lock"), text_(fmt::format("{} {} {}\n", hostName(), getpid(), dateText())) {
+  std::filesystem::create_directories(folder);
+  bool told = false;
+  for (int attempt = 0; !create(); ++attempt) {
+    const Holder holder = readHolder(file_);
+    if (holder.isDead()) {
+      if (!removeDead(file_, holder)) continue;
+      fmt::print(messages, "{}: process {} of this machine, which wrote here since {}, is no more: going on in its place\n",
+                 folder.string(), holder.process, holder.date);
+      continue;
+    }
+    // A lock is empty for a moment, before its holder has written who it is; or it has just been removed.
+    constexpr int kEmptyAttempts = 10;
+    const bool unknown = holder.process == 0 && attempt < kEmptyAttempts;
+    const auto who = fmt::format("process {} on {} writes there since {}", holder.process, holder.host, holder.date);
+    if (if_locked == IfLocked::kRefuse && !unknown) {
+      throw Failure(fmt::format("{}: {}; --wait waits for its end. If it is no more, remove {}", folder.string(), who,
+                                     file_.string()));
+    }
+    if (interruptFlag()) throw Failure(fmt::format("{}: interrupted while {}", folder.string(), who));
+    if (!told && !unknown) fmt::print(messages, "{}: {}: waiting\n", folder.string(), who);
+    told = told || !unknown;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+Lock::~Lock() {
+  if (readHolder(file_).text == text_) unlink(file_.c_str());
+}
+
+}  // namespace irk::store

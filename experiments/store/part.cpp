@@ -1,0 +1,140 @@
+#include "experiments/store/part.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "experiments/failure.h"
+
+namespace irk::store {
+namespace {
+
+// The end of the cell that begins at `at`; npos if it is damaged.
+std::size_t cellEnd(std::string_view line, std::size_t at) {
+  if (at == line.size() || line[at] != '"') {
+    const auto end = std::min(line.find(',', at), line.size());
+    return line.substr(at, end - at).find('"') == line.npos ? end : line.npos;
+  }
+  for (++at;; at += 2) {
+    at = line.find('"', at);
+    if (at == line.npos) return line.npos;
+    if (at + 1 == line.size() || line[at + 1] == ',') return at + 1;
+    if (line[at + 1] != '"') return line.npos;
+  }
+}
+
+std::string oneLine(const TableRow& row) {
+  TableRow cells = row;
+  for (auto& cell : cells) {
+    for (char& c : cell) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+  }
+  return csvLine(cells) + '\n';
+}
+
+}  // namespace
+
+bool splitLine(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  for (std::size_t at = 0;;) {
+    const auto end = cellEnd(line, at);
+    if (end == line.npos) return false;
+    cells.push_back(line.substr(at, end - at));
+    if (end == line.size()) return true;
+    at = end + 1;
+  }
+}
+
+std::string plainCell(std::string_view written) {
+  if (!written.starts_with('"')) return std::string(written);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < written.size(); ++i) {
+    text += written[i];
+    if (written[i] == '"') ++i;  // a doubled one
+  }
+  return text;
+}
+
+TableRow plainRow(const std::vector<std::string_view>& cells) {
+  TableRow row;
+  row.reserve(cells.size());
+  for (const auto cell : cells) row.push_back(plainCell(cell));
+  return row;
+}
+
+PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                     const std::function<bool(const std::vector<std::string_view>&, std::uint64_t)>& take) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Failure(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  PartReading reading;
+  std::vector<std::string_view> cells;
+  std::string line;
+  std::uint64_t offset = 0;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    const bool cut = in.eof();
+    const std::uint64_t start = offset;
+    offset += line.size() + 1;
+    std::string_view text = line;
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    const bool whole = splitLine(text, cells) && !cut;
+    if (!reading.columns_match) {
+      if (text.starts_with('#')) continue;
+      if (!whole || plainRow(cells) != columns) return reading;
+      reading.columns_match = true;
+    } else if (!whole || cells.size() != columns.size() || !take(cells, start)) {
+      reading.damaged.push_back({number, line});
+    }
+  }
+  return reading;
+}
+
+PartWriter::PartWriter(std::filesystem::path folder, std::string name, std::vector<std::string> columns)
+    : folder_(std::move(folder)), name_(std::move(name)), columns_(std::move(columns)) {}
+
+PartWriter::~PartWriter() {
+  if (descriptor_ < 0) return;
+  fsync(descriptor_);
+  close(descriptor_);
+}
+
+void PartWriter::open() {
+  std::filesystem::create_directories(folder_);
+  for (int i = 1; descriptor_ < 0; ++i) {
+    file_ = folder_ / (i == 1 ? name_ + ".csv" : fmt::format("{}_{}.csv", name_, i));
+    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) {
+      throw Failure(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
+    }
+  }
+  write(csvLine(columns_) + '\n');
+}
+
+void PartWriter::write(const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size() && !failed_) {
+    const auto count = ::write(descriptor_, text.data() + done, text.size() - done);
+    if (count >= 0) {
+      done += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      failed_ = true;
+    }
+  }
+  if (failed_) throw Failure(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
+  size_ += text.size();
+}
+
+std::uint64_t PartWriter::append(const TableRow& row) {
+  if (descriptor_ < 0) open();
+  const std::uint64_t offset = size_;
+  write(oneLine(row));
+  return offset;
+}
+
+}  // namespace irk::store

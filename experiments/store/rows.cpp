@@ -1,0 +1,255 @@
+#include "experiments/store/rows.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <ostream>
+#include <tuple>
+
+#include "experiments/environment.h"
+#include "experiments/failure.h"
+
+namespace irk::store {
+namespace {
+
+template <class Number>
+Number numberOf(std::string_view text, int base = 10) {
+  Number number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number, base);
+  return number;
+}
+
+bool parseKey(std::string_view text, std::uint64_t& key) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), key, 16);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool isBefore(const Entry& entry, std::uint64_t key) { return entry.key < key; }
+
+std::string contentsOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+// Where the columns are that decide which row counts; npos where a table has none.
+struct Rows::Columns {
+  explicit Columns(const std::vector<std::string>& names) {
+    const auto find = [&names](std::string_view name) {
+      return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    code = find("code");
+    date = find("date");
+    remade = find("remade");
+    repetitions = find("cpu_runs");
+    environment = find("environment");
+    cpu_environment = find("cpu_environment");
+    outcome = find("outcome");
+  }
+  std::size_t code, date, remade, repetitions, environment, cpu_environment, outcome;
+};
+
+std::uint32_t secondsOf(std::string_view date) {
+  constexpr std::size_t kLength = 20;
+  if (date.size() != kLength || date.back() != 'Z') return 0;
+  const auto part = [date](std::size_t at, std::size_t length) { return numberOf<unsigned>(date.substr(at, length)); };
+  const std::chrono::sys_days day = std::chrono::year(static_cast<int>(part(0, 4))) / std::chrono::month(part(5, 2)) /
+                                    std::chrono::day(part(8, 2));
+  const auto seconds = day.time_since_epoch() / std::chrono::seconds(1) + part(11, 2) * 3600 + part(14, 2) * 60 + part(17, 2);
+  return static_cast<std::uint32_t>(seconds);
+}
+
+std::string writerName() {
+  std::string date = dateText();
+  std::erase_if(date, [](char c) { return c == ':' || c == '-'; });
+  return fmt::format("{}.{}.{}", date, hostName(), getpid());
+}
+
+Rows::Rows(std::filesystem::path folder, std::string name, std::vector<std::string> columns, std::string_view code)
+    : folder_(folder / "parts"),
+      name_(std::move(name)),
+      columns_(std::move(columns)),
+      at_(std::make_unique<Columns>(columns_)),
+      names_(1),
+      current_(idOf(at_->code < columns_.size() ? code : "")),
+      writer_(folder_, name_ + "." + writerName(), columns_) {}
+
+Rows::~Rows() {
+  for (const int file : descriptors_) {
+    if (file >= 0) close(file);
+  }
+}
+
+std::uint16_t Rows::idOf(std::string_view name) {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (names_[i] == name) return static_cast<std::uint16_t>(i);
+  }
+  if (names_.size() > std::numeric_limits<std::uint16_t>::max()) {
+    throw Failure(fmt::format("{}: more than 65536 codes, environments and outcomes", folder_.string()));
+  }
+  names_.emplace_back(name);
+  return static_cast<std::uint16_t>(names_.size() - 1);
+}
+
+bool Rows::better(const Entry& a, const Entry& b) const {
+  const auto rank = [this](const Entry& e) {
+    return std::tuple(isCurrent(e), e.remade, e.repetitions > 0, e.date, e.part, e.offset);
+  };
+  return rank(a) > rank(b);
+}
+
+std::optional<Entry> Rows::entryOf(const std::vector<std::string_view>& cells) {
+  Entry entry;
+  if (!parseKey(cells.front(), entry.key)) return {};
+  const auto cell = [&cells](std::size_t at) { return at < cells.size() ? cells[at] : std::string_view(); };
+  entry.date = secondsOf(cell(at_->date));
+  entry.remade = secondsOf(cell(at_->remade));
+  entry.repetitions = numberOf<std::uint16_t>(cell(at_->repetitions));
+  entry.code = idOf(cell(at_->code));
+  entry.environment = idOf(cell(at_->environment));
+  entry.cpu_environment = idOf(cell(at_->cpu_environment));
+  entry.outcome = idOf(cell(at_->outcome));
+  return entry;
+}
+
+void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages) {
+  const PartReading reading = readPart(file, columns_, [&](const auto& cells, std::uint64_t offset) {
+    auto entry = entryOf(cells);
+    if (!entry) return false;
+    entry->part = part;
+    entry->offset = offset;
+    sorted_.push_back(*entry);
+    return true;
+  });
+  if (!reading.columns_match) {
+    fmt::print(messages, "{}: its columns are not those of this version; it is kept, its rows are not used\n", file.string());
+    return;
+  }
+  damaged_ += reading.damaged.size();
+  if (reading.damaged.empty()) return;
+  std::string text, lines;
+  for (const auto& line : reading.damaged) {
+    text += fmt::format("line {}: {}\n", line.line, line.text);
+    lines += fmt::format("{}{}", lines.empty() ? "" : ", ", line.line);
+  }
+  std::filesystem::path aside = file;
+  aside.replace_extension(".damaged");
+  const auto what = fmt::format("{}: {} rows cannot be read (lines {})", file.string(), reading.damaged.size(), lines);
+  if (damage == Damage::kReport) {
+    fmt::print(messages, "{}\n", what);
+  } else if (contentsOf(aside) != text) {
+    if (!(std::ofstream(aside, std::ios::binary) << text).flush()) {
+      throw Failure(fmt::format("cannot write {}", aside.string()));
+    }
+    fmt::print(messages, "{}: they are set aside in {}; all other rows count\n", what, aside.filename().string());
+  }
+}
+
+void Rows::read(Damage damage, std::ostream& messages) {
+  const auto prefix = name_ + ".";
+  if (std::filesystem::is_directory(folder_)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      const auto file = entry.path().filename().string();
+      if (file.starts_with(prefix) && file.ends_with(".csv")) parts_.push_back(entry.path());
+    }
+  }
+  std::sort(parts_.begin(), parts_.end());
+  const auto exported = folder_.parent_path() / (name_ + ".csv");
+  if (parts_.empty() && std::filesystem::is_regular_file(exported)) parts_.push_back(exported);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    readOne(parts_[i], static_cast<std::uint32_t>(i), damage, messages);
+  }
+  keepBest();
+}
+
+void Rows::keepBest() {
+  std::sort(sorted_.begin(), sorted_.end(), [this](const Entry& a, const Entry& b) {
+    return a.key != b.key ? a.key < b.key : better(a, b);
+  });
+  const auto end = std::unique(sorted_.begin(), sorted_.end(), [](const Entry& a, const Entry& b) { return a.key == b.key; });
+  sorted_.erase(end, sorted_.end());
+  sorted_.shrink_to_fit();
+}
+
+const Entry* Rows::find(std::uint64_t key) const {
+  const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), key, isBefore);
+  if (at != sorted_.end() && at->key == key) return &*at;
+  const auto added = added_.find(key);
+  return added == added_.end() ? nullptr : &added->second;
+}
+
+void Rows::append(const TableRow& row) {
+  std::vector<std::string_view> cells(row.begin(), row.end());
+  auto entry = entryOf(cells);
+  if (!entry) throw Failure(fmt::format("'{}' is no key of 16 hexadecimal digits", row.front()));
+  const bool first = writer_.file().empty();
+  entry->offset = writer_.append(row);
+  if (first) parts_.push_back(writer_.file());
+  const auto own = std::find(parts_.begin(), parts_.end(), writer_.file());
+  entry->part = static_cast<std::uint32_t>(own - parts_.begin());
+  const auto sorted = std::lower_bound(sorted_.begin(), sorted_.end(), entry->key, isBefore);
+  const bool there = sorted != sorted_.end() && sorted->key == entry->key;
+  Entry& counting = there ? *sorted : added_.try_emplace(entry->key, *entry).first->second;
+  if (better(*entry, counting)) counting = *entry;
+}
+
+void Rows::forEach(const std::function<void(const Entry&)>& take) const {
+  for (const auto& entry : sorted_) take(entry);
+  for (const auto& [key, entry] : added_) take(entry);
+}
+
+int Rows::descriptor(std::uint32_t part) const {
+  constexpr std::size_t kMostOpen = 256;
+  descriptors_.resize(parts_.size(), -1);
+  int& file = descriptors_[part];
+  if (file >= 0) return file;
+  if (open_ == kMostOpen) {
+    for (int& other : descriptors_) {
+      if (other >= 0) close(other);
+      other = -1;
+    }
+    open_ = 0;
+  }
+  file = open(parts_[part].c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw Failure(fmt::format("cannot read {}: {}", parts_[part].string(), std::strerror(errno)));
+  ++open_;
+  return file;
+}
+
+std::string Rows::line(const Entry& entry) const {
+  constexpr std::size_t kUsual = 2048;
+  std::string text;
+  for (;;) {
+    char block[kUsual];
+    const auto count = pread(descriptor(entry.part), block, sizeof block, static_cast<off_t>(entry.offset + text.size()));
+    if (count <= 0) throw Failure(fmt::format("{}: shorter than before", parts_[entry.part].string()));
+    const std::string_view got(block, static_cast<std::size_t>(count));
+    const auto end = got.find('\n');
+    text.append(got.substr(0, end));
+    if (end == got.npos) continue;
+    if (text.ends_with('\r')) text.pop_back();
+    return text;
+  }
+}
+
+TableRow Rows::row(const Entry& entry) const {
+  const std::string text = line(entry);
+  std::vector<std::string_view> cells;
+  if (!splitLine(text, cells) || cells.size() != columns_.size()) {
+    throw Failure(fmt::format("{}: a row has changed since it was read", parts_[entry.part].string()));
+  }
+  return plainRow(cells);
+}
+
+}  // namespace irk::store

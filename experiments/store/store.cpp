@@ -1,0 +1,146 @@
+#include "experiments/store/store.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+#include <map>
+#include <ostream>
+#include <utility>
+
+#include "experiments/build_info.h"
+#include "experiments/environment.h"
+#include "experiments/run_table.h"
+#include "experiments/failure.h"
+
+namespace irk::store {
+namespace {
+
+constexpr const char* kTables[] = {"runs", "states", "environments"};
+
+std::vector<std::string> stateColumns() { return {"key", "state", "code", "date"}; }
+
+// A name that is not there yet: runs.old.csv, runs.old2.csv, ...
+std::filesystem::path freeName(const std::filesystem::path& file) {
+  std::filesystem::path to;
+  for (int i = 1; to.empty() || std::filesystem::exists(to); ++i) {
+    to = file;
+    to.replace_extension(fmt::format("old{}{}", i == 1 ? "" : std::to_string(i), file.extension().string()));
+  }
+  return to;
+}
+
+bool hasParts(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder / "parts")) return false;
+  return std::filesystem::directory_iterator(folder / "parts") != std::filesystem::directory_iterator();
+}
+
+}  // namespace
+
+std::uint64_t keyNumber(std::string_view key) {
+  std::uint64_t number = 0;
+  std::from_chars(key.data(), key.data() + key.size(), number, 16);
+  return number;
+}
+
+Store::Store(std::filesystem::path folder, std::string study, Use use, const StoreOptions& options, std::ostream& messages)
+    : folder_(std::move(folder)),
+      study_(std::move(study)),
+      options_(options),
+      started_(dateText()),
+      runs_(folder_, kTables[0], runColumns(), buildInfo().code),
+      states_(folder_, kTables[1], stateColumns(), buildInfo().code),
+      environments_(folder_, kTables[2], environmentColumns(), "") {
+  if (use == Use::kWrite) {
+    lock_.emplace(folder_, options.if_locked, messages);
+    adoptFormerTable(messages);
+  }
+  const auto damage = use == Use::kWrite ? Rows::Damage::kSetAside : Rows::Damage::kReport;
+  for (auto* rows : {&runs_, &states_, &environments_}) rows->read(damage, messages);
+}
+
+// Exports without their parts: copied from elsewhere, or written by a version that had no parts.
+void Store::adoptFormerTable(std::ostream& messages) {
+  const auto file = folder_ / "runs.csv";
+  if (hasParts(folder_) || !std::filesystem::is_regular_file(file)) return;
+  const auto reading = readPart(file, runColumns(), [](const auto&, std::uint64_t) { return true; });
+  if (!reading.columns_match) {
+    const auto to = freeName(file);
+    std::filesystem::rename(file, to);
+    fmt::print(messages, "{}: written by another version, its runs are made again; the old table is kept as {}\n",
+               file.string(), to.filename().string());
+    return;
+  }
+  std::filesystem::create_directories(folder_ / "parts");
+  for (const std::string table : {kTables[2], kTables[1], kTables[0]}) {
+    const auto from = folder_ / (table + ".csv");
+    if (!std::filesystem::is_regular_file(from)) continue;
+    const auto part = folder_ / "parts" / fmt::format("{}.{}.taken_in.csv", table, writerName());
+    std::filesystem::copy_file(from, part.string() + ".new", std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::rename(part.string() + ".new", part);
+  }
+  fmt::print(messages, "{}: a table without its parts: it is taken in as one\n", file.string());
+}
+
+const Entry* Store::finished(std::uint64_t key) const {
+  const Entry* entry = runs_.find(key);
+  if (!entry) return nullptr;
+  if (options_.stale == StaleRows::kRemake && !runs_.isCurrent(*entry)) return nullptr;
+  const bool made_before = entry->remade < secondsOf(started_) || !runs_.isCurrent(*entry);
+  if (options_.finished == FinishedRuns::kRunAgain && made_before) return nullptr;
+  return entry;
+}
+
+void Store::addEnvironment() {
+  const auto& environment = thisEnvironment();
+  if (!environments_.find(keyNumber(environment.front()))) environments_.append(environment);
+}
+
+void Store::addTimes(const TableRow& row) {
+  addEnvironment();
+  runs_.append(row);
+}
+
+void Store::addRun(TableRow row) {
+  addEnvironment();
+  if (options_.finished == FinishedRuns::kRunAgain) row.back() = started_;
+  runs_.append(row);
+}
+
+void Store::addState(const std::string& key, const std::string& state) {
+  states_.append({key, state, std::string(buildInfo().code), dateText()});
+}
+
+std::size_t Store::takeOver(const Store& other) {
+  const auto take = [](Rows& rows, const Rows& from) {
+    std::size_t taken = 0;
+    from.forEach([&](const Entry& entry) {
+      const TableRow row = from.row(entry);
+      const Entry* here = rows.find(entry.key);
+      if (here && rows.row(*here) == row) return;
+      rows.append(row);
+      ++taken;
+    });
+    return taken;
+  };
+  take(environments_, other.environments_);
+  take(states_, other.states_);
+  return take(runs_, other.runs_);
+}
+
+std::string Store::processor(std::string_view environment) const {
+  const Entry* entry = environments_.find(keyNumber(environment));
+  if (!entry) return "unknown";
+  static const auto columns = environmentColumns();
+  static const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "cpu") - columns.begin());
+  return environments_.row(*entry)[at];
+}
+
+bool Store::timedHere(const Entry& entry) const {
+  const auto& environment = runs_.name(entry.cpu_environment);
+  return environment == thisEnvironment().front() || processor(environment) == processorName();
+}
+
+}  // namespace irk::store

@@ -1,0 +1,109 @@
+// Stores with rows made up, and what is expected of them.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <functional>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "experiments/compare/folders.h"
+#include "experiments/environment.h"
+#include "experiments/run_table.h"
+#include "experiments/failure.h"
+#include "experiments/store/store.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk {
+
+using store::Store;
+using store::Use;
+
+inline constexpr char kToml[] = R"(
+[[block]]
+scene = "kepler"
+t_end = 0.5
+methods = ["radau_iia_2", "radau_iia_3", "gauss_2"]
+tolerances = [1e-3, 1e-4, 1e-5]
+)";
+/// A study's folder, and rows made up for it.
+class StoredRuns : public testing::Test {
+ protected:
+  Study study(const std::string& toml = kToml) const { return parseStudy(toml, "small.toml", StudyVariant::kFull); }
+  RunnerOptions options(const std::string& tree = "results", store::StoreOptions its = {}) const {
+    RunnerOptions options;
+    options.results = folder_.path() / tree;
+    options.jobs = 1;
+    options.store = its;
+    return options;
+  }
+  std::filesystem::path folder(const std::string& tree = "results") const { return folder_.path() / tree / "small"; }
+  Table run(const std::string& tree = "results", store::StoreOptions its = {}, const std::string& toml = kToml) {
+    told_.str("");
+    return runStudy(study(toml), options(tree, its), told_);
+  }
+  Store reader(const std::string& tree = "results") {
+    return Store(folder(tree), "small", Use::kRead, {}, told_);
+  }
+  // Of the one part there is.
+  void changePart(const std::string& tree, const std::function<void(Table&)>& change) const {
+    const auto parts = partsOf(folder(tree));
+    ASSERT_EQ(parts.size(), 1u);
+    Table part = readTable(parts.front());
+    change(part);
+    writeTable(parts.front(), part);
+  }
+  // As if the first `rows` rows had been made and timed on another machine.
+  void moveToOtherMachine(const std::string& tree, std::size_t rows) const {
+    changePart(tree, [rows](Table& part) {
+      for (std::size_t i = 0; i < rows; ++i) {
+        part.rows[i][part.column("environment")] = "abc";
+        part.rows[i][part.column("cpu_environment")] = "abc";
+      }
+    });
+    Table environments{{}, environmentColumns(), {thisEnvironment()}};
+    environments.rows[0][0] = "abc";
+    environments.rows[0][environments.column("cpu")] = "Other processor";
+    environments.rows[0][environments.column("host")] = "elsewhere";
+    writeTable(folder(tree) / "parts" / "environments.0.csv", environments);
+  }
+
+  // By the last `run`, as its progress says; it is silent about nothing.
+  int made() const {
+    const std::string told = told_.str();
+    const auto at = told.find(" runs made");
+    return at == told.npos ? 0 : std::stoi(told.substr(told.rfind(' ', at - 1)));
+  }
+
+  TemporaryFolder folder_;
+  std::ostringstream told_;
+};
+
+inline std::set<std::string> keysOf(const Table& runs) {
+  std::set<std::string> keys;
+  for (const auto& row : runs.rows) keys.insert(row.front());
+  return keys;
+}
+
+inline std::string failureOf(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  ADD_FAILURE() << "nothing failed";
+  return {};
+}
+
+// Equal but for times, dates and where it was made.
+inline void expectSame(const Table& a, const Table& b) {
+  const auto comparison = compare::compareRuns({a, {}}, {b, {}}, {.times = 10});
+  EXPECT_TRUE(comparison.differences.empty()) << compare::textOf("", comparison);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_EQ(a.rows[i].front(), b.rows[i].front());
+}
+
+}  // namespace irk
