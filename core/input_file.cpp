@@ -28,17 +28,23 @@ const char* nameOf(std::filesystem::file_type type) {
 
 }  // namespace
 
+// Devices and pipes may have no end, and opening a pipe waits for its writer.
+void requireRegularFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw Misuse("'" + path.string() + "' is " + nameOf(status.type()) + ": a regular file is expected");
+  }
+}
+
 std::string readInputFile(const std::filesystem::path& path, std::size_t most) {
-  // Devices and pipes may have no end, and opening a pipe waits for its writer.
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
     throw Misuse("file '" + path.string() + "' cannot be read: " +
                  (error ? error.message() : std::strerror(ENOENT)));
   }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw Misuse("'" + path.string() + "' is " + nameOf(status.type()) + ": a regular file is expected");
-  }
+  requireRegularFile(path);
   const auto tooLong = [&] {
     throw Misuse("file '" + path.string() + "' is too long: up to " + std::to_string(most) +
                  " bytes are read");

@@ -16,4 +16,7 @@ inline constexpr std::size_t kMostTableBytes = std::size_t{8} << 30U;
 /// what is allowed: for a folder, a device, a pipe, a file that cannot be read, one of more than `most` bytes.
 std::string readInputFile(const std::filesystem::path& path, std::size_t most = kMostInputBytes);
 
+/// Throws Misuse as readInputFile for what is there and no regular file.
+void requireRegularFile(const std::filesystem::path& path);
+
 }  // namespace irk

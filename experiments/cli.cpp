@@ -145,7 +145,7 @@ class Program {
     options.runner.results = results();
     options.runner.jobs = parseJobs();
     options.runner.store = storeOptions();
-    if (!shard_.empty()) parseShard(shard_, options.runner);
+    if (!shard_.empty()) options.runner.shard = parseShard(shard_);
     return options;
   }
 
@@ -159,12 +159,20 @@ class Program {
     auto* sub =
         verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
     sub->add_option("study", study_, "id or TOML file")->required();
-    sub->add_option("--shard", shard_, "i/n: this part of n, for array jobs; see merge");
+    sub->add_option("--shard", shard_, "i/n, or in an array job auto/n: this part of n; see merge");
     addRunnerOptions(*sub);
+    auto* slurm = verb(app_, "slurm", "print a job script of Slurm: a study in n parts", [this](Streams s) {
+      return slurmCommand({study_, shard_, variant(), results_, std::max(1, parseJobs())}, s);
+    });
+    slurm->add_option("study", study_, "id or TOML file")->required();
+    slurm->add_option("-n", shard_, "number of parts, at most one per series")->required();
+    slurm->add_option("--jobs", jobs_, "threads of each part; 0 = 1");
+    addQuick(*slurm);
+    addResults(*slurm);
     auto* status = verb(app_, "status", "how far a study is: planned, finished, failed, stale, foreign, time needed",
                         [this](Streams s) { return statusCommand(runOptions(), s); });
     status->add_option("study", study_, "id or TOML file")->required();
-    status->add_option("--shard", shard_, "i/n: this part of n only");
+    status->add_option("--shard", shard_, "i/n or auto/n: this part of n only");
     addQuick(*status);
     addResults(*status);
   }

@@ -5,10 +5,22 @@ irk_library(experiments)
 file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/experiments/audit/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/commands/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/claims/*.cpp
+                                  ${CMAKE_SOURCE_DIR}/experiments/cluster/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/compare/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/peers/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/reference/*.cpp
                                   ${CMAKE_SOURCE_DIR}/experiments/store/*.cpp)
+# With an MPI several processes share a study: mpirun -n N irk run STUDY. Without one all else works.
+option(IRK_MPI "Use MPI where it is installed" ON)
+if(IRK_MPI)
+  find_package(MPI COMPONENTS C)
+endif()
+if(MPI_C_FOUND)
+  target_compile_definitions(irk_experiments PRIVATE IRK_HAS_MPI OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(irk_experiments PRIVATE MPI::MPI_C)
+else()
+  list(FILTER parts EXCLUDE REGEX "mpi_ranks")
+endif()
 target_sources(irk_experiments PRIVATE ${parts})
 target_link_libraries(irk_experiments PUBLIC irk::tableaus irk::problems
                       PRIVATE fmt::fmt GSL::gsl OpenMP::OpenMP_CXX benchmark::benchmark

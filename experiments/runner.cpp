@@ -28,17 +28,20 @@
 namespace irk {
 namespace {
 
-// f(0), ..., f(count - 1) on several threads. Throws the first exception of any of them; then the rest is left out.
+// f(i) for what the queue gives, on several threads. Throws the first exception of any of them; then the rest is left.
 template <class F>
-void inParallel(std::size_t count, int threads, F&& f) {
+void inParallel(WorkQueue& queue, int threads, F&& f) {
   std::mutex mutex;
   std::exception_ptr failure;
   std::atomic<bool> failed = false;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < count; ++i) {
-    if (failed) continue;
+#pragma omp parallel num_threads(threads)
+  {
     try {
-      f(i);
+      while (!failed) {
+        const auto i = queue.next();
+        if (!i) break;
+        f(*i);
+      }
     } catch (...) {
       failed = true;
       const std::lock_guard lock(mutex);
@@ -65,8 +68,8 @@ class Sweep {
     }
   }
 
-  /// Throws the first exception of any thread.
-  void run(int threads) {
+  /// Throws the first exception of any thread. All ranks have the same work in the same order.
+  void run(int threads, Ranks& ranks) {
     // Long ones first, so that no thread is left alone at the end: more stages cost more.
     const auto stages = [this](std::size_t series) {
       const RunSpec& spec = study_.series[series].runs.front();
@@ -74,15 +77,11 @@ class Sweep {
     };
     std::stable_sort(work_.begin(), work_.end(),
                      [&](std::size_t a, std::size_t b) { return stages(a) > stages(b); });
-    inParallel(work_.size(), threads, [this](std::size_t i) { runSeries(work_[i]); });
+    const auto queue = ranks.queue(work_.size(), [this](std::size_t i) { countAsGiven(work_[i]); });
+    inParallel(*queue, threads, [this](std::size_t i) { runSeries(work_[i]); });
   }
 
-  std::vector<std::uint64_t> exported() {
-    progress_.reset();
-    auto order = inOrder(keys_);
-    store_.exportTables(order);
-    return order;
-  }
+  const RunKeys& keys() const { return keys_; }
 
  private:
   void tellStale(std::ostream& out) const {
@@ -97,6 +96,14 @@ class Sweep {
     fmt::print(out, "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
                     "them again\n",
                study_.id, stale);
+  }
+
+  // Another rank makes it: this one's progress counts its runs as done.
+  void countAsGiven(std::size_t index) {
+    const Series& series = study_.series[index];
+    const std::lock_guard lock(mutex_);
+    const std::size_t expected = expectedRuns(series);
+    for (std::size_t run = 0; run < expected; ++run) progress_->skipped(kindOf(series.runs[run], series.end));
   }
 
   void runSeries(std::size_t index) {
@@ -183,29 +190,20 @@ class Sweep {
 
 }  // namespace
 
-void parseShard(std::string_view text, RunnerOptions& options) {
-  const auto slash = text.find('/');
-  if (slash == std::string_view::npos) {
-    throw Misuse(fmt::format("shard = '{}' is not of the form i/n", text));
-  }
-  constexpr int kMostShards = 1'000'000;
-  options.shards = static_cast<int>(parseInteger("shard", text.substr(slash + 1), 1, kMostShards));
-  options.shard = static_cast<int>(parseInteger("shard", text.substr(0, slash), 1, options.shards));
-}
-
 std::filesystem::path studyFolder(const Study& study, const RunnerOptions& options) {
   const auto folder = options.results / study.id;
-  if (options.shards == 1) return folder;
-  return folder / fmt::format("shard_{}_of_{}", options.shard, options.shards);
+  const Shard& shard = options.shard;
+  return shard.count == 1 ? folder : folder / fmt::format("shard_{}_of_{}", shard.index, shard.count);
 }
 
 int threadCount(int jobs) { return jobs > 0 ? jobs : omp_get_num_procs(); }
 
 RunKeys runKeys(const Study& study, const RunnerOptions& options) {
   RunKeys keys(study.series.size());
-  inParallel(keys.size(), threadCount(options.jobs), [&](std::size_t i) {
-    const auto turn = static_cast<int>(i % static_cast<std::size_t>(options.shards));
-    if (turn + 1 != options.shard) return;
+  const auto shard = shardOfSeries(study, options.shard.count);
+  const auto all = aloneRank()->queue(keys.size(), {});
+  inParallel(*all, threadCount(options.jobs), [&](std::size_t i) {
+    if (shard[i] != options.shard.index) return;
     for (const auto& spec : study.series[i].runs) keys[i].push_back(store::keyNumber(specKey(spec)));
   });
   return keys;
@@ -223,15 +221,16 @@ std::vector<std::uint64_t> inOrder(const RunKeys& keys) {
 }
 
 std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
-                                    std::ostream& progress) {
+                                    Ranks& ranks, std::ostream& progress) {
   Sweep sweep(study, options, store, progress);
-  sweep.run(threadCount(options.jobs));
-  return sweep.exported();
+  sweep.run(threadCount(options.jobs), ranks);
+  return inOrder(sweep.keys());
 }
 
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
   store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
-  makeRuns(study, options, store, progress);
+  const auto alone = aloneRank();
+  store.exportTables(makeRuns(study, options, store, *alone, progress));
   return readTable(store.folder() / "runs.csv");
 }
 

@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "experiments/cluster/ranks.h"
+#include "experiments/cluster/shards.h"
 #include "experiments/store/store.h"
 #include "experiments/study.h"
 #include "experiments/table.h"
@@ -17,12 +18,9 @@ namespace irk {
 struct RunnerOptions {
   std::filesystem::path results = "results";
   int jobs = 0;               ///< >= 0; 0 = one per processor
-  int shard = 1, shards = 1;  ///< 1 <= shard <= shards: every shards-th series
+  Shard shard;
   store::StoreOptions store;
 };
-
-/// `i/n` of --shard. Throws Misuse.
-void parseShard(std::string_view text, RunnerOptions& options);
 
 /// results/<study>, and below it shard_<i>_of_<n> for a part of a study.
 std::filesystem::path studyFolder(const Study& study, const RunnerOptions& options);
@@ -36,13 +34,13 @@ RunKeys runKeys(const Study& study, const RunnerOptions& options);
 /// One after the other, each once.
 std::vector<std::uint64_t> inOrder(const RunKeys& keys);
 
-/// Makes the runs that are not in the store yet and exports the tables: all runs, in the study's order whatever the
-/// number of threads. After an interrupt: what there is. Returns the keys in that order. Progress goes to `progress`.
-/// Throws Failure.
+/// Makes the runs that are not in the store yet; each rank a part of them, in a store of its own. Returns the keys of all
+/// runs in the study's order, whatever the number of threads and ranks. After an interrupt there may be fewer. Progress
+/// goes to `progress`. Throws Failure.
 std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
-                                    std::ostream& progress);
+                                    Ranks& ranks, std::ostream& progress);
 
-/// The same with a store of its own, in studyFolder; returns the exported runs.csv.
+/// The same alone, with a store of its own, in studyFolder; exports its tables and returns runs.csv.
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress);
 
 }  // namespace irk

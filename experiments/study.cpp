@@ -294,6 +294,8 @@ std::optional<RunSpec> SpecsByKey::find(const std::string& key) const {
 
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
   const StudyFile text = parseStudyFile(toml, file, variant);
+  // A mistake in the other variant is found now, too.
+  static_cast<void>(parseStudyFile(toml, file, variant == StudyVariant::kQuick ? StudyVariant::kFull : StudyVariant::kQuick));
   Study study;
   study.id = std::filesystem::path(file).stem();
   if (const auto* title = find(text.study, "title")) study.title = single("title", *title);

@@ -70,6 +70,16 @@ int claimsCommand(const std::string& results, Streams streams);
 /// How far a study is. Always 0.
 int statusCommand(const RunOptions& options, Streams streams);
 
+struct SlurmOptions {
+  std::string study;  ///< id or file
+  std::string shards;
+  StudyVariant variant = StudyVariant::kFull;
+  std::string results = "results";  ///< without `quick`
+  int jobs = 1;
+};
+/// Prints a job script.
+int slurmCommand(const SlurmOptions& options, Streams streams);
+
 struct MergeOptions {
   std::vector<std::string> folders;
   std::string study;  ///< id or file; empty: the study that the tables name

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <set>
+#include <sstream>
 
 #include "experiments/audit/audit.h"
 #include "experiments/commands/commands.h"
@@ -28,10 +29,14 @@ Stores openAll(const MergeOptions& options, std::ostream& err) {
   return stores;
 }
 
-// The one study that all rows name. Throws Misuse for none and for two.
-std::string studyOf(const Stores& stores) {
+// The one study that all rows name. Throws Misuse for none, with the first of the notes about what could not be read, and
+// for two.
+std::string studyOf(const Stores& stores, const std::string& notes) {
   const auto studies = store::studiesIn(stores);
-  if (studies.empty()) throw Misuse("no run of this version in any of the folders");
+  if (studies.empty()) {
+    throw Misuse("no run of this version in any of the folders, neither in parts/ nor in runs.csv" +
+                 (notes.empty() ? "" : ": " + notes.substr(0, notes.find('\n'))));
+  }
   if (studies.size() > 1) {
     const auto& [first, in_first] = *studies.begin();
     const auto& [second, in_second] = *std::next(studies.begin());
@@ -52,7 +57,7 @@ std::size_t shardsOf(std::filesystem::path folder) {
 }
 
 // The commands that make what is missing.
-std::string commandsOf(const MergeOptions& options, const store::MergeReport& report) {
+std::string commandsOf(const MergeOptions& options, const Study& made, const store::MergeReport& report) {
   const std::string& study = options.study;
   std::string results = options.results;
   std::set<std::size_t> counts;
@@ -68,8 +73,9 @@ std::string commandsOf(const MergeOptions& options, const store::MergeReport& re
                        results.empty() ? "" : " --results " + results);
   };
   if (shards == 0) return command("");
-  std::set<std::size_t> missing;
-  for (const auto series : report.missing_series) missing.insert(series % shards + 1);
+  const auto shard_of = shardOfSeries(made, static_cast<int>(shards));
+  std::set<int> missing;
+  for (const auto series : report.missing_series) missing.insert(shard_of[series]);
   std::string text;
   for (const auto shard : missing) text += command(fmt::format(" --shard {}/{}", shard, shards));
   return text;
@@ -78,8 +84,10 @@ std::string commandsOf(const MergeOptions& options, const store::MergeReport& re
 }  // namespace
 
 int mergeCommand(MergeOptions options, Streams streams) {
-  const Stores stores = openAll(options, streams.err);
-  const auto named = studyOf(stores);
+  std::ostringstream notes;
+  const Stores stores = openAll(options, notes);
+  const auto named = studyOf(stores, notes.str());
+  streams.err << notes.str();
   if (options.study.empty()) options.study = named;
   const Study study = loadStudy(options.study, options.variant);
   if (study.id != named) {
@@ -97,7 +105,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
   const RunKeys keys = runKeys(study, {});
   const auto report = store::reportOf(study, keys, all);
   fmt::print(streams.out, "{}: {}", study.id, store::textOf(report));
-  if (report.missing > 0) streams.out << "still to be run:\n" << commandsOf(options, report);
+  if (report.missing > 0) streams.out << "still to be run:\n" << commandsOf(options, study, report);
   const bool refused = !options.partial && (report.missing > 0 || !report.conflicts.empty());
   if (refused) {
     streams.err << "nothing is merged; --partial merges what there is\n";

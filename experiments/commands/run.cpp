@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
+#include "core/misuse.h"
 #include "experiments/audit/audit.h"
 #include "experiments/claims/claims.h"
+#include "experiments/cluster/ranks.h"
 #include "experiments/commands/commands.h"
 #include "experiments/environment.h"
 #include "experiments/failure.h"
@@ -81,14 +84,40 @@ bool needsTable(const Study& study) {
          study.timing.wanted || !study.targets.empty();
 }
 
-int runStored(const Study& study, const RunnerOptions& options, Streams streams) {
+// A rank other than the first: its part of the runs, without a word; the first one joins and tells.
+void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
+  std::ostream silent(nullptr);
+  ranks.meet();  // the first one has the lock
+  store::Store store(studyFolder(study, options), study.id, store::Use::kJoin, options.store, silent);
+  makeRuns(study, options, store, ranks, silent);
+}
+
+// The store after the runs of all ranks.
+std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ranks,
+                                       std::optional<store::Store>& store, std::ostream& err) {
+  const auto open = [&] {
+    store.reset();
+    store.emplace(studyFolder(study, options), study.id, store::Use::kWrite, options.store, err);
+  };
+  open();
+  ranks.meet();
+  if (ranks.count() > 1) fmt::print(err, "{}: {} ranks; what another one gets counts as done\n", study.id, ranks.count());
+  const auto keys = makeRuns(study, options, *store, ranks, err);
+  ranks.meet();
+  if (ranks.count() > 1) open();  // with what the others have added
+  store->exportTables(keys);
+  return keys;
+}
+
+int runStored(const Study& study, const RunnerOptions& options, Ranks& ranks, Streams streams) {
   const auto folder = studyFolder(study, options);
-  store::Store store(folder, study.id, store::Use::kWrite, options.store, streams.err);
-  const auto keys = makeRuns(study, options, store, streams.err);
+  std::optional<store::Store> opened;
+  const auto keys = makeAllRuns(study, options, ranks, opened, streams.err);
+  store::Store& store = *opened;
   const auto file = folder / "runs.csv";
   std::vector<std::string> doubts;
   if (const auto refusal = refusedTimes(file); !refusal.empty()) doubts.push_back(refusal);
-  if (options.shards > 1 || !needsTable(study)) {
+  if (options.shard.count > 1 || !needsTable(study)) {
     printSummary(study, store, keys, streams.out);
   } else {
     Table runs = readTable(file);
@@ -110,9 +139,9 @@ int runStored(const Study& study, const RunnerOptions& options, Streams streams)
   return kInterruptedStatus;
 }
 
-int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
+int runOne(const Study& study, const RunnerOptions& options, Ranks& ranks, Streams streams) {
   try {
-    return runStored(study, options, streams);
+    return runStored(study, options, ranks, streams);
   } catch (const Failure& failure) {
     printErrorLine(streams.err, failure.what());
     return interruptFlag() ? kInterruptedStatus : kFailedStatus;
@@ -123,16 +152,41 @@ int runOne(const Study& study, const RunnerOptions& options, Streams streams) {
 
 int runCommand(const RunOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant);
+  const auto ranks = joinRanks();
+  if (ranks->count() == 1) {
+    const InterruptScope interrupts;
+    return runOne(study, options.runner, *ranks, streams);
+  }
+  RunnerOptions each = options.runner;
+  if (each.shard.count > 1) throw Misuse("--shard with ranks of mpirun: they share the whole study");
+  if (each.jobs == 0) each.jobs = 1;
   const InterruptScope interrupts;
-  return runOne(study, options.runner, streams);
+  int status = 0;
+  try {
+    if (ranks->rank() == 0) {
+      status = runStored(study, each, *ranks, streams);
+    } else {
+      joinStudy(study, each, *ranks);
+      ranks->meet();  // all parts are written
+    }
+  } catch (...) {
+    ranks->abandon(reportException(streams.err));
+  }
+  if (interruptFlag()) {
+    streams.out.flush();
+    ranks->abandon(kInterruptedStatus);
+  }
+  return status;
 }
 
 int paperCommand(const RunOptions& options, Streams streams) {
+  const auto alone = joinRanks();
+  if (alone->count() > 1) throw Misuse("paper under mpirun: its ranks share the runs of one study, irk run STUDY");
   const InterruptScope interrupts;
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // a study that fails does not keep the others from being run
   for (const auto id : kPaperStudies) {
-    const int status = runOne(loadStudy(id, options.variant), options.runner, streams);
+    const int status = runOne(loadStudy(id, options.variant), options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;
     worst = std::max(worst, status);
   }

@@ -16,6 +16,7 @@
 #include <ostream>
 #include <tuple>
 
+#include "core/input_file.h"
 #include "experiments/environment.h"
 #include "experiments/failure.h"
 
@@ -166,7 +167,8 @@ void Rows::read(Damage damage, std::ostream& messages) {
   }
   std::sort(parts_.begin(), parts_.end());
   const auto exported = folder_.parent_path() / (name_ + ".csv");
-  if (parts_.empty() && std::filesystem::is_regular_file(exported)) parts_.push_back(exported);
+  if (parts_.empty() && std::filesystem::exists(exported)) parts_.push_back(exported);
+  for (const auto& part : parts_) requireRegularFile(part);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     readOne(parts_[i], static_cast<std::uint32_t>(i), damage, messages);
   }

@@ -24,7 +24,8 @@ enum class FinishedRuns { kKeep, kRunAgain };
 enum class StaleRows { kKeep, kRemake };
 /// Which times count: all, or those that were measured on this processor.
 enum class Times { kAll, kHere };
-enum class Use { kRead, kWrite };
+/// kJoin: a rank of MPI writes parts of its own while rank 0 holds the lock.
+enum class Use { kRead, kWrite, kJoin };
 
 struct StoreOptions {
   FinishedRuns finished = FinishedRuns::kKeep;
