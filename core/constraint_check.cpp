@@ -9,9 +9,15 @@
 namespace irk {
 namespace {
 
-// A result is wrong from so many tolerances on; below that of `kFinest` it is not asked for more.
+// A result is wrong from so many tolerances on; below that of `kFinest` it is not asked for more, and above it is not
+// allowed more than `kCoarsest` of its own magnitude: a state that runs away from its constraints grows.
 constexpr double kAllowed = 1e3;
 constexpr double kFinest = 1e-12;
+constexpr double kCoarsest = 0.1;
+
+double allowedAt(double tolerance) {
+  return std::min(kAllowed * std::max(1.0, kFinest / tolerance), kCoarsest / tolerance);
+}
 // Patterns of signs in which the components are changed: no row is blind to all of them.
 constexpr unsigned kPatterns = 4;
 
@@ -28,7 +34,7 @@ ConstraintCheck<Real>::ConstraintCheck(const System<Real>& system, const ErrorNo
                                        const Tolerances& tolerances)
     : system_(system),
       norm_(norm),
-      allowed_(kAllowed * std::max(1.0, kFinest / std::max(tolerances.rtol, tolerances.atol))),
+      allowed_(allowedAt(std::max(tolerances.rtol, tolerances.atol))),
       moved_(system.sizes()),
       r_(system.sizes().n()),
       moved_r_(system.sizes().n()),

@@ -17,8 +17,8 @@ class ConstraintCheck {
   ConstraintCheck(const System<Real>& system, const ErrorNorm<Real>& norm,
                   const Tolerances& tolerances);
 
-  /// Empty, or which constraint is violated, by how much, and what is allowed: 1000 tolerances, and not
-  /// less than 1e-9 relative. The norm's weights must be those of the state.
+  /// Empty, or which constraint is violated, by how much, and what is allowed: 1000 tolerances, not
+  /// less than 1e-9 and not more than 0.1 relative. The norm's weights must be those of the state.
   std::string violation(const State<Real>& state);
 
  private:
