@@ -28,24 +28,27 @@ double stiffCaution(const Scheme<Real>& scheme) {
 }
 
 /// Errors of many steps add up: `caution` in the first kFree steps, then more, so that the errors of N steps
-/// add up to kFree (1 + log(N / kFree)) tolerances instead of N. For estimates of higher order than the
-/// step's own nothing is needed: there the true error is far below them. At most kMost, and not below kFinest: there
-/// round-off begins.
+/// add up to kFree (1 + log(N / kFree)) tolerances instead of N; but no more than the errors of the steps so far ask
+/// for: where they are far below the tolerance anyway, they are not made smaller still. For estimates of higher order
+/// than the step's own nothing is needed: there the true error is far below them. At most kMost, and not below kFinest:
+/// there round-off begins.
 class Accumulation {
  public:
   Accumulation(double caution, const Tolerances& tolerances)
       : caution_(caution),
         most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMost)) {}
   void begin() { *this = Accumulation(caution_, most_); }
-  /// After so many accepted steps; 0 for estimates that need no more than caution.
-  double factor(std::int64_t steps) const {
-    return std::min(most_, caution_ * std::max(1.0, static_cast<double>(steps) / kFree));
+  /// After so many accepted steps with this sum of estimates; 0 steps for estimates that need no more than caution.
+  double factor(std::int64_t steps, double sum) const {
+    const double part = caution_ * sum / kFree;
+    const double growth = std::min(static_cast<double>(steps) / kFree, part * part * part);
+    return std::min(most_, caution_ * std::max(1.0, growth));
   }
   /// What the controller is told of an attempt from t with step h: the estimate `error` times the factor. An error
   /// within the tolerance that a shorter step from the same t has not lowered, as of multipliers and of round-off, is
   /// accepted: still shorter steps would not help it either.
-  double asked(double error, std::int64_t steps, double t, double h) {
-    double asked = error * factor(steps);
+  double asked(double error, double factor, double t, double h) {
+    double asked = error * factor;
     const bool in_vain = t == t_ && h < h_ && error > error_ * std::sqrt(h / h_);
     if (asked > 1 && error <= 1 && in_vain) asked = 1;
     t_ = t;

@@ -104,7 +104,8 @@ class Doubling final : public StepAttempt<Real> {
     result.error = error(to, static_cast<double>(h));
     if (accumulates_) {
       result.added = result.error;
-      result.error = accumulation_.asked(result.error, steps_, static_cast<double>(from.t), static_cast<double>(h));
+      result.error = accumulation_.asked(result.error, accumulation_.factor(steps_, sum_),
+                                         static_cast<double>(from.t), static_cast<double>(h));
     }
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
@@ -126,6 +127,7 @@ class Doubling final : public StepAttempt<Real> {
   void begin() override {
     forget();
     steps_ = 0;
+    sum_ = 0;
     accumulation_.begin();
     continues_ = restarted_ = watches_start_ = false;
   }
@@ -141,6 +143,7 @@ class Doubling final : public StepAttempt<Real> {
       continues_ = true;
     }
     ++steps_;
+    sum_ += result.added;
     return StepAttempt<Real>::accepted(result, h, h_next);
   }
   int order() const override { return order_; }
@@ -171,6 +174,7 @@ class Doubling final : public StepAttempt<Real> {
   bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
   Accumulation accumulation_;
   std::int64_t steps_ = 0;  // accepted
+  double sum_ = 0;          // of their estimates
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
   bool restarted_ = false;      // since the last step was taken over

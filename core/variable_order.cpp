@@ -106,8 +106,10 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   result.outcome = estimate.outcome;
   result.added = member().adds ? estimate.error : 0;
   result.error = estimate.error * member().exigence;
-  result.error = member().accumulation.asked(result.error, member().accumulates ? steps_ : 0,
-                                             static_cast<double>(from.t), static_cast<double>(h));
+  estimate_ = result.error;
+  const double factor = member().accumulation.factor(member().accumulates ? steps_ : 0, sum_);
+  result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t),
+                                             static_cast<double>(h));
   result.error = worse(result.error, order(), result.mode_error, 1);
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
@@ -134,6 +136,7 @@ void VariableOrder<Real>::begin() {
   solved_ = false;
   continues_ = restarted_ = watches_start_ = false;
   steps_ = 0;
+  sum_ = 0;
   for (auto& m : members_) m->accumulation.begin();
   failures_ = 0;
   forget();
@@ -179,6 +182,7 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
     continues_ = true;
   }
   ++steps_;
+  sum_ += estimate_;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
   if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);

@@ -92,6 +92,7 @@ class VariableOrder final : public StepAttempt<Real> {
   int epoch_ = 0;                      // members that are not in use forget when they come to it
   bool again_ = true;                  // filter twice: after a start and a rejection
   std::int64_t steps_ = 0;             // accepted
+  double estimate_ = 0, sum_ = 0;      // of the last attempt; of all accepted steps
   bool watches_start_ = false;         // the first step after a restart
   bool restarted_ = false;             // since the last step was taken over
   bool continues_ = false;             // a step of the same mode

@@ -53,9 +53,29 @@ TEST(ErrorSum, OfStepsUnderAccumulationStaysBelowTheBar) {
   const Tolerances tolerances{1e-8, 1e-8, NormKind::kMixed};
   const Accumulation accumulation(1, tolerances);
   double sum = 0;
-  for (int i = 0; i < 15'000; ++i) sum += 1 / accumulation.factor(i);
+  for (int i = 0; i < 15'000; ++i) sum += 1 / accumulation.factor(i, sum);
   EXPECT_GT(sum, 100);
   EXPECT_LT(sum, 500);
+}
+
+// Errors far below the tolerance are not asked to be smaller still, however many they are.
+TEST(ErrorSum, AsksNothingOfSmallErrors) {
+  const Accumulation accumulation(10, {1e-8, 1e-8, NormKind::kMixed});
+  EXPECT_EQ(accumulation.factor(100'000, 3), 10);
+  EXPECT_GT(accumulation.factor(100'000, 30), 10);
+  EXPECT_LE(accumulation.factor(100'000, 300), 300);
+}
+
+// A rejected error that a shorter step does not lower is accepted, one that it lowers is not.
+TEST(ErrorSum, IsNotControlledByStepsThatDoNotHelp) {
+  Accumulation accumulation(1, {1e-8, 1e-8, NormKind::kMixed});
+  EXPECT_EQ(accumulation.asked(0.5, 10, 1, 0.1), 5);
+  EXPECT_EQ(accumulation.asked(0.49, 10, 1, 0.05), 1) << "accepted";
+  EXPECT_EQ(accumulation.asked(0.5, 10, 2, 0.1), 5);
+  EXPECT_EQ(accumulation.asked(0.3, 10, 2, 0.05), 3) << "it falls";
+  EXPECT_EQ(accumulation.asked(2, 10, 3, 0.1), 20);
+  EXPECT_EQ(accumulation.asked(2, 10, 3, 0.05), 20) << "above the tolerance";
+  EXPECT_EQ(accumulation.asked(2, 10, 3.05, 0.05), 20) << "another step";
 }
 
 TEST(ErrorSum, ManyStepsOfLowOrderAreRightOrSaySo) {

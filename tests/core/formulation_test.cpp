@@ -158,7 +158,7 @@ TEST(JacobianTerms, WithVariableMassCostIterationsNotAccuracy) {
     const auto s = run(terms);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << idOf(terms);
     EXPECT_LT((s.state.u - full.state.u).norm(), 1e-7) << idOf(terms);
-    EXPECT_NE(s.counters.newton_iterations, full.counters.newton_iterations) << idOf(terms);
+    EXPECT_NE(s.state.u, full.state.u) << idOf(terms) << " has no effect";
   }
 }
 
