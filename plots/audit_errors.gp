@@ -22,6 +22,14 @@ wrong(promise) = is("judgement", 'wrong') && promised(0) == promise ? ratio(0) :
 bar(t) = (1000 * t + 1e-9) / t
 good = 0x0072B2; bad = 0xC8102E
 
+# Counted before there are axes, which would leave the counts out of range.
+array successes[4]; array wrongs[4]; array broken[4]
+do for [i = 1 : 4] {
+  stats file using (of(i) ? 1 : 0) name "A" nooutput
+  stats file using (of(i) && is("judgement", 'wrong') ? 1 : 0) name "W" nooutput
+  stats file using (of(i) && is("judgement", 'wrong') && promised(0) ? 1 : 0) name "P" nooutput
+  successes[i] = A_sum; wrongs[i] = W_sum; broken[i] = P_sum
+}
 margin_left = 0.075; margin_bottom = 0.18; margin_top = 0.06; gap_x = 0.02; gap_y = 0.075
 do for [format in formats] {
   eval open(format, 1080, 720)
@@ -31,16 +39,14 @@ do for [format in formats] {
   set xrange [10 ** -1.4 : 10 ** -13.6]; set yrange [low / 2 : high * 2]
   do for [i = 1 : 4] {
     eval panel(i, 2, 2)
-    stats file using (of(i) && is("judgement", 'wrong') ? 1 : NaN) name "W" nooutput
-    stats file using (of(i) ? 1 : NaN) name "A" nooutput
-    set title sprintf("%s: %d of %d successes wrong", word(configurations, i), W_records, A_records) offset 0,-0.5
+    set title sprintf("%s: %d of %d successes wrong", word(configurations, i), wrongs[i], successes[i]) offset 0,-0.5
     set xlabel when(i > 2, 'tolerance')
     set ylabel when(i % 2 == 1, 'error / tolerance') offset 1,0
     if (i > 2) { set format x '10^{%L}' } else { set format x '' }
     if (i % 2 == 1) { set format y '10^{%L}' } else { set format y '' }
-    plot file using (place(i)):(right(0)) with points pt 7 ps 0.25 lc rgb good notitle, \
-      file using (place(i)):(wrong(0)) with points pt 6 ps 0.7 lw 1.3 lc rgb bad notitle, \
-      file using (place(i)):(wrong(1)) with points pt 7 ps 0.7 lc rgb bad notitle, \
+    plot for [k = 1 : successes[i] > wrongs[i]] file using (place(i)):(right(0)) with points pt 7 ps 0.25 lc rgb good notitle, \
+      for [k = 1 : wrongs[i] > broken[i]] file using (place(i)):(wrong(0)) with points pt 6 ps 0.7 lw 1.3 lc rgb bad notitle, \
+      for [k = 1 : broken[i] > 0] file using (place(i)):(wrong(1)) with points pt 7 ps 0.7 lc rgb bad notitle, \
       bar(x) with lines lw 2 lc rgb ink notitle
   }
   eval legend(0.085)

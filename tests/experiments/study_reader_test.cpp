@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "experiments/study.h"
 #include "tests/experiments/support.h"
+#include "tests/mutate.h"
 
 namespace irk {
 namespace {
@@ -120,27 +120,10 @@ TEST(StudyReader, SurvivesMutatedTexts) {
                                 "0x",    "1_0", "1__", "99999999", "\\u0000",  "\\",      "true",     "block",  "quick",
                                 "\xff",  "\v",  " ",   "\t",       "a.b",      "\xc2\xa0", "\xe2\x80\xa8", "[block.quick]",
                                 "1979-05-27T07:32:00Z", std::string(1, '\0')};
-  std::mt19937 random(20041);
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+  test::Mutations mutations(seeds, pieces, 20041);
   int studies = 0, refused = 0;
   for (int i = 0; i < 10'000; ++i) {
-    std::string text = seeds[below(std::size(seeds))];
-    for (std::size_t changes = 1 + below(3); changes > 0; --changes) {
-      const std::size_t at = below(text.size() + 1);
-      switch (below(4)) {
-        case 0:
-          text.insert(at, pieces[below(std::size(pieces))]);
-          break;
-        case 1:
-          text.erase(at, 1 + below(6));
-          break;
-        case 2:
-          text.insert(at, 1, static_cast<char>(below(256)));
-          break;
-        default:
-          text.insert(at, text.substr(below(text.size() + 1), below(30)));
-      }
-    }
+    const std::string text = mutations.next();
     try {
       parse(text);
       ++studies;

@@ -1,0 +1,16 @@
+// libFuzzer: any bytes as a tableau file. A Misuse is a right answer, everything else ends the program.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/misuse.h"
+#include "tableaus/file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  try {
+    irk::parseTableau(text, "fuzz.txt");
+  } catch (const irk::Misuse&) {
+  }
+  return 0;
+}

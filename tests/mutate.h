@@ -1,0 +1,46 @@
+// Texts that are almost right: what readers of files have to survive.
+#pragma once
+
+#include <cstddef>
+#include <random>
+#include <span>
+#include <string>
+
+namespace irk::test {
+
+/// Good texts, changed in one to three places at random: a piece inserted, some characters erased, any byte inserted, a
+/// part doubled. The same texts on every machine.
+class Mutations {
+ public:
+  Mutations(std::span<const std::string> seeds, std::span<const std::string> pieces, unsigned seed)
+      : seeds_(seeds), pieces_(pieces), random_(seed) {}
+
+  std::string next() {
+    std::string text = seeds_[below(seeds_.size())];
+    for (std::size_t changes = 1 + below(3); changes > 0; --changes) {
+      const std::size_t at = below(text.size() + 1);
+      switch (below(4)) {
+        case 0:
+          text.insert(at, pieces_[below(pieces_.size())]);
+          break;
+        case 1:
+          text.erase(at, 1 + below(6));
+          break;
+        case 2:
+          text.insert(at, 1, static_cast<char>(below(256)));
+          break;
+        default:
+          text.insert(at, text.substr(below(text.size() + 1), below(30)));
+      }
+    }
+    return text;
+  }
+
+ private:
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_()) % n; }
+
+  std::span<const std::string> seeds_, pieces_;
+  std::mt19937 random_;
+};
+
+}  // namespace irk::test
