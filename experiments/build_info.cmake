@@ -12,7 +12,7 @@ file(GLOB deciding RELATIVE ${SOURCE_DIR}
      ${SOURCE_DIR}/problems/reference/*.csv ${SOURCE_DIR}/tableaus/*.cpp ${SOURCE_DIR}/tableaus/*.h
      ${SOURCE_DIR}/experiments/peers/*.cpp ${SOURCE_DIR}/experiments/peers/*.h
      ${SOURCE_DIR}/experiments/run.cpp ${SOURCE_DIR}/experiments/run_errors.cpp
-     ${SOURCE_DIR}/experiments/run_spec.cpp ${SOURCE_DIR}/experiments/series_rules.cpp)
+     ${SOURCE_DIR}/experiments/run_spec.cpp ${SOURCE_DIR}/experiments/run_key.cpp ${SOURCE_DIR}/experiments/series_rules.cpp)
 list(SORT deciding)
 set(hashes "")
 foreach(source IN LISTS deciding)

@@ -96,10 +96,12 @@ double expectedCost(const Series& series) {
   const RunSpec first = series.runs.front();
   const double given = static_cast<double>(isFamily(first.method) ? 5 : stagesInId(first.method));
   const double stages = std::max(given, 1.0);
-  const double step = stages * (unknowns.of(first) + 3);
+  const double digits = first.scalar == ScalarKind::kDouble ? 1 : first.scalar == ScalarKind::kMp50 ? 40 : 80;
+  const double step = stages * (unknowns.of(first) + 3) * digits;
   double cost = 0;
   for (const auto& spec : series.runs) cost += step * expectedSteps(spec, stages);
-  return cost;
+  // What is guessed varies more than what is measured: times of quick studies are shared out best by the root.
+  return std::sqrt(cost);
 }
 
 std::vector<int> shardOfSeries(const Study& study, int shards) {
