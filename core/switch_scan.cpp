@@ -33,7 +33,8 @@ SwitchScan<Real>::SwitchScan(const System<Real>& system)
       dense_(system.sizes()),
       inside_(system.sizes()),
       g_(system.sizes().switches, kParts + 1) {
-  due_.reserve(static_cast<std::size_t>(2 * system.sizes().switches));
+  // At one sample a function can be due there, at a peak before it, and at a corner at either end.
+  due_.reserve(static_cast<std::size_t>(4 * system.sizes().switches));
 }
 
 template <class Real>
