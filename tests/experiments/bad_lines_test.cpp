@@ -13,21 +13,11 @@
 #include "experiments/environment.h"
 #include "experiments/run_spec.h"
 #include "experiments/unused_options.h"
+#include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
 namespace {
-
-struct Ended {
-  int status;
-  std::string out, err;
-};
-
-Ended program(const std::vector<std::string>& arguments) {
-  std::ostringstream out, err;
-  const int status = runProgram(arguments, {out, err});
-  return {status, out.str(), err.str()};
-}
 
 using Line = std::vector<std::string>;
 struct BadLine {

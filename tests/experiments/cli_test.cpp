@@ -9,21 +9,11 @@
 #include <sstream>
 
 #include "experiments/run_spec.h"
+#include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
 namespace {
-
-struct Result {
-  int status;
-  std::string out, err;
-};
-
-Result irkProgram(const std::vector<std::string>& arguments) {
-  std::ostringstream out, err;
-  const int status = runProgram(arguments, {out, err});
-  return {status, out.str(), err.str()};
-}
 
 std::set<std::string> keysOf(const nlohmann::json& object) {
   std::set<std::string> keys;
@@ -32,7 +22,7 @@ std::set<std::string> keysOf(const nlohmann::json& object) {
 }
 
 TEST(Cli, SolveJsonHasExactlyTheKeys) {
-  const auto run = irkProgram({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10",
+  const auto run = program({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10",
                                "--t-end", "1", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
@@ -52,7 +42,7 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
 }
 
 TEST(Cli, SolveJsonListsSwitches) {
-  const auto run = irkProgram({"solve", "stick_slip", "--method", "radau_iia_10", "--tol", "1e-10",
+  const auto run = program({"solve", "stick_slip", "--method", "radau_iia_10", "--tol", "1e-10",
                                "--discontinuity", "locate", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
@@ -71,38 +61,38 @@ TEST(Cli, SolveJsonListsSwitches) {
 }
 
 TEST(Cli, UnknownNumbersAreNull) {
-  const auto run = irkProgram({"solve", "slider_crank", "--t-end", "0.123", "--json"});
+  const auto run = program({"solve", "slider_crank", "--t-end", "0.123", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_TRUE(json["error"].is_null());
   EXPECT_EQ(json["reference"], "none");
-  const auto text = irkProgram({"solve", "slider_crank", "--t-end", "0.123"});
+  const auto text = program({"solve", "slider_crank", "--t-end", "0.123"});
   EXPECT_TRUE(containsAll(text.out, {"error unknown: no reference at t = 0.123\n"}));
 }
 
 TEST(Cli, AnExactSolutionIsAReference) {
-  const auto run = irkProgram({"solve", "dahlquist", "--json"});
+  const auto run = program({"solve", "dahlquist", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["reference"], "exact");
 }
 
 // z = h lambda is known for fixed steps only; the names of the components do not depend on it.
 TEST(Cli, ASettingOverTheStepIsSolvedAndPrinted) {
-  const auto run = irkProgram({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1",
+  const auto run = program({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1",
                                "--method", "radau_iia_3"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(containsAll(run.out, {"lambda=-1e8/h", "success", "x  y "}));
 }
 
 TEST(Cli, MultiprecisionNumbersAreText) {
-  const auto run = irkProgram({"solve", "riccati_tracking", "--scalar", "mp50", "--step", "0.5",
+  const auto run = program({"solve", "riccati_tracking", "--scalar", "mp50", "--step", "0.5",
                                "--method", "gauss_3", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(nlohmann::json::parse(run.out)["x"][0].is_string());
 }
 
 TEST(Cli, StepMeansFixedSteps) {
-  const auto run = irkProgram({"solve", "kepler", "--step", "0.1", "--t-end", "1", "--json"});
+  const auto run = program({"solve", "kepler", "--step", "0.1", "--t-end", "1", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["spec"]["control"], "fixed");
@@ -110,7 +100,7 @@ TEST(Cli, StepMeansFixedSteps) {
 }
 
 TEST(Cli, AFailedRunIsStatusOneWithItsCause) {
-  const auto run = irkProgram({"solve", "kepler", "--tol", "1e-10", "--max-steps", "2", "--json"});
+  const auto run = program({"solve", "kepler", "--tol", "1e-10", "--max-steps", "2", "--json"});
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(nlohmann::json::parse(run.out)["status"], "max_steps");
 }
@@ -157,7 +147,7 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
   for (const auto& [arguments, message] : inputs) {
     std::string line;
     for (const auto& argument : arguments) line += argument + " ";
-    const auto run = irkProgram(arguments);
+    const auto run = program(arguments);
     EXPECT_EQ(run.status, 2) << line << run.err;
     EXPECT_EQ(run.out, "") << line;
     EXPECT_TRUE(containsAll(run.err, message)) << line;
@@ -166,12 +156,12 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
 
 TEST(Cli, ADamagedTableauFileIsStatusTwo) {
   const TemporaryFolder folder;
-  const auto whole = irkProgram({"tableau", "export", "radau_iia_3"});
+  const auto whole = program({"tableau", "export", "radau_iia_3"});
   ASSERT_EQ(whole.status, 0) << whole.err;
   const std::string path = folder.path() / "method.txt";
   const auto solveWith = [&](const std::string& text) {
     std::ofstream(path) << text;
-    return irkProgram({"solve", "riccati_tracking", "--method", path, "--step", "0.1"});
+    return program({"solve", "riccati_tracking", "--method", path, "--step", "0.1"});
   };
   EXPECT_EQ(solveWith(whole.out).status, 0);
 
@@ -207,7 +197,7 @@ TEST(Cli, ATableauCheckSaysWhatIsTrue) {
                            "1.208496649176010070336477684063 -0.644363170684469069752497135257 "
                            "0.435866521508458999416019451194\nc\n"
                            "0.435866521508458999416019451194 0.717933260754229499708009725597 1\n";
-    return irkProgram({"tableau", "check", path});
+    return program({"tableau", "check", path});
   };
   const auto right = check("-");
   EXPECT_EQ(right.status, 0);
@@ -221,17 +211,17 @@ TEST(Cli, ATableauCheckSaysWhatIsTrue) {
 TEST(Cli, ATableauPlotDrawsAndKeepsItsNumbers) {
   const TemporaryFolder folder;
   const std::string out = folder.path() / "figure";
-  const auto run = irkProgram({"tableau", "plot", "radau_iia_2", "gauss_1", "--out", out});
+  const auto run = program({"tableau", "plot", "radau_iia_2", "gauss_1", "--out", out});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
   for (const auto* ending : {".svg", ".png", ".csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out + ending)) << ending;
   }
-  EXPECT_EQ(irkProgram({"tableau", "plot", "gauss_41", "--out", out}).status, 2);
+  EXPECT_EQ(program({"tableau", "plot", "gauss_41", "--out", out}).status, 2);
 }
 
 TEST(Cli, ListsNameEverything) {
-  const auto all = irkProgram({"list"});
+  const auto all = program({"list"});
   EXPECT_EQ(all.status, 0);
   EXPECT_TRUE(containsAll(all.out, {"slider_crank", "radau_iia_S", "cpu_time", "coupled_dense"}));
   // Of every axis its name and its ids.
@@ -245,7 +235,7 @@ TEST(Cli, ListsNameEverything) {
       from = to + 3;
     }
   }
-  EXPECT_EQ(irkProgram({"--help"}).status, 0);
+  EXPECT_EQ(program({"--help"}).status, 0);
 }
 
 }  // namespace

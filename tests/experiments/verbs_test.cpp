@@ -15,21 +15,11 @@
 #include "experiments/cli.h"
 #include "experiments/run_table.h"
 #include "experiments/study.h"
+#include "tests/experiments/program.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {
 namespace {
-
-struct Ended {
-  int status;
-  std::string out, err;
-};
-
-Ended program(const std::vector<std::string>& arguments) {
-  std::ostringstream out, err;
-  const int status = runProgram(arguments, {out, err});
-  return {status, out.str(), err.str()};
-}
 
 // Scenes and formulations as of the built-in study `drift`, whose figures then can be drawn from it.
 constexpr char kSmall[] = R"(

@@ -1,0 +1,23 @@
+// The program, called as its user would: arguments in, exit status and output out.
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/cli.h"
+
+namespace irk {
+
+struct Ended {
+  int status;
+  std::string out, err;
+};
+
+inline Ended program(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const int status = runProgram(arguments, {out, err});
+  return {status, out.str(), err.str()};
+}
+
+}  // namespace irk
