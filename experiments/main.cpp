@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/cli.h"
+#include "experiments/commands/cli.h"
 
 int main(int argc, char** argv) {
   return irk::runProgram({argv + 1, argv + argc}, {std::cout, std::cerr});

@@ -7,14 +7,14 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/build_info.h"
-#include "experiments/clock.h"
-#include "experiments/environment.h"
-#include "experiments/final_states.h"
-#include "experiments/interrupt.h"
-#include "experiments/numbers.h"
-#include "experiments/progress.h"
-#include "experiments/run_table.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/base/progress.h"
+#include "experiments/runs/final_states.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/tables/build_info.h"
+#include "experiments/tables/environment.h"
 
 namespace irk::audit {
 namespace {

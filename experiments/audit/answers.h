@@ -7,7 +7,7 @@
 #include <set>
 
 #include "experiments/audit/reference.h"
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::audit {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/final_states.h"
-#include "experiments/interrupt.h"
-#include "experiments/numbers.h"
-#include "experiments/run_table.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/final_states.h"
+#include "experiments/runs/run_table.h"
 
 namespace irk::audit {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "experiments/audit/answers.h"
-#include "experiments/audit/draw.h"
 #include "experiments/audit/judge.h"
-#include "experiments/table.h"
+#include "experiments/study/draw.h"
+#include "experiments/tables/table.h"
 
 namespace irk::audit {
 

@@ -20,7 +20,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/scalar.h"
+#include "irk/scalar.h"
 
 namespace irk::audit {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "core/misuse.h"
-#include "experiments/audit/dice.h"
 #include "experiments/audit/judge.h"
-#include "experiments/clock.h"
-#include "experiments/decimal.h"
-#include "experiments/numbers.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/decimal.h"
+#include "experiments/base/numbers.h"
+#include "experiments/study/dice.h"
+#include "irk/misuse.h"
 
 namespace irk::audit {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "experiments/audit/draw.h"
-#include "experiments/run.h"
+#include "experiments/runs/run.h"
+#include "experiments/study/draw.h"
 
 namespace irk::audit {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "experiments/audit/audit.h"
-#include "experiments/numbers.h"
-#include "experiments/run_table.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
 
 namespace irk::audit {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/misuse.h"
+#include "experiments/base/html.h"
 #include "experiments/claims/evaluations.h"
-#include "experiments/html.h"
+#include "irk/misuse.h"
 
 namespace irk::claims {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <span>
 
+#include "experiments/analyses/cost_at_error.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
-#include "experiments/cost_at_error.h"
 
 namespace irk::claims {
 namespace {

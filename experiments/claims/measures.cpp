@@ -8,8 +8,8 @@
 #include <limits>
 #include <map>
 
-#include "experiments/cost_at_error.h"
-#include "experiments/numbers.h"
+#include "experiments/analyses/cost_at_error.h"
+#include "experiments/base/numbers.h"
 
 namespace irk::claims {
 namespace {
@@ -73,13 +73,6 @@ double leastCost(const Table& table, const std::function<bool(const TableRow&)>&
     if (test(row)) least = std::min(least, numberAt(table, row, "cpu_s"));
   }
   return least;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  std::sort(values.begin(), values.end());
-  const auto n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
 double part(const std::vector<double>& values, const std::function<bool(double)>& test) {

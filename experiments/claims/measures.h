@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/base/median.h"
 #include "experiments/claims/claims.h"
-#include "experiments/run_table.h"
+#include "experiments/runs/run_table.h"
 
 namespace irk::claims {
 
@@ -30,8 +31,6 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The least `cpu_s` of the rows that the test accepts; infinity of none.
 double leastCost(const Table& table, const std::function<bool(const TableRow&)>& test);
 
-/// NaN of nothing.
-double median(std::vector<double> values);
 /// The part of the values that the test accepts; NaN of nothing.
 double part(const std::vector<double>& values, const std::function<bool(double)>& test);
 /// `0.5 %`.

@@ -6,9 +6,9 @@
 #include <limits>
 #include <map>
 
+#include "experiments/analyses/cost_at_error.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
-#include "experiments/cost_at_error.h"
 
 namespace irk::claims {
 namespace {

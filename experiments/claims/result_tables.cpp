@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "experiments/results.h"
+#include "experiments/analyses/results.h"
 
 namespace irk::claims {
 

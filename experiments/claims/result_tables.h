@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::claims {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/analyses/newmark.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
-#include "experiments/newmark.h"
 
 namespace irk::claims {
 namespace {

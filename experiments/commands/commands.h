@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/cli.h"
-#include "experiments/numbers.h"
-#include "experiments/run.h"
-#include "experiments/runner.h"
+#include "experiments/base/numbers.h"
+#include "experiments/base/streams.h"
+#include "experiments/runner/runner.h"
+#include "experiments/runs/run.h"
 
 namespace irk {
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "core/misuse.h"
 #include "experiments/commands/commands.h"
 #include "experiments/compare/folders.h"
+#include "irk/misuse.h"
 
 namespace irk {
 namespace {

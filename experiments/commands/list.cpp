@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "core/text.h"
-#include "experiments/builtin_studies.h"
+#include "core/base/text.h"
 #include "experiments/commands/commands.h"
-#include "experiments/peers/catalogue.h"
-#include "tableaus/catalogue.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/study/builtin_studies.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {

@@ -6,12 +6,12 @@
 #include <iterator>
 #include <sstream>
 
-#include "experiments/build_info.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
-#include "experiments/environment.h"
-#include "experiments/interrupt.h"
 #include "experiments/reference/tables.h"
-#include "experiments/runner.h"
+#include "experiments/runner/runner.h"
+#include "experiments/tables/build_info.h"
+#include "experiments/tables/environment.h"
 
 namespace irk {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/results.h"
+#include "experiments/analyses/results.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "experiments/audit/audit.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
-#include "experiments/interrupt.h"
-#include "experiments/failure.h"
-#include "experiments/store/merge.h"
+#include "experiments/runner/merge.h"
 
 namespace irk {
 namespace {

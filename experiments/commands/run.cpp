@@ -5,18 +5,18 @@
 #include <map>
 #include <optional>
 
-#include "core/misuse.h"
+#include "experiments/analyses/results.h"
 #include "experiments/audit/audit.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/claims/claims.h"
-#include "experiments/cluster/ranks.h"
 #include "experiments/commands/commands.h"
-#include "experiments/environment.h"
-#include "experiments/failure.h"
-#include "experiments/interrupt.h"
-#include "experiments/report.h"
-#include "experiments/results.h"
-#include "experiments/run_table.h"
-#include "experiments/timing.h"
+#include "experiments/report/report.h"
+#include "experiments/runner/join_ranks.h"
+#include "experiments/runner/timing.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/tables/environment.h"
+#include "irk/misuse.h"
 
 namespace irk {
 namespace {

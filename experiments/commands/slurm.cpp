@@ -1,8 +1,8 @@
 #include <fmt/ostream.h>
 
-#include "core/misuse.h"
-#include "experiments/cluster/shards.h"
 #include "experiments/commands/commands.h"
+#include "experiments/runner/shards.h"
+#include "irk/misuse.h"
 
 namespace irk {
 

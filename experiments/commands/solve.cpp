@@ -5,16 +5,17 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/text.h"
+#include "core/base/text.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
-#include "experiments/environment.h"
-#include "experiments/failure.h"
-#include "experiments/figure_path.h"
-#include "experiments/interrupt.h"
-#include "experiments/peers/catalogue.h"
-#include "experiments/report.h"
-#include "experiments/trajectory.h"
-#include "experiments/unused_options.h"
+#include "experiments/report/figure_path.h"
+#include "experiments/report/report.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/setup.h"
+#include "experiments/runs/trajectory.h"
+#include "experiments/runs/unused_options.h"
+#include "experiments/tables/environment.h"
 
 namespace irk {
 namespace {
@@ -166,7 +167,7 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {
-    printRecord(streams.out, record, makeScene<double>(spec.scene, settingsAtStep(spec)).names);
+    printRecord(streams.out, record, sceneOf<double>(spec).names);
   }
   if (interruptFlag()) return kInterruptedStatus;
   return record.succeeded() && drawn ? 0 : 1;

@@ -1,8 +1,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "experiments/base/numbers.h"
 #include "experiments/commands/commands.h"
-#include "experiments/numbers.h"
 
 namespace irk {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/status.h"
+#include "experiments/runner/status.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "experiments/analyses/tableau_table.h"
 #include "experiments/commands/commands.h"
-#include "experiments/environment.h"
-#include "experiments/figure_path.h"
-#include "experiments/report.h"
-#include "experiments/tableau_table.h"
-#include "tableaus/report.h"
+#include "experiments/report/figure_path.h"
+#include "experiments/report/report.h"
+#include "experiments/tables/environment.h"
+#include "tableaus/catalogue/report.h"
 
 namespace irk {
 

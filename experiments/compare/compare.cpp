@@ -7,12 +7,12 @@
 #include <optional>
 #include <sstream>
 
-#include "core/misuse.h"
-#include "core/statistics.h"
+#include "experiments/base/numbers.h"
 #include "experiments/compare/matching.h"
 #include "experiments/compare/ratio.h"
-#include "experiments/numbers.h"
-#include "experiments/run_table.h"
+#include "experiments/runs/run_table.h"
+#include "irk/misuse.h"
+#include "irk/statistics.h"
 
 namespace irk::compare {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::compare {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/misuse.h"
+#include "irk/misuse.h"
 
 namespace irk::compare {
 namespace {

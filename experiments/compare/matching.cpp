@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "experiments/numbers.h"
-#include "experiments/run_spec.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_spec.h"
 
 namespace irk::compare {
 namespace {

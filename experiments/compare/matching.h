@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::compare {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/stepper.h"
-#include "experiments/newton_kernel.h"
-#include "tableaus/catalogue.h"
+#include "core/steps/stepper.h"
+#include "experiments/analyses/newton_kernel.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -61,9 +61,10 @@ void measurePart(benchmark::State& state, const Chain& chain, StageSolverKind so
 void measureStep(benchmark::State& state, const Chain& chain, StageSolverKind solver,
                  Storage storage) {
   const RunSpec spec = specOf(chain, solver, storage, state);
-  const auto scene = makeScene<double>(spec.scene, spec.settings);
-  const auto system = scene.system({});
-  const Scheme<double> scheme(makeTableau<double>(spec.method));
+  const auto setup = makeSetup<double>(spec);
+  const auto& scene = setup.scene;
+  const auto& system = setup.system;
+  const Scheme<double> scheme(setup.methods.members.front());
   Counters counters;
   ErrorNorm<double> norm(*system, spec.options.tolerances, scene.scale);
   SharedJacobian<double> jacobian(*system, scheme, spec.options, counters);

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/numbers.h"
-#include "experiments/run_table.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
 
 namespace irk {

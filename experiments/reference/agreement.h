@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "core/multiprecision.h"
+#include "irk/multiprecision.h"
 
 namespace irk {
 

@@ -8,11 +8,12 @@
 #include <mutex>
 #include <span>
 
-#include "core/integrator.h"
-#include "experiments/clock.h"
+#include "experiments/base/clock.h"
 #include "experiments/reference/agreement.h"
-#include "experiments/run.h"
-#include "tableaus/catalogue.h"
+#include "experiments/runs/run_errors.h"
+#include "experiments/runs/setup.h"
+#include "irk/integrator.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -49,10 +50,9 @@ Row valuesOf(const Scene<mp50>& scene, const State<mp50>& state) {
 
 Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times,
                      const std::atomic<bool>* stop) {
-  const auto scene = makeScene<mp50>(spec.scene, spec.settings);
-  const auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
-  Integrator<mp50> integrator(system, makeTableau<mp50>(spec.method), spec.options,
-                              systemScale(scene.scale, system->sizes()));
+  const auto setup = makeSetup<mp50>(spec);
+  const Scene<mp50>& scene = setup.scene;
+  auto integrator = setup.integrator();
   Monitor<mp50> monitor;
   monitor.interrupt = [stop] {
     return stop && stop->load(std::memory_order_relaxed) ? Outcome::kInterrupted

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/progress.h"
+#include "experiments/base/progress.h"
 #include "experiments/reference/tasks.h"
 
 namespace irk {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "experiments/decimal.h"
-#include "experiments/numbers.h"
+#include "experiments/base/decimal.h"
+#include "experiments/base/numbers.h"
 #include "experiments/reference/agreement.h"
 
 namespace irk {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/reference/compute.h"
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/run_spec.h"
+#include "experiments/runs/run_spec.h"
 
 namespace irk {
 

@@ -1,6 +1,6 @@
 #include "experiments/store/facts.h"
 
-#include "experiments/run_table.h"
+#include "experiments/runs/run_table.h"
 
 namespace irk::store {
 

@@ -1,8 +1,8 @@
 // What a stored row says about the runs after it.
 #pragma once
 
-#include "experiments/series_walk.h"
 #include "experiments/store/rows.h"
+#include "experiments/study/series_walk.h"
 
 namespace irk::store {
 

@@ -16,9 +16,9 @@
 #include <thread>
 #include <tuple>
 
-#include "experiments/environment.h"
-#include "experiments/interrupt.h"
-#include "experiments/failure.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/tables/environment.h"
 
 namespace irk::store {
 namespace {

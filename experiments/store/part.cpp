@@ -10,7 +10,7 @@
 #include <fstream>
 #include <utility>
 
-#include "experiments/failure.h"
+#include "experiments/base/failure.h"
 
 namespace irk::store {
 namespace {

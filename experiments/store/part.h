@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::store {
 

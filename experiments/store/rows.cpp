@@ -16,9 +16,9 @@
 #include <ostream>
 #include <tuple>
 
-#include "core/input_file.h"
-#include "experiments/environment.h"
-#include "experiments/failure.h"
+#include "core/base/input_file.h"
+#include "experiments/base/failure.h"
+#include "experiments/tables/environment.h"
 
 namespace irk::store {
 namespace {

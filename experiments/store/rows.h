@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "experiments/store/part.h"
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::store {
 

@@ -10,10 +10,10 @@
 #include <ostream>
 #include <utility>
 
-#include "experiments/build_info.h"
-#include "experiments/environment.h"
-#include "experiments/run_table.h"
-#include "experiments/failure.h"
+#include "experiments/base/failure.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/tables/build_info.h"
+#include "experiments/tables/environment.h"
 
 namespace irk::store {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "experiments/store/lock.h"
 #include "experiments/store/rows.h"
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
 
 namespace irk::store {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/problem.h"
+#include "irk/problem.h"
 
 namespace irk::test {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/integrator.h"
-#include "tableaus/catalogue.h"
+#include "irk/integrator.h"
+#include "irk/tableaus.h"
 #include "tests/core/problems.h"
 
 namespace irk::test {

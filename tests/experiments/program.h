@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/cli.h"
+#include "experiments/commands/cli.h"
 
 namespace irk {
 

@@ -10,11 +10,11 @@
 #include <sstream>
 #include <string>
 
+#include "experiments/base/failure.h"
 #include "experiments/compare/folders.h"
-#include "experiments/environment.h"
-#include "experiments/run_table.h"
-#include "experiments/failure.h"
+#include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
+#include "experiments/tables/environment.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/runner.h"
+#include "experiments/runner/runner.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/misuse.h"
+#include "irk/misuse.h"
 
 namespace irk {
 

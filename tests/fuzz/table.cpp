@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "core/misuse.h"
-#include "experiments/table.h"
+#include "experiments/tables/table.h"
+#include "irk/misuse.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string file = "/tmp/irk_fuzz_" + std::to_string(getpid()) + ".csv";

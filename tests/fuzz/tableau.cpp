@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/misuse.h"
-#include "tableaus/file.h"
+#include "irk/misuse.h"
+#include "tableaus/files/file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/misuse.h"
-#include "problems/scene.h"
+#include "irk/misuse.h"
+#include "irk/scene.h"
 
 namespace irk::test {
 

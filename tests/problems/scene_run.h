@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/integrator.h"
-#include "tableaus/catalogue.h"
+#include "irk/integrator.h"
+#include "irk/tableaus.h"
 #include "tests/problems/scene_cases.h"
 
 namespace irk::test {

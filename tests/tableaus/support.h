@@ -6,9 +6,9 @@
 
 #include <string>
 
-#include "core/misuse.h"
-#include "tableaus/catalogue.h"
-#include "tableaus/families.h"
+#include "irk/misuse.h"
+#include "irk/tableaus.h"
+#include "tableaus/families/families.h"
 
 namespace irk {
 

@@ -1,0 +1,167 @@
+#include "core/control/controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace irk {
+namespace {
+
+/// Paper, section 6, with the error in units of the tolerance:
+///   f = gamma (1 / (s_min eps))^(1/(p+1))                                        (6.1)
+///   gamma = (eps_i / eps_{i-1}) (h_{i-1} / h_i)^p, after every change of step     (6.3)
+/// The step is repeated if eps > 1; kept unless f changes it by at least `change_at_least`; grown
+/// only if eps < 1 / s_max, s_max = s_min^2, and at most by `growth_at_most`.
+class PaperController final : public StepController {
+ public:
+  PaperController(const StepOptions& o, int order)
+      : o_(o),
+        p_(order),
+        damped_(o.control == StepControl::kPaper),
+        exponent_(1.0 / (damped_ ? order + 1 : order)),
+        s_max_(o.s_min * o.s_min) {}
+
+  StepDecision decide(double error, double h) override {
+    // An estimate of exactly zero would divide by zero; it asks for the largest growth.
+    const double eps = std::max(error, kTinyError);
+    if (damped_ && last_h_ > 0 && last_h_ != h) {
+      const double gamma = eps / last_error_ * std::pow(last_h_ / h, p_);
+      // The paper's text breaks off at "restrict gamma <". Above 1 it would enlarge the step because
+      // the error grew faster than expected; far below 1 it would freeze it at round-off, where the
+      // error no longer follows h^p.
+      gamma_ = std::clamp(gamma, kGammaMin, 1.0);
+    }
+    last_error_ = eps;
+    last_h_ = h;
+    const double f = gamma_ * std::pow(1 / (o_.s_min * eps), exponent_);
+    if (error > 1) return {false, h * std::clamp(f, kShrinkAtMost, 1 / o_.change_at_least)};
+    if (f >= o_.change_at_least && eps < 1 / s_max_) {
+      const double grown = h * std::min(f, o_.growth_at_most);
+      return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
+    }
+    if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kShrinkAtMost)};
+    return {true, h};
+  }
+  // The paper does not say what follows a Newton failure. The failed size is not tried again for some
+  // steps: the error estimate, which knows nothing of Newton, would ask for it at once.
+  double afterFailure(double h) override {
+    failed_h_ = h;
+    barred_ = kBarredSteps;
+    return h / o_.change_at_least;
+  }
+  void forget() override {
+    gamma_ = 1;
+    last_h_ = 0;
+    barred_ = 0;
+  }
+  void changeOrder(int order, double error, double h) override {
+    p_ = order;
+    exponent_ = 1.0 / (damped_ ? order + 1 : order);
+    gamma_ = 1;
+    last_error_ = std::max(error, kTinyError);
+    last_h_ = h;
+  }
+
+ private:
+  static constexpr double kTinyError = 1e-300;
+  static constexpr double kGammaMin = 0.9;
+  static constexpr double kShrinkAtMost = 0.05;
+  static constexpr int kBarredSteps = 10;
+
+  StepOptions o_;
+  int p_;
+  bool damped_;  // by gamma
+  double exponent_;
+  double s_max_;
+  double gamma_ = 1;
+  double last_error_ = 0, last_h_ = 0;
+  double failed_h_ = 0;
+  int barred_ = 0;
+};
+
+/// The later HOTINT source (paper/README erratum 5): s_min = 2, s_max = 4, exponent 1/p, no gamma.
+StepOptions hotintRules(StepOptions o) {
+  o.s_min = 2;
+  return o;
+}
+
+/// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
+///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
+/// A step is kept where it would grow by less than a fifth: its factors are worth more. After a
+/// rejection it does not grow at once.
+class PredictiveController final : public StepController {
+ public:
+  explicit PredictiveController(int order)
+      : exponent_(1.0 / (order + 1)), least_root_(std::pow(kErrorFloor, exponent_)) {}
+
+  StepDecision decide(double error, double h) override {
+    const double eps = std::max(error, kTinyError);
+    const double root = std::pow(eps, exponent_);
+    double factor = kSafety / root;
+    if (error > 1) {
+      rejected_ = true;
+      return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
+    }
+    if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / root);
+    // Where smaller steps did not make smaller errors, the next will not either: an error of round-off, or
+    // of the step's start, would shrink them without end.
+    futile_ = last_h_ > h && root >= kFutile * last_root_ ? futile_ + 1 : 0;
+    if (futile_ >= kFutileSteps) factor = std::max(factor, 1.0);
+    last_h_ = h;
+    last_root_ = std::max(root, least_root_);
+    factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
+    rejected_ = false;
+    const double grown = factor < 1 || factor > kKeepUpTo ? h * factor : h;
+    return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
+  }
+  double afterFailure(double h) override {
+    rejected_ = true;
+    failed_h_ = h;
+    barred_ = kBarredSteps;
+    return h / 2;
+  }
+  void forget() override {
+    last_h_ = 0;
+    barred_ = 0;
+    futile_ = 0;
+    rejected_ = false;
+  }
+  void changeOrder(int order, double error, double h) override {
+    exponent_ = 1.0 / (order + 1);
+    least_root_ = std::pow(kErrorFloor, exponent_);
+    last_root_ = std::max(std::pow(std::max(error, 0.0), exponent_), least_root_);
+    last_h_ = h;
+  }
+
+ private:
+  static constexpr double kTinyError = 1e-300;
+  static constexpr double kSafety = 0.9;
+  static constexpr double kShrinkAtMost = 0.2;  // FACL, FACR and ERRACC of RADAU
+  static constexpr double kGrowAtMost = 8;
+  static constexpr double kErrorFloor = 1e-2;
+  static constexpr double kKeepUpTo = 1.2;
+  static constexpr double kFutile = 0.98;  // of error^exponent
+  static constexpr int kFutileSteps = 40;  // in a row
+  static constexpr int kBarredSteps = 10;
+
+  double exponent_, least_root_;       // and kErrorFloor^exponent
+  double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
+  double failed_h_ = 0;
+  int barred_ = 0;
+  int futile_ = 0;
+  bool rejected_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
+  switch (options.control) {
+    case StepControl::kPaper: return std::make_unique<PaperController>(options, order);
+    case StepControl::kHotint:
+      return std::make_unique<PaperController>(hotintRules(options), order);
+    case StepControl::kPredictive: return std::make_unique<PredictiveController>(order);
+    case StepControl::kFixed: return nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace irk

@@ -1,0 +1,31 @@
+// Step-size controllers; they see error estimates and step sizes only.
+#pragma once
+
+#include <memory>
+
+#include "irk/options.h"
+
+namespace irk {
+
+struct StepDecision {
+  bool accept = true;
+  double h = 0;  ///< of the next attempt
+};
+
+class StepController {
+ public:
+  virtual ~StepController() = default;
+  /// After a converged attempt: `error` in the error norm (1 = tolerance).
+  virtual StepDecision decide(double error, double h) = 0;
+  /// After Newton failed: the step to try next.
+  virtual double afterFailure(double h) = 0;
+  /// After a restart: forgets the steps before it.
+  virtual void forget() = 0;
+  /// From now on errors fall with h^(order+1); with the new order the last step h would have had `error`.
+  virtual void changeOrder(int order, double error, double h) = 0;
+};
+
+/// `order`: p of the estimate's leading error h^(p+1).
+std::unique_ptr<StepController> makeController(const StepOptions& options, int order);
+
+}  // namespace irk

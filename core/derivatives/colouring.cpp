@@ -1,0 +1,71 @@
+#include "core/derivatives/colouring.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+namespace irk {
+
+std::vector<int> colour(const RowSets& sets, Index rows) {
+  // The colours in use at each row, side by side: there is room for one of each set.
+  std::vector<std::size_t> begin(static_cast<std::size_t>(rows) + 1, 0);
+  for (const auto& set : sets) {
+    for (const int row : set) ++begin[static_cast<std::size_t>(row) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
+  std::vector<int> at_row(begin.back());
+  std::vector<int> colours(sets.size(), 0);
+  std::vector<std::size_t> used_by;  // by colour: the last set + 1 for which it is in use
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const int row : sets[i]) {
+      const auto r = static_cast<std::size_t>(row);
+      for (std::size_t k = begin[r]; k < end[r]; ++k) {
+        used_by[static_cast<std::size_t>(at_row[k])] = i + 1;
+      }
+    }
+    std::size_t free = 0;
+    while (free < used_by.size() && used_by[free] == i + 1) ++free;
+    if (free == used_by.size()) used_by.push_back(0);
+    colours[i] = static_cast<int>(free);
+    for (const int row : sets[i]) at_row[end[static_cast<std::size_t>(row)]++] = colours[i];
+  }
+  return colours;
+}
+
+ColouredDirections::ColouredDirections(const Directions& group, const RowSets& rows,
+                                       const Pattern& pattern) {
+  const std::vector<int> colours = colour(rows, pattern.n);
+  std::vector<std::size_t> order(group.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return colours[a] < colours[b]; });
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> around_one(0.5, 1.5);
+  int last = -1;
+  for (const std::size_t i : order) {
+    if (rows[i].empty()) continue;
+    if (colours[i] != last) {
+      first_direction.push_back(directions.size());
+      first_entry.push_back(entries.size());
+      last = colours[i];
+    }
+    directions.push_back(group[i]);
+    weights.push_back(around_one(random));
+    const auto column = static_cast<std::size_t>(group[i].column);
+    auto at = pattern.row.begin() + pattern.column_start[column];
+    for (const int row : rows[i]) {
+      at = std::lower_bound(at, pattern.row.begin() + pattern.column_start[column + 1], row);
+      entries.push_back({row, group[i].matrix, at - pattern.row.begin(), weights.size() - 1});
+    }
+  }
+  first_direction.push_back(directions.size());
+  first_entry.push_back(entries.size());
+  for (const std::size_t i : order) {  // what reaches nothing takes part in the check only
+    if (!rows[i].empty()) continue;
+    directions.push_back(group[i]);
+    weights.push_back(around_one(random));
+  }
+}
+
+}  // namespace irk

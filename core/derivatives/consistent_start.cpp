@@ -1,0 +1,190 @@
+#include "core/derivatives/consistent_start.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// A start given with eight digits is a start; with fewer it is a mistake.
+constexpr double kConstraintTolerance = 1e-7;
+constexpr int kIterations = 50;
+// The derivatives serve on while the corrections contract at least so much.
+constexpr double kKeepBelow = 1e-3;
+constexpr const char* kStart = "at the start";
+constexpr const char* kConsistent = "consistent (a, k, z)";
+
+StartReport report(Outcome outcome, const char* place, double t, Index row, const char* what,
+                   double value, double allowed = 0) {
+  std::ostringstream text;
+  text << place << ", t = " << t << ": ";
+  if (row >= 0) text << "row " << row << ": ";
+  text << what << " = " << value;
+  if (allowed > 0) text << ", allowed " << allowed;
+  return {outcome, text.str(), true};
+}
+
+// The row of the largest number, one that is not finite before all others.
+template <class Real>
+Index worstRow(const Vec<Real>& r) {
+  using std::abs;
+  Index worst = 0;
+  for (Index i = 0; i < r.size(); ++i) {
+    if (!std::isfinite(static_cast<double>(r[i]))) return i;
+    if (abs(r[i]) > abs(r[worst])) worst = i;
+  }
+  return worst;
+}
+
+}  // namespace
+
+template <class Real>
+ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source,
+                                       bool w_required)
+    : system_(system),
+      w_required_(w_required),
+      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic,
+                      Matrices::kOnlyD0),
+      r_(system.sizes().n()),
+      dw_(system.sizes().n()),
+      given_(system.sizes().n()) {}
+
+// False where D0 is singular; a dense one is asked with full pivoting.
+template <class Real>
+bool ConsistentStart<Real>::factorize() {
+  if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
+  dense_lu_.compute(D_.dense0());
+  return dense_lu_.isInvertible();
+}
+
+// dw = D0^-1 r
+template <class Real>
+void ConsistentStart<Real>::solve() {
+  if (D_.pattern->full) {
+    dw_.noalias() = dense_lu_.solve(r_);
+  } else {
+    dw_ = r_;
+    lu_.solve(dw_);
+  }
+}
+
+// g = 0, dg/dt = 0, and nothing that is not finite.
+template <class Real>
+StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
+  using std::abs;
+  const Sizes n = system_.sizes();
+  const double t = static_cast<double>(state.t);
+  const VecView<Real> rows(r_.data(), n.n());
+  const Index first = n.nu + n.nx;
+  for (const Level level : {Level::kPosition, Level::kVelocity}) {
+    system_.evaluate(level, pointOf(state), rows);
+    const Real size =
+        Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
+        (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>() : Real(0));
+    for (Index i = 0; i < n.n(); ++i) {
+      const double value = static_cast<double>(r_[i]);
+      if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
+      const bool constraint = i >= first && i < first + n.constraints;
+      const Real allowed = Real(kConstraintTolerance) * size;
+      if (constraint && abs(r_[i]) > allowed) {
+        return report(Outcome::kInconsistentStart, kStart, t, i,
+                      level == Level::kPosition ? "constraint g" : "constraint rate dg/dt", value,
+                      static_cast<double>(allowed));
+      }
+    }
+  }
+  return {};
+}
+
+template <class Real>
+StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
+  if (check == StartCheck::kConstraints) {
+    const StartReport checked = checkConstraints(state);
+    if (checked.outcome != Outcome::kSuccess) return checked;
+  }
+  given_ = state.w;
+  const char* const place = check == StartCheck::kConstraints ? kStart : kConsistent;
+  StartReport found = determine(state, place, kConstraintTolerance);
+  if (found.outcome != Outcome::kSuccess) state.w = given_;
+  return found.outcome == Outcome::kSingular ? keep(state, place) : found;
+}
+
+template <class Real>
+std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
+  given_ = state.w;
+  const StartReport found = determine(state, kConsistent, 0);
+  if (found.outcome == Outcome::kSuccess) return {};
+  state.w = given_;
+  return "multipliers of the stages: " + found.detail;
+}
+
+// kSingular where D0 is. Where Newton does not converge a residual of `tolerated` will do.
+template <class Real>
+StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place,
+                                             double tolerated) {
+  const double t = static_cast<double>(state.t);
+  const VecView<Real> rows(r_.data(), r_.size());
+  const Real eps = Eigen::NumTraits<Real>::epsilon();
+  Index worst = 0;
+  double value = 0;
+  const auto evaluate = [&] {
+    system_.evaluate(Level::kAcceleration, pointOf(state), rows);
+    worst = worstRow(r_);
+    value = static_cast<double>(r_[worst]);
+    return std::isfinite(value);
+  };
+  Real before(0);
+  bool renew = true;
+  for (int i = 0; i < kIterations; ++i) {
+    if (!evaluate()) break;
+    if (renew) {
+      differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
+      if (!D_.d0.allFinite()) {
+        return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)",
+                      static_cast<double>(D_.d0.sum()));
+      }
+      if (!factorize()) {
+        std::ostringstream text;
+        text << "dr/d(a, k, z) is singular at t = " << t;
+        return {Outcome::kSingular, text.str(), false};
+      }
+    }
+    solve();
+    const Real size = dw_.norm();
+    // Kept derivatives that do not serve: once more with new ones.
+    renew = !renew && size > Real(kKeepBelow) * before;
+    if (renew) continue;
+    before = size;
+    state.w -= dw_;
+    if (size <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
+  }
+  if (!evaluate()) return report(Outcome::kNotFinite, place, t, worst, "residual", value);
+  const double allowed = tolerated * (1 + static_cast<double>(Real(state.w.norm())));
+  if (std::abs(value) <= allowed) return {};
+  return report(Outcome::kInconsistentStart, place, t, worst,
+                "Newton does not converge; residual", value, allowed);
+}
+
+// The given (a, k, z), where they are not required or satisfy the residual.
+template <class Real>
+StartReport ConsistentStart<Real>::keep(const State<Real>& state, const char* place) {
+  system_.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(r_.data(), r_.size()));
+  const Index worst = worstRow(r_);
+  const double t = static_cast<double>(state.t), value = static_cast<double>(r_[worst]);
+  if (!std::isfinite(value)) {
+    return report(Outcome::kNotFinite, place, t, worst, "residual", value);
+  }
+  if (!w_required_ || std::abs(value) <= kConstraintTolerance) {
+    return {Outcome::kSuccess, {}, false};
+  }
+  return report(Outcome::kInconsistentStart, place, t, worst,
+                "accelerations cannot be determined (D0 is singular) and the given ones leave the "
+                "residual",
+                value, kConstraintTolerance);
+}
+
+IRK_INSTANTIATE_CLASS(ConsistentStart)
+
+}  // namespace irk

@@ -1,0 +1,312 @@
+#include "core/derivatives/differentiator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "core/derivatives/pattern_search.h"
+#include "irk/misuse.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Of the rows' terms: round-off for exact derivatives, truncation for differences.
+constexpr double kDualCheck = 1e-8, kDifferenceCheck = 1e-3;
+// A failed check that no new entry explains was round-off.
+constexpr double kLooser = 10;
+
+template <class F>
+void forEachEntry(const Pattern& pattern, Index first_column, Index columns, Index first_row,
+                  Index rows, F&& f) {
+  for (Index j = first_column; j < first_column + columns; ++j) {
+    const auto c = static_cast<std::size_t>(j);
+    for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+      const Index i = pattern.row[static_cast<std::size_t>(k)];
+      if (i >= first_row && i < first_row + rows) f(static_cast<Index>(k));
+    }
+  }
+}
+
+}  // namespace
+
+template <class Real>
+Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source,
+                                     JacobianTerms terms, Storage storage, Matrices matrices)
+    : system_(system),
+      source_(source),
+      sizes_(system.sizes()),
+      terms_(terms),
+      storage_(storage),
+      dual_(sizes_),
+      real_(sizes_),
+      base_(sizes_.n()),
+      zero_a_(Vec<Real>::Zero(sizes_.nu)),
+      expected_(sizes_.n()),
+      magnitude_(sizes_.n()) {
+  if (!std::is_same_v<Real, double>) {
+    if (storage == Storage::kSparse) {
+      throw Misuse("illegal combination: storage 'sparse' in multiprecision: KLU is for double");
+    }
+    storage_ = Storage::kDense;
+  }
+  const bool no_mass = terms == JacobianTerms::kNoMass;
+  const bool no_vxz = no_mass || terms == JacobianTerms::kNoMassVxz;
+  // Other rows than F2 have no constant stiffness: with them D2 has to be evaluated anyway.
+  const bool once = terms == JacobianTerms::kConstantStiffness && sizes_.n() == sizes_.nu;
+  const Index rates = sizes_.nu + sizes_.nx;
+  for (const Direction& d : allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1)) {
+    const bool vxz = d.matrix == 1 || (d.matrix == 0 && d.column >= rates);
+    const bool at_zero = (no_vxz && vxz) || (no_mass && d.matrix == 2);
+    (at_zero ? at_zero_ : once && d.matrix == 2 ? stiffness_ : at_a_).directions.push_back(d);
+  }
+  forgetPattern();
+}
+
+template <class Real>
+bool Differentiator<Real>::detects() const {
+  return sizes_.n() >= kSparseFrom || storage_ == Storage::kSparse;
+}
+
+template <class Real>
+void Differentiator<Real>::forgetPattern() {
+  forget();
+  looked_ = false;
+  check_tolerance_ = source_ == DerivativeSource::kAutomatic ? kDualCheck : kDifferenceCheck;
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    group->rows = detects() ? RowSets(group->directions.size())
+                            : fullRows(group->directions.size(), sizes_.n());
+  }
+  const bool dense =
+      storage_ == Storage::kDense || (storage_ == Storage::kAutomatic && sizes_.n() < kSparseFrom);
+  if (!dense) {
+    pattern_ = nullptr;
+  } else if (!pattern_) {
+    pattern_ = Pattern::dense(sizes_.n());
+  }
+  if (!detects()) setPattern();
+}
+
+/// Looks at p. Returns whether there is anything new.
+template <class Real>
+bool Differentiator<Real>::look(Level level, const Point<Real>& p) {
+  bool grown = !looked_;
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    if (group->directions.empty()) continue;
+    const RowSets rows = detectRows(system_, level, p, group->directions, looked_);
+    if (unite(rows, group->rows)) grown = true;
+  }
+  looked_ = true;
+  if (grown) setPattern();
+  return grown;
+}
+
+template <class Real>
+void Differentiator<Real>::setPattern() {
+  const Index n = sizes_.n();
+  if (!pattern_ || !pattern_->full) {
+    Directions all;
+    RowSets rows;
+    for (const Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+      all.insert(all.end(), group->directions.begin(), group->directions.end());
+      rows.insert(rows.end(), group->rows.begin(), group->rows.end());
+    }
+    pattern_ = unionPattern(all, rows, n);
+    const double fill =
+        static_cast<double>(pattern_->nonzeros()) / (static_cast<double>(n) * static_cast<double>(n));
+    if (storage_ == Storage::kAutomatic && fill > kSparseFill) pattern_ = Pattern::dense(n);
+  }
+  std::size_t most = 0;
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    group->coloured = ColouredDirections(group->directions, group->rows, *pattern_);
+    most = std::max(most, group->directions.size());
+  }
+  y_.resize(static_cast<Index>(most));
+  delta_.resize(static_cast<Index>(most));
+  stiffness_known_ = false;
+}
+
+template <class Real>
+std::size_t Differentiator<Real>::directions() const {
+  return at_a_.coloured.colours() + at_zero_.coloured.colours() + stiffness_.coloured.colours();
+}
+
+template <class Real>
+void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
+  if (detects() && !looked_) look(level, p);
+  differentiate(level, p, out);
+  if (!incomplete_) return;
+  if (look(level, p)) {
+    differentiate(level, p, out);
+  } else {
+    check_tolerance_ *= kLooser;
+  }
+}
+
+template <class Real>
+void Differentiator<Real>::differentiate(Level level, const Point<Real>& p,
+                                         Linearization<Real>& out) {
+  if (!sameShape(out.pattern, pattern_)) out = Linearization<Real>(pattern_);
+  incomplete_ = false;
+  evaluateGroup(at_a_, level, p, out);
+  if (!stiffness_known_) evaluateGroup(stiffness_, level, p, out);
+  if (!at_zero_.directions.empty()) {
+    const ConstVec<Real> zero(zero_a_.data(), sizes_.nu);
+    evaluateGroup(at_zero_, level, {p.t, p.u, p.v, p.x, zero, p.k, p.z, p.d}, out);
+  }
+  if (terms_ == JacobianTerms::kNoConstraintXz) dropConstraintXz(out);
+  if (terms_ == JacobianTerms::kConstantStiffness) keepStiffness(out);
+}
+
+template <class Real>
+void Differentiator<Real>::evaluateGroup(const Group& group, Level level, const Point<Real>& p,
+                                         Linearization<Real>& out) {
+  if (group.directions.empty()) return;
+  t_ = p.t;
+  if (looked_) {
+    expected_.setZero();
+    magnitude_.setZero();
+  }
+  if (source_ == DerivativeSource::kAutomatic) {
+    dual_.copy(p);
+    evaluateDual(group.coloured, level, out);
+  } else {
+    real_.copy(p);
+    evaluateDifferences(group.coloured, level, out);
+  }
+}
+
+template <class Real>
+void Differentiator<Real>::dropConstraintXz(Linearization<Real>& out) const {
+  const Index nz = sizes_.nz, first = sizes_.nu + sizes_.nx;
+  forEachEntry(*out.pattern, first, nz, first, nz, [&](Index k) { out.d0[k] = Real(0); });
+  forEachEntry(*out.pattern, sizes_.nu, sizes_.nx, first, nz, [&](Index k) { out.d1[k] = Real(0); });
+}
+
+template <class Real>
+void Differentiator<Real>::keepStiffness(Linearization<Real>& out) {
+  if (!stiffness_known_) {
+    kept_stiffness_ = out.d2;
+    stiffness_known_ = true;
+    return;
+  }
+  forEachEntry(*out.pattern, 0, sizes_.nu, 0, sizes_.nu,
+               [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
+}
+
+/// Takes the changes along a colour, by row, to their matrices.
+template <class Real>
+template <class Change>
+void Differentiator<Real>::take(const ColouredDirections& group, std::size_t colour,
+                                const Change& change, Linearization<Real>& out) {
+  using std::abs;
+  if (colour == group.colours()) return check(change, out);
+  const bool exact = source_ == DerivativeSource::kAutomatic;
+  Real* const values[] = {out.d0.data(), out.d1.data(), out.d2.data()};
+  for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
+    const auto& entry = group.entries[e];
+    const Real value = change(entry.row);
+    values[entry.matrix][entry.slot] =
+        exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
+    if (!looked_) continue;
+    const Real part = Real(group.weights[entry.direction]) * value;
+    expected_[entry.row] += part;
+    magnitude_[entry.row] += abs(part);
+  }
+}
+
+/// The rows' changes along the combination of all directions against what was stored.
+template <class Real>
+template <class Change>
+void Differentiator<Real>::check(const Change& change, Linearization<Real>& out) {
+  using std::abs;
+  using std::isfinite;
+  for (Index row = 0; row < sizes_.n(); ++row) {
+    const Real all = change(row);
+    if (!isfinite(all)) {  // in an entry that the pattern may not have
+      out.d0.setConstant(std::numeric_limits<Real>::quiet_NaN());
+      return;
+    }
+    const Real difference = abs(Real(all - expected_[row]));
+    if (difference > Real(check_tolerance_) * magnitude_[row]) incomplete_ = true;
+  }
+}
+
+// The colour after the last one is the check.
+template <class Real>
+void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level,
+                                        Linearization<Real>& out) {
+  const auto at = dual_.at(Dual<Real>(t_));
+  const VecView<Dual<Real>> r = dual_.residual();
+  const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
+  for (std::size_t first = 0; first < colours; first += kChunk) {
+    const std::size_t count = std::min(kChunk, colours - first);
+    for (std::size_t c = 0; c < count; ++c) {
+      for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
+        dual_.component(group.directions[i]).d[c] = Real(group.weight(first + c, i));
+      }
+    }
+    system_.evaluate(level, at, r);
+    for (std::size_t c = 0; c < count; ++c) {
+      take(group, first + c, [&](Index row) -> const Real& { return r[row].d[c]; }, out);
+      for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
+        dual_.component(group.directions[i]).d[c] = Real(0);
+      }
+    }
+  }
+}
+
+// Increments: eps^(1/2) (forward) and eps^(1/3) (central) times max(|y|, 1) balance truncation and
+// round-off; Dennis & Schnabel, section 5.4.
+template <class Real>
+void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, Level level,
+                                               Linearization<Real>& out) {
+  using std::abs;
+  using std::cbrt;
+  using std::sqrt;
+  const bool central = source_ == DerivativeSource::kCentral;
+  const Real eps = Eigen::NumTraits<Real>::epsilon();
+  const Real relative = central ? Real(cbrt(eps)) : Real(sqrt(eps));
+  const auto at = real_.at(t_);
+  const VecView<Real> r = real_.residual();
+  const auto move = [&](std::size_t colour, double side) {
+    for (std::size_t i = group.begin(colour); i < group.end(colour); ++i) {
+      const Real& y = y_[static_cast<Index>(i)];
+      const Real magnitude = abs(y) > Real(1) ? Real(abs(y)) : Real(1);
+      real_.component(group.directions[i]) =
+          y + Real(side * group.weight(colour, i)) * relative * magnitude;
+    }
+  };
+  for (std::size_t i = 0; i < group.directions.size(); ++i) {
+    y_[static_cast<Index>(i)] = real_.component(group.directions[i]);
+  }
+  if (!central) {
+    system_.evaluate(level, at, r);
+    base_ = r;
+  }
+  const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
+  for (std::size_t colour = 0; colour < colours; ++colour) {
+    const bool check = colour == group.colours();
+    const auto keep = [&](auto&& f) {
+      for (std::size_t i = group.begin(colour); i < group.end(colour) && !check; ++i) {
+        f(delta_[static_cast<Index>(i)], real_.component(group.directions[i]));
+      }
+    };
+    if (central) {
+      move(colour, -1);
+      system_.evaluate(level, at, r);
+      base_ = r;
+    }
+    keep([](Real& delta, const Real& lower) { delta = lower; });
+    move(colour, 1);
+    system_.evaluate(level, at, r);
+    keep([](Real& delta, const Real& upper) { delta = upper - delta; });
+    move(colour, 0);
+    take(group, colour, [&](Index row) { return Real(r[row] - base_[row]); }, out);
+  }
+}
+
+IRK_INSTANTIATE_CLASS(Differentiator)
+
+}  // namespace irk

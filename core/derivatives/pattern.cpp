@@ -1,0 +1,81 @@
+#include "core/derivatives/pattern.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+namespace irk {
+
+std::shared_ptr<const Pattern> Pattern::dense(Index n) {
+  auto p = std::make_shared<Pattern>();
+  p->n = n;
+  for (Index j = 0; j <= n; ++j) p->column_start.push_back(static_cast<int>(j * n));
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) p->row.push_back(static_cast<int>(i));
+  }
+  return p;
+}
+
+bool sameShape(const std::shared_ptr<const Pattern>& a, const std::shared_ptr<const Pattern>& b) {
+  return a == b || (a && b && a->full && b->full && a->n == b->n);
+}
+
+Directions allDirections(const Sizes& n, int matrices) {
+  const Index columns[] = {n.n(), n.nu + n.nx, n.nu};
+  Directions all;
+  for (int matrix = 0; matrix < matrices; ++matrix) {
+    for (Index j = 0; j < columns[matrix]; ++j) all.push_back({matrix, j});
+  }
+  return all;
+}
+
+RowSets fullRows(std::size_t directions, Index n) {
+  std::vector<int> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  return RowSets(directions, all);
+}
+
+bool unite(const RowSets& more, RowSets& into) {
+  bool grown = false;
+  std::vector<int> both;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    both.clear();
+    std::set_union(into[i].begin(), into[i].end(), more[i].begin(), more[i].end(),
+                   std::back_inserter(both));
+    grown = grown || both.size() > into[i].size();
+    into[i] = both;
+  }
+  return grown;
+}
+
+std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
+                                            Index n) {
+  // All rows of a column side by side, then each once.
+  std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    start[static_cast<std::size_t>(directions[i].column) + 1] += static_cast<int>(rows[i].size());
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int> all(static_cast<std::size_t>(start.back()));
+  std::vector<int> end(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    int& at = end[static_cast<std::size_t>(directions[i].column)];
+    std::copy(rows[i].begin(), rows[i].end(), all.begin() + at);
+    at += static_cast<int>(rows[i].size());
+  }
+  auto p = std::make_shared<Pattern>();
+  p->n = n;
+  p->full = false;
+  p->column_start.reserve(start.size());
+  p->column_start.push_back(0);
+  p->row.reserve(all.size());
+  for (std::size_t j = 0; j + 1 < start.size(); ++j) {
+    const auto first = all.begin() + start[j], last = all.begin() + start[j + 1];
+    std::sort(first, last);
+    p->row.insert(p->row.end(), first, std::unique(first, last));
+    p->column_start.push_back(static_cast<int>(p->row.size()));
+  }
+  return p;
+}
+
+}  // namespace irk

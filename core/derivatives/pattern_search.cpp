@@ -1,0 +1,167 @@
+#include "core/derivatives/pattern_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/derivatives/colouring.h"
+#include "core/derivatives/point_buffers.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// How far from p the pattern is looked at: a part of 1 + |y|, a tenth of it after each point where the
+// residual is not finite. (What that misses, the check of an evaluation finds, and then p is looked at.)
+constexpr double kDistance = 0.01;
+constexpr int kCloser = 6;
+
+/// Finds the rows of each direction at one point by halving intervals of directions.
+template <class Real>
+class RowSearch {
+ public:
+  RowSearch(const System<Real>& system, Level level, const Directions& directions)
+      : system_(system), level_(level), directions_(directions), at_(system.sizes()) {}
+
+  RowSets search(const PointBuffers<Real>& p, const Real& t, std::minstd_rand& random) {
+    at_.copy(p.at(t));
+    t_ = t;
+    Partition partition = whole();
+    while (std::any_of(partition.intervals.begin(), partition.intervals.end(),
+                       [](const Interval& i) { return i.end - i.begin > 1; })) {
+      partition = split(partition, random);
+    }
+    RowSets rows(directions_.size());
+    for (std::size_t i = 0; i < partition.rows.size(); ++i) {
+      rows[partition.intervals[i].begin] = std::move(partition.rows[i]);
+    }
+    return rows;
+  }
+
+ private:
+  struct Interval {
+    std::size_t begin, end;  // of the directions
+  };
+  struct Partition {
+    std::vector<Interval> intervals;
+    RowSets rows;  // that each reaches, or may reach
+  };
+
+  // One interval per matrix, so that neighbours in one are not neighbours of another matrix' columns.
+  Partition whole() const {
+    Partition all;
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      if (i == 0 || directions_[i].matrix != directions_[i - 1].matrix) {
+        all.intervals.push_back({i, i});
+      }
+      ++all.intervals.back().end;
+    }
+    all.rows = fullRows(all.intervals.size(), system_.sizes().n());
+    return all;
+  }
+
+  // Every interval in kChunk parts, the parts of intervals that share no row together.
+  Partition split(const Partition& parents, std::minstd_rand& random) {
+    const std::vector<int> colours = colour(parents.rows, system_.sizes().n());
+    const int count = 1 + *std::max_element(colours.begin(), colours.end());
+    Partition children;
+    std::vector<std::size_t> together;
+    for (int c = 0; c < count; ++c) {
+      together.clear();
+      for (std::size_t i = 0; i < colours.size(); ++i) {
+        if (colours[i] == c) together.push_back(i);
+      }
+      seed(parents, together, &random);
+      system_.evaluate(level_, at_.at(Dual<Real>(t_)), at_.residual());
+      for (const std::size_t i : together) {
+        appendChildren(parents.intervals[i], parents.rows[i], children);
+      }
+      seed(parents, together, nullptr);
+    }
+    return children;
+  }
+
+  static std::size_t part(const Interval& i, std::size_t c) {
+    return i.begin + (i.end - i.begin) * c / kChunk;
+  }
+
+  void seed(const Partition& parents, const std::vector<std::size_t>& together,
+            std::minstd_rand* random) {
+    std::uniform_real_distribution<double> around_one(0.5, 1.5);
+    for (const std::size_t p : together) {
+      const Interval& i = parents.intervals[p];
+      for (std::size_t c = 0; c < kChunk; ++c) {
+        for (std::size_t k = part(i, c); k < part(i, c + 1); ++k) {
+          at_.component(directions_[k]).d[c] = random ? Real(around_one(*random)) : Real(0);
+        }
+      }
+    }
+  }
+
+  void appendChildren(const Interval& parent, const std::vector<int>& rows, Partition& children) {
+    using std::isfinite;
+    for (std::size_t c = 0; c < kChunk; ++c) {
+      const Interval child{part(parent, c), part(parent, c + 1)};
+      if (child.begin == child.end) continue;
+      reached_.clear();
+      for (const int row : rows) {
+        const Real& slope = at_.r[row].d[c];
+        if (isfinite(slope) && slope != Real(0)) reached_.push_back(row);
+      }
+      if (reached_.empty()) continue;
+      children.intervals.push_back(child);
+      children.rows.push_back(reached_);
+    }
+  }
+
+  const System<Real>& system_;
+  Level level_;
+  const Directions& directions_;
+  PointBuffers<Dual<Real>> at_;
+  Real t_{};
+  std::vector<int> reached_;
+};
+
+template <class Real>
+void moveNearby(double distance, std::minstd_rand& random, PointBuffers<Real>& p, Real& t) {
+  std::uniform_real_distribution<double> either_way(-1, 1);
+  const auto move = [&](Real& y) {
+    using std::abs;
+    y += Real(distance * either_way(random)) * (Real(1) + Real(abs(y)));
+  };
+  move(t);
+  for (auto* part : {&p.u, &p.v, &p.x, &p.w}) std::for_each(part->begin(), part->end(), move);
+}
+
+}  // namespace
+
+template <class Real>
+RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
+                   const Directions& directions, bool at_p) {
+  RowSearch<Real> search(system, level, directions);
+  std::minstd_rand random(1);
+  PointBuffers<Real> near(system.sizes());
+  double distance = kDistance;
+  RowSets rows;
+  for (int closer = 0; closer < kCloser && rows.empty(); ++closer, distance /= 10) {
+    Real t = p.t;
+    near.copy(p);
+    moveNearby(distance, random, near, t);
+    system.evaluate(level, near.at(t), near.residual());
+    if (near.r.allFinite()) rows = search.search(near, t, random);
+  }
+  if (!at_p && !rows.empty()) return rows;
+  near.copy(p);
+  const RowSets here = search.search(near, p.t, random);
+  if (rows.empty()) return here;
+  unite(here, rows);
+  return rows;
+}
+
+template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&,
+                            bool);
+template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&, bool);
+template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&,
+                            bool);
+
+}  // namespace irk

@@ -1,0 +1,84 @@
+// What an error estimate is multiplied by before it is compared with the tolerance.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/stages/scheme.h"
+#include "irk/options.h"
+
+namespace irk {
+
+/// Whether errors of stiff components decay from step to step, |R(infinity)| < 1. Else they add up.
+template <class Real>
+bool dampsStiffErrors(const Scheme<Real>& scheme) {
+  using std::abs;
+  if (!scheme.regular || scheme.first > 0) return false;
+  return abs(Real(Real(1) - scheme.d.sum())) < Real(0.99);
+}
+
+/// 1 where stiff components have the order of the others and are damped. Else (Gauss, Radau IA, all Lobatto
+/// families) they have the order of the stages or no damping, which no estimate of one step shows.
+template <class Real>
+double stiffCaution(const Scheme<Real>& scheme) {
+  constexpr double kCaution = 10;
+  const bool as_accurate = scheme.tableau.stage_order >= scheme.s || scheme.s == 1;
+  return as_accurate && dampsStiffErrors(scheme) ? 1 : kCaution;
+}
+
+/// Errors of many steps add up: `caution` in the first kFree steps, then more, so that the errors of N steps
+/// add up to kFree (1 + log(N / kFree)) tolerances instead of N; but no more than the errors of the steps so far ask
+/// for: where they are far below the tolerance anyway, they are not made smaller still. For estimates of higher order
+/// than the step's own nothing is needed: there the true error is far below them. At most kMost, and not below kFinest:
+/// there round-off begins.
+class Accumulation {
+ public:
+  Accumulation(double caution, const Tolerances& tolerances)
+      : caution_(caution),
+        most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMost)) {}
+  void begin() { *this = Accumulation(caution_, most_); }
+  /// After so many accepted steps with this sum of estimates; 0 steps for estimates that need no more than caution.
+  double factor(std::int64_t steps, double sum) const {
+    const double part = caution_ * sum / kFree;
+    const double growth = std::min(static_cast<double>(steps) / kFree, part * part * part);
+    return std::min(most_, caution_ * std::max(1.0, growth));
+  }
+  /// What the controller is told of an attempt from t with step h: the estimate `error` times the factor. An error
+  /// within the tolerance that a shorter step from the same t has not lowered, as of multipliers and of round-off, is
+  /// accepted: still shorter steps would not help it either.
+  double asked(double error, double factor, double t, double h) {
+    double asked = error * factor;
+    const bool in_vain = t == t_ && h < h_ && error > error_ * std::sqrt(h / h_);
+    if (asked > 1 && error <= 1 && in_vain) asked = 1;
+    t_ = t;
+    h_ = h;
+    error_ = error;
+    return asked;
+  }
+
+ private:
+  Accumulation(double caution, double most) : caution_(caution), most_(most) {}
+
+  static constexpr double kFree = 50, kMost = 300, kFinest = 5e-14;
+  double caution_, most_;
+  double t_ = 0, h_ = 0, error_ = 0;  // of the last attempt
+};
+
+/// The estimated errors of all steps, added up: where errors of stiff components decay the result is better, where
+/// the motion amplifies them it is worse. Above the bar nothing speaks for the result.
+class ErrorSum {
+ public:
+  explicit ErrorSum(const Tolerances& tolerances)
+      : bar_(kBar + kRoundOff / std::max(tolerances.rtol, tolerances.atol)) {}
+  void begin() { sum_ = 0; }
+  /// In tolerances.
+  void add(double error) { sum_ += error; }
+  bool aboveBar() const { return sum_ > bar_; }
+
+ private:
+  static constexpr double kBar = 1000, kRoundOff = 1e-9;  // tolerances; absolute
+  double bar_, sum_ = 0;
+};
+
+}  // namespace irk

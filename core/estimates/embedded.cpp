@@ -1,0 +1,147 @@
+#include "core/estimates/embedded.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/legendre.h"
+#include "core/base/small_product.h"
+#include "core/linear/block_form.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
+  return {Mat<Real>::Constant(1, 1, mu), nullptr, system.rowPowers(), system.sizes()};
+}
+
+}  // namespace
+
+template <class Real>
+int EmbeddedEstimate<Real>::order(const Scheme<Real>& scheme) {
+  return std::min(static_cast<int>(scheme.s), scheme.tableau.stage_order + 1);
+}
+
+template <class Real>
+Real EmbeddedEstimate<Real>::weight(const Scheme<Real>& scheme) {
+  using std::pow;
+  if (!scheme.regular || scheme.first > 0) {
+    throw Misuse("illegal combination: estimate 'embedded' with method '" + scheme.tableau.id +
+                 "': its A is singular; use estimate 'richardson'");
+  }
+  if (scheme.tableau.stage_order < 1) {
+    throw Misuse("illegal combination: estimate 'embedded' with method '" + scheme.tableau.id +
+                 "': its stage order is 0, so that step and estimate miss the same forces where these change "
+                 "with time; use estimate 'richardson'");
+  }
+  Real determinant(1);
+  for (const auto& block : schurForm(scheme.A).blocks) {
+    if (block.size == 1 && block.mu.real() > Real(0)) return block.mu.real();
+    determinant *= block.mu.real() * block.mu.real() + block.mu.imag() * block.mu.imag();
+  }
+  return pow(determinant, Real(1) / Real(static_cast<double>(scheme.s)));
+}
+
+template <class Real>
+EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
+                                         const IntegratorOptions& options,
+                                         SharedJacobian<Real>& jacobian,
+                                         NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm,
+                                         Counters& counters)
+    : system_(system),
+      scheme_(scheme),
+      norm_(norm),
+      sizes_(system.sizes()),
+      mu_(weight(scheme)),
+      stages_(stages),
+      own_(jacobian, options.solver, filterSetup(system, mu_), counters),
+      row_powers_(system.rowPowers()),
+      scales_(sizes_.n()),
+      basis_(scheme.s),
+      start_{scheme.start, scheme.A_transposed * scheme.start},
+      lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
+      defect_(sizes_.n()),
+      slip_(sizes_.nu),
+      at_(sizes_),
+      error_(sizes_),
+      zero_(sizes_),
+      ones_(Vec<double>::Ones(sizes_.components())),
+      e_(sizes_.n(), 1) {}
+
+template <class Real>
+Index EmbeddedEstimate<Real>::worstComponent() const {
+  return norm_.worst(error_, zero_, 1, ones_);
+}
+
+// The residual at `at_` with w = K(0), solved for e; the error it means.
+template <class Real>
+Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
+  at_.t = from.t;
+  at_.d = from.d;
+  at_.w = defect_;
+  system_.evaluate(Level::kFormulated, pointOf(at_), VecView<Real>(e_.data(), e_.rows()));
+  e_.col(0).array() *= scales_.array();
+  if (!e_.allFinite()) return Outcome::kNotFinite;
+  if (!stages_.solveReal(h, mu_, e_.data())) {
+    const Outcome outcome = own_.prepare(h);
+    if (outcome != Outcome::kSuccess) return outcome;
+    own_.solve(e_);
+  }
+  const Real step = h * mu_;
+  error_.v = -step * e_.col(0).head(sizes_.nu);
+  error_.u = slip_ + step * error_.v;
+  error_.x = -step * e_.col(0).segment(sizes_.nu, sizes_.nx);
+  error_.z() = -e_.col(0).tail(sizes_.nz);
+  return Outcome::kSuccess;
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                      const AtStart& at_start, double again_above)
+    -> Result {
+  const Real& h = stages.h;
+  Result result;
+  rowScales(row_powers_, h, scales_);
+  smallProduct<Real>(stages.W, at_start.weights, defect_);
+  // v0 - V(0) = -h sum_j (A^T l)_j a_j
+  smallProduct(stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
+  slip_ *= -mu_ * h * h;
+  at_.u = from.u + slip_;
+  at_.v = from.v;
+  at_.x = from.x;
+  result.outcome = filter(from, h);
+  if (result.outcome != Outcome::kSuccess) return result;
+  result.error = norm_.magnitude(error_, static_cast<double>(h));
+  if (result.error > again_above) {
+    slip_ += (h * mu_) * error_.v;
+    at_.u = from.u + error_.u + slip_;
+    at_.v = from.v + error_.v;
+    at_.x = from.x + error_.x;
+    result.outcome = filter(from, h);
+    if (result.outcome != Outcome::kSuccess) return result;
+    result.error = norm_.magnitude(error_, static_cast<double>(h));
+  }
+  if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
+  return result;
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                      double again_above) -> Result {
+  return estimate(from, stages, start_, again_above);
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from,
+                                           const StagePolynomial<Real>& stages, Index q) -> Result {
+  legendre<Real>(Real(0), basis_);
+  lower_.weights.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
+  lower_.integrals.noalias() = scheme_.A_transposed * lower_.weights;
+  return estimate(from, stages, lower_, std::numeric_limits<double>::infinity());
+}
+
+IRK_INSTANTIATE_CLASS(EmbeddedEstimate)
+
+}  // namespace irk

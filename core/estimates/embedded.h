@@ -1,0 +1,77 @@
+// The embedded error estimate: a method of order s in the same stages, filtered by one real system.
+#pragma once
+
+#include "core/newton/newton_matrix.h"
+#include "core/stages/error_norm.h"
+#include "core/stages/start_values.h"
+
+namespace irk {
+
+/// HW II (IV.8.19-20) for r(t; u, v, x; a, k, z) = 0. With a stage at the start of weight mu the
+/// method of order s in the stages differs from the step's result by h mu times the defect of the
+/// stages' polynomial K at the start, k0 - K(0), whatever s. Its stiff part is damped with the same
+/// mu: e = -(D0 + h mu D1 + h^2 mu^2 D2)^-1 r(t0; u0 + h mu (v0 - V(0)), v0, x0; K(0)), and u, v, x
+/// err by h mu (v0 - V(0) + h mu e_a), h mu e_a, h mu e_k. mu: the real eigenvalue of A or, for even
+/// s, the s-th root of det A. Multipliers of index 2 and 3 count as the error norm weighs them.
+/// Owns scratch and a real system of its own, which it factorizes only where the stages' solver, whose
+/// reference it keeps, has not the same.
+template <class Real>
+class EmbeddedEstimate {
+ public:
+  /// Throws Misuse for a singular A: its first stage is the step's start, or none determines it; and for stage
+  /// order 0 (Radau IA with one stage, at c = 0 with a = 1): what it evaluates lies at another time.
+  EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
+                   const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
+                   NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters);
+
+  struct Result {
+    Outcome outcome = Outcome::kSuccess;
+    double error = 0;  ///< in the error norm
+  };
+  /// Of the solved step from `from`. An estimate above `again_above` is filtered a second time, HW
+  /// II (IV.8.21): in a first step and after a rejection; else infinity.
+  [[nodiscard]] Result evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                double again_above);
+  /// What the estimate would be with q < s stages: of the polynomial of degree q - 1 in K. After
+  /// `evaluate` of the same step.
+  [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                     Index q);
+
+  /// Allocates what the first evaluation would, where the pattern is known.
+  void reserve() { own_.reserve(); }
+  /// The component of (u, v, x, z) with the largest part in the last estimate.
+  Index worstComponent() const;
+  double mu() const { return static_cast<double>(mu_); }
+  /// p of the estimate's error h^(p+1): s, or one more than the stage order where that is less.
+  static int order(const Scheme<Real>& scheme);
+  static Real weight(const Scheme<Real>& scheme);
+
+ private:
+  // A polynomial through the stages at the step's start: weights l of the stages in it, and A^T l.
+  struct AtStart {
+    Vec<Real> weights, integrals;
+  };
+  Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                  const AtStart& at_start, double again_above);
+  Outcome filter(const State<Real>& from, const Real& h);
+
+  const System<Real>& system_;
+  const Scheme<Real>& scheme_;
+  const ErrorNorm<Real>& norm_;
+  Sizes sizes_;
+  Real mu_;
+  NewtonMatrix<Real>& stages_;
+  NewtonMatrix<Real> own_;
+  std::vector<int> row_powers_;
+  Vec<Real> scales_;
+  Vec<Real> basis_;
+  AtStart start_, lower_;  // of full and of lower degree
+  Vec<Real> defect_;  // K(0), n
+  Vec<Real> slip_;    // h mu (v0 - V(0)), nu
+  State<Real> at_;    // where the residual is evaluated
+  State<Real> error_, zero_;
+  Vec<double> ones_;
+  Mat<Real> e_;  // n x 1
+};
+
+}  // namespace irk

@@ -1,0 +1,256 @@
+#include "core/estimates/step_attempt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/estimates/accumulation.h"
+#include "core/estimates/embedded.h"
+#include "core/estimates/variable_order.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Powers of 2 by which the roughness of the stages falls from a step to its halves: at least, as a part of
+// that of a smooth solution, and at most beyond it (a jump next to the middle is rough for the whole step
+// only).
+constexpr double kLeastDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
+// The estimate is of the solution that is kept, so that errors of all steps count; the paper's s_min.
+constexpr double kReserve = 4;
+// Rough for the whole step only: above so many tolerances.
+constexpr double kRough = 10;
+
+template <class Real>
+bool isIndex3(const System<Real>& system) {
+  const auto& powers = system.errorPowers().v;
+  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
+}
+
+/// No estimate: one step.
+template <class Real>
+class Single final : public StepAttempt<Real> {
+ public:
+  template <class... Args>
+  explicit Single(int order, Args&&... args)
+      : order_(order), stepper_(std::forward<Args>(args)...) {}
+
+  AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
+    return {stepper_.attempt(stepper_.stages(), from, h, to),
+            std::numeric_limits<double>::quiet_NaN()};
+  }
+  void forget() override { stepper_.forget(); }
+  int order() const override { return order_; }
+  StepPieces<Real> pieces(const State<Real>& from) const override {
+    return {{{{&from, &stepper_.stages()}, {nullptr, nullptr}}}, 1};
+  }
+
+ private:
+  int order_;
+  Stepper<Real> stepper_;
+};
+
+/// Paper (5.1)-(5.4): one step h against two steps h/2, which are the result;
+///   error = |V_h - V_{h/2}| / (2^p - 1).
+/// The half steps are a stepper of their own: both keep their factors. Unless the paper's start
+/// values are asked for, the half steps start from the whole step's polynomial, which spans them.
+template <class Real>
+class Doubling final : public StepAttempt<Real> {
+ public:
+  Doubling(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
+      : whole_(system, scheme, options, jacobian, norm, counters),
+        half_(system, scheme, options, jacobian, norm, counters),
+        norm_(norm),
+        factor_(doublingFactors(scheme, system, options.step.estimate)),
+        scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
+        accumulates_(options.step.estimate == ErrorEstimate::kRichardson && !isIndex3(system)),
+        accumulation_(std::max(kReserve, stiffCaution(scheme)), options.tolerances),
+        looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
+        order_(scheme.tableau.order),
+        interpolate_(options.predictor == Predictor::kExtrapolated),
+        keeps_pieces_(system.sizes().switches > 0 &&
+                      system.discontinuity() == Discontinuity::kLocate),
+        coarse_(system.sizes()),
+        middle_(system.sizes()),
+        zero_(system.sizes()) {}
+
+  AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
+    AttemptResult result;
+    const Real half = h / Real(2);
+    const auto done = [&](const StepResult& step) {
+      result.newton_iterations += step.newton_iterations;
+      result.outcome = step.outcome;
+      if (step.switched >= 0) result.switched = step.switched;
+      result.mode_error = std::max(result.mode_error, step.mode_error);
+      result.round_off = std::max(result.round_off, step.round_off);
+      return step.outcome == Outcome::kSuccess;
+    };
+    const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
+    result.switch_at = whole.switch_at;
+    if (!done(whole)) return result;
+    if (continues_ && whole_.leavesRoot(from)) {
+      result.outcome = Outcome::kNewtonFailed;
+      return result;
+    }
+    const auto& past = interpolate_ ? whole_.stages() : half_.stages();
+    if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
+    if (keeps_pieces_) first_half_ = half_.stages();
+    const double start_defect = watches_start_ ? half_.startDefect(from) : 0;
+    if (looks_again_) rough_whole_ = whole_.roughness(from), rough_halves_ = half_.roughness(from);
+    if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
+    if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness(middle_));
+    result.error = error(to, static_cast<double>(h));
+    if (accumulates_) {
+      result.added = result.error;
+      result.error = accumulation_.asked(result.error, accumulation_.factor(steps_, sum_),
+                                         static_cast<double>(from.t), static_cast<double>(h));
+    }
+    worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
+    if (!std::isfinite(result.error)) {
+      result.outcome = Outcome::kNotFinite;
+      return result;
+    }
+    // Doubling is blind where the whole step and its halves make the same mistake: the wrong mode, ...
+    result.error = worse(result.error, order_, result.mode_error, 1);
+    // ... a fast motion that both damp, ...
+    if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
+    // ... and 2^p - 1 divides too much where the halves do not show order p.
+    if (looks_again_) result.error = worse(result.error, order_, unresolved(), 1);
+    return result;
+  }
+  void forget() override {
+    whole_.forget();
+    half_.forget();
+  }
+  void begin() override {
+    forget();
+    steps_ = 0;
+    sum_ = 0;
+    accumulation_.begin();
+    continues_ = restarted_ = watches_start_ = false;
+  }
+  void restart() override {
+    forget();
+    continues_ = false;
+    restarted_ = watches_start_ = true;
+  }
+  NextStep accepted(const AttemptResult& result, double h, double h_next) override {
+    // A restart at the end of this very step came first.
+    if (!std::exchange(restarted_, false)) {
+      watches_start_ = false;
+      continues_ = true;
+    }
+    ++steps_;
+    sum_ += result.added;
+    return StepAttempt<Real>::accepted(result, h, h_next);
+  }
+  int order() const override { return order_; }
+  Index worstComponent() const override { return worst_; }
+  StepPieces<Real> pieces(const State<Real>& from) const override {
+    return {{{{&from, &first_half_}, {&middle_, &half_.stages()}}}, 2};
+  }
+
+ private:
+  // A second look, of the order of the stages: it is below the tolerance, or it falls from the whole step
+  // to its halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
+  double unresolved() const {
+    const double least = std::max(kLeastDecay, kPartOfDecay * whole_.decay());
+    if (rough_halves_ > 1 && rough_whole_ < std::exp2(least) * rough_halves_) return rough_halves_;
+    const double most = std::exp2(whole_.decay() + kBeyondDecay);
+    return rough_whole_ > kRough && rough_whole_ > most * rough_halves_ ? rough_whole_ : 0;
+  }
+  double error(const State<Real>& fine, double h) const {
+    if (!scalar_) return norm_.difference(coarse_, fine, h, factor_);
+    return std::abs(norm_.difference(coarse_, zero_, h, factor_) -
+                    norm_.difference(fine, zero_, h, factor_));
+  }
+
+  Stepper<Real> whole_, half_;
+  const ErrorNorm<Real>& norm_;
+  Vec<double> factor_;
+  bool scalar_;
+  bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
+  Accumulation accumulation_;
+  std::int64_t steps_ = 0;  // accepted
+  double sum_ = 0;          // of their estimates
+  bool looks_again_;            // `richardson`: whether the halves show the order
+  bool watches_start_ = false;  // the first step after a restart
+  bool restarted_ = false;      // since the last step was taken over
+  bool continues_ = false;      // a step of the same mode
+  Index worst_ = -1;
+  double rough_whole_ = 0, rough_halves_ = 0;
+  int order_;
+  bool interpolate_;
+  bool keeps_pieces_;  // for the dense output of `locate`
+  StagePolynomial<Real> first_half_;
+  State<Real> coarse_, middle_, zero_;
+};
+
+}  // namespace
+
+double worse(double error, int p, double other, int q) {
+  if (std::isnan(other)) return std::numeric_limits<double>::infinity();
+  return std::max(error, other > 1 ? std::pow(other, (p + 1.0) / q) : other);
+}
+
+template <class Real>
+Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
+                            ErrorEstimate estimate) {
+  const bool own = estimate == ErrorEstimate::kRichardson;
+  const Sizes n = system.sizes();
+  const ErrorPowers& powers = system.errorPowers();
+  const int p = scheme.tableau.order;
+  const int stage = std::max(scheme.tableau.stage_order, 1);
+  const int differential = scheme.stiffly_accurate ? p : stage;
+  int index = n.nz > 0 ? 1 : 0;
+  for (const int power : powers.z) index = std::max(index, 1 + power);
+  const auto orderOf = [&](Index i) {
+    if (!own || index == 0) return p;
+    if (i < n.nu) return index < 3 ? p : differential;
+    if (i < 2 * n.nu) return index == 3 ? stage : index == 2 ? differential : p;
+    const auto at = static_cast<std::size_t>(i - 2 * n.nu);
+    const bool algebraic = i >= 2 * n.nu + n.nx;
+    if (!algebraic && powers.x[at] == 0) return index == 1 ? p : differential;
+    const int power = algebraic ? powers.z[at - static_cast<std::size_t>(n.nx)] : powers.x[at];
+    if (power == 0) return index == 1 && scheme.stiffly_accurate ? p : stage;
+    return std::max(stage - (power - 1), 1);
+  };
+  Vec<double> factor(n.components());
+  for (Index i = 0; i < factor.size(); ++i) factor[i] = 1 / (std::pow(2.0, orderOf(i)) - 1);
+  return factor;
+}
+
+template <class Real>
+std::unique_ptr<StepAttempt<Real>> makeStepAttempt(
+    const System<Real>& system, const std::vector<Scheme<Real>>& schemes, std::size_t start,
+    const IntegratorOptions& options, SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
+    Counters& counters) {
+  const Scheme<Real>& scheme = schemes[start];
+  switch (options.step.estimate) {
+    case ErrorEstimate::kNone:
+      return std::make_unique<Single<Real>>(scheme.tableau.order, system, scheme, options, jacobian,
+                                            norm, counters);
+    case ErrorEstimate::kDoubling:
+    case ErrorEstimate::kRichardson:
+    case ErrorEstimate::kDoublingScalar:
+      return std::make_unique<Doubling<Real>>(system, scheme, options, jacobian, norm, counters);
+    case ErrorEstimate::kEmbedded:
+      return std::make_unique<VariableOrder<Real>>(system, schemes, start, options, jacobian, norm,
+                                                   counters);
+  }
+  return nullptr;
+}
+
+#define IRK_INSTANTIATE(Real)                                                                     \
+  template Vec<double> doublingFactors(const Scheme<Real>&, const System<Real>&, ErrorEstimate);  \
+  template std::unique_ptr<StepAttempt<Real>> makeStepAttempt(                                    \
+      const System<Real>&, const std::vector<Scheme<Real>>&, std::size_t,                         \
+      const IntegratorOptions&, SharedJacobian<Real>&, const ErrorNorm<Real>&, Counters&);
+IRK_INSTANTIATE(double)
+IRK_INSTANTIATE(mp50)
+IRK_INSTANTIATE(mp100)
+#undef IRK_INSTANTIATE
+
+}  // namespace irk

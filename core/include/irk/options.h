@@ -1,0 +1,181 @@
+// The axes: interchangeable strategies with stable ids, and the options of an integration.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "irk/misuse.h"
+#include "irk/system_options.h"
+
+namespace irk {
+
+enum class DerivativeSource { kAutomatic, kCentral, kForward };
+
+/// What is left out of (D0, D1, D2), paper (4.4)-(4.8). M a enters the residual linearly in a, so
+/// its derivatives are left out by differentiating at a = 0.
+enum class JacobianTerms {
+  kFull,
+  kNoMassVxz,          ///< (4.4): without d(M a)/d(v, x, z)
+  kNoConstraintXz,     ///< (4.5): without dG/d(x, z)
+  kNoMass,             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
+  kConstantStiffness,  ///< (4.7): dF2/du evaluated once
+};
+
+/// How D0, D1, D2 and the Newton matrices are kept.
+enum class Storage {
+  kAutomatic,  ///< sparse where the system is large and its pattern sparse enough; kSparseFrom in core/derivatives/differentiator.h
+  kDense,
+  kSparse,
+};
+
+enum class NewtonKind {
+  kSimplified,  ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
+  kBroyden,     ///< the same with rank-one corrections of the matrix, Deuflhard's QNERR
+  kModified,    ///< the paper's: stop on the residual, its restart and fallback rules, section 3
+  kFull,        ///< a new stage-wise Jacobian in every iteration, stop on the residual
+};
+enum class StageSolverKind { kCoupledDense, kCoupledSparse, kSchur, kEigen };
+enum class Predictor {
+  kExtrapolated,  ///< collocation polynomial of the step before
+  kPrevious,      ///< the stages of the step before, stage by stage (paper)
+  kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
+};
+enum class ErrorEstimate {
+  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; not less than what a switch in
+  /// the step does, nor than an estimate of the stages' order where the halves do not show order q
+  kRichardson,
+  kDoubling,        ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
+  kDoublingScalar,  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
+  kEmbedded,        ///< one solve with a real system: an embedded method of order s, HW II (IV.8)
+  kNone,
+};
+enum class StepControl {
+  kPaper,       ///< the paper's section 6
+  kHotint,      ///< the later source: s_min 2, s_max 4, exponent 1/p, no gamma
+  kPredictive,  ///< Gustafsson's, HW II (IV.8.25)
+  kFixed,
+};
+enum class OrderControl {
+  kFixed,     ///< one method
+  kVariable,  ///< members of a family by work per unit step and Newton's contraction
+};
+/// How a step's increments are added to u, v, x.
+enum class Summation {
+  kCompensated,  ///< what an addition loses is added to the next increment
+  kPlain,
+};
+/// (a, k, z) at the end of an integration, of systems with algebraic unknowns.
+enum class Multipliers {
+  kStages,      ///< what the last step gives: in index 2 of order s, and its Newton's error over h
+  kConsistent,  ///< solved anew from (u, v, x), at the level of accelerations: of their accuracy
+};
+enum class JacobianPoint {
+  kStart,
+  kMiddle,     ///< t0 + h/2, by Taylor's formula from the start
+  kPredicted,  ///< an inner stage of the start values
+  kEachStage,
+};
+
+enum class NormKind {
+  kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
+  kAbsolute,  ///< the paper's: 2-norm of e / atol over all components
+};
+
+/// One id of an axis, as the command line, study files and tables write it.
+template <class E>
+struct Named {
+  E value;
+  std::string_view id;
+  std::string_view meaning;
+};
+
+/// All ids of an axis, the default first.
+template <class E>
+std::span<const Named<E>> named();
+
+/// The value behind an id. Throws Misuse with the axis, the nearest id and all ids.
+template <class E>
+E parseId(std::string_view id);
+
+template <class E>
+std::string_view idOf(E value) {
+  for (const auto& entry : named<E>()) {
+    if (entry.value == value) return entry.id;
+  }
+  return "?";
+}
+
+/// The axis' name in options, files and messages: `newton`, `solver`, ...
+template <class E>
+std::string_view axisName();
+
+struct NewtonOptions {
+  NewtonKind kind = NewtonKind::kSimplified;
+  /// (0, 1). Paper (3.2): done when eps(i) <= tol eps(0). `modified` and `full`.
+  double residual_tolerance = 1e-10;
+  /// (0, 1]. Paper (3.4): contractivity above which the Jacobian is recomputed, ...
+  double contractivity_limit = 0.7;
+  /// >= 0. ... after more than this many iterations.
+  int contractivity_after = 3;
+  /// >= 1. Paper, section 3: 25 iterations without convergence are a failure.
+  int max_iterations = 25;
+  /// >= 0; 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
+  /// that shrinks with s. `simplified`, `broyden`: done when eta |dw| <= kappa in the error norm.
+  double kappa = 0;
+  /// [0, 1). `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
+  double keep_jacobian_below = 1e-3;
+};
+
+struct StepOptions {
+  StepControl control = StepControl::kPredictive;
+  ErrorEstimate estimate = ErrorEstimate::kRichardson;
+  /// > 0. Fixed control: the step (the last one is shortened to end at t_end). Else the first step;
+  /// 0 = chosen from the scale of the solution.
+  double h = 0;
+  /// >= 0; 0 = 16 eps |t| or the smallest number.
+  double h_min = 0;
+  /// > 0.
+  double h_max = 1e300;
+  /// > 0. Attempted steps.
+  std::int64_t max_steps = 1'000'000;
+  /// Paper (6.1)-(6.3): s_min = 4, s_max = s_min^2; a step is kept unless it would change by
+  /// `change_at_least`; growth at most `growth_at_most`.
+  double s_min = 4;
+  double change_at_least = 2;
+  double growth_at_most = 5;
+};
+
+struct Tolerances {
+  double rtol = 1e-6;  ///< [0, 1)
+  double atol = 1e-6;  ///< > 0, times the component's scale
+  NormKind norm = NormKind::kMixed;
+};
+
+/// Everything an integration can be told. Validated once by `validate`.
+struct IntegratorOptions {
+  Tolerances tolerances;
+  DerivativeSource derivatives = DerivativeSource::kAutomatic;
+  JacobianPoint jacobian_point = JacobianPoint::kStart;
+  JacobianTerms jacobian = JacobianTerms::kFull;
+  NewtonOptions newton;
+  StageSolverKind solver = StageSolverKind::kSchur;
+  /// Of `schur` and `eigen`; the coupled solvers have their own.
+  Storage storage = Storage::kAutomatic;
+  /// [1, 1024]. Residuals of the stages and factorizations of the blocks at a time, inside one
+  /// integration; the numbers do not depend on it. In a parallel region of the caller: 1.
+  int threads = 1;
+  Predictor predictor = Predictor::kExtrapolated;
+  Summation summation = Summation::kCompensated;
+  Multipliers multipliers = Multipliers::kConsistent;
+  OrderControl order = OrderControl::kFixed;
+  StepOptions step;
+};
+
+/// What the solver needs: the coupled ones have a storage of their own.
+Storage storageOf(const IntegratorOptions& options);
+
+/// Throws Misuse naming field, value and range.
+void validate(const IntegratorOptions& options);
+
+}  // namespace irk

@@ -1,0 +1,256 @@
+// A problem struct as a System: its residual, its constraints at the level of the formulation, its switches.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "irk/constraint_views.h"
+#include "irk/misuse.h"
+#include "irk/system_check.h"
+#include "irk/system_options.h"
+
+namespace irk {
+
+/// Views of the residual rows that a problem writes. z: the nz - constraints rows of the algebraic
+/// equations that are not position constraints.
+template <class T>
+struct Rows {
+  VecView<T> u, x, z;
+};
+
+/// Largest numbers of discrete states and of switching functions.
+constexpr Index kMostDiscrete = 16;
+
+/// A problem struct P in one formulation (all but GGL, core/include/irk/ggl.h), over one scalar.
+template <class P, class Real>
+class ProblemSystem final : public System<Real> {
+ public:
+  /// Throws Misuse for sizes that cannot be (core/include/irk/system_check.h), for `smooth` where the problem switches but has no regularisation, and for `ignore`
+  /// and `iterate` where its state jumps: they go on over a switch.
+  ProblemSystem(P problem, const SystemOptions& options)
+      : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
+    requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
+    if (sizes_.discrete > kMostDiscrete || sizes_.switches > kMostDiscrete) {
+      throw Misuse("a problem has " + std::to_string(sizes_.discrete) + " discrete states and " +
+                   std::to_string(sizes_.switches) + " switching functions, allowed are " +
+                   std::to_string(kMostDiscrete) + " each");
+    }
+    if (smooth() && kHasSwitching && !kHasSmoothed) {
+      throw Misuse(
+          "illegal combination: discontinuity 'smooth' with a scene that has no "
+          "regularisation: its discrete state is a memory");
+    }
+    const bool goes_on = options.discontinuity == Discontinuity::kIgnore ||
+                         options.discontinuity == Discontinuity::kIterate;
+    if (goes_on && kHasJump && sizes_.switches > 0) {
+      throw Misuse(
+          "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
+          "switches: steps go on over them; use 'locate'");
+    }
+    const int index = constraintIndex();
+    const auto all = [](Index n, int power) {
+      return std::vector<int>(static_cast<std::size_t>(n), power);
+    };
+    row_powers_ = all(sizes_.n(), 0);
+    error_powers_ = {all(sizes_.nu, 0),
+                     all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
+                     all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
+    for (Index i = 0; i < sizes_.nx; ++i) {
+      error_powers_.x[static_cast<std::size_t>(i)] = differentialIndex(i) - 1;
+    }
+    for (Index i = 0; i < sizes_.nz; ++i) {
+      const bool constraint = i < sizes_.constraints;
+      const int power = (constraint ? index : algebraicIndex()) - 1;
+      error_powers_.z[static_cast<std::size_t>(i)] = power;
+      if (options.scaling == ConstraintScaling::kOn) {
+        row_powers_[static_cast<std::size_t>(sizes_.nu + sizes_.nx + i)] = power;
+      }
+    }
+  }
+
+  Sizes sizes() const override { return sizes_; }
+  void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
+    if (level == Level::kFormulated) return formulated(p, r.data());
+    evaluateAt(level, p, r.data());
+  }
+  void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
+    evaluateAt(level, p, r.data());
+  }
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last,
+                      Real* r) const override {
+    for (Index i = first; i < last; ++i) formulated(at[i], r + i * sizes_.n());
+  }
+  void switching(const Point<Real>& p, VecView<Real> g) const override {
+    if constexpr (kHasSwitching) problem_.switching(p, g.data());
+  }
+  void onSwitch(Index i, State<Real>& state) const override {
+    if constexpr (kHasSwitching) {
+      Vec<Real> d = state.d;
+      problem_.onSwitch(i, pointOf(state), d.data());
+      state.d = d;
+    }
+  }
+  void jump(Index i, State<Real>& state) const override {
+    if constexpr (kHasJump) {
+      const State<Real> before = state;
+      problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+    }
+    if constexpr (kHasSnap) {
+      const State<Real> before = state;
+      problem_.snap(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+    }
+  }
+  std::string switchName(Index i) const override {
+    if constexpr (requires { problem_.switchName(i); }) return problem_.switchName(i);
+    return System<Real>::switchName(i);
+  }
+  Discontinuity discontinuity() const override { return options_.discontinuity; }
+  bool projectsVelocity() const override {
+    return options_.formulation == Formulation::kIndex2Projected && sizes_.constraints > 0;
+  }
+  const std::vector<int>& rowPowers() const override { return row_powers_; }
+  const ErrorPowers& errorPowers() const override { return error_powers_; }
+  State<Real> fromScene(const State<Real>& scene) const override { return scene; }
+  State<Real> toScene(const State<Real>& state) const override { return state; }
+
+  /// All rows at p, the discrete state as the options treat it.
+  template <class T>
+  void evaluateAt(Level level, const Point<T>& p, T* r) const {
+    const bool implied = kHasSwitching && options_.discontinuity == Discontinuity::kIgnore;
+    if (sizes_.switches == 0 || !(implied || smooth())) return evaluateFrozen(level, p, r);
+    std::array<T, kMostDiscrete> d;
+    std::copy(p.d.data(), p.d.data() + p.d.size(), d.begin());
+    const Point<T> at{p.t, p.u, p.v, p.x, p.a, p.k, p.z, {d.data(), p.d.size()}};
+    if (smooth()) {
+      if constexpr (kHasSmoothed) problem_.smoothed(p, d.data());
+    } else {
+      imply(at, d);
+    }
+    evaluateFrozen(level, at, r);
+  }
+
+  /// g, dg/dt or d2g/dt2 at p.
+  template <class T>
+  void constraintRows(Level level, const Point<T>& p, T* g) const {
+    if constexpr (requires { problem_.constraints(p.t, p.u, g); }) {
+      if (level == Level::kVelocity) {
+        problem_.constraints(Rate<T>{p.t, T(1.0)}, detail::VelocityView<T>{p.u, p.v},
+                             detail::SinkRow<detail::RateSink<T>, T>{g});
+      } else if (level == Level::kAcceleration) {
+        problem_.constraints(Rate<Rate<T>>{{p.t, T(1.0)}, {T(1.0), T(0.0)}},
+                             detail::AccelerationView<T>{p.u, p.v, p.a},
+                             detail::SinkRow<detail::SecondRateSink<T>, T>{g});
+      } else {
+        problem_.constraints(p.t, p.u, g);
+      }
+    }
+  }
+
+  const P& problem() const { return problem_; }
+
+ private:
+  static constexpr bool kHasConstraints =
+      requires(const P& problem, const Point<Real>& p, Real* g) {
+    problem.constraints(p.t, p.u, g);
+  };
+  static constexpr bool kHasSwitching =
+      requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.switching(p, out);
+  };
+  static constexpr bool kHasJump = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.jump(Index(0), p, out, out, out);
+  };
+  static constexpr bool kHasSnap = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.snap(Index(0), p, out, out, out);
+  };
+  static constexpr bool kHasSmoothed = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.smoothed(p, out);
+  };
+
+  // Not inlined: in another context the compiler would contract other products and sums, and the bits
+  // would depend on how many stages are asked for at once.
+  [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const {
+    evaluateAt(Level::kFormulated, p, r);
+  }
+  bool smooth() const { return options_.discontinuity == Discontinuity::kSmooth; }
+
+  /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.
+  static int algebraicIndex() {
+    if constexpr (requires { P::kAlgebraicIndex; }) return P::kAlgebraicIndex;
+    return 1;
+  }
+  /// 1 where a problem does not say that some of its x are of index 2: those whose derivatives the
+  /// algebraic unknowns of index 3 determine.
+  static int differentialIndex(Index i) {
+    if constexpr (requires { P::kDifferentialIndices; }) {
+      return P::kDifferentialIndices[static_cast<std::size_t>(i)];
+    }
+    static_cast<void>(i);
+    return 1;
+  }
+  int constraintIndex() const {
+    switch (options_.formulation) {
+      case Formulation::kIndex3:
+        return 3;
+      case Formulation::kIndex1:
+      case Formulation::kFirstOrder:
+        return 1;
+      case Formulation::kIndex2:
+      case Formulation::kIndex2Projected:
+      case Formulation::kGgl:
+        return 2;
+    }
+    return 2;
+  }
+
+  // The mode that p implies: due switches done until none is due. A cascade that does not end is
+  // cut: the error estimate has to deal with what is left.
+  template <class T>
+  void imply(const Point<T>& p, std::array<T, kMostDiscrete>& d) const {
+    if constexpr (kHasSwitching) {
+      std::array<T, kMostDiscrete> g;
+      for (Index pass = 0; pass < 2 * sizes_.switches; ++pass) {
+        problem_.switching(p, g.data());
+        Index due = 0;
+        while (due < sizes_.switches && !(g[static_cast<std::size_t>(due)] > T(0.0))) ++due;
+        if (due == sizes_.switches) return;
+        std::array<T, kMostDiscrete> next = d;
+        problem_.onSwitch(due, p, next.data());
+        d = next;
+      }
+    }
+  }
+
+  template <class T>
+  void evaluateFrozen(Level level, const Point<T>& p, T* r) const {
+    const Index nc = sizes_.constraints;
+    T* g = r + sizes_.nu + sizes_.nx;
+    problem_.residual(p, Rows<T>{VecView<T>(r, sizes_.nu), VecView<T>(r + sizes_.nu, sizes_.nx),
+                                 VecView<T>(g + nc, sizes_.nz - nc)});
+    if (nc > 0) constraintRows(constraintLevel(level), p, g);
+  }
+
+  Level constraintLevel(Level level) const {
+    if (level != Level::kFormulated) return level;
+    switch (constraintIndex()) {
+      case 3:
+        return Level::kPosition;
+      case 2:
+        return Level::kVelocity;
+      default:
+        return Level::kAcceleration;
+    }
+  }
+
+  P problem_;
+  SystemOptions options_;
+  Sizes sizes_;
+  std::vector<int> row_powers_;
+  ErrorPowers error_powers_;
+};
+
+}  // namespace irk

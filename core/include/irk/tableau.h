@@ -1,0 +1,47 @@
+// A method is data: the Butcher tableau of an implicit Runge-Kutta scheme.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "irk/scalar.h"
+
+namespace irk {
+
+/// The largest number of stages that ids, files and options accept.
+inline constexpr Index kMaxStages = 100;
+
+/// A (s x s), b, c (s) with the orders that its family or file declares.
+template <class Real>
+struct Tableau {
+  std::string id;      ///< e.g. `radau_iia_5`, or the file it came from
+  std::string family;  ///< e.g. `radau_iia`; `user` for a file without one
+  Mat<Real> A;
+  Vec<Real> b, c;
+  int order = 0;        ///< classical order p
+  int stage_order = 0;  ///< q of C(q)
+
+  Index stages() const { return b.size(); }
+
+  /// Rounds every coefficient once.
+  template <class To>
+  Tableau<To> cast() const {
+    const auto round = [](const Real& x) { return static_cast<To>(x); };
+    return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round),
+            order, stage_order};
+  }
+};
+
+/// One method, or with variable order members of a family by ascending stages.
+template <class Real>
+struct Methods {
+  std::vector<Tableau<Real>> members;
+  std::size_t start = 0;  ///< the member to start with
+
+  Methods(Tableau<Real> one) : members{std::move(one)} {}  // NOLINT: one method is a method
+  Methods(std::vector<Tableau<Real>> all, std::size_t first)
+      : members(std::move(all)), start(first) {}
+};
+
+}  // namespace irk

@@ -1,0 +1,190 @@
+#include "core/integration/event_location.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Of a switching function on the dense output, per root; ten are usual.
+constexpr std::uintmax_t kMaxEvaluations = 200;
+// Re-solved steps per switch; four are usual.
+constexpr int kMaxSolves = 25;
+// Earlier switches that show only in the shortened step; one is rare.
+constexpr int kMaxEarlier = 5;
+// The part of the tolerance, times h, that the time of a switch may be off.
+constexpr double kTimeTolerance = 1e-5;
+
+template <class Real>
+Real epsilon() {
+  return Eigen::NumTraits<Real>::epsilon();
+}
+
+}  // namespace
+
+template <class Real>
+EventLocator<Real>::EventLocator(const System<Real>& system, double tolerance)
+    : switches_(system), scan_(system), tolerance_(tolerance) {}
+
+template <class Real>
+Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from,
+                                          const Real& h, State<Real>& next) {
+  using Scan = SwitchScan<Real>;
+  Location<Real> result;
+  result.h = h;
+  Root root;
+  bool seen = first(attempt, from, next, Scan::EndSample::kLookAt, result, root);
+  for (int i = 0; seen && i < kMaxEarlier; ++i) {
+    result = solveTo(attempt, from, result.h, next, root);
+    if (result.outcome != Outcome::kSuccess) return result;
+    seen = first(attempt, from, next,
+                 result.found ? Scan::EndSample::kSkip : Scan::EndSample::kLookAt, result, root) &&
+           root.step + resolution(from, h) < result.h;
+  }
+  // What cannot be told apart is tried again with a shorter step.
+  if (seen) result.outcome = Outcome::kNewtonFailed;
+  return result;
+}
+
+// The earliest root in the step on the dense output; false without one.
+template <class Real>
+bool EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& from,
+                               const State<Real>& next, typename SwitchScan<Real>::EndSample end,
+                               Location<Real>& result, Root& root) {
+  const auto pieces = attempt.pieces(from);
+  for (std::size_t k = 0; k < pieces.count; ++k) {
+    const StepPiece<Real>& piece = pieces.at[k];
+    const bool last = k + 1 == pieces.count;
+    const auto due =
+        scan_.first(*piece.from, *piece.stages, last ? next : *pieces.at[k + 1].from,
+                    last ? end : SwitchScan<Real>::EndSample::kLookAt);
+    if (scan_.report().outcome != Outcome::kSuccess) {
+      result.outcome = scan_.report().outcome;
+      result.index = scan_.report().index;
+      return false;
+    }
+    const Real offset = piece.from->t - from.t;
+    bool found = false;
+    for (const auto& candidate : due) {
+      const Root one = refined(candidate, offset, piece.stages->h);
+      if (!found || one.step < root.step) root = one;
+      found = true;
+    }
+    if (found) return true;
+  }
+  return false;
+}
+
+// The root of the dense output: a first guess.
+template <class Real>
+auto EventLocator<Real>::refined(const DueInside<Real>& due, const Real& offset, const Real& h)
+    -> Root {
+  const Index i = due.index;
+  Real low = due.low, high = due.high;
+  const Real width = high - low;
+  if (!(width > Real(0))) return {i, offset, offset, Real(0)};
+  Real g_low = scan_.value(low, i);
+  const Real g_high = scan_.value(high, i);
+  if (g_low == Real(0)) {  // where the step begins on the surface, that is not the root
+    const Real beside = low + width / Real(64);
+    g_low = scan_.value(beside, i);
+    if (g_low < Real(0)) low = beside;
+  }
+  if (g_low < Real(0) && g_high > Real(0)) {
+    const auto close = [](const Real& a, const Real& b) {
+      return b - a <= Real(4) * epsilon<Real>();
+    };
+    std::uintmax_t most = kMaxEvaluations;
+    const auto bracket = boost::math::tools::toms748_solve(
+        [&](const Real& theta) { return scan_.value(theta, i); }, low, high, g_low, g_high, close,
+        most);
+    high = bracket.second;
+  } else if (!(g_low < Real(0))) {
+    high = low;  // on the surface, or beyond it by round-off
+  }
+  const Real near = width / Real(64);
+  const Real before = high - near > Real(0) ? Real(high - near) : Real(0);
+  Real slope(0);
+  if (high > before) slope = (scan_.value(high, i) - scan_.value(before, i)) / ((high - before) * h);
+  if (!(slope > Real(0))) slope = (g_high - g_low) / (width * h);
+  return {i, offset + high * h, offset + due.high * h, slope};
+}
+
+template <class Real>
+Real EventLocator<Real>::resolution(const State<Real>& from, const Real& h) const {
+  using std::abs;
+  const Real scale = abs(from.t) > h ? Real(abs(from.t)) : h;
+  return Real(4) * epsilon<Real>() * scale + Real(kTimeTolerance * std::min(tolerance_, 1e-3)) * h;
+}
+
+template <class Real>
+Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from,
+                                           const Real& h, State<Real>& next, const Root& root) {
+  using std::abs;
+  Location<Real> result;
+  const Real resolution = this->resolution(from, h);
+  // `high` is where the switch is due, on the dense output at first: beyond it nothing is known.
+  Real low(0), high = std::min(h, std::max(root.high, resolution));
+  Real step = std::min(high, std::max(root.step, resolution));
+  bool due_at_high = false;
+  Real slope = root.slope, last_step(0), last_g(0);
+  result.index = root.index;
+  result.resolution = static_cast<double>(resolution);
+  for (int solves = 0; solves < kMaxSolves; ++solves) {
+    const bool settled = high - low <= resolution;
+    if (settled || solves + 1 == kMaxSolves) step = high;
+    result.attempt = attempt.attempt(from, step, next);
+    result.outcome = result.attempt.outcome;
+    if (result.outcome != Outcome::kSuccess) return result;
+    const SwitchReport report = switches_.evaluate(next);
+    result.outcome = report.outcome;
+    if (result.outcome != Outcome::kSuccess) return result;
+    const Index due = switches_.due();
+    const bool other = due >= 0 && due != result.index;
+    if (other) {  // values and slopes of the function before say nothing about this one
+      result.index = due;
+      slope = Real(0);
+    }
+    const Real g = switches_.g()[result.index];
+    result.h = step;
+    result.found = due >= 0;
+    // A root of the dense output alone: the step goes on from there.
+    if (step == high && due < 0) return result;
+    if (due >= 0) {
+      high = step;
+      due_at_high = true;
+      if (settled || (slope > Real(0) && g <= slope * resolution)) return result;
+    } else {
+      low = step;
+    }
+    if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
+      slope = (g - last_g) / (step - last_step);
+    }
+    last_step = step;
+    last_g = g;
+    Real guess = slope > Real(0) ? Real(step - g / slope + resolution / Real(2)) : low;
+    if (!due_at_high && guess >= high) {
+      guess = high;
+    } else if (!(guess > low && guess < high)) {
+      // Just beyond the last sign change where the root is at the edge, else halve.
+      const Real nudge = low + Real(2) * resolution;
+      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0
+                  ? nudge
+                  : Real((low + high) / Real(2));
+    }
+    step = guess;
+  }
+  return result;
+}
+
+template struct Location<double>;
+template struct Location<mp50>;
+template struct Location<mp100>;
+IRK_INSTANTIATE_CLASS(EventLocator)
+
+}  // namespace irk

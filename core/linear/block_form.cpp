@@ -1,0 +1,122 @@
+#include "core/linear/block_form.h"
+
+#include <cmath>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "irk/misuse.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// The condition of the unit eigenvectors grows by 3.7 per stage for Gauss (theory.md); 5 with a margin
+// tells a defective A (condition 1e8 and more at small s) from a merely high order.
+constexpr double kEigenConditionGrowth = 5;
+constexpr double kEigenConditionPerStage = 1e3;
+
+// A block [[alpha, beta], [gamma, alpha]], beta gamma < 0, acts on y1 + i sigma y2 as multiplication
+// by mu = alpha + i gamma sigma if sigma^2 = -beta / gamma.
+template <class Real>
+void appendBlocks(BlockForm<Real>& form) {
+  using std::sqrt;
+  const Index s = form.T.rows();
+  for (Index i = 0; i < s;) {
+    if (i + 1 < s && form.T(i + 1, i) != Real(0)) {
+      const Real beta = form.T(i, i + 1);
+      const Real gamma = form.T(i + 1, i);
+      const Real sigma = sqrt(Real(-beta / gamma));
+      form.blocks.push_back({i, 2, {form.T(i, i), Real(gamma * sigma)}, sigma});
+      i += 2;
+    } else {
+      form.blocks.push_back({i, 1, {form.T(i, i), Real(0)}, Real(0)});
+      i += 1;
+    }
+  }
+}
+
+}  // namespace
+
+template <class Real>
+BlockForm<Real> schurForm(const Mat<Real>& A) {
+  const Eigen::RealSchur<Mat<Real>> schur(A);
+  BlockForm<Real> form;
+  form.Q = schur.matrixU();
+  form.Q_inverse = form.Q.transpose();
+  form.T = schur.matrixT();
+  // Eigen splits real pairs but leaves the diagonal entries of complex pairs unequal.
+  for (Index i = 0; i + 1 < A.rows(); ++i) {
+    if (form.T(i + 1, i) != Real(0)) {
+      // Rotate [[a, b], [c, d]] to equal diagonal entries: tan 2 phi = (a - d) / (b + c).
+      using std::atan2;
+      using std::cos;
+      using std::sin;
+      const Real phi = atan2(Real(form.T(i, i) - form.T(i + 1, i + 1)),
+                             Real(form.T(i, i + 1) + form.T(i + 1, i))) / Real(2);
+      const Eigen::JacobiRotation<Real> rotation(Real(cos(phi)), Real(sin(phi)));
+      form.T.applyOnTheLeft(i, i + 1, rotation.adjoint());
+      form.T.applyOnTheRight(i, i + 1, rotation);
+      form.Q.applyOnTheRight(i, i + 1, rotation);
+      const Real mean = (form.T(i, i) + form.T(i + 1, i + 1)) / Real(2);
+      form.T(i, i) = mean;
+      form.T(i + 1, i + 1) = mean;
+      ++i;
+    }
+  }
+  form.Q_inverse = form.Q.transpose();
+  appendBlocks(form);
+  return form;
+}
+
+template <class Real>
+BlockForm<Real> eigenForm(const Mat<Real>& A) {
+  const Eigen::EigenSolver<Mat<Real>> solver(A);
+  const auto values = solver.eigenvalues();
+  const auto vectors = solver.eigenvectors();
+  const Index s = A.rows();
+  BlockForm<Real> form;
+  form.diagonal = true;
+  form.Q.setZero(s, s);
+  form.T.setZero(s, s);
+  for (Index i = 0; i < s;) {
+    const Real alpha = values[i].real();
+    const Real omega = values[i].imag();
+    form.T(i, i) = alpha;
+    for (Index k = 0; k < s; ++k) form.Q(k, i) = vectors(k, i).real();
+    if (omega == Real(0)) {
+      i += 1;
+      continue;
+    }
+    // A [x y] = [x y] [[alpha, omega], [-omega, alpha]] for the eigenvector x + i y.
+    for (Index k = 0; k < s; ++k) form.Q(k, i + 1) = vectors(k, i).imag();
+    form.T(i + 1, i + 1) = alpha;
+    form.T(i, i + 1) = omega;
+    form.T(i + 1, i) = -omega;
+    i += 2;
+  }
+  // A double zero eigenvalue of a defective A comes out as two eigenvectors that agree to the square
+  // root of round-off or better; the worst regular family has condition 3.7^s (theory.md).
+  const Eigen::FullPivLU<Mat<Real>> lu(form.Q);
+  form.Q_inverse = lu.inverse();
+  const double condition =
+      static_cast<double>(form.Q.cwiseAbs().maxCoeff() * form.Q_inverse.cwiseAbs().maxCoeff());
+  const double limit = kEigenConditionPerStage * std::pow(kEigenConditionGrowth, double(s));
+  if (!lu.isInvertible() || !(condition < limit)) {
+    throw Misuse("illegal combination: solver 'eigen' with a defective A (condition of its "
+                 "eigenvectors " + std::to_string(condition) + ", allowed below " +
+                 std::to_string(limit) + "); use solver 'schur' or 'coupled_dense'");
+  }
+  appendBlocks(form);
+  return form;
+}
+
+template BlockForm<double> schurForm(const Mat<double>&);
+template BlockForm<mp50> schurForm(const Mat<mp50>&);
+template BlockForm<mp100> schurForm(const Mat<mp100>&);
+template BlockForm<double> eigenForm(const Mat<double>&);
+template BlockForm<mp50> eigenForm(const Mat<mp50>&);
+template BlockForm<mp100> eigenForm(const Mat<mp100>&);
+
+}  // namespace irk

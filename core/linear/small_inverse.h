@@ -1,0 +1,141 @@
+// Inverses of matrices with a few rows: a product has no chain of substitutions to wait for.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "core/linear/dense_lu.h"
+
+namespace irk {
+
+/// Up to this many unknowns the blocks of a step are inverted. Measured for complex n = 8: the inverse
+/// takes as long as the factors (its loops are vector instructions), a product a sixth of the
+/// substitutions.
+inline constexpr Index kSmallInverse = 8;
+
+/// A real (Parts = 1) or complex matrix by columns, real parts before imaginary ones: loops over its
+/// rows become vector instructions.
+template <class Real, int Parts>
+class SplitMatrix {
+ public:
+  using Value = std::conditional_t<Parts == 1, Real, std::complex<Real>>;
+
+  SplitMatrix(Real* data, Index n) : data_(data), imaginary_(n * n) {}
+  Value get(Index at) const {
+    if constexpr (Parts == 1) {
+      return data_[at];
+    } else {
+      return {data_[at], data_[imaginary_ + at]};
+    }
+  }
+  void set(Index at, const Value& x) {
+    if constexpr (Parts == 1) {
+      data_[at] = x;
+    } else {
+      data_[at] = x.real();
+      data_[imaginary_ + at] = x.imag();
+    }
+  }
+  void swap(Index a, Index b) {
+    for (int part = 0; part < Parts; ++part) {
+      std::swap(data_[part * imaginary_ + a], data_[part * imaginary_ + b]);
+    }
+  }
+  /// A column's own copy: what is read and what is written cannot overlap.
+  struct Column {
+    alignas(64) std::array<Real, static_cast<std::size_t>(kSmallInverse)> re, im;
+  };
+  template <class Size>
+  void copy(Index from, Size n, Column& x) const {
+    std::copy_n(data_ + from, n, x.re.data());
+    if constexpr (Parts == 2) std::copy_n(data_ + imaginary_ + from, n, x.im.data());
+  }
+  /// n entries from `y` on -= f x.
+  template <class Size>
+  void subtract(Index y, const Column& x, const Value& f, Size n) {
+    Real* const re = data_ + y;
+    const Real* const from_re = x.re.data();
+    if constexpr (Parts == 1) {
+      for (Index i = 0; i < n; ++i) re[i] -= f * from_re[i];
+    } else {
+      Real* const im = re + imaginary_;
+      const Real* const from_im = x.im.data();
+      const Real fr = f.real(), fi = f.imag();
+      for (Index i = 0; i < n; ++i) re[i] -= fr * from_re[i] - fi * from_im[i];
+      for (Index i = 0; i < n; ++i) im[i] -= fr * from_im[i] + fi * from_re[i];
+    }
+  }
+
+ private:
+  Real* data_;
+  Index imaginary_;
+};
+
+/// a (n x n, n <= kSmallInverse) := its inverse, Gauss-Jordan with partial pivoting. kSuccess,
+/// kSingular, kNotFinite.
+template <int Parts, class Real, class Size>
+[[nodiscard]] Outcome invert(Real* data, Size n) {
+  using std::isfinite;
+  SplitMatrix<Real, Parts> a(data, n);
+  using Value = typename SplitMatrix<Real, Parts>::Value;
+  typename SplitMatrix<Real, Parts>::Column rest;
+  std::array<Index, static_cast<std::size_t>(kSmallInverse)> pivots;
+  for (Index k = 0; k < n; ++k) {
+    const Index column = k * n;
+    Index pivot = k;
+    Real largest(0), sum(0);
+    for (Index i = 0; i < n; ++i) {
+      const Real size = detail::magnitude(a.get(column + i));
+      sum += size;
+      if (i >= k && size > largest) largest = size, pivot = i;
+    }
+    if (!isfinite(sum)) return Outcome::kNotFinite;
+    if (largest == Real(0)) return Outcome::kSingular;
+    pivots[static_cast<std::size_t>(k)] = pivot;
+    for (Index j = 0; j < n && pivot != k; ++j) a.swap(j * n + k, j * n + pivot);
+    const Value inverse = detail::inverse(a.get(column + k));
+    a.set(column + k, Value(0));
+    a.copy(column, n, rest);
+    for (Index j = 0; j < n; ++j) {
+      if (j == k) continue;
+      const Value f = detail::product(a.get(j * n + k), inverse);
+      a.subtract(j * n, rest, f, n);  // rest[k] = 0
+      a.set(j * n + k, f);            // before it the vector would wait for this number
+    }
+    for (Index i = 0; i < n; ++i) a.set(column + i, detail::product(-a.get(column + i), inverse));
+    a.set(column + k, inverse);
+  }
+  for (Index k = n; k-- > 0;) {
+    const Index pivot = pivots[static_cast<std::size_t>(k)];
+    for (Index i = 0; i < n && pivot != k; ++i) a.swap(k * n + i, pivot * n + i);
+  }
+  return Outcome::kSuccess;
+}
+
+/// y := A y, A m x m by columns, m <= 2 kSmallInverse.
+template <class Real, class Size>
+void multiplySmall(const Real* A, Real* y, Size m) {
+  constexpr auto kMost = static_cast<std::size_t>(2 * kSmallInverse);
+  std::array<Real, kMost> even, odd;  // sums that need not wait for each other
+  for (Index i = 0; i < m; ++i) even[static_cast<std::size_t>(i)] = A[i] * y[0];
+  for (Index i = 0; i < m; ++i) odd[static_cast<std::size_t>(i)] = Real(0);
+  for (Index j = 1; j + 1 < m; j += 2) {
+    for (Index i = 0; i < m; ++i) odd[static_cast<std::size_t>(i)] += A[j * m + i] * y[j];
+    for (Index i = 0; i < m; ++i) {
+      even[static_cast<std::size_t>(i)] += A[(j + 1) * m + i] * y[j + 1];
+    }
+  }
+  if (m % 2 == 0) {
+    for (Index i = 0; i < m; ++i) {
+      odd[static_cast<std::size_t>(i)] += A[(m - 1) * m + i] * y[m - 1];
+    }
+  }
+  for (Index i = 0; i < m; ++i) {
+    y[i] = even[static_cast<std::size_t>(i)] + odd[static_cast<std::size_t>(i)];
+  }
+}
+
+}  // namespace irk

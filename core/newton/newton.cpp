@@ -1,0 +1,331 @@
+#include "core/newton/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/newton/broyden.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// x^n by squaring, n >= 0.
+double power(double x, int n) {
+  double result = 1;
+  for (; n > 0; n /= 2, x *= x) {
+    if (n % 2 == 1) result *= x;
+  }
+  return result;
+}
+
+template <class Real>
+double epsilon() {
+  return static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
+}
+
+// Increments below this many units of round-off cannot be reduced further.
+constexpr double kRoundOffUnits = 10;
+// Increments that stop contracting below this many units of round-off are round-off of the residual.
+constexpr double kStagnationUnits = 1e4;
+
+// Round-off up to this many tolerances is accepted, and told; increments up to so many times the measured
+// round-off are round-off.
+constexpr double kMaxRoundOff = 0.3;
+constexpr double kMeasuredRoundOff = 10;
+// The change of the last digits that shows round-off, in units of it.
+constexpr double kLastDigits = 4;
+
+// Broyden's updates cost dot products: below this contraction of the last step there are too few
+// iterations for them.
+constexpr double kWorthUpdates = 0.1;
+// And for fewer unknowns an iteration costs less than they do (van_der_pol: a tenth of the run).
+constexpr Index kUpdatesFrom = 3;
+
+// Fixed steps iterate to round-off and cannot be shortened: slow convergence is waited for.
+constexpr int kFixedStepFactor = 4;
+
+// Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
+template <class Real>
+double unitRoundOff(const IntegratorOptions& options) {
+  return epsilon<Real>() / std::max(options.tolerances.rtol, options.tolerances.atol);
+}
+
+/// Iterations that share their pieces: residual, solve, update.
+template <class Real>
+class NewtonBase : public Newton<Real> {
+ protected:
+  NewtonBase(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : options_(options),
+        round_off_(unitRoundOff<Real>(options)),
+        first_(scheme.first),
+        R_(sizes.n(), scheme.s),
+        W0_(sizes.n(), scheme.s),
+        row_weights_(sizes.n()) {}
+
+  /// A new step: keeps its start values for restarts.
+  void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
+    W0_ = W;
+    c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
+  }
+
+  /// A new Jacobian where one is asked for, and where there is none.
+  void refresh(NewtonContext<Real>& c, const Mat<Real>& W) {
+    auto& shared = c.matrix.shared();
+    const bool wanted = shared.stale() && c.use == JacobianUse::kRefreshIfStale;
+    if (shared.version() == 0 || wanted) shared.evaluate(c.eq, W);
+  }
+
+  /// R(W); false if not finite.
+  bool residual(NewtonContext<Real>& c, const Mat<Real>& W) { return c.eq.residual(W, R_); }
+
+  /// Solves for the increment, applies it, and returns its norm; NaN if not finite.
+  template <class Matrix>
+  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W,
+                BroydenUpdates<Real>* updates = nullptr) {
+    matrix.solve(R_.rightCols(R_.cols() - first_));
+    VecView<Real> increment = implicit();
+    if (updates) updates->apply(increment);
+    VecView<Real>(W.col(first_).data(), increment.size()) -= increment;
+    return c.norm.increment(R_, first_, row_weights_);
+  }
+  VecView<Real> implicit() {
+    return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)};
+  }
+
+  const IntegratorOptions& options_;
+  double round_off_;
+  Index first_;
+  Mat<Real> R_;   // residual, then increment
+  Mat<Real> W0_;  // start values, for restarts
+  Vec<double> row_weights_;
+};
+
+/// HW II (IV.8): simplified Newton with the increment test
+///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
+/// The last step's eta, raised to 0.8, stands in for the first iteration, where theta is unknown.
+/// With Broyden's updates the theta that is reported is the first one, the matrix' own.
+template <class Real>
+class SimplifiedNewton final : public NewtonBase<Real> {
+  using Base = NewtonBase<Real>;
+
+ public:
+  SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes,
+                   const Scheme<Real>& scheme)
+      : Base(options, sizes, scheme) {
+    // kappa shrinks with s: at high order a loose stage equation spoils the step. theory.md.
+    const double floor = kRoundOffUnits * this->round_off_;
+    const double s = static_cast<double>(scheme.s);
+    const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
+    const double kappa = options.newton.kappa;
+    kappa_ = std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1))));
+    adaptive_ = options.step.control != StepControl::kFixed;
+    if (options.newton.kind == NewtonKind::kBroyden && sizes.n() >= kUpdatesFrom) {
+      updates_.emplace(sizes.n(), scheme.implicitStages());
+    }
+  }
+
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    auto& shared = c.matrix.shared();
+    this->refresh(c, W);
+    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
+    this->begin(c, W);
+    NewtonResult result = iterate(c, W);
+    if (result.outcome != Outcome::kSuccess && had_old) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      shared.evaluate(c.eq, W);
+      const int before = result.iterations;
+      result = iterate(c, W);
+      result.iterations += before;
+    }
+    if (result.outcome != Outcome::kSuccess || result.theta > this->options_.newton.keep_jacobian_below) {
+      shared.markStale();
+    }
+    return result;
+  }
+  void forget() override { eta_ = theta_ = 1; }
+
+ private:
+  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W) {
+    NewtonResult result;
+    result.outcome = c.matrix.prepare(c.eq.h());
+    if (result.outcome != Outcome::kSuccess) return result;
+    const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
+    double eta = std::pow(std::max(eta_, epsilon<Real>()), 0.8);
+    double previous = 0;
+    if (updates_) updates_->begin(theta_ > kWorthUpdates);
+    for (int m = 0; m < limit; ++m) {
+      ++result.iterations;
+      ++c.counters.newton_iterations;
+      if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+      const double norm = this->update(c, c.matrix, W, updates_ ? &*updates_ : nullptr);
+      if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
+      if (m > 0) {
+        const double theta = previous > 0 ? norm / previous : 0;
+        if (!updates_ || m == 1) result.theta = theta_ = theta;
+        // At round-off increments no longer contract; above it this is divergence.
+        if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+        eta = theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
+        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa_;
+        if (theta >= 0.99 || slow) {
+          if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
+          result.round_off = norm;
+          return result;
+        }
+      }
+      if (eta * norm <= kappa_ || norm <= kRoundOffUnits * this->round_off_) {
+        eta_ = eta;
+        return result;
+      }
+      previous = norm;
+      if (updates_) updates_->learn(this->implicit(), this->row_weights_);
+    }
+    return fail(result, Outcome::kNewtonFailed);
+  }
+  // Whether an increment that no longer contracts is round-off of the residual: the part of the increment
+  // that is not explained by a change of w in the last digits of what it is added to. A residual with a
+  // singular matrix in front of k, or with large terms that cancel, has much more than eps.
+  bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, double norm) {
+    if (!adaptive_ || !(norm <= kMaxRoundOff) || !this->residual(c, W)) return false;
+    const Mat<Real> before = this->R_;
+    const Mat<Real> change = lastDigits(c, W);
+    if (!this->residual(c, W + change)) return false;
+    this->R_ -= before;
+    c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
+    this->R_ -= change;
+    const double floor = c.norm.increment(this->R_, this->first_, this->row_weights_);
+    return norm <= kMeasuredRoundOff * floor;
+  }
+  // Of w, and of the u, v, x that h^2 a, h a and h k are added to; with alternating signs.
+  static Mat<Real> lastDigits(const NewtonContext<Real>& c, const Mat<Real>& W) {
+    using std::abs;
+    const State<Real>& from = c.eq.from();
+    const Index nu = from.u.size(), nx = from.x.size();
+    const Real h = c.eq.h(), eps = Real(kLastDigits) * Eigen::NumTraits<Real>::epsilon();
+    Mat<Real> change(W.rows(), W.cols());
+    for (Index j = 0; j < W.cols(); ++j) {
+      for (Index i = 0; i < W.rows(); ++i) {
+        Real size = abs(W(i, j));
+        if (i < nu) size += abs(from.v[i]) / h + abs(from.u[i]) / (h * h);
+        if (i >= nu && i < nu + nx) size += abs(from.x[i - nu]) / h;
+        change(i, j) = (i + j) % 2 == 0 ? Real(eps * size) : Real(-eps * size);
+      }
+    }
+    return change;
+  }
+  NewtonResult fail(NewtonResult result, Outcome outcome) {
+    forget();
+    result.outcome = outcome;
+    return result;
+  }
+
+  double kappa_;
+  bool adaptive_;
+  std::optional<BroydenUpdates<Real>> updates_;
+  double eta_ = 1, theta_ = 1;
+};
+
+/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
+/// the iteration as well: then the residual cannot shrink by the asked factor.
+template <class Real>
+class ResidualNewton final : public NewtonBase<Real> {
+  using Base = NewtonBase<Real>;
+
+ public:
+  ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : Base(options, sizes, scheme) {}
+
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    this->begin(c, W);
+    if (this->options_.newton.kind == NewtonKind::kFull) {
+      return iterate(c, W, kStagewise);
+    }
+    auto& shared = c.matrix.shared();
+    this->refresh(c, W);
+    c.stagewise.reserve();
+    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
+    NewtonResult result = iterate(c, W, kKept);
+    int before = result.iterations;
+    if (result.outcome != Outcome::kSuccess && had_old) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      shared.evaluate(c.eq, W);
+      result = iterate(c, W, kKept);
+      result.iterations += before;
+      before = result.iterations;
+    }
+    if (result.outcome != Outcome::kSuccess) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      result = iterate(c, W, kStagewise);
+      result.iterations += before;
+    }
+    if (result.outcome != Outcome::kSuccess) shared.markStale();
+    return result;
+  }
+
+ private:
+  enum Jacobian { kKept, kStagewise };
+
+  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W, Jacobian jacobian) {
+    const NewtonOptions& o = this->options_.newton;
+    NewtonResult result;
+    if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+    const double eps0 = residualNorm();
+    double eps = eps0;
+    if (eps0 == 0) return result;
+    for (int i = 1; i <= o.max_iterations; ++i) {
+      ++result.iterations;
+      ++c.counters.newton_iterations;
+      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W)
+                                              : c.matrix.prepare(c.eq.h());
+      if (result.outcome != Outcome::kSuccess) return result;
+      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W)
+                                                 : this->update(c, c.matrix, W);
+      if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+      const double previous = eps;
+      eps = residualNorm();
+      result.theta = eps / previous;
+      if (eps <= o.residual_tolerance * eps0) return result;
+      if (norm <= kRoundOffUnits * this->round_off_) return result;
+      if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+      // (3.4). Full Newton is the last resort and uses all its iterations.
+      if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
+        return fail(result, Outcome::kNewtonFailed);
+      }
+    }
+    return fail(result, Outcome::kNewtonFailed);
+  }
+  double residualNorm() const { return static_cast<double>(Real(this->R_.norm())); }
+  static NewtonResult fail(NewtonResult result, Outcome outcome) {
+    result.outcome = outcome;
+    return result;
+  }
+};
+
+}  // namespace
+
+template <class Real>
+std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
+                                         const Scheme<Real>& scheme) {
+  switch (options.newton.kind) {
+    case NewtonKind::kSimplified:
+    case NewtonKind::kBroyden:
+      return std::make_unique<SimplifiedNewton<Real>>(options, sizes, scheme);
+    case NewtonKind::kModified:
+    case NewtonKind::kFull:
+      return std::make_unique<ResidualNewton<Real>>(options, sizes, scheme);
+  }
+  return nullptr;
+}
+
+template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&,
+                                                    const Scheme<double>&);
+template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&,
+                                                  const Scheme<mp50>&);
+template std::unique_ptr<Newton<mp100>> makeNewton(const IntegratorOptions&, const Sizes&,
+                                                   const Scheme<mp100>&);
+
+}  // namespace irk

@@ -1,0 +1,195 @@
+#include "irk/options.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/base/text.h"
+
+namespace irk {
+namespace {
+
+constexpr Named<Formulation> kFormulations[] = {
+    {Formulation::kIndex2, "index2", "constraints differentiated once, rows scaled by 1/h (paper)"},
+    {Formulation::kIndex3, "index3", "position constraints as they are, rows scaled by 1/h^2"},
+    {Formulation::kGgl, "ggl", "stabilised index 2: g = 0 and dg/dt = 0, u' = v + G^T mu"},
+    {Formulation::kIndex2Projected, "index2_projected", "index 2, v projected after each step"},
+    {Formulation::kIndex1, "index1", "constraints differentiated twice"},
+    {Formulation::kFirstOrder, "first_order",
+     "y' = f(t, y): index 1 solved for (a, k), M factorized in every evaluation"}};
+constexpr Named<Discontinuity> kDiscontinuities[] = {
+    {Discontinuity::kLocate, "locate", "the root of a switching function ends the step; restart"},
+    {Discontinuity::kIgnore, "ignore", "jumps are left to the error estimate (paper)"},
+    {Discontinuity::kIterate, "iterate", "modes frozen in Newton, updated after it, step repeated"},
+    {Discontinuity::kSmooth, "smooth", "the scene's regularisation"}};
+constexpr Named<ConstraintScaling> kScalings[] = {
+    {ConstraintScaling::kOn, "on", "constraint rows multiplied by 1/h or 1/h^2 (paper)"},
+    {ConstraintScaling::kOff, "off", "constraint rows as they are"}};
+constexpr Named<DerivativeSource> kSources[] = {
+    {DerivativeSource::kAutomatic, "automatic", "dual numbers, exact"},
+    {DerivativeSource::kCentral, "difference_central", "central differences"},
+    {DerivativeSource::kForward, "difference_forward", "forward differences (paper)"}};
+constexpr Named<NewtonKind> kNewtons[] = {
+    {NewtonKind::kSimplified, "simplified", "increment test in the error norm, HW II (IV.8)"},
+    {NewtonKind::kBroyden, "broyden", "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on"},
+    {NewtonKind::kModified, "modified", "the paper's, with its restart and fallback rules"},
+    {NewtonKind::kFull, "full", "a new stage-wise Jacobian in every iteration"}};
+constexpr Named<StageSolverKind> kSolvers[] = {
+    {StageSolverKind::kSchur, "schur", "real Schur form of A: s/2 complex n x n systems"},
+    {StageSolverKind::kEigen, "eigen", "eigenvectors of A: s/2 complex n x n systems, cheapest"},
+    {StageSolverKind::kCoupledDense, "coupled_dense", "one LU of the s n x s n matrix (paper)"},
+    {StageSolverKind::kCoupledSparse, "coupled_sparse", "one sparse LU of the s n x s n matrix"}};
+constexpr Named<Storage> kStorages[] = {
+    {Storage::kAutomatic, "automatic", "sparse where the system is large and sparse enough"},
+    {Storage::kDense, "dense", "dense matrices, their derivatives coloured all the same"},
+    {Storage::kSparse, "sparse", "compressed columns, pivots by KLU; scalar double only"}};
+constexpr Named<Predictor> kPredictors[] = {
+    {Predictor::kExtrapolated, "extrapolated", "collocation polynomial of the step before"},
+    {Predictor::kPrevious, "previous", "stages of the step before (paper)"},
+    {Predictor::kAcceleration, "acceleration", "(a, k, z) at the step's start"}};
+constexpr Named<ErrorEstimate> kEstimates[] = {
+    {ErrorEstimate::kRichardson, "richardson",
+     "doubling, each component with its own order; sees switches"},
+    {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
+    {ErrorEstimate::kDoublingScalar, "doubling_scalar", "difference of the norms (HOTINT)"},
+    {ErrorEstimate::kEmbedded, "embedded", "an embedded method of order s: one real solve, HW II (IV.8)"},
+    {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
+constexpr Named<StepControl> kControls[] = {
+    {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
+    {StepControl::kPaper, "paper", "section 6 of the paper"},
+    {StepControl::kHotint, "hotint", "the paper's, as the later source has it"},
+    {StepControl::kFixed, "fixed", "constant steps"}};
+constexpr Named<OrderControl> kOrders[] = {
+    {OrderControl::kFixed, "fixed", "one number of stages"},
+    {OrderControl::kVariable, "variable", "the method's family, up to max_stages: the least work per unit step"}};
+constexpr Named<Summation> kSummations[] = {
+    {Summation::kCompensated, "compensated", "additions of increments keep what they lose"},
+    {Summation::kPlain, "plain", "round-off accumulates"}};
+constexpr Named<Multipliers> kMultipliers[] = {
+    {Multipliers::kConsistent, "consistent", "at the end solved anew from (u, v, x)"},
+    {Multipliers::kStages, "stages", "at the end what the last step gives"}};
+constexpr Named<JacobianPoint> kPoints[] = {
+    {JacobianPoint::kStart, "start", "at the step's start (paper)"},
+    {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},
+    {JacobianPoint::kPredicted, "predicted", "at the start values' stage nearest to t0 + 0.6 h"},
+    {JacobianPoint::kEachStage, "each_stage", "at the stages' start values; coupled solvers only"}};
+constexpr Named<JacobianTerms> kTerms[] = {
+    {JacobianTerms::kFull, "full", "everything"},
+    {JacobianTerms::kNoMassVxz, "no_mass_vxz", "(4.4): without d(M a)/d(v, x, z)"},
+    {JacobianTerms::kNoConstraintXz, "no_constraint_xz", "(4.5): without dG/d(x, z)"},
+    {JacobianTerms::kNoMass, "no_mass", "(4.4) and (4.8): without d(M a)/d(u, v, x, z)"},
+    {JacobianTerms::kConstantStiffness, "constant_stiffness", "(4.7): dF2/du evaluated once"}};
+constexpr Named<NormKind> kNorms[] = {
+    {NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
+    {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
+
+constexpr int kMostThreads = 1024;
+
+std::string text(double x) {
+  std::ostringstream s;
+  s << x;
+  return s.str();
+}
+
+void require(bool legal, std::string_view field, double value, std::string_view range) {
+  if (!legal) {
+    throw Misuse(std::string(field) + " = " + text(value) +
+                 " is out of range: " + std::string(range));
+  }
+}
+
+}  // namespace
+
+#define IRK_AXIS(E, table, axis)                \
+  template <>                                   \
+  std::span<const Named<E>> named<E>() {        \
+    return table;                               \
+  }                                             \
+  template <>                                   \
+  std::string_view axisName<E>() {              \
+    return axis;                                \
+  }                                             \
+  template <>                                   \
+  E parseId<E>(std::string_view id) {           \
+    std::vector<std::string> known;             \
+    for (const auto& entry : table) {           \
+      if (entry.id == id) return entry.value;   \
+      known.emplace_back(entry.id);             \
+    }                                           \
+    throw Misuse(unknownName(axis, id, known)); \
+  }
+
+IRK_AXIS(Formulation, kFormulations, "formulation")
+IRK_AXIS(ConstraintScaling, kScalings, "scaling")
+IRK_AXIS(DerivativeSource, kSources, "derivatives")
+IRK_AXIS(NewtonKind, kNewtons, "newton")
+IRK_AXIS(StageSolverKind, kSolvers, "solver")
+IRK_AXIS(Storage, kStorages, "storage")
+IRK_AXIS(Predictor, kPredictors, "predictor")
+IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
+IRK_AXIS(StepControl, kControls, "control")
+IRK_AXIS(OrderControl, kOrders, "order")
+IRK_AXIS(Summation, kSummations, "summation")
+IRK_AXIS(Multipliers, kMultipliers, "multipliers")
+IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
+IRK_AXIS(JacobianTerms, kTerms, "jacobian")
+IRK_AXIS(Discontinuity, kDiscontinuities, "discontinuity")
+IRK_AXIS(NormKind, kNorms, "norm")
+#undef IRK_AXIS
+
+Storage storageOf(const IntegratorOptions& options) {
+  switch (options.solver) {
+    case StageSolverKind::kCoupledDense:
+      return Storage::kDense;
+    case StageSolverKind::kCoupledSparse:
+      return Storage::kSparse;
+    case StageSolverKind::kSchur:
+    case StageSolverKind::kEigen:
+      break;
+  }
+  return options.storage;
+}
+
+void validate(const IntegratorOptions& o) {
+  const auto& tol = o.tolerances;
+  require(tol.rtol >= 0 && tol.rtol < 1, "rtol", tol.rtol, "0 <= rtol < 1");
+  require(tol.atol > 0 && std::isfinite(tol.atol), "atol", tol.atol, "atol > 0");
+  const auto& newton = o.newton;
+  require(newton.residual_tolerance > 0 && newton.residual_tolerance < 1,
+          "newton.residual_tolerance", newton.residual_tolerance, "0 < tol < 1");
+  require(newton.contractivity_limit > 0 && newton.contractivity_limit <= 1,
+          "newton.contractivity_limit", newton.contractivity_limit, "0 < limit <= 1");
+  require(newton.contractivity_after >= 0, "newton.contractivity_after", newton.contractivity_after,
+          "an integer >= 0");
+  require(newton.max_iterations >= 1, "newton.max_iterations", newton.max_iterations,
+          "an integer >= 1");
+  require(newton.kappa >= 0 && std::isfinite(newton.kappa), "newton.kappa", newton.kappa,
+          "kappa >= 0");
+  require(newton.keep_jacobian_below >= 0 && newton.keep_jacobian_below < 1,
+          "newton.keep_jacobian_below", newton.keep_jacobian_below, "0 <= theta < 1");
+  const auto& step = o.step;
+  const bool fixed = step.control == StepControl::kFixed;
+  require(fixed ? step.h > 0 && std::isfinite(step.h) : step.h >= 0 && std::isfinite(step.h),
+          "step", step.h, fixed ? "step > 0" : "step >= 0 (0 = automatic)");
+  require(step.h_min >= 0 && std::isfinite(step.h_min), "h_min", step.h_min, "h_min >= 0");
+  require(step.h_max > 0, "h_max", step.h_max, "h_max > 0");
+  require(step.max_steps > 0, "max_steps", static_cast<double>(step.max_steps), "an integer > 0");
+  require(step.s_min > 1, "s_min", step.s_min, "s_min > 1");
+  require(step.change_at_least > 1, "change_at_least", step.change_at_least, "> 1");
+  require(step.growth_at_most > 1, "growth_at_most", step.growth_at_most, "> 1");
+  require(o.threads >= 1 && o.threads <= kMostThreads, "threads", o.threads,
+          "an integer in [1, 1024]");
+  const bool own = o.solver == StageSolverKind::kCoupledDense ||
+                   o.solver == StageSolverKind::kCoupledSparse;
+  if (own && o.storage != Storage::kAutomatic && o.storage != storageOf(o)) {
+    throw Misuse("illegal combination: solver '" + std::string(idOf(o.solver)) +
+                 "' with storage '" + std::string(idOf(o.storage)) + "'");
+  }
+  if (!fixed && step.estimate == ErrorEstimate::kNone) {
+    throw Misuse("illegal combination: control '" + std::string(idOf(step.control)) +
+                 "' with estimate 'none': a step controller needs an error estimate");
+  }
+}
+
+}  // namespace irk

@@ -1,0 +1,27 @@
+// The paper's stage solver: one LU of the s n x s n Newton matrix.
+#pragma once
+
+#include "core/linear/dense_lu.h"
+#include "core/linear/sparse_lu.h"
+#include "core/stage_solvers/stage_solver.h"
+
+namespace irk {
+
+/// Lu: DenseLu or SparseLu.
+template <class Real, template <class> class Lu>
+class Coupled final : public StageSolver<Real> {
+ public:
+  explicit Coupled(const StageSolverSetup<Real>& setup);
+  Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
+  void solve(Eigen::Ref<Mat<Real>> rhs) override;
+  bool stagewise() const override { return true; }
+
+ private:
+  StageSolverSetup<Real> setup_;
+  Mat<Real> A2_;
+  Vec<Real> scales_;
+  Vec<Real> flat_;
+  Lu<Real> lu_;
+};
+
+}  // namespace irk

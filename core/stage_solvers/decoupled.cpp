@@ -1,0 +1,284 @@
+#include "core/stage_solvers/decoupled.h"
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+
+#include "core/base/small_product.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Two ways to an eigenvalue of A, Schur's form and eigenvectors, differ by some units of round-off.
+constexpr double kSameEigenvalue = 1e4;
+
+}  // namespace
+
+template <class Real, template <class> class Lu>
+Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form)
+    : setup_(setup),
+      form_(std::move(form)),
+      T2_(form_.T * form_.T),
+      to_basis_(form_.Q_inverse.transpose()),
+      from_basis_(form_.Q.transpose()),
+      outcomes_(form_.blocks.size()),
+      small_(std::is_same_v<Lu<double>, DenseLu<double>> && std::is_same_v<Real, double> &&
+             setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
+      scales_(setup.pattern->n),
+      Y_(setup.pattern->n, setup.A.rows()),
+      D1Y_(setup.pattern->n, setup.A.rows()),
+      D2Y_(setup.pattern->n, setup.A.rows()),
+      eta_(setup.pattern->n) {
+  const auto add = [&](const auto& shape) {
+    if (small_) return;
+    for (const auto& block : form_.blocks) {
+      lu_index_.push_back(block.size == 1 ? real_lu_.size() : complex_lu_.size());
+      if (block.size == 1) {
+        real_lu_.emplace_back(shape);
+      } else {
+        complex_lu_.emplace_back(shape);
+      }
+    }
+  };
+  for (const auto& block : form_.blocks) {
+    const Index size = small_ ? block.size * setup.pattern->n : 0;
+    inverses_.emplace_back(size * size);
+  }
+  if constexpr (kSparse) {
+    const auto analysis = setup.analysis ? setup.analysis
+                                         : std::make_shared<const SparseAnalysis>(
+                                               setup.pattern->column_start, setup.pattern->row);
+    add(analysis);
+    analysis->reserve(pivots_);
+    if (!form_.diagonal || form_.blocks.size() == 1) return;
+    together_.emplace(*analysis, form_.blocks.size());
+    for (const Index size : {1, 2}) {  // the real ones first
+      for (const auto& block : form_.blocks) {
+        if (block.size != size) continue;
+        double* const re = Y_.col(block.start).data();
+        double* const im = size == 1 ? nullptr : re + Y_.rows();
+        lanes_.push_back({re, im, block.sigma, 1 / block.sigma});
+      }
+    }
+  } else {
+    add(setup.pattern->n);
+  }
+}
+
+// The blocks are independent of each other: any number of threads gives the same bits. Sparse ones try the
+// pivots of the first.
+template <class Real, template <class> class Lu>
+Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, const Real& h) {
+  at_ = &at.front();
+  h_ = h;
+  rowScales(setup_.row_powers, h, scales_);
+  const std::size_t blocks = form_.blocks.size();
+  std::size_t done = 0;
+  if constexpr (kSparse) {
+    if (version_ == 0) outcomes_[done++] = factorizeBlock(0);
+    const auto copy = [this](const auto& first) {
+      news_ = version_ != first.version();
+      if (news_) pivots_ = first.pivots();
+      version_ = first.version();
+    };
+    form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
+  }
+  if (setup_.threads > 1) {
+#pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
+    for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
+  } else {
+    for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
+  }
+  const auto failed = std::find_if(outcomes_.begin(), outcomes_.end(),
+                                   [](Outcome o) { return o != Outcome::kSuccess; });
+  if (failed != outcomes_.end()) return *failed;
+  if constexpr (kSparse) gathered_ = together_ && together_->assign(real_lu_, complex_lu_);
+  return Outcome::kSuccess;
+}
+
+template <class Real, template <class> class Lu>
+Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
+  const auto& block = form_.blocks[index];
+  const Linearization<Real>& D = *at_;
+  const auto fill = [&](const auto& set) {
+    const Complex m1 = h_ * block.mu;
+    const Complex m2 = m1 * m1;
+    setup_.pattern->forEach([&](Index k, Index row) {
+      set(k, Real(scales_[row] * (D.d0[k] + m1.real() * D.d1[k] + m2.real() * D.d2[k])),
+          Real(scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k])));
+    });
+  };
+  const auto factorized = [this](auto& lu) {
+    if constexpr (kSparse) {
+      return lu.factorize(version_ == 0 ? nullptr : &pivots_, news_);
+    } else {
+      return lu.factorize();
+    }
+  };
+  if (small_) return invertBlock(index);
+  if (block.size == 1) {
+    auto& lu = real_lu_[lu_index_[index]];
+    fill([values = lu.values()](Index k, const Real& x, const Real&) { values[k] = x; });
+    return factorized(lu);
+  }
+  auto& lu = complex_lu_[lu_index_[index]];
+  fill([values = lu.values()](Index k, const Real& x, const Real& y) { values[k] = Complex(x, y); });
+  return factorized(lu);
+}
+
+// M by entries, then by the rows that are scaled: loops that become vector instructions. With
+// M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
+// [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
+template <class Real, template <class> class Lu>
+Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) {
+  const auto& block = form_.blocks[index];
+  Real* const inverse = inverses_[index].data();
+  const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
+  const Complex m1 = h_ * block.mu;
+  const Complex m2 = detail::product(m1, m1);
+  return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) {
+    std::array<Real, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse)> split;
+    Real *const re = split.data(), *const im = re + n * n;
+    for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
+    for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
+    for (Index i = 0; i < n; ++i) {
+      if (setup_.row_powers[static_cast<std::size_t>(i)] == 0) continue;
+      for (Index k = i; k < 2 * n * n; k += n) re[k] *= scales_[i];
+    }
+    if (block.size == 1) {
+      const Outcome outcome = invert<1>(re, n);
+      std::copy_n(re, n * n, inverse);
+      return outcome;
+    }
+    const Outcome outcome = invert<2>(re, n);
+    const Real divided = Real(1) / block.sigma;
+    for (Index j = 0; j < n; ++j) {
+      const Real *const P = split.data() + j * n, *const Q = P + n * n;
+      Real *const left = inverse + j * 2 * n, *const right = left + 2 * n * n;
+      for (Index i = 0; i < n; ++i) {
+        left[i] = right[n + i] = P[i];
+        left[n + i] = divided * Q[i];
+        right[i] = -block.sigma * Q[i];
+      }
+    }
+    return outcome;
+  });
+}
+
+// Subtracts what the blocks right of this one, already solved, contribute to its rows.
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& block) {
+  const Index n = Y_.rows();
+  for (Index i = block.start; i < block.start + block.size; ++i) {
+    Real* const y = Y_.data() + i * n;
+    for (Index m = block.start + block.size; m < Y_.cols(); ++m) {
+      const Real f1 = h_ * form_.T(i, m);
+      const Real f2 = h_ * h_ * T2_(i, m);
+      const Real *const d1 = D1Y_.data() + m * n, *const d2 = D2Y_.data() + m * n;
+      for (Index k = 0; k < n; ++k) y[k] -= f1 * d1[k] + f2 * d2[k];
+    }
+  }
+}
+
+// D1 and D2 times a column of Y. D1 acts on (v, x), D2 on u: their other columns are zero.
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::multiply(Index column) {
+  const Index nu = setup_.sizes.nu, rates = nu + setup_.sizes.nx;
+  auto D1y = D1Y_.col(column);
+  auto D2y = D2Y_.col(column);
+  const auto y = Y_.col(column);
+  if constexpr (kSparse) {
+    const Pattern& pattern = *setup_.pattern;
+    D1y.setZero();
+    D2y.setZero();
+    for (Index j = 0; j < rates; ++j) {
+      const auto c = static_cast<std::size_t>(j);
+      for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+        const Index row = pattern.row[static_cast<std::size_t>(k)];
+        D1y[row] += at_->d1[k] * y[j];
+        D2y[row] += at_->d2[k] * y[j];
+      }
+    }
+  } else {
+    const Index n = Y_.rows();
+    const auto times = [n, &y](const Vec<Real>& D, Index columns, Real* out) {
+      std::fill_n(out, n, Real(0));
+      for (Index j = 0; j < columns; ++j) detail::subtract(out, D.data() + j * n, Real(-y[j]), n);
+    };
+    times(at_->d1, rates, D1y.data());
+    times(at_->d2, nu, D2y.data());
+  }
+  D1y.array() *= scales_.array();
+  D2y.array() *= scales_.array();
+}
+
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
+  const auto& block = form_.blocks[index];
+  const Index i = block.start;
+  if (small_) {
+    withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
+      Real* const y = Y_.data() + i * n;
+      const Real* const inverse = inverses_[index].data();
+      if (block.size == 1) {
+        multiplySmall(inverse, y, n);
+      } else if constexpr (std::is_same_v<decltype(n), Index>) {
+        multiplySmall(inverse, y, 2 * n);
+      } else {
+        multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
+      }
+    });
+    return;
+  }
+  if (block.size == 1) {
+    real_lu_[lu_index_[index]].solve(Y_.col(i).data());
+    return;
+  }
+  for (Index k = 0; k < Y_.rows(); ++k) {
+    eta_[k] = Complex(Y_(k, i), Real(block.sigma * Y_(k, i + 1)));
+  }
+  complex_lu_[lu_index_[index]].solve(eta_.data());
+  for (Index k = 0; k < Y_.rows(); ++k) {
+    Y_(k, i) = eta_[k].real();
+    Y_(k, i + 1) = eta_[k].imag() / block.sigma;
+  }
+}
+
+template <class Real, template <class> class Lu>
+bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
+  using std::abs;
+  const Real most = Real(kSameEigenvalue) * Eigen::NumTraits<Real>::epsilon() * abs(mu);
+  for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
+    const auto& block = form_.blocks[k];
+    if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
+    if (small_) {
+      withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[k].data(), x, n); });
+    } else {
+      real_lu_[lu_index_[k]].solve(x);
+    }
+    return true;
+  }
+  return false;
+}
+
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
+  smallProduct<Real>(rhs, to_basis_, Y_);
+  if (gathered_) together_->solve(lanes_);
+  for (std::size_t k = form_.blocks.size(); k-- > 0 && !gathered_;) {
+    const auto& block = form_.blocks[k];
+    if (!form_.diagonal) coupleRows(block);
+    solveBlock(k);
+    if (form_.diagonal || k == 0) continue;
+    for (Index j = block.start; j < block.start + block.size; ++j) multiply(j);
+  }
+  smallProduct<Real>(Y_, from_basis_, rhs);
+}
+
+template class Decoupled<double, DenseLu>;
+template class Decoupled<mp50, DenseLu>;
+template class Decoupled<mp100, DenseLu>;
+template class Decoupled<double, SparseLu>;
+
+}  // namespace irk

@@ -1,0 +1,62 @@
+// Stage solvers in a basis in which A is (block) triangular or (block) diagonal: about s/2 complex
+// systems D0 + h mu D1 + h^2 mu^2 D2 of size n, mu an eigenvalue of A. HW II (IV.8).
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "core/linear/block_form.h"
+#include "core/linear/dense_lu.h"
+#include "core/linear/interleaved_lu.h"
+#include "core/linear/small_inverse.h"
+#include "core/linear/sparse_lu.h"
+#include "core/stage_solvers/stage_solver.h"
+
+namespace irk {
+
+/// Lu: DenseLu, or SparseLu with one analysis for all blocks and step sizes.
+template <class Real, template <class> class Lu>
+class Decoupled final : public StageSolver<Real> {
+ public:
+  Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form);
+  Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
+  void solve(Eigen::Ref<Mat<Real>> rhs) override;
+  bool stagewise() const override { return false; }
+  bool solveReal(const Real& mu, Real* x) override;
+
+ private:
+  using Complex = std::complex<Real>;
+  static constexpr bool kSparse = std::is_same_v<Lu<Real>, SparseLu<Real>>;
+  Outcome factorizeBlock(std::size_t index);
+  void coupleRows(const typename BlockForm<Real>::Block& block);
+  void multiply(Index column);
+  void solveBlock(std::size_t index);
+  Outcome invertBlock(std::size_t index);
+
+  StageSolverSetup<Real> setup_;
+  BlockForm<Real> form_;
+  Mat<Real> T2_;
+  Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
+  std::vector<Lu<Real>> real_lu_;        // by block, in order of the real ones
+  std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
+  std::vector<std::size_t> lu_index_;
+  SparsePivots pivots_;  // of the first block, if sparse, as the others get to know them:
+  int version_ = 0;      // at the beginning of a factorization, but in the first one
+  bool news_ = false;    // since the factorization before
+  std::optional<InterleavedLu> together_;  // all of them, where the blocks are sparse and do not couple
+  std::vector<InterleavedLu::Lane> lanes_;
+  bool gathered_ = false;
+  std::vector<Outcome> outcomes_;  // by block
+  bool small_;  // blocks are inverted, see small_inverse.h; not worth it for one stage
+  std::vector<Vec<Real>> inverses_;  // by block: as real matrices of size n or 2n
+  const Linearization<Real>* at_ = nullptr;
+  Real h_{};
+  Vec<Real> scales_;
+  Mat<Real> Y_;           // transformed right-hand side and solution, n x s
+  Mat<Real> D1Y_, D2Y_;   // D1 and D2 times the solved columns of Y (Schur only)
+  Vec<Complex> eta_;
+};
+
+}  // namespace irk

@@ -1,0 +1,99 @@
+// The linear systems of Newton's method: block (i, j) = delta_ij D0 + h A_ij D1 + h^2 (A^2)_ij D2.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/derivatives/differentiator.h"
+#include "core/linear/block_form.h"
+#include "core/linear/sparse_lu.h"
+#include "irk/options.h"
+#include "irk/outcome.h"
+#include "irk/statistics.h"
+
+namespace irk {
+
+/// What a stage solver needs to know when it is built.
+template <class Real>
+struct StageSolverSetup {
+  Mat<Real> A;  ///< of the implicit stages, s x s
+  std::shared_ptr<const Pattern> pattern;
+  std::vector<int> row_powers;  ///< row i of every block is multiplied by h^-power[i]
+  Sizes sizes;
+  int threads = 1;  ///< for the factorizations of independent blocks
+  /// Of the pattern, where it is sparse, and of A; each made anew where it is missing.
+  std::shared_ptr<const SparseAnalysis> analysis = nullptr;
+  std::shared_ptr<const BlockForm<Real>> form = nullptr;
+};
+
+/// Owns its factors and scratch: one per thread. Allocates only in its constructor (sparse ones also where
+/// new pivots fill much more).
+template <class Real>
+class StageSolver {
+ public:
+  virtual ~StageSolver() = default;
+
+  /// From one linearization shared by all stages, or (coupled solvers) one per stage.
+  /// kSuccess, kSingular, or kNotFinite. After a failure `solve` must not be called.
+  [[nodiscard]] virtual Outcome factorize(std::span<const Linearization<Real>> at,
+                                          const Real& h) = 0;
+
+  /// In place: right-hand side (scaled rows) to solution, n x s, column j = stage j.
+  virtual void solve(Eigen::Ref<Mat<Real>> rhs) = 0;
+
+  /// Whether `factorize` takes one linearization per stage.
+  virtual bool stagewise() const = 0;
+
+  /// Solves with D0 + h mu D1 + h^2 mu^2 D2, x of n entries in place, where that system of a real mu is
+  /// one of those it has factorized; else false, and x as it was.
+  [[nodiscard]] virtual bool solveReal(const Real& mu, Real* x) {
+    static_cast<void>(mu);
+    static_cast<void>(x);
+    return false;
+  }
+};
+
+/// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the
+/// kind cannot treat A (`eigen` with a defective A) or the pattern.
+template <class Real>
+std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
+                                                   const StageSolverSetup<Real>& setup);
+
+/// Counts factorizations and solves of another solver.
+template <class Real>
+class CountingStageSolver final : public StageSolver<Real> {
+ public:
+  CountingStageSolver(std::unique_ptr<StageSolver<Real>> inner, Counters& counters)
+      : inner_(std::move(inner)), counters_(counters) {}
+  Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override {
+    ++counters_.factorizations;
+    return inner_->factorize(at, h);
+  }
+  void solve(Eigen::Ref<Mat<Real>> rhs) override {
+    ++counters_.solves;
+    inner_->solve(rhs);
+  }
+  bool stagewise() const override { return inner_->stagewise(); }
+  bool solveReal(const Real& mu, Real* x) override {
+    const bool solved = inner_->solveReal(mu, x);
+    counters_.solves += solved;
+    return solved;
+  }
+
+ private:
+  std::unique_ptr<StageSolver<Real>> inner_;
+  Counters& counters_;
+};
+
+/// h^-power per row.
+template <class Real>
+void rowScales(const std::vector<int>& powers, const Real& h, Vec<Real>& scales) {
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    Real f(1);
+    for (int p = 0; p < powers[i]; ++p) f = f / h;
+    scales[static_cast<Index>(i)] = f;
+  }
+}
+
+}  // namespace irk

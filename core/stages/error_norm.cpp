@@ -1,0 +1,161 @@
+#include "core/stages/error_norm.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/small_size.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+double square(double x) { return x * x; }
+
+// h^power, power a small integer >= 0.
+double powerOf(double h, int power) {
+  double f = 1;
+  for (int i = 0; i < power; ++i) f *= h;
+  return f;
+}
+
+}  // namespace
+
+
+template <class Real>
+ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances,
+                           const Vec<double>& scale)
+    : sizes_(system.sizes()),
+      powers_(system.errorPowers()),
+      tolerances_(tolerances),
+      scale_(scale.size() == 0 ? Vec<double>::Ones(sizes_.components()) : scale),
+      weight_(Vec<double>::Ones(sizes_.components())) {
+  if (scale_.size() != sizes_.components()) {
+    throw Misuse("scale has " + std::to_string(scale_.size()) + " entries, the system has " +
+                 std::to_string(sizes_.components()) + " components (u, v, x, z)");
+  }
+}
+
+template <class Real>
+void ErrorNorm<Real>::update(const State<Real>& y) {
+  const auto leaveOut = [&] {
+    constexpr double kNothing = std::numeric_limits<double>::infinity();
+    if (leaves_multipliers_out_) {
+      weight_.segment(2 * sizes_.nu + sizes_.nx, sizes_.constraints).setConstant(kNothing);
+    }
+  };
+  if (tolerances_.norm == NormKind::kAbsolute) {
+    weight_.setConstant(tolerances_.atol);
+    return leaveOut();
+  }
+  const auto weigh = [&](Index offset, const auto& part) {
+    for (Index i = 0; i < part.size(); ++i) {
+      weight_[offset + i] = tolerances_.atol * scale_[offset + i] +
+                            tolerances_.rtol * std::abs(static_cast<double>(part[i]));
+    }
+  };
+  weigh(0, y.u);
+  weigh(sizes_.nu, y.v);
+  weigh(2 * sizes_.nu, y.x);
+  weigh(2 * sizes_.nu + sizes_.nx, y.z());
+  leaveOut();
+}
+
+template <class Real>
+double ErrorNorm<Real>::zFactor(double h, Index i) const {
+  return powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
+}
+
+// f(component, its part) of the difference, over u, v, x, z.
+template <class Real>
+template <class F>
+void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h,
+                                  const Vec<double>& factor, F&& f) const {
+  const auto add = [&](Index offset, const auto& a, const auto& b, const auto& weigh) {
+    for (Index i = 0; i < a.size(); ++i) {
+      const double e = static_cast<double>(Real(a[i] - b[i]));
+      f(offset + i, factor[offset + i] * weigh(i) * e / weight_[offset + i]);
+    }
+  };
+  const auto one = [](Index) { return 1.0; };
+  add(0, p.u, q.u, one);
+  add(sizes_.nu, p.v, q.v, one);
+  add(2 * sizes_.nu, p.x, q.x, one);
+  add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), [&](Index i) { return zFactor(h, i); });
+}
+
+template <class Real>
+double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, double h,
+                                   const Vec<double>& factor) const {
+  double sum = 0;
+  forEachPart(p, q, h, factor, [&](Index, double part) { sum += square(part); });
+  return total(sum);
+}
+
+template <class Real>
+Index ErrorNorm<Real>::worst(const State<Real>& p, const State<Real>& q, double h,
+                             const Vec<double>& factor) const {
+  Index worst = -1;
+  double most = -1;
+  forEachPart(p, q, h, factor, [&](Index i, double part) {
+    if (std::abs(part) > most) worst = i, most = std::abs(part);
+  });
+  return worst;
+}
+
+template <class Real>
+double ErrorNorm<Real>::magnitude(const State<Real>& e, double h) const {
+  double sum = 0;
+  const auto add = [&](Index offset, const auto& a, const auto& weigh) {
+    for (Index i = 0; i < a.size(); ++i) {
+      sum += square(weigh(i) * static_cast<double>(a[i]) / weight_[offset + i]);
+    }
+  };
+  const auto one = [](Index) { return 1.0; };
+  add(0, e.u, one);
+  add(sizes_.nu, e.v, one);
+  add(2 * sizes_.nu, e.x, one);
+  add(2 * sizes_.nu + sizes_.nx, e.z(), [&](Index i) { return zFactor(h, i); });
+  return total(sum);
+}
+
+template <class Real>
+double ErrorNorm<Real>::total(double sum) const {
+  if (tolerances_.norm == NormKind::kAbsolute) return std::sqrt(sum);
+  return std::sqrt(sum / static_cast<double>(sizes_.components()));
+}
+
+template <class Real>
+void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
+  const Index nu = sizes_.nu, nx = sizes_.nx, nz = sizes_.nz;
+  const double* const wu = weight_.data();
+  const double* const wv = wu + nu;
+  const double* const wx = wv + nu;
+  const double* const wz = wx + nx;
+  for (Index i = 0; i < nu; ++i) {
+    const double f = powerOf(h, powers_.v[static_cast<std::size_t>(i)]);
+    squares[i] = square(f * h / wv[i]) + square(h * h / wu[i]);
+  }
+  for (Index i = 0; i < nx; ++i) {
+    const double f = powerOf(h, powers_.x[static_cast<std::size_t>(i)]);
+    squares[nu + i] = square(f * h / wx[i]);
+  }
+  for (Index i = 0; i < nz; ++i) squares[nu + nx + i] = square(zFactor(h, i) / wz[i]);
+}
+
+template <class Real>
+double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first,
+                                  const Vec<double>& squares) const {
+  double sum = 0;
+  withSize<8>(dW.rows(), [&](auto n) {
+    for (Index j = first; j < dW.cols(); ++j) {
+      const Real* const column = dW.data() + j * n;
+      for (Index i = 0; i < n; ++i) sum += squares[i] * square(static_cast<double>(column[i]));
+    }
+  });
+  return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));
+}
+
+IRK_INSTANTIATE_CLASS(ErrorNorm)
+
+}  // namespace irk

@@ -1,0 +1,54 @@
+#include "core/stages/scheme.h"
+
+#include <Eigen/LU>
+
+#include "core/base/legendre.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+
+template <class Real>
+Scheme<Real>::Scheme(Tableau<Real> t)
+    : tableau(std::move(t)), s(tableau.stages()), A(tableau.A), b(tableau.b), c(tableau.c) {
+  A2.noalias() = A * A;
+  bA.noalias() = A.transpose() * b;
+  A_transposed = A.transpose();
+  A1 = A.rowwise().sum();
+  A2_transposed = A2.transpose();
+  // Round-off of a sum of s coefficients of size <= 1.
+  const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();
+  const auto small = [&](const auto& x) { return x.cwiseAbs().maxCoeff() <= tiny; };
+  stiffly_accurate = small(A.row(s - 1).transpose() - b);
+  first = s > 1 && stiffly_accurate && small(A.row(0)) ? 1 : 0;
+  const Eigen::FullPivLU<Mat<Real>> lu(implicitA());
+  regular = lu.isInvertible();
+  if (regular && first == 0) d = Mat<Real>(A.transpose()).fullPivLu().solve(b);
+
+  Mat<Real> V(s, s);  // transposed: column i = stage i
+  for (Index i = 0; i < s; ++i) legendre<Real>(c[i], V.col(i));
+  legendre_inverse = V.transpose().fullPivLu().inverse();
+  legendre_inverse_transposed = legendre_inverse.transpose();
+  Vec<Real> at(s);
+  legendre<Real>(Real(1), at);
+  end = legendre_inverse.transpose() * at;
+  legendre<Real>(Real(0), at);
+  start = legendre_inverse.transpose() * at;
+
+  inside.resize(s, kParts - 1);
+  inside_once.resize(s, kParts - 1);
+  inside_twice.resize(s, kParts - 1);
+  Vec<Real> p(s + 2), once(s + 1), twice(s);
+  for (Index j = 1; j < kParts; ++j) {
+    legendre<Real>(Real(j) / Real(kParts), p);
+    integrateLegendre(p, once, twice);
+    inside.col(j - 1) = legendre_inverse_transposed * p.head(s);
+    inside_once.col(j - 1) = legendre_inverse_transposed * once.head(s);
+    inside_twice.col(j - 1) = legendre_inverse_transposed * twice;
+  }
+}
+
+template struct Scheme<double>;
+template struct Scheme<mp50>;
+template struct Scheme<mp100>;
+
+}  // namespace irk

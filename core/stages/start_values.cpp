@@ -1,0 +1,89 @@
+#include "core/stages/start_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/legendre.h"
+#include "core/base/small_product.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Extrapolation multiplies the stages' errors (Newton's tolerance) by up to sum_j |E_ij|. Above this
+// the polynomial's highest coefficients are left out: at s = 10 and equal steps the full polynomial
+// amplifies by 1e7. Beyond the past step it grows with the distance: the farthest stage has the most.
+constexpr double kAmplificationLimit = 1e4;
+// Of the past step, without an allocation: those of variable order.
+constexpr Index kReservedStages = 13;
+
+}  // namespace
+
+template <class Real>
+StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
+    : kind_(kind), scheme_(scheme) {
+  scheme.c.maxCoeff(&farthest_);
+  const Index most = std::max(scheme.s, kReservedStages);
+  basis_.resize(most, scheme.s);
+  for (Weights& w : weights_) w.matrix.resize(most, scheme.s);
+}
+
+template <class Real>
+MatView<Real> StartValues<Real>::weights(const Scheme<Real>& past, const Real& offset,
+                                         const Real& ratio) {
+  for (Weights& w : weights_) {
+    if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix.view();
+  }
+  newest_ = 1 - newest_;
+  Weights& w = weights_[newest_];
+  w.past = &past;
+  w.offset = offset;
+  w.ratio = ratio;
+  compute(w);
+  return w.matrix.view();
+}
+
+// w(t_past + tau h_past) = sum_k P_k(tau) (V^-1 W^T)_k at tau_i = offset + ratio c_i, truncated after
+// the largest degree whose amplification stays below the limit.
+template <class Real>
+void StartValues<Real>::compute(Weights& w) {
+  const Index s = scheme_.s, degrees = w.past->s;
+  MatView<Real> basis = basis_.resize(degrees, s);
+  MatView<Real> matrix = w.matrix.resize(degrees, s);
+  for (Index i = 0; i < s; ++i) {
+    legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis.col(i));
+  }
+  const auto amplification = [&] {
+    return static_cast<double>(Real(matrix.col(farthest_).cwiseAbs().sum()));
+  };
+  const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
+  smallProduct<Real>(to_stages, basis, matrix);
+  if (amplification() <= kAmplificationLimit) return;
+  matrix.setZero();
+  for (Index k = 0; k < degrees; ++k) {
+    for (Index i = 0; i < s; ++i) matrix.col(i) += basis(k, i) * to_stages.col(k);
+    if (amplification() > kAmplificationLimit && k > 0) {
+      for (Index i = 0; i < s; ++i) matrix.col(i) -= basis(k, i) * to_stages.col(k);
+      return;
+    }
+  }
+}
+
+template <class Real>
+void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from,
+                             const Real& h, Mat<Real>& W) {
+  const bool constant = kind_ == Predictor::kAcceleration || !past.valid;
+  if (constant) {
+    W.colwise() = from.w;
+  } else if (kind_ == Predictor::kPrevious && past.W.cols() == W.cols()) {
+    W = past.W;
+  } else {
+    smallProduct<Real>(
+        past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
+  }
+  for (Index i = 0; i < scheme_.first; ++i) W.col(i) = from.w;
+}
+
+IRK_INSTANTIATE_CLASS(StartValues)
+
+}  // namespace irk

@@ -1,0 +1,60 @@
+// The switching functions along a solved step: where a switch first becomes due inside it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/stages/dense_output.h"
+#include "core/system/switches.h"
+
+namespace irk {
+
+/// A switch that becomes due inside a step: not due at theta = low, due at theta = high. Both are 0
+/// where it is due at the step's start already.
+template <class Real>
+struct DueInside {
+  Index index = -1;  ///< of the switching function
+  Real low{}, high{};
+};
+
+/// Samples the switching functions at kParts + 1 points of a solved step. A function that rises above
+/// 0 and returns between two samples is found where a parabola through three samples comes close to 0, or
+/// where a corner next to an end of the step hides a peak: there its maximum is looked for on the stages'
+/// polynomial. Owns scratch; keeps references.
+template <class Real>
+class SwitchScan {
+ public:
+  explicit SwitchScan(const System<Real>& system);
+
+  /// The switches that become due first, in one part of the step; empty without one. The discrete
+  /// state is that of `from`; `end` is the step's end before any switch is done. All must outlive
+  /// the use of `value`. `report` says if a function is not finite. `EndSample::kSkip`: the end is
+  /// known to be due.
+  enum class EndSample { kLookAt, kSkip };
+  std::span<const DueInside<Real>> first(const State<Real>& from,
+                                         const StagePolynomial<Real>& stages,
+                                         const State<Real>& end,
+                                         EndSample end_sample = EndSample::kLookAt);
+  const SwitchReport& report() const { return report_; }
+
+  /// Function i on the stages' polynomial of the step last scanned; not finite counts as due.
+  Real value(const Real& theta, Index i);
+  /// The polynomial at theta, with the discrete state of the start.
+  const State<Real>& at(const Real& theta);
+
+ private:
+  bool sample(Index j, const State<Real>& from, const State<Real>& end);
+  void look(Index j, Index last);
+  void lookBetween(Index i, Index j, Index last);
+  void lookForCorner(Index i, Index end, Index inwards);
+  void lookForPeak(Index i, Index left, Index right, const Real& g, const Real& bend);
+
+  Switches<Real> switches_;
+  DenseOutput<Real> dense_;
+  State<Real> inside_;
+  Mat<Real> g_;  // functions x (kParts + 1)
+  std::vector<DueInside<Real>> due_;
+  SwitchReport report_;
+};
+
+}  // namespace irk

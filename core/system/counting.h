@@ -1,0 +1,61 @@
+// Decorators that count evaluations, so that no strategy can forget to.
+#pragma once
+
+#include <atomic>
+
+#include "irk/statistics.h"
+#include "irk/system.h"
+
+namespace irk {
+
+/// Forwards to another system and counts its evaluations. One per integrator; several threads may
+/// evaluate it where that is said at its construction.
+template <class Real>
+class CountingSystem final : public System<Real> {
+ public:
+  CountingSystem(const System<Real>& inner, Counters& counters, int threads = 1)
+      : inner_(inner), counters_(counters), threads_(threads) {}
+  Sizes sizes() const override { return inner_.sizes(); }
+  Sizes sceneSizes() const override { return inner_.sceneSizes(); }
+  void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
+    count(counters_.residuals);
+    inner_.evaluate(level, p, r);
+  }
+  void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
+    count(counters_.dual_residuals);
+    inner_.evaluate(level, p, r);
+  }
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last,
+                      Real* r) const override {
+    count(counters_.residuals, last - first);
+    inner_.evaluateStages(at, first, last, r);
+  }
+  const std::vector<int>& rowPowers() const override { return inner_.rowPowers(); }
+  const ErrorPowers& errorPowers() const override { return inner_.errorPowers(); }
+  void switching(const Point<Real>& p, VecView<Real> g) const override { inner_.switching(p, g); }
+  void onSwitch(Index i, State<Real>& state) const override { inner_.onSwitch(i, state); }
+  void jump(Index i, State<Real>& state) const override { inner_.jump(i, state); }
+  std::string switchName(Index i) const override { return inner_.switchName(i); }
+  Discontinuity discontinuity() const override { return inner_.discontinuity(); }
+  bool projectsVelocity() const override { return inner_.projectsVelocity(); }
+  bool secondOrder() const override { return inner_.secondOrder(); }
+  State<Real> fromScene(const State<Real>& scene) const override {
+    return inner_.fromScene(scene);
+  }
+  State<Real> toScene(const State<Real>& state) const override { return inner_.toScene(state); }
+
+ private:
+  void count(std::int64_t& counter, std::int64_t by = 1) const {
+    if (threads_ == 1) {
+      counter += by;
+    } else {
+      std::atomic_ref(counter).fetch_add(by, std::memory_order_relaxed);
+    }
+  }
+
+  const System<Real>& inner_;
+  Counters& counters_;
+  int threads_;
+};
+
+}  // namespace irk

@@ -1,0 +1,313 @@
+#include "core/system/first_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "irk/misuse.h"
+#include "irk/multiprecision.h"
+#include "irk/problem.h"
+
+namespace irk {
+namespace {
+
+constexpr int kIterations = 25;
+
+template <class Real>
+bool allFinite(const Vec<Real>& x) {
+  using std::isfinite;
+  return std::all_of(x.begin(), x.end(), [](const Real& value) { return isfinite(value); });
+}
+
+// A state near `from`: every number moved by up to a tenth of its size, or of 1.
+template <class Real>
+State<Real> moved(const State<Real>& from, int sample) {
+  State<Real> to = from;
+  int i = sample;
+  const auto move = [&i](Real& value) {
+    using std::abs;
+    i = (i * 7 + 3) % 11;
+    value += Real(0.02 * (i - 5)) * (Real(1) + Real(abs(value)));
+  };
+  move(to.t);
+  for (auto* part : {&to.u, &to.v, &to.x}) std::for_each(part->begin(), part->end(), move);
+  return to;
+}
+
+}  // namespace
+
+template <class Real>
+FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner)
+    : inner_(std::move(inner)),
+      inner_sizes_(inner_->sizes()),
+      at_(inner_sizes_),
+      start_w_(at_.w),
+      residual_(inner_sizes_.n()),
+      column_(inner_sizes_.n()),
+      values_(2 * inner_sizes_.nu + inner_sizes_.nx + inner_sizes_.discrete),
+      dual_(inner_sizes_),
+      dual_residual_(inner_sizes_.n()),
+      diagonal_(inner_sizes_.n()),
+      lu_(inner_sizes_.n()) {
+  sizes_.nx = 2 * inner_sizes_.nu + inner_sizes_.nx;
+  sizes_.discrete = inner_sizes_.discrete;
+  sizes_.switches = inner_sizes_.switches;
+  row_powers_.assign(static_cast<std::size_t>(sizes_.nx), 0);
+  error_powers_.x = row_powers_;
+}
+
+template <class Real>
+void FirstOrderForm<Real>::evaluate(Level, const Point<Real>& p, VecView<Real> r) const {
+  const Index nu = inner_sizes_.nu, rest = nu + inner_sizes_.nx;
+  if (!solve(p.t, p.x.data(), p.d.data())) {
+    r.setConstant(std::numeric_limits<Real>::quiet_NaN());
+    return;
+  }
+  r.head(nu) = p.x.segment(nu, nu) - p.k.head(nu);
+  r.tail(rest) = at_.w.head(rest) - p.k.tail(rest);
+}
+
+template <class Real>
+void FirstOrderForm<Real>::evaluate(Level level, const Point<Dual<Real>>& p,
+                                    VecView<Dual<Real>> r) const {
+  const Index nu = inner_sizes_.nu, nx = inner_sizes_.nx, n = inner_sizes_.n();
+  for (Index i = 0; i < p.x.size(); ++i) values_[i] = p.x[i].value;
+  for (Index i = 0; i < p.d.size(); ++i) values_[p.x.size() + i] = p.d[i].value;
+  if (!solve(p.t.value, values_.data(), values_.data() + p.x.size())) {
+    r.setConstant(Dual<Real>(std::numeric_limits<Real>::quiet_NaN()));
+    return;
+  }
+  dual_.t = p.t;
+  dual_.u = p.x.head(nu);
+  dual_.v = p.x.segment(nu, nu);
+  dual_.x = p.x.tail(nx);
+  for (Index i = 0; i < n; ++i) dual_.w[i] = Dual<Real>(at_.w[i]);
+  for (Index i = 0; i < p.d.size(); ++i) dual_.d[i] = Dual<Real>(at_.d[i]);
+  inner_->evaluate(Level::kAcceleration, pointOf(dual_), {dual_residual_.data(), n});
+  for (Index i = 0; i < n; ++i) residual_[i] = dual_residual_[i].value;
+  if (rates_ != Rates::kNonlinear && !isSolution(residual_)) {  // not what it was near the start
+    rates_ = Rates::kNonlinear;
+    solved_ = false;
+    return evaluate(level, p, r);
+  }
+  for (std::size_t c = 0; c < kChunk; ++c) {
+    for (Index i = 0; i < n; ++i) column_[i] = -dual_residual_[i].d[c];
+    if ((column_.array() != Real(0)).any()) divideByMatrix(column_);
+    for (Index i = 0; i < n; ++i) dual_.w[i].d[c] = column_[i];
+  }
+  for (Index i = 0; i < nu; ++i) r[i] = p.x[nu + i] - p.k[i];
+  for (Index i = 0; i < nu + nx; ++i) r[nu + i] = dual_.w[i] - p.k[nu + i];
+}
+
+// --- w = (a, k, z) at a point, kept in at_.
+
+template <class Real>
+bool FirstOrderForm<Real>::holds(const Real& t, const Real* y, const Real* d) const {
+  return at_.t == t && std::equal(at_.u.begin(), at_.u.end(), y) &&
+         std::equal(at_.v.begin(), at_.v.end(), y + at_.u.size()) &&
+         std::equal(at_.x.begin(), at_.x.end(), y + 2 * at_.u.size()) &&
+         std::equal(at_.d.begin(), at_.d.end(), d);
+}
+
+// The chunks of one Jacobian share their point, and its factorization.
+template <class Real>
+bool FirstOrderForm<Real>::solve(const Real& t, const Real* y, const Real* d) const {
+  if (solved_ && holds(t, y, d)) return true;
+  const Index nu = inner_sizes_.nu;
+  at_.t = t;
+  std::copy_n(y, nu, at_.u.begin());
+  std::copy_n(y + nu, nu, at_.v.begin());
+  std::copy_n(y + 2 * nu, inner_sizes_.nx, at_.x.begin());
+  std::copy_n(d, inner_sizes_.discrete, at_.d.begin());
+  solved_ = rates_ == Rates::kNonlinear ? solveNewton() : solveLinear();
+  return solved_;
+}
+
+// r is linear in w: r(0) + D0 w = 0.
+template <class Real>
+bool FirstOrderForm<Real>::solveLinear() const {
+  at_.w.setZero();
+  if (rates_ == Rates::kLinear) {
+    evaluateMatrix();
+    if (!factorize()) return false;
+  } else {
+    inner_->evaluate(Level::kAcceleration, pointOf(at_), {residual_.data(), residual_.size()});
+  }
+  at_.w = -residual_;
+  divideByMatrix(at_.w);
+  return allFinite(at_.w);
+}
+
+// From the last point's w to round-off.
+template <class Real>
+bool FirstOrderForm<Real>::solveNewton() const {
+  using std::sqrt;
+  const Real eps = Eigen::NumTraits<Real>::epsilon();
+  Real last = std::numeric_limits<Real>::max();
+  for (int i = 0; i < kIterations; ++i) {
+    evaluateMatrix();
+    if (!factorize()) break;
+    divideByMatrix(residual_);
+    at_.w -= residual_;
+    if (!allFinite(at_.w)) break;
+    const Real change = residual_.norm(), size = Real(1) + Real(at_.w.norm());
+    const bool stalled = change >= last && change <= Real(sqrt(eps)) * size;
+    if (change <= Real(100) * eps * size || stalled) return true;
+    last = change;
+  }
+  at_.w = start_w_;
+  return false;
+}
+
+// Whether w leaves a residual that changes it by less than half the digits.
+template <class Real>
+bool FirstOrderForm<Real>::isSolution(const Vec<Real>& residual) const {
+  using std::sqrt;
+  column_ = residual;
+  divideByMatrix(column_);
+  const Real eps = Eigen::NumTraits<Real>::epsilon();
+  return Real(column_.norm()) <= Real(sqrt(eps)) * (Real(1) + Real(at_.w.norm()));
+}
+
+// D0 into the factors' matrix and the residual, at at_.
+template <class Real>
+void FirstOrderForm<Real>::evaluateMatrix() const {
+  const Index n = inner_sizes_.n();
+  const auto lift = [](const Vec<Real>& from, Vec<Dual<Real>>& to) {
+    for (Index i = 0; i < from.size(); ++i) to[i] = Dual<Real>(from[i]);
+  };
+  dual_.t = Dual<Real>(at_.t);
+  lift(at_.u, dual_.u);
+  lift(at_.v, dual_.v);
+  lift(at_.x, dual_.x);
+  lift(at_.w, dual_.w);
+  lift(at_.d, dual_.d);
+  const Index chunk = static_cast<Index>(kChunk);
+  for (Index first = 0; first < n; first += chunk) {
+    const Index count = std::min(chunk, n - first);
+    for (Index c = 0; c < count; ++c) dual_.w[first + c].d[static_cast<std::size_t>(c)] = Real(1);
+    inner_->evaluate(Level::kAcceleration, pointOf(dual_), {dual_residual_.data(), n});
+    for (Index c = 0; c < count; ++c) {
+      for (Index i = 0; i < n; ++i) {
+        lu_.matrix()(i, first + c) = dual_residual_[i].d[static_cast<std::size_t>(c)];
+      }
+      dual_.w[first + c].d[static_cast<std::size_t>(c)] = Real(0);
+    }
+  }
+  for (Index i = 0; i < n; ++i) residual_[i] = dual_residual_[i].value;
+}
+
+template <class Real>
+bool FirstOrderForm<Real>::factorize() const {
+  ++factorizations_;
+  return lu_.factorize() == Outcome::kSuccess;
+}
+
+template <class Real>
+void FirstOrderForm<Real>::divideByMatrix(Vec<Real>& x) const {
+  if (rates_ == Rates::kDiagonal) {
+    x.array() /= diagonal_.array();
+  } else {
+    lu_.solve(x.data());
+  }
+}
+
+// --- What D0 depends on.
+
+// At the start and after each switch. D0's dependence is seen on states nearby; where it shows only
+// further away, a Jacobian's residual tells (`evaluate`).
+template <class Real>
+bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
+  solved_ = false;
+  at_ = scene;
+  evaluateMatrix();
+  const Mat<Real> D0 = lu_.matrix();
+  if (!Eigen::FullPivLU<Mat<Real>>(D0).isInvertible()) {
+    rates_ = Rates::kNonlinear;  // whose solves will say so
+    return false;
+  }
+  rates_ = kindNear(scene, D0);
+  at_ = scene;
+  lu_.matrix() = D0;
+  diagonal_ = D0.diagonal();
+  if (rates_ == Rates::kConstant && D0.isDiagonal(Real(0))) rates_ = Rates::kDiagonal;
+  if (rates_ == Rates::kConstant) factorize();
+  return true;
+}
+
+template <class Real>
+typename FirstOrderForm<Real>::Rates FirstOrderForm<Real>::kindNear(const State<Real>& scene,
+                                                                    const Mat<Real>& D0) const {
+  constexpr int kSamples = 3;
+  bool constant = true;
+  for (int sample = 1; sample <= kSamples; ++sample) {
+    at_ = moved(scene, sample);
+    evaluateMatrix();
+    const Mat<Real> there = lu_.matrix();
+    constant = constant && there == D0;
+    for (Index i = 0; i < at_.w.size(); ++i) at_.w[i] += Real(0.5 + 0.1 * static_cast<double>(i));
+    evaluateMatrix();
+    if (!(lu_.matrix() == there)) return Rates::kNonlinear;
+  }
+  return constant ? Rates::kConstant : Rates::kLinear;
+}
+
+// --- The scene's unknowns and these.
+
+template <class Real>
+void FirstOrderForm<Real>::switching(const Point<Real>& p, VecView<Real> g) const {
+  if (solve(p.t, p.x.data(), p.d.data())) return inner_->switching(pointOf(at_), g);
+  g.setConstant(std::numeric_limits<Real>::quiet_NaN());
+}
+
+template <class Real>
+void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  inner_->onSwitch(i, scene);
+  state.d = scene.d;
+  static_cast<void>(classify(scene));
+}
+
+template <class Real>
+void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  inner_->jump(i, scene);
+  state.x << scene.u, scene.v, scene.x;
+}
+
+template <class Real>
+State<Real> FirstOrderForm<Real>::fromScene(const State<Real>& scene) const {
+  start_w_ = scene.w;
+  if (!classify(scene)) {
+    throw Misuse(
+        "illegal combination: formulation 'first_order' with a system whose D0 = "
+        "dr/d(a,k,z) is singular at the start: (a, k, z) do not follow from (u, v, x)");
+  }
+  factorizations_ = 0;
+  State<Real> state(sizes_);
+  state.t = scene.t;
+  state.d = scene.d;
+  state.x << scene.u, scene.v, scene.x;
+  state.w << scene.v, scene.w.head(inner_sizes_.nu + inner_sizes_.nx);
+  return state;
+}
+
+template <class Real>
+State<Real> FirstOrderForm<Real>::toScene(const State<Real>& state) const {
+  const bool solved = solve(state.t, state.x.data(), state.d.data());
+  State<Real> scene = at_;
+  if (!solved) scene.w.setConstant(std::numeric_limits<Real>::quiet_NaN());
+  return scene;
+}
+
+template <class Real>
+std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system) {
+  return std::make_shared<const FirstOrderForm<Real>>(std::move(system));
+}
+
+IRK_INSTANTIATE_CLASS(FirstOrderForm)
+template std::shared_ptr<const System<double>> firstOrderForm(std::shared_ptr<const System<double>>);
+template std::shared_ptr<const System<mp50>> firstOrderForm(std::shared_ptr<const System<mp50>>);
+template std::shared_ptr<const System<mp100>> firstOrderForm(std::shared_ptr<const System<mp100>>);
+
+}  // namespace irk

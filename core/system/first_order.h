@@ -1,0 +1,80 @@
+// The form y' = f(t, y) that codes for ordinary differential equations ask for: y = (u, v, x),
+// f = (v, a, k), where (a, k, z) solve the residual at acceleration level.
+// Made by firstOrderForm, irk/problem.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/linear/dense_lu.h"
+#include "irk/system.h"
+
+namespace irk {
+
+/// A system as one of first order: its x is (u, v, x), its rows are f(t, x) - k. z is eliminated:
+/// position constraints enter twice differentiated, and drift. For a mechanism f is v' = M^-1 F: M
+/// (all of D0) is evaluated and factorized at every new point, unless it is constant.
+///
+/// Unlike other systems it keeps scratch: one per thread.
+template <class Real>
+class FirstOrderForm final : public System<Real> {
+ public:
+  /// Of `inner` only the acceleration level is used.
+  explicit FirstOrderForm(std::shared_ptr<const System<Real>> inner);
+
+  Sizes sizes() const override { return sizes_; }
+  Sizes sceneSizes() const override { return inner_sizes_; }
+  /// All levels are the same: there are no constraints left. NaN where D0 is singular.
+  void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override;
+  /// Implicit differentiation: D0 dw = -dr at fixed w = (a, k, z).
+  void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override;
+  const std::vector<int>& rowPowers() const override { return row_powers_; }
+  const ErrorPowers& errorPowers() const override { return error_powers_; }
+  void switching(const Point<Real>& p, VecView<Real> g) const override;
+  void onSwitch(Index i, State<Real>& state) const override;
+  void jump(Index i, State<Real>& state) const override;
+  std::string switchName(Index i) const override { return inner_->switchName(i); }
+  Discontinuity discontinuity() const override { return inner_->discontinuity(); }
+  bool secondOrder() const override { return false; }
+
+  /// Throws Misuse where D0 is singular: (a, k, z) do not follow from (u, v, x).
+  State<Real> fromScene(const State<Real>& scene) const override;
+  State<Real> toScene(const State<Real>& state) const override;
+
+  /// Factorizations of D0 since the last fromScene.
+  std::int64_t massFactorizations() const { return factorizations_; }
+
+ private:
+  /// How (a, k, z) enter the residual: decides how often D0 is evaluated.
+  enum class Rates { kDiagonal, kConstant, kLinear, kNonlinear };
+
+  bool classify(const State<Real>& scene) const;  // false: D0 is singular
+  Rates kindNear(const State<Real>& scene, const Mat<Real>& D0) const;
+  bool solve(const Real& t, const Real* y, const Real* d) const;
+  bool holds(const Real& t, const Real* y, const Real* d) const;
+  bool solveLinear() const;
+  bool solveNewton() const;
+  bool isSolution(const Vec<Real>& residual) const;
+  void evaluateMatrix() const;
+  bool factorize() const;
+  void divideByMatrix(Vec<Real>& x) const;
+
+  std::shared_ptr<const System<Real>> inner_;
+  Sizes inner_sizes_, sizes_;
+  std::vector<int> row_powers_;
+  ErrorPowers error_powers_;
+
+  mutable Rates rates_ = Rates::kNonlinear;
+  mutable bool solved_ = false;
+  mutable State<Real> at_;     // the last point, with its solution w
+  mutable Vec<Real> start_w_;  // Newton's start values after a failure
+  mutable Vec<Real> residual_, column_, values_;
+  mutable State<Dual<Real>> dual_;
+  mutable Vec<Dual<Real>> dual_residual_;
+  mutable Vec<Real> diagonal_;  // of D0, where that is all of it
+  mutable DenseLu<Real> lu_;    // of D0
+  mutable std::int64_t factorizations_ = 0;
+};
+
+}  // namespace irk

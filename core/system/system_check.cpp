@@ -1,0 +1,117 @@
+#include "irk/system_check.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "irk/misuse.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+void requireCount(const std::string& what, Index given, Index wanted) {
+  if (given == wanted) return;
+  throw Misuse(what + ": " + std::to_string(given) + " numbers, " + std::to_string(wanted) + " are expected");
+}
+
+template <class Real>
+bool isFinite(const Real& x) {
+  using std::isfinite;  // of double; others by their namespace
+  return isfinite(x);
+}
+
+template <class Real>
+std::string text(const Real& x) {
+  std::ostringstream out;
+  out << static_cast<double>(x);
+  return out.str();
+}
+
+}  // namespace
+
+void requireSizes(const Sizes& n, const Declared& declared) {
+  const auto notNegative = [](const char* name, Index size) {
+    if (size < 0) throw Misuse("sizes: " + std::string(name) + " = " + std::to_string(size) + ": >= 0 is expected");
+  };
+  notNegative("nu", n.nu);
+  notNegative("nx", n.nx);
+  notNegative("nz", n.nz);
+  notNegative("constraints", n.constraints);
+  notNegative("discrete", n.discrete);
+  notNegative("switches", n.switches);
+  if (n.n() == 0) throw Misuse("sizes: nu = nx = nz = 0: a system has at least one unknown");
+  if (n.constraints > n.nz) {
+    throw Misuse("sizes: constraints = " + std::to_string(n.constraints) + ": up to nz = " + std::to_string(n.nz) +
+                 ", each has its multiplier in z");
+  }
+  if (n.constraints > 0 && !declared.constraints) {
+    throw Misuse("sizes: constraints = " + std::to_string(n.constraints) +
+                 ", but the problem has no function constraints(t, u, g)");
+  }
+  if (n.switches > 0 && !declared.switching) {
+    throw Misuse("sizes: switches = " + std::to_string(n.switches) +
+                 ", but the problem has no function switching(p, g)");
+  }
+}
+
+template <class Real>
+void requireSystem(const System<Real>* system, const Vec<double>& scale) {
+  if (!system) throw Misuse("no system to integrate");
+  const Sizes n = system->sizes();
+  requireSizes(n);
+  const auto count = [](const std::vector<int>& powers) { return static_cast<Index>(powers.size()); };
+  requireCount("powers of the system's rows", count(system->rowPowers()), n.n());
+  const ErrorPowers& powers = system->errorPowers();
+  requireCount("powers of the errors of u", count(powers.u), n.nu);
+  requireCount("powers of the errors of v", count(powers.v), n.nu);
+  requireCount("powers of the errors of x", count(powers.x), n.nx);
+  requireCount("powers of the errors of z", count(powers.z), n.nz);
+  if (scale.size() == 0) return;
+  requireCount("scale", scale.size(), n.components());
+  for (Index i = 0; i < scale.size(); ++i) {
+    if (scale[i] > 0) continue;
+    throw Misuse("scale[" + std::to_string(i) + "] = " + text(scale[i]) + ": > 0 is expected");
+  }
+}
+
+template <class Real>
+void requireStart(const System<Real>& system, const State<Real>& start, const Real& t_end) {
+  const Sizes n = system.sceneSizes();
+  requireCount("start: u", start.u.size(), n.nu);
+  requireCount("start: v", start.v.size(), n.nu);
+  requireCount("start: x", start.x.size(), n.nx);
+  requireCount("start: w = (a, k, z)", start.w.size(), n.n());
+  requireCount("start: discrete state d", start.d.size(), n.discrete);
+  requireCount("start: carry", start.carry.size(), 2 * n.nu + n.nx);
+  if (!isFinite(start.t)) throw Misuse("start: t = " + text(start.t) + ": a finite number is expected");
+  if (!isFinite(t_end)) throw Misuse("t_end = " + text(t_end) + ": a finite number is expected");
+  if (start.t <= t_end) return;
+  throw Misuse("t_end = " + std::to_string(static_cast<double>(t_end)) + " lies before the start, t = " +
+               std::to_string(static_cast<double>(start.t)));
+}
+
+template <class Real>
+std::string notFinite(const State<Real>& start) {
+  const auto find = [](const char* name, const Vec<Real>& numbers) -> std::string {
+    for (Index i = 0; i < numbers.size(); ++i) {
+      if (!isFinite(numbers[i])) return name + ("[" + std::to_string(i) + "] = ") + text(numbers[i]);
+    }
+    return {};
+  };
+  for (const auto& found : {find("u", start.u), find("v", start.v), find("x", start.x), find("w", start.w),
+                            find("d", start.d)}) {
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+#define IRK_CHECKS(Real)                                                                  \
+  template void requireSystem(const System<Real>*, const Vec<double>&);                   \
+  template void requireStart(const System<Real>&, const State<Real>&, const Real&);       \
+  template std::string notFinite(const State<Real>&);
+IRK_CHECKS(double)
+IRK_CHECKS(mp50)
+IRK_CHECKS(mp100)
+#undef IRK_CHECKS
+
+}  // namespace irk

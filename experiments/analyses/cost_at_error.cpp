@@ -1,0 +1,90 @@
+#include "experiments/analyses/cost_at_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <tuple>
+
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
+
+namespace irk {
+namespace {
+
+constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations", "jacobians",
+                                       "factorizations"};
+
+// From cheap to dear, each point more accurate than all cheaper ones.
+std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
+  std::erase_if(points, [](const CostPoint& p) { return !(p.error > 0) || !(p.cost > 0); });
+  std::sort(points.begin(), points.end(),
+            [](auto& a, auto& b) { return std::tie(a.cost, a.error) < std::tie(b.cost, b.error); });
+  std::vector<CostPoint> best;
+  for (const auto& p : points) {
+    if (best.empty() || p.error < best.back().error) best.push_back(p);
+  }
+  return best;
+}
+
+// Why a series does not reach an error.
+std::string causeOf(const Table& runs, const RunSeries& series) {
+  bool succeeded = false, known = false;
+  for (const auto* run : series.rows) {
+    if (!succeededAt(runs, *run)) continue;
+    succeeded = true;
+    known = known || !std::isnan(numberAt(runs, *run, "error"));
+  }
+  if (!succeeded) return "no success: " + textAt(runs, *series.rows.back(), "outcome");
+  return known ? "not accurate enough" : std::string(kNoReference);
+}
+
+}  // namespace
+
+double costAtError(std::vector<CostPoint> points, double target) {
+  const auto best = envelope(std::move(points));
+  const auto at = std::find_if(best.begin(), best.end(),
+                               [target](const CostPoint& p) { return p.error <= target; });
+  if (at == best.end()) return std::numeric_limits<double>::quiet_NaN();
+  if (at == best.begin()) return at->cost;
+  const auto& before = *(at - 1);
+  const double part = std::log(before.error / target) / std::log(before.error / at->error);
+  return before.cost * std::pow(at->cost / before.cost, part);
+}
+
+double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost,
+                         double target) {
+  std::vector<CostPoint> points;
+  for (const auto* run : series.rows) {
+    if (!succeededAt(runs, *run)) continue;
+    points.push_back({numberAt(runs, *run, "error"), numberAt(runs, *run, cost)});
+  }
+  return costAtError(std::move(points), target);
+}
+
+Table costTable(const Table& runs, const std::vector<double>& targets) {
+  Table costs;
+  costs.head = runs.head;
+  costs.columns = seriesColumns(runs);
+  costs.columns.emplace_back("target_error");
+  costs.columns.insert(costs.columns.end(), std::begin(kCosts), std::end(kCosts));
+  costs.columns.insert(costs.columns.end(), {"reached", "cause"});
+  for (const auto& series : seriesOf(runs)) {
+    for (const double target : targets) {
+      TableRow row = series.name;
+      row.push_back(numberText(target));
+      bool reached = false;
+      for (const auto cost : kCosts) {
+        const double value = seriesCostAtError(runs, series, cost, target);
+        reached = reached || !std::isnan(value);
+        row.push_back(numberText(value));
+      }
+      row.emplace_back(reached ? "1" : "0");
+      row.push_back(reached ? "" : causeOf(runs, series));
+      costs.rows.push_back(row);
+    }
+  }
+  return costs;
+}
+
+}  // namespace irk

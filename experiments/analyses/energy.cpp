@@ -1,0 +1,108 @@
+#include "experiments/analyses/energy.h"
+
+#include <gsl/gsl_fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/runs/setup.h"
+
+namespace irk {
+namespace {
+
+constexpr double kSamples = 2000;
+
+struct EnergyErrors {
+  std::vector<double> t, error;
+};
+
+const Scene<mp50>::Output* energyOf(const Scene<mp50>& scene) {
+  const auto found = std::find_if(scene.outputs.begin(), scene.outputs.end(),
+                                  [](const auto& output) { return output.name == "energy"; });
+  return found == scene.outputs.end() ? nullptr : &*found;
+}
+
+// What the state stands for: its numbers and what their additions have lost.
+State<mp50> exactly(const State<double>& state) {
+  State<mp50> s;
+  s.t = state.t;
+  s.u = state.u.cast<mp50>();
+  s.v = state.v.cast<mp50>();
+  s.x = state.x.cast<mp50>();
+  s.w = state.w.cast<mp50>();
+  s.d = state.d.cast<mp50>();
+  const Index nu = s.u.size();
+  s.u += state.carry.head(nu).cast<mp50>();
+  s.v += state.carry.segment(nu, nu).cast<mp50>();
+  s.x += state.carry.tail(s.x.size()).cast<mp50>();
+  return s;
+}
+
+EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
+  const auto setup = makeSetup<double>(spec);
+  const mp50 start = energy.value(exactly(setup.scene.start));
+  const auto stride = static_cast<std::int64_t>(
+      std::max(1.0, std::round(setup.spec.t_end / spec.options.step.h / kSamples)));
+  EnergyErrors errors;
+  std::int64_t steps = 0;
+  Monitor<double> monitor;
+  monitor.accepted = [&](const StepRecord<double>& step) {
+    if (++steps % stride != 0) return;
+    errors.t.push_back(step.t);
+    const mp50 error = energy.value(exactly(step.state)) - start;
+    errors.error.push_back(static_cast<double>(error));
+  };
+  monitor.interrupt = [] { return interruptFlag() ? Outcome::kInterrupted : Outcome::kSuccess; };
+  auto integrator = setup.integrator();
+  const auto solution = integrator.integrate(setup.scene.start, setup.spec.t_end, monitor);
+  return solution.outcome == Outcome::kSuccess ? errors : EnergyErrors{};
+}
+
+}  // namespace
+
+EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>& error) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (t.size() < 3) return {kUnknown, kUnknown, kUnknown};
+  double c0 = 0, c1 = 0, cov00 = 0, cov01 = 0, cov11 = 0, sum_of_squares = 0;
+  gsl_fit_linear(t.data(), 1, error.data(), 1, t.size(), &c0, &c1, &cov00, &cov01, &cov11,
+                 &sum_of_squares);
+  EnergyDrift result{c1, std::sqrt(sum_of_squares / static_cast<double>(t.size())), 0};
+  for (const double e : error) result.largest = std::max(result.largest, std::abs(e));
+  return result;
+}
+
+Table energyTable(const Study& study, const Table& runs) {
+  Table table{runs.head, seriesColumns(runs), {}};
+  table.columns.insert(table.columns.end(),
+                       {"h", "t", "energy_error", "drift", "scatter", "largest"});
+  const SpecsByKey specs(study);
+  for (const auto& series : seriesOf(runs)) {
+    for (const auto* run : series.rows) {
+      const auto found = specs.find(run->front());
+      if (!found || !succeededAt(runs, *run) || interruptFlag()) continue;
+      const RunSpec& spec = *found;
+      const auto scene = sceneOf<mp50>(spec);
+      const auto* energy = energyOf(scene);
+      const bool fixed = spec.options.step.control == StepControl::kFixed;
+      if (!energy || !fixed || findPeer(spec.method)) continue;
+      const EnergyErrors errors = integrate(spec, *energy);
+      const EnergyDrift drift = energyDrift(errors.t, errors.error);
+      for (std::size_t i = 0; i < errors.t.size(); ++i) {
+        TableRow row = series.name;
+        for (const double x : {spec.options.step.h, errors.t[i], errors.error[i], drift.drift,
+                               drift.scatter, drift.largest}) {
+          row.push_back(numberText(x));
+        }
+        table.rows.push_back(std::move(row));
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace irk

@@ -1,0 +1,149 @@
+#include "experiments/analyses/estimates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "core/estimates/step_attempt.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/runs/run_errors.h"
+#include "experiments/runs/setup.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+constexpr int kSamples = 24;      // steps of one run
+constexpr Index kMoreStages = 4;  // of the accurate solution, ...
+constexpr int kSubsteps = 4;      // ... and its steps
+constexpr double kRoundOff = 1000 * std::numeric_limits<double>::epsilon();
+
+struct Step {
+  State<double> from;
+  double h;
+};
+
+/// One scene in one formulation, and its steps with any method.
+class StepSampler {
+ public:
+  explicit StepSampler(const RunSpec& spec)
+      : setup_(makeSetup<double>(spec)) {}
+
+  const Scene<double>& scene() const { return setup_.scene; }
+  const System<double>& system() const { return *setup_.system; }
+  const Tableau<double>& tableau() const { return setup_.methods.members[setup_.methods.start]; }
+
+  /// The steps that the run takes, some of them.
+  std::vector<Step> steps() const {
+    std::vector<Step> all;
+    State<double> from = setup_.scene.start;
+    Monitor<double> monitor;
+    monitor.accepted = [&](const StepRecord<double>& step) {
+      all.push_back({from, step.h});
+      from = step.state;
+    };
+    auto integrator = setup_.integrator();
+    static_cast<void>(integrator.integrate(setup_.scene.start, setup_.spec.t_end, monitor));
+    std::vector<Step> some;
+    const std::size_t stride = all.size() / kSamples + 1;
+    for (std::size_t i = stride / 2; i < all.size(); i += stride) some.push_back(all[i]);
+    return some;
+  }
+
+  /// `count` equal steps of a method over the step's interval: u, v, x, z at its end.
+  std::optional<Vec<double>> end(const Step& step, const Tableau<double>& method, int count) const {
+    IntegratorOptions options = setup_.spec.options;
+    options.order = OrderControl::kFixed;
+    options.step.control = StepControl::kFixed;
+    options.step.estimate = ErrorEstimate::kNone;
+    options.step.h = step.h / count;
+    options.newton.kind = NewtonKind::kSimplified;
+    options.multipliers = Multipliers::kStages;  // of which the estimate is
+    auto integrator = setup_.integrator(method, options);
+    const auto solution = integrator.integrate(step.from, step.from.t + step.h);
+    if (solution.outcome != Outcome::kSuccess) return {};
+    return components(solution.state);
+  }
+
+ private:
+  Setup<double> setup_;
+};
+
+struct Group {
+  char name;
+  Index first, count;
+};
+
+std::vector<Group> groupsOf(const Sizes& n) {
+  return {{'u', 0, n.nu}, {'v', n.nu, n.nu}, {'x', 2 * n.nu, n.nx}, {'z', 2 * n.nu + n.nx, n.nz}};
+}
+
+double largest(const Vec<double>& y, const Vec<double>& scale, const Group& group) {
+  double most = 0;
+  for (Index i = group.first; i < group.first + group.count; ++i) {
+    most = std::max(most, std::abs(y[i]) / (i < scale.size() ? scale[i] : 1));
+  }
+  return most;
+}
+
+// The error of the two half steps over what an estimate makes of their difference to the whole
+// step.
+void appendStep(const StepSampler& sampler, const Step& step, const TableRow& start, const Table& runs, const TableRow& run, Table& table) {
+  const auto& tableau = sampler.tableau();
+  const auto accurate = makeTableau<double>("radau_iia_" + std::to_string(tableau.stages() + kMoreStages));
+  const auto coarse = sampler.end(step, tableau, 1), fine = sampler.end(step, tableau, 2);
+  const auto exact = sampler.end(step, accurate, kSubsteps);
+  if (!coarse || !fine || !exact) return;
+  const auto& scale = sampler.scene().scale;
+  const auto factors = [&](ErrorEstimate estimate) {
+    return doublingFactors(Scheme<double>(tableau), sampler.system(), estimate);
+  };
+  const auto all = factors(ErrorEstimate::kDoubling), own = factors(ErrorEstimate::kRichardson);
+  for (const Group& group : groupsOf(sampler.scene().sizes())) {
+    const double size = largest(*exact, scale, group);
+    const double difference = largest(*coarse - *fine, scale, group);
+    const double error = largest(*fine - *exact, scale, group);
+    // Below round-off of the group neither number means anything.
+    if (group.count == 0 || !(std::max(difference, error) > kRoundOff * std::max(size, 1.0))) {
+      continue;
+    }
+    TableRow row = start;
+    row.insert(row.end(), {textAt(runs, run, "rtol"), numberText(step.from.t), numberText(step.h),
+                           std::string(1, group.name), numberText(difference), numberText(error),
+                           numberText(error / (difference * all[group.first])),
+                           numberText(error / (difference * own[group.first]))});
+    table.rows.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+Table estimateTable(const Study& study, const Table& runs) {
+  Table table{runs.head, seriesColumns(runs), {}};
+  table.columns.insert(table.columns.end(), {"rtol", "t", "h", "group", "difference", "error",
+                                             "doubling", "richardson"});
+  const SpecsByKey specs(study);
+  for (const auto& series : seriesOf(runs)) {
+    for (const auto* run : series.rows) {
+      const auto spec = specs.find(run->front());
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() ||
+          findPeer(spec->method) ||
+          spec->options.step.estimate == ErrorEstimate::kNone ||
+          spec->scalar != ScalarKind::kDouble) {
+        continue;
+      }
+      const StepSampler sampler(*spec);
+      for (const Step& step : sampler.steps()) {
+        appendStep(sampler, step, series.name, runs, *run, table);
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace irk

@@ -1,0 +1,213 @@
+#include "experiments/analyses/newton_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/stages/scheme.h"
+#include "experiments/runs/setup.h"
+
+namespace irk {
+namespace {
+
+/// A system whose residual costs nothing: what an iteration does around it can be timed alone.
+class FreeSystem final : public System<double> {
+ public:
+  explicit FreeSystem(const System<double>& inner) : inner_(inner) {}
+  Sizes sizes() const override { return inner_.sizes(); }
+  void evaluate(Level, const Point<double>&, VecView<double> r) const override { r.setZero(); }
+  void evaluate(Level, const Point<Dual<double>>&, VecView<Dual<double>> r) const override {
+    r.setZero();
+  }
+  void evaluateStages(const StagePoints<double>& at, Index first, Index last,
+                      double* r) const override {
+    const Index n = at.sizes.n();
+    std::fill(r + first * n, r + last * n, 0.0);
+  }
+  const std::vector<int>& rowPowers() const override { return inner_.rowPowers(); }
+  const ErrorPowers& errorPowers() const override { return inner_.errorPowers(); }
+  State<double> fromScene(const State<double>& s) const override { return inner_.fromScene(s); }
+  State<double> toScene(const State<double>& s) const override { return inner_.toScene(s); }
+
+ private:
+  const System<double>& inner_;
+};
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// The arithmetic of simplified Newton's test of an increment, core/newton/newton.cpp: contraction, what the
+// iterations that are left can reach, and whether this one is small enough.
+double newtonTest(double norm) {
+  constexpr int kIterationsLeft = 23;
+  const double theta = norm / (norm + 1), eta = theta / (1 - theta);
+  double reached = eta * norm, square = theta;
+  for (int n = kIterationsLeft; n > 0; n /= 2, square *= square) {
+    if (n % 2 == 1) reached *= square;
+  }
+  return std::isfinite(norm) && reached < 1 ? eta * norm : norm;
+}
+
+bool doublesSteps(ErrorEstimate estimate) {
+  switch (estimate) {
+    case ErrorEstimate::kDoubling:
+    case ErrorEstimate::kRichardson:
+    case ErrorEstimate::kDoublingScalar:
+      return true;
+    case ErrorEstimate::kEmbedded:
+    case ErrorEstimate::kNone:
+      return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+NewtonKernel::NewtonKernel(const RunSpec& spec, double h) : NewtonKernel(makeSetup<double>(spec), spec, h) {}
+
+NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, double h)
+    : system_(setup.system),
+      free_(std::make_unique<FreeSystem>(*system_)),
+      counted_(*system_, counters_, spec.options.threads),
+      start_(system_->fromScene(setup.scene.start)),
+      h_(h),
+      differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull,
+                      storageOf(spec.options)),
+      at_(1),
+      scheme_(setup.methods.members[setup.methods.start]),
+      equations_(*system_, scheme_, spec.options.summation, spec.options.threads),
+      free_equations_(*free_, scheme_, spec.options.summation, 1),
+      kind_(spec.options.solver),
+      setup_{scheme_.implicitA(), nullptr, system_->rowPowers(), system_->sizes(),
+             spec.options.threads},
+      norm_(*system_, spec.options.tolerances, setup.scale),
+      switches_(*system_),
+      controller_(makeController(spec.options.step, scheme_.tableau.order)),
+      doubles_(doublesSteps(spec.options.step.estimate)),
+      whole_start_(spec.options.predictor, scheme_),
+      half_start_(spec.options.predictor, scheme_),
+      row_weights_(system_->sizes().n()),
+      factor_(Vec<double>::Ones(system_->sizes().components())),
+      t_(scheme_.s) {
+  if (kind_ == StageSolverKind::kEigen) {
+    setup_.form = std::make_shared<const BlockForm<double>>(eigenForm(setup_.A));
+  } else if (kind_ == StageSolverKind::kSchur) {
+    setup_.form = std::make_shared<const BlockForm<double>>(schurForm(setup_.A));
+  }
+  countResiduals(spec);
+  jacobian();
+  makeSolver();
+  begin();
+}
+
+void NewtonKernel::makeSolver() {
+  const auto& pattern = at_.front().pattern;
+  if (!pattern->full) {
+    setup_.analysis = std::make_shared<const SparseAnalysis>(pattern->column_start, pattern->row);
+  }
+  setup_.pattern = pattern;
+  solver_ = std::make_unique<CountingStageSolver<double>>(makeStageSolver<double>(kind_, setup_),
+                                                          counters_);
+  rhs_ = ones_ = Mat<double>::Ones(system_->sizes().n(), scheme_.implicitStages());
+}
+
+void NewtonKernel::moveTo(const State<double>& scene_state) {
+  start_ = system_->fromScene(scene_state);
+  jacobian();
+  begin();
+}
+
+// All that follows from the state and h.
+void NewtonKernel::begin() {
+  W_ = W0_ = R_ = start_.w.replicate(1, scheme_.s);
+  t_.setConstant(start_.t);
+  U_ = start_.u.replicate(1, scheme_.s);
+  V_ = start_.v.replicate(1, scheme_.s);
+  X_ = start_.x.replicate(1, scheme_.s);
+  before_ = {&scheme_, start_.t - h_, h_, W_, true};
+  solved_ = {&scheme_, start_.t, h_, W_, true};
+  coarse_ = fine_ = middle_ = start_;
+  middle_.t += h_ / 2;
+  norm_.update(start_);
+  norm_.rowWeights(h_, row_weights_);
+  equations_.begin(start_, h_);
+  free_equations_.begin(start_, h_);
+}
+
+void NewtonKernel::countResiduals(const RunSpec& spec) {
+  Counters counters;
+  const CountingSystem<double> counted(*system_, counters);
+  Differentiator<double> counting(counted, spec.options.derivatives, JacobianTerms::kFull,
+                                  storageOf(spec.options));
+  counting.evaluate(Level::kFormulated, point(), at_.front());  // finds the pattern
+  residuals_of_first_ = counters.residuals;
+  counters = {};
+  counting.evaluate(Level::kFormulated, point(), at_.front());
+  residuals_per_jacobian_ = counters.residuals;
+}
+
+void NewtonKernel::residuals() {
+  const StagePoints<double> at{system_->sizes(), t_.data(), U_.data(), V_.data(),
+                               X_.data(),        W_.data(), start_.d.data()};
+  counted_.evaluateStages(at, scheme_.first, scheme_.s, R_.data());
+}
+
+void NewtonKernel::jacobian() {
+  differentiator_.evaluate(Level::kFormulated, point(), at_.front());
+}
+
+void NewtonKernel::firstMatrices() {
+  differentiator_.forgetPattern();
+  jacobian();
+  for (std::int64_t i = 0; i < steppers() && sparse(); ++i) {
+    makeSolver();
+    factorize();
+  }
+}
+
+void NewtonKernel::factorize() {
+  if (solver_->factorize(at_, h_) != Outcome::kSuccess) {
+    throw Misuse("the Newton matrix cannot be factorized");
+  }
+}
+
+void NewtonKernel::iteration() {
+  if (!equations_.residual(W_, R_)) throw Misuse("a residual is not finite");
+  solver_->solve(R_.rightCols(scheme_.implicitStages()));
+}
+
+void NewtonKernel::solve() {
+  rhs_ = ones_;
+  solver_->solve(rhs_);
+}
+
+void NewtonKernel::update() {
+  if (!free_equations_.residual(W_, R_)) throw Misuse("a start value is not finite");
+  W_ -= R_;
+  decided_ = newtonTest(norm_.increment(R_, scheme_.first, row_weights_));
+}
+
+void NewtonKernel::solvedStep(StartValues<double>& start_values,
+                              const StagePolynomial<double>& past, const State<double>& from,
+                              double h, State<double>& end) {
+  free_equations_.begin(from, h);
+  start_values.fill(past, from, h, W_);
+  W0_ = W_;
+  norm_.rowWeights(h, row_weights_);
+  decided_ = std::pow(std::max(static_cast<double>(decided_), kEpsilon), 0.8);  // Newton's first eta
+  free_equations_.finish(W_, end);
+  if (!switches_.none()) static_cast<void>(switches_.settle(end));
+  solved_.W = W_;
+}
+
+void NewtonKernel::step() {
+  norm_.update(start_);
+  solvedStep(whole_start_, before_, start_, h_, coarse_);
+  if (!doubles_) return;
+  // As `Doubling` does: both halves start from the whole step's stages.
+  solvedStep(half_start_, solved_, start_, h_ / 2, fine_);
+  solvedStep(half_start_, solved_, middle_, h_ / 2, fine_);
+  const double error = norm_.difference(coarse_, fine_, h_, factor_);
+  if (controller_) decided_ = controller_->decide(error, h_).h;
+}
+
+}  // namespace irk

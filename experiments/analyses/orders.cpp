@@ -1,0 +1,232 @@
+#include "experiments/analyses/orders.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/theory.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_spec.h"
+#include "experiments/runs/run_table.h"
+#include "irk/scene.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Theory {
+  double order = kUnknown;
+  std::string source;
+};
+
+// From |h lambda| of this size on a stiff component is at its limit to several digits.
+constexpr double kStiffLimit = 1e3;
+
+// lambda of `lambda=-1e8` and `lambda=-1e8/h`; NaN for other settings, without any the default.
+double stiffness(const std::string& settings) {
+  constexpr std::string_view kName = "lambda=";
+  const auto at = settings.find(kName);
+  return at == settings.npos ? kUnknown
+                             : std::strtod(settings.c_str() + at + kName.size(), nullptr);
+}
+
+std::optional<SystemKind> stiffKind(const Table& runs, const TableRow& row) {
+  const auto& settings = textAt(runs, row, "settings");
+  if (settings.ends_with("/h")) return SystemKind::kStiffFixedZ;
+  const double lambda = std::abs(settings.empty() ? -1e8 : stiffness(settings));
+  if (lambda * numberAt(runs, row, "h") >= kStiffLimit) return SystemKind::kStiffFixedLambda;
+  return lambda <= 1 ? std::optional(SystemKind::kOde) : std::nullopt;
+}
+
+std::optional<SystemKind> mechanicalKind(const std::string& formulation) {
+  if (formulation == "index3") return SystemKind::kMechanical3;
+  if (formulation == "index2") return SystemKind::kMechanical2;
+  if (formulation == "index2_projected") return SystemKind::kProjected;
+  if (formulation == "ggl") return SystemKind::kGgl;
+  return {};
+}
+
+std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row) {
+  const auto& scene = textAt(runs, row, "scene");
+  const auto& formulation = textAt(runs, row, "formulation");
+  if (scene == "prothero_robinson") return stiffKind(runs, row);
+  if (scene == "index1_nonlinear") return SystemKind::kIndex1;
+  if (scene == "index2_nonlinear") return SystemKind::kIndex2;
+  if (scene == "index3_nonlinear") return SystemKind::kIndex3;
+  if (scene == "kaps") {  // singularly perturbed: no theory but at its limits
+    const auto& settings = textAt(runs, row, "settings");
+    return settings == "eps=1" ? std::optional(SystemKind::kOde) : std::nullopt;
+  }
+  const Sizes n = makeScene<double>(scene).sizes();
+  if (n.nz == 0 || formulation == "first_order") return SystemKind::kOde;
+  return n.constraints < n.nz ? std::nullopt : mechanicalKind(formulation);
+}
+
+// A user's method has the order that its tableau declares, for ordinary differential equations.
+Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind,
+                 char component) {
+  if (!kind) return {};
+  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
+  // Solved anew from u, v and x, z has the order of what determines it.
+  const bool consistent = component == 'z' && textAt(runs, row, "multipliers") == "consistent" &&
+                          makeScene<double>(textAt(runs, row, "scene")).sizes().constraints > 0;
+  const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind,
+                                      consistent ? 'v' : component);
+  if (order) return {order->order, std::string(order->source)};
+  if (*kind != SystemKind::kOde) return {};
+  try {
+    return {static_cast<double>(makeTableau<double>(textAt(runs, row, "method")).order), "tableau"};
+  } catch (const Misuse&) {  // the file is no longer there
+    return {};
+  }
+}
+
+std::string verdictText(const OrderFit& fit, double theory) {
+  if (!fit.measurable) return "not_measurable";
+  if (std::isnan(theory)) return "no_theory";
+  return std::abs(fit.order - theory) <= orderTolerance(theory) ? "agrees" : "differs";
+}
+
+// Farther than this from an integer a slope is that of no order.
+constexpr double kNoInteger = 0.2;
+
+// What theory says about components of algebraic and stiff systems is a bound for all of them.
+std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
+  const bool differs = fit.measurable && std::abs(fit.order - theory) > orderTolerance(theory);
+  if (!differs) return fit.reason;
+  if (std::abs(fit.order - std::round(fit.order)) > kNoInteger) {
+    return "no integer: the steps are not yet asymptotic where round-off comes";
+  }
+  if (kind == SystemKind::kOde) return fit.reason;
+  return fit.order > theory
+             ? "higher than the general result: this system does not excite its worst term"
+             : "lower than theory for this kind of system";
+}
+
+OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional<SystemKind> kind) {
+  OrderFitOptions options;
+  options.epsilon = epsilonOf(parseId<ScalarKind>(textAt(runs, row, "scalar")));
+  const bool ode = kind == SystemKind::kOde;
+  if (ode && isSymmetric(textAt(runs, row, "family"))) options.next_power = 2;
+  return options;
+}
+
+TableRow orderRow(const Table& runs, const TableRow& run, char component, std::string power_of,
+                  const OrderFit& fit, const Theory& theory, const std::string& reason) {
+  TableRow row;
+  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "family",
+                           "stages"}) {
+    row.push_back(textAt(runs, run, name));
+  }
+  row.emplace_back(1, component);
+  row.push_back(std::move(power_of));
+  for (const double x : {fit.order, fit.confidence, fit.h_min, fit.h_max}) {
+    row.push_back(numberText(fit.measurable ? x : kUnknown));
+  }
+  row.push_back(std::to_string(fit.points));
+  row.push_back(numberText(theory.order));
+  row.push_back(theory.source);
+  row.push_back(verdictText(fit, theory.order));
+  row.push_back(reason);
+  return row;
+}
+
+void appendOrders(const Table& runs, const std::vector<const TableRow*>& series, Table& orders) {
+  // Asymptotic is the fine end, also for the question what is stiff there.
+  const TableRow& finest = *series.back();
+  const auto kind = kindOf(runs, finest);
+  for (const char component : {'u', 'v', 'x', 'z'}) {
+    const std::string column = std::string("error_") + component;
+    std::vector<ErrorPoint> points;
+    bool known = false;
+    for (const auto* row : series) {
+      points.push_back({numberAt(runs, *row, "h"), numberAt(runs, *row, column)});
+      known = known || !std::isnan(points.back().error);
+    }
+    if (!known) continue;
+    const OrderFit fit = fitOrder(points, fitOptions(runs, finest, kind));
+    const Theory theory = theoryFor(runs, finest, kind, component);
+    const auto reason = reasonText(fit, theory.order, kind.value_or(SystemKind::kOde));
+    orders.rows.push_back(orderRow(runs, finest, component, "h", fit, theory, reason));
+  }
+}
+
+/// Errors of one method at one step over z = h lambda.
+using OverZ = std::map<double, std::vector<std::pair<double, const TableRow*>>>;  // by h
+
+void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
+  // The finest step that all of z have in common.
+  std::size_t most = 0;
+  for (const auto& [h, found] : over_z) most = std::max(most, found.size());
+  for (const auto& [h, found] : over_z) {
+    if (found.size() < most) continue;
+    std::vector<ErrorPoint> points;
+    for (const auto& [z, row] : found) {
+      points.push_back({1 / std::abs(z), numberAt(runs, *row, "error_x")});
+    }
+    const TableRow& run = *found.front().second;
+    OrderFit fit = fitOrder(points, fitOptions(runs, run, SystemKind::kStiffPowerOfZ));
+    fit.order = -fit.order;
+    const Theory theory = theoryFor(runs, run, SystemKind::kStiffPowerOfZ, 'x');
+    orders.rows.push_back(orderRow(runs, run, 'x', "z", fit, theory, fit.reason));
+    return;
+  }
+}
+
+// A method of which no run succeeded has rows, too: in the components that the system has.
+void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
+  const auto kind = kindOf(runs, run);
+  const Sizes n = makeScene<double>(textAt(runs, run, "scene")).sizes();
+  OrderFit fit;
+  fit.reason = "no run succeeded: " + textAt(runs, run, "outcome");
+  const std::string components =
+      (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") + std::string(n.nz > 0 ? "z" : "");
+  for (const char component : components) {
+    const Theory theory = theoryFor(runs, run, kind, component);
+    orders.rows.push_back(orderRow(runs, run, component, "h", fit, theory, fit.reason));
+  }
+}
+
+std::vector<const TableRow*> successes(const Table& runs, const RunSeries& series) {
+  std::vector<const TableRow*> rows;
+  for (const auto* row : series.rows) {
+    if (succeededAt(runs, *row)) rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+Table orderTable(const Table& runs) {
+  Table orders;
+  orders.head = runs.head;
+  orders.columns = {"scene",     "settings", "formulation", "multipliers", "scalar", "family",
+                    "stages",    "component", "power_of", "order",       "confidence", "h_min",  "h_max",
+                    "points",    "theory",   "source",      "verdict",    "reason"};
+  std::map<std::string, OverZ> over_z;  // by method
+  for (const auto& series : seriesOf(runs)) {
+    const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";
+    const auto rows = successes(runs, series);
+    if (!fixed) continue;
+    if (rows.empty()) {
+      appendFailure(runs, *series.rows.back(), orders);
+      continue;
+    }
+    appendOrders(runs, rows, orders);
+    const auto& settings = textAt(runs, *rows.front(), "settings");
+    if (!settings.ends_with("/h")) continue;
+    for (const auto* row : rows) {
+      over_z[textAt(runs, *row, "method")][numberAt(runs, *row, "h")].emplace_back(
+          stiffness(settings), row);
+    }
+  }
+  for (const auto& [method, errors] : over_z) appendPowerOfZ(runs, errors, orders);
+  return orders;
+}
+
+}  // namespace irk

@@ -1,0 +1,219 @@
+#include "experiments/analyses/phases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "experiments/analyses/newton_kernel.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/base/progress.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/runs/setup.h"
+
+namespace irk {
+namespace {
+
+// s, of one batch. The thread clock is a system call of about half a microsecond.
+constexpr double kLeastBatch = 2e-3;
+// Rounds over the run and all of its parts: a machine that is slow for a while slows none in all rounds.
+// More of them, for this time, where the parts do not cover the run yet: what disturbs only adds time, to a
+// whole run more than to its parts, whose code and data stay in the cache.
+constexpr int kRounds = 5;
+constexpr double kMostSeconds = 10;
+constexpr double kLeastCovered = 0.9, kMostCovered = 1.1;
+
+constexpr std::array<std::string_view, 7> kParts = {"residual", "jacobian", "factorization", "solve",
+                                                    "update",   "step",     "start"};
+using Parts = std::array<double, kParts.size()>;
+
+bool covers(double covered) { return covered >= kLeastCovered && covered <= kMostCovered; }
+
+/// One run and its parts.
+class PhaseMeasurement {
+ public:
+  PhaseMeasurement(const RunSpec& spec, double h)
+      : kernel_(spec, h), run_(prepare(unlimited(spec))), start_(prepare(startOf(spec))) {
+    const RunRecord record = run_->execute({});
+    counters_ = record.counters;
+    start_counters_ = start_->execute({}).counters;
+    kernel_.moveTo(endOf(spec, record));
+    kernel_.factorize();
+  }
+
+  Index unknowns() const { return kernel_.unknowns(); }
+  double runSeconds() const { return run_s_; }
+  const Parts& each() const { return each_; }
+
+  /// What each part takes of the run.
+  Parts total() const {
+    Parts parts = counts();
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] *= each_[i];
+    return parts;
+  }
+
+  /// Until the parts cover the run, or it is clear that they do not.
+  void measure() {
+    const double start = wallSeconds();
+    for (int round = 1; !interruptFlag(); ++round) {
+      measureOnce();
+      if (round >= kRounds && covers(covered())) return;
+      if (wallSeconds() - start > kMostSeconds) return;
+    }
+  }
+
+  double covered() const {
+    const Parts parts = total();
+    return std::accumulate(parts.begin(), parts.end(), 0.0) / run_s_;
+  }
+
+ private:
+  static RunSpec unlimited(RunSpec spec) {
+    spec.time_limit = 0;
+    return spec;
+  }
+  static RunSpec startOf(RunSpec spec) {
+    spec.t_end = sceneOf<double>(spec).start.t;
+    return unlimited(spec);
+  }
+
+  // In the scene's unknowns, with the accelerations of its start.
+  static State<double> endOf(const RunSpec& spec, const RunRecord& record) {
+    State<double> state = sceneOf<double>(spec).start;
+    state.t = record.t;
+    state.u = record.u;
+    state.v = record.v;
+    state.x = record.x;
+    state.z() = record.z;
+    return state;
+  }
+
+  void measureOnce() {
+    const auto take = [](double& least, const std::function<void()>& call) {
+      least = std::min(least, batchSeconds(call));
+    };
+    take(run_s_, [this] { run_->integrate(); });
+    double stages = std::numeric_limits<double>::infinity(), begin = stages, first = stages;
+    take(stages, [this] { kernel_.residuals(); });
+    take(begin, [this] { start_->integrate(); });
+    take(first, [this] { kernel_.firstMatrices(); });
+    auto& [residual, jacobian, factorization, solve, update, step, start] = each_;
+    residual = std::min(residual, stages / static_cast<double>(kernel_.stages()));
+    take(jacobian, [this] { kernel_.jacobian(); });
+    take(factorization, [this] { kernel_.factorize(); });
+    take(solve, [this] { kernel_.solve(); });
+    take(update, [this] { kernel_.update(); });
+    take(step, [this] { kernel_.step(); });
+    // One Jacobian and the first factors are counted as such; the rest is the pattern and its analysis.
+    const auto factors = static_cast<double>(kernel_.sparse() ? kernel_.steppers() : 0);
+    start = std::min(start, begin + std::max(first - jacobian - factors * factorization, 0.0));
+  }
+
+  // How often the run did each. Residuals inside difference quotients belong to the Jacobian; those of
+  // consistent start values and of the search for a pattern to the start.
+  Parts counts() const {
+    const Counters& run = counters_;
+    const auto number = [](std::int64_t count) { return static_cast<double>(count); };
+    const auto inside = (run.jacobians - 1) * kernel_.residualsPerJacobian() +
+                        kernel_.residualsOfFirst() + start_counters_.residuals;
+    return {number(std::max<std::int64_t>(run.residuals - inside, 0)),
+            number(run.jacobians),
+            number(run.factorizations),
+            number(run.solves),
+            number(run.newton_iterations),
+            number(run.steps_accepted + run.steps_rejected_error + run.steps_rejected_newton),
+            1};
+  }
+
+  NewtonKernel kernel_;
+  std::unique_ptr<PreparedRun> run_, start_;
+  Counters counters_, start_counters_;
+  Parts each_ = filled();
+  double run_s_ = std::numeric_limits<double>::infinity();
+
+  static Parts filled() {
+    Parts parts;
+    parts.fill(std::numeric_limits<double>::infinity());
+    return parts;
+  }
+};
+
+TableRow phaseRow(const Table& runs, const TableRow& run, TableRow row, const RunSpec& spec) {
+  PhaseMeasurement measurement(spec, spec.t_end / numberAt(runs, run, "steps_accepted"));
+  measurement.measure();
+  const Parts total = measurement.total();
+  const double sum = std::accumulate(total.begin(), total.end(), 0.0);
+  row.push_back(textAt(runs, run, "rtol"));
+  row.push_back(std::to_string(measurement.unknowns()));
+  for (const double seconds : measurement.each()) row.push_back(numberText(seconds));
+  for (const double seconds : total) row.push_back(numberText(seconds / sum));
+  row.push_back(numberText(measurement.runSeconds()));
+  row.push_back(numberText(measurement.covered()));
+  return row;
+}
+
+std::vector<std::string> phaseColumns(const Table& runs) {
+  auto columns = seriesColumns(runs);
+  columns.insert(columns.end(), {"rtol", "n"});
+  for (const auto part : kParts) columns.push_back(fmt::format("{}_s", part));
+  for (const auto part : kParts) columns.push_back(fmt::format("share_{}", part));
+  columns.insert(columns.end(), {"run_s", "covered"});
+  return columns;
+}
+
+}  // namespace
+
+double batchSeconds(const std::function<void()>& call) {
+  for (std::int64_t calls = 1;; calls *= 2) {
+    const double start = threadSeconds();
+    for (std::int64_t i = 0; i < calls; ++i) call();
+    const double elapsed = threadSeconds() - start;
+    if (elapsed >= kLeastBatch) return elapsed / static_cast<double>(calls);
+  }
+}
+
+std::vector<std::string> uncoveredRuns(const Table& phases) {
+  std::vector<std::string> lines;
+  for (const auto& row : phases.rows) {
+    const double covered = numberAt(phases, row, "covered");
+    if (covers(covered)) continue;
+    lines.push_back(fmt::format("{} {} {} {} {} rtol={}: the parts cover {:.3g} of the run, not {} to {}",
+                                textAt(phases, row, "scene"), textAt(phases, row, "settings"),
+                                textAt(phases, row, "method"), textAt(phases, row, "solver"),
+                                textAt(phases, row, "derivatives"), textAt(phases, row, "rtol"),
+                                covered, kLeastCovered, kMostCovered));
+  }
+  return lines;
+}
+
+Table phaseTable(const Study& study, const Table& runs, std::ostream& out) {
+  Table table{runs.head, phaseColumns(runs), {}};
+  const SpecsByKey specs(study);
+  Progress progress(out, study.id + " phases");
+  for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
+  for (const auto& series : seriesOf(runs)) {
+    for (const auto* run : series.rows) {
+      const auto spec = specs.find(run->front());
+      const auto& kind = textAt(runs, *run, "settings");
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() ||
+          findPeer(spec->method)) {
+        progress.skipped(kind);
+        continue;
+      }
+      const double start = wallSeconds();
+      table.rows.push_back(phaseRow(runs, *run, series.name, *spec));
+      progress.finished(kind, wallSeconds() - start);
+    }
+  }
+  return table;
+}
+
+}  // namespace irk

@@ -1,0 +1,81 @@
+#include "experiments/analyses/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "experiments/analyses/cost_at_error.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
+
+namespace irk {
+namespace {
+
+constexpr double kEnd = 1e6;  // where the curves end
+
+// Solver -> problem that it was given -> time; infinity where it does not solve it.
+using Costs = std::map<std::string, std::map<std::string, double>>;
+
+// Of the problems that some solver solves: the least time.
+std::map<std::string, double> bestTimes(const Costs& costs) {
+  std::map<std::string, double> best;
+  for (const auto& [solver, times] : costs) {
+    for (const auto& [problem, time] : times) {
+      if (std::isinf(time)) continue;
+      const auto [at, added] = best.try_emplace(problem, time);
+      if (!added) at->second = std::min(at->second, time);
+    }
+  }
+  return best;
+}
+
+void appendProfile(const std::string& target, const Costs& costs, Table& table) {
+  const auto best = bestTimes(costs);
+  const std::string problems = std::to_string(best.size());
+  for (const auto& [solver, times] : costs) {
+    std::vector<double> ratios;  // of the problems that it solves
+    std::size_t given = 0;
+    for (const auto& [problem, time] : times) {
+      const auto solved = best.find(problem);
+      if (solved == best.end()) continue;
+      ++given;
+      if (!std::isinf(time)) ratios.push_back(time / solved->second);
+    }
+    if (given == 0) continue;
+    std::sort(ratios.begin(), ratios.end());
+    const auto addRow = [&](double ratio, std::size_t count) {
+      const double fraction = static_cast<double>(count) / static_cast<double>(given);
+      table.rows.push_back({target, solver, numberText(ratio), numberText(fraction),
+                            std::to_string(given), problems});
+    };
+    if (ratios.empty()) addRow(1, 0);
+    for (std::size_t i = 0; i < ratios.size(); ++i) addRow(ratios[i], i + 1);
+    addRow(kEnd, ratios.size());
+  }
+}
+
+}  // namespace
+
+Table profileTable(const Table& costs) {
+  Table table{costs.head, {"target_error", "integrator", "ratio", "fraction", "given", "problems"}, {}};
+  std::map<std::string, Costs> by_target;
+  for (const auto& row : costs.rows) {
+    const auto& target = textAt(costs, row, "target_error");
+    const std::string problem =
+        textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
+    const auto& solver = textAt(costs, row, "integrator");
+    if (textAt(costs, row, "cause") == kNoReference) continue;
+    const double cost = numberAt(costs, row, "cpu_s");
+    const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
+    for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {
+      const auto [at, added] = by_target[key][solver].try_emplace(name, time);
+      if (!added) at->second = std::min(at->second, time);
+    }
+  }
+  for (const auto& [target, solvers] : by_target) appendProfile(target, solvers, table);
+  return table;
+}
+
+}  // namespace irk

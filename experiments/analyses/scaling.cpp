@@ -1,0 +1,136 @@
+#include "experiments/analyses/scaling.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "experiments/base/clock.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/median.h"
+#include "experiments/base/numbers.h"
+#include "experiments/base/progress.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/runs/setup.h"
+
+namespace irk {
+namespace {
+
+constexpr std::size_t kFirstSteps = 3;    // not counted
+constexpr double kLeastUnknowns = 200;    // of a slope over n
+constexpr std::size_t kLeastPoints = 3;   // of a slope
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct StepCost {
+  double n = 0, wall_s = kUnknown, cpu_s = kUnknown, iterations = kUnknown;
+};
+
+StepCost measure(const RunSpec& spec) {
+  const auto setup = makeSetup<double>(spec);
+  auto integrator = setup.integrator();
+  std::vector<double> wall, cpu, iterations;
+  double wall_before = wallSeconds(), cpu_before = threadSeconds();
+  Monitor<double> monitor;
+  monitor.accepted = [&](const StepRecord<double>& step) {
+    wall.push_back(wallSeconds() - wall_before);
+    cpu.push_back(threadSeconds() - cpu_before);
+    iterations.push_back(step.newton_iterations);
+    wall_before = wallSeconds();
+    cpu_before = threadSeconds();
+  };
+  const auto solution = integrator.integrate(setup.scene.start, setup.spec.t_end, monitor);
+  StepCost cost;
+  cost.n = static_cast<double>(setup.system->sizes().n());
+  if (solution.outcome != Outcome::kSuccess || wall.size() <= kFirstSteps) return cost;
+  for (auto* values : {&wall, &cpu, &iterations}) {
+    values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(kFirstSteps));
+  }
+  cost.wall_s = median(wall);
+  cost.cpu_s = median(cpu);
+  cost.iterations = median(iterations);
+  return cost;
+}
+
+// x = log of the varied column, y = log of the time.
+struct Points {
+  std::vector<double> x, y;
+};
+
+TableRow slopeRow(TableRow row, const Points& points) {
+  double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
+  const std::size_t count = points.x.size();
+  gsl_fit_linear(points.x.data(), 1, points.y.data(), 1, count, &c0, &slope, &cov00, &cov01,
+                 &variance, &sum_of_squares);
+  const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(count - 2));
+  row.push_back(numberText(slope));
+  row.push_back(numberText(t * std::sqrt(variance)));
+  row.push_back(std::to_string(count));
+  return row;
+}
+
+}  // namespace
+
+Table scalingTable(const Study& study, const Table& runs, std::ostream& out) {
+  Table table{runs.head, seriesColumns(runs), {}};
+  table.columns.insert(table.columns.end(), {"n", "step_s", "step_cpu_s", "iterations"});
+  const SpecsByKey specs(study);
+  Progress progress(out, study.id + " steps");
+  for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
+  for (const auto& series : seriesOf(runs)) {
+    for (const auto* run : series.rows) {
+      const auto& kind = textAt(runs, *run, "settings");
+      const auto found = specs.find(run->front());
+      const bool ours = found && !findPeer(found->method);
+      if (!ours || !succeededAt(runs, *run) || interruptFlag()) {
+        progress.skipped(kind);
+        continue;
+      }
+      const double start = wallSeconds();
+      const StepCost cost = measure(*found);
+      TableRow row = series.name;
+      for (const double x : {cost.n, cost.wall_s, cost.cpu_s, cost.iterations}) {
+        row.push_back(numberText(x));
+      }
+      table.rows.push_back(std::move(row));
+      progress.finished(kind, wallSeconds() - start);
+    }
+  }
+  return table;
+}
+
+Table scalingSlopes(const Table& scaling) {
+  Table slopes{scaling.head,
+               {"scene", "formulation", "solver", "storage", "threads", "over", "at", "slope",
+                "confidence", "points"},
+               {}};
+  std::map<TableRow, Points> series;
+  for (const auto& row : scaling.rows) {
+    const double n = numberAt(scaling, row, "n"), time = numberAt(scaling, row, "step_s");
+    if (!(time > 0)) continue;
+    TableRow name;
+    for (const char* column : {"scene", "formulation", "solver", "storage", "threads"}) {
+      name.push_back(textAt(scaling, row, column));
+    }
+    const auto add = [&](const char* over, const std::string& at, double x) {
+      TableRow key = name;
+      key.emplace_back(over);
+      key.push_back(at);
+      series[key].x.push_back(std::log(x));
+      series[key].y.push_back(std::log(time));
+    };
+    if (n >= kLeastUnknowns) add("n", textAt(scaling, row, "method"), n);
+    add("stages", textAt(scaling, row, "n"), numberAt(scaling, row, "stages"));
+  }
+  for (const auto& [name, points] : series) {
+    const auto [low, high] = std::minmax_element(points.x.begin(), points.x.end());
+    if (points.x.size() < kLeastPoints || *low == *high) continue;
+    slopes.rows.push_back(slopeRow(name, points));
+  }
+  return slopes;
+}
+
+}  // namespace irk

@@ -1,0 +1,18 @@
+// Where the program speaks, and the exit status that it ends with.
+#pragma once
+
+#include <iosfwd>
+
+namespace irk {
+
+inline constexpr int kFailedStatus = 1;
+inline constexpr int kMisuseStatus = 2;
+inline constexpr int kInterruptedStatus = 130;  ///< as shells report SIGINT
+
+/// Results on `out`, progress and messages on `err`.
+struct Streams {
+  std::ostream& out;
+  std::ostream& err;
+};
+
+}  // namespace irk

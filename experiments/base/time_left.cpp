@@ -1,0 +1,37 @@
+#include "experiments/base/time_left.h"
+
+#include <algorithm>
+
+namespace irk {
+namespace {
+
+constexpr double kNewest = 0.3;  // weight of the newest run in a kind's average
+
+}  // namespace
+
+void TimeLeft::expect(const std::string& kind, std::size_t runs) { kinds_[kind].left += runs; }
+
+void TimeLeft::made(const std::string& kind, double seconds) {
+  Kind& k = kinds_[kind];
+  k.left -= std::min<std::size_t>(k.left, 1);
+  k.seconds = k.made == 0 ? seconds : k.seconds + kNewest * (seconds - k.seconds);
+  ++k.made;
+  ++made_;
+  spent_ += seconds;
+}
+
+void TimeLeft::dropped(const std::string& kind, std::size_t runs) {
+  Kind& k = kinds_[kind];
+  k.left -= std::min(k.left, runs);
+}
+
+double TimeLeft::left() const {
+  const double mean = made_ == 0 ? 0 : spent_ / static_cast<double>(made_);
+  double seconds = 0;
+  for (const auto& [name, kind] : kinds_) {
+    seconds += static_cast<double>(kind.left) * (kind.made == 0 ? mean : kind.seconds);
+  }
+  return seconds;
+}
+
+}  // namespace irk

@@ -1,0 +1,327 @@
+#include "experiments/commands/cli.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <ostream>
+
+#include "core/base/text.h"
+#include "experiments/base/failure.h"
+#include "experiments/commands/commands.h"
+#include "experiments/tables/build_info.h"
+
+namespace irk {
+namespace {
+
+using Action = std::function<int(Streams)>;
+
+std::string optionName(std::string_view field) {
+  std::string name = "--" + std::string(field);
+  std::replace(name.begin() + 2, name.end(), '_', '-');
+  return name;
+}
+
+// No option and no argument has an empty value; CLI11 would take `--method= x` as `--method x`.
+void refuseEmpty(const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument.empty()) {
+      throw Misuse(i == 0 ? "an empty argument: a verb is expected, see irk --help"
+                          : "an empty value after '" + arguments[i - 1] + "': a value is expected");
+    }
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
+      throw Misuse("an empty value in '" + argument + "': a value is expected");
+    }
+  }
+}
+
+/// The verbs, their options and what each one does when it is chosen.
+class Program {
+ public:
+  Program() : app_("Benchmark suite for implicit Runge-Kutta schemes of any order", "irk") {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version",
+                          std::string(buildInfo().version) + " " + std::string(buildInfo().commit));
+    addPaper();
+    addRun();
+    addSolve();
+    addList();
+    addTableau();
+    addPlots();
+    addMerging();
+    addReference();
+  }
+
+  int run(std::vector<std::string> arguments, Streams streams) {
+    refuseEmpty(arguments);
+    requireKnownVerb(app_, arguments, 0);
+    requireKnownOption(arguments);
+    const std::string help = helpOf(arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    try {
+      app_.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() == 0) return app_.exit(error, streams.out, streams.err);  // --help, --version
+      throw Misuse(std::string(error.what()) + "; see " + help);
+    }
+    return action_(streams);
+  }
+
+ private:
+  // Argument i is one of the parent's verbs, where it has some; so is the next one, of that verb.
+  static void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments,
+                               std::size_t i) {
+    const auto verbs = parent.get_subcommands({});
+    if (verbs.empty() || i == arguments.size() || arguments[i].starts_with('-')) return;
+    std::vector<std::string> known;
+    for (auto* sub : verbs) {
+      known.push_back(sub->get_name());
+      if (known.back() == arguments[i]) return requireKnownVerb(*sub, arguments, i + 1);
+    }
+    throw Misuse(unknownName("verb", arguments[i], known));
+  }
+
+  // Before a verb; behind it CLI11 names what it does not know.
+  static void requireKnownOption(const std::vector<std::string>& arguments) {
+    const std::vector<std::string> known{"--help", "-h", "--version"};
+    if (arguments.empty() || !arguments.front().starts_with('-')) return;
+    if (std::find(known.begin(), known.end(), arguments.front()) == known.end()) {
+      throw Misuse(unknownName("option before a verb", arguments.front(), known));
+    }
+  }
+
+  static std::string helpOf(const std::vector<std::string>& arguments) {
+    const bool verb = !arguments.empty() && !arguments.front().starts_with('-');
+    return verb ? "irk " + arguments.front() + " --help" : "irk --help";
+  }
+
+  CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning,
+                 Action action) {
+    auto* sub = parent.add_subcommand(name, meaning);
+    sub->final_callback([this, action = std::move(action)] { action_ = action; });
+    return sub;
+  }
+
+  void addRunnerOptions(CLI::App& sub) {
+    sub.add_flag("--fresh", fresh_, "make finished runs again");
+    sub.add_flag("--wait", wait_, "wait where another process writes to the same study");
+    sub.add_option("--stale", stale_, "runs that other code has made: keep | remake")
+        ->check(CLI::IsMember({"keep", "remake"}))
+        ->capture_default_str();
+    sub.add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    addTimes(sub);
+    addQuick(sub);
+    addResults(sub);
+  }
+  void addTimes(CLI::App& sub) {
+    sub.add_option("--times", times_, "all | here: only those measured on this processor count")
+        ->check(CLI::IsMember({"all", "here"}))
+        ->capture_default_str();
+  }
+  void addResults(CLI::App& sub) {
+    sub.add_option("--results", results_, "folder of the results")->capture_default_str();
+  }
+  void addQuick(CLI::App& sub) {
+    sub.add_flag("--quick", quick_, "the small variant of each study, in RESULTS/quick");
+  }
+  // Full and quick results are trees of their own.
+  std::string results() const { return quick_ ? results_ + "/quick" : results_; }
+  StudyVariant variant() const { return quick_ ? StudyVariant::kQuick : StudyVariant::kFull; }
+
+  store::StoreOptions storeOptions() const {
+    store::StoreOptions options;
+    if (fresh_) options.finished = store::FinishedRuns::kRunAgain;
+    if (stale_ == "remake") options.stale = store::StaleRows::kRemake;
+    if (times_ == "here") options.times = store::Times::kHere;
+    if (wait_) options.if_locked = store::IfLocked::kWait;
+    return options;
+  }
+
+  RunOptions runOptions() {
+    RunOptions options;
+    options.study = study_;
+    options.variant = variant();
+    options.runner.results = results();
+    options.runner.jobs = parseJobs();
+    options.runner.store = storeOptions();
+    if (!shard_.empty()) options.runner.shard = parseShard(shard_);
+    return options;
+  }
+
+  void addPaper() {
+    auto* sub = verb(app_, "paper", "every study of the paper, figures and the report page",
+                     [this](Streams s) { return paperCommand(runOptions(), s); });
+    addRunnerOptions(*sub);
+  }
+
+  void addRun() {
+    auto* sub =
+        verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
+    sub->add_option("study", study_, "id or TOML file")->required();
+    sub->add_option("--shard", shard_, "i/n, or in an array job auto/n: this part of n; see merge");
+    addRunnerOptions(*sub);
+    auto* slurm = verb(app_, "slurm", "print a job script of Slurm: a study in n parts", [this](Streams s) {
+      return slurmCommand({study_, shard_, variant(), results_, std::max(1, parseJobs())}, s);
+    });
+    slurm->add_option("study", study_, "id or TOML file")->required();
+    slurm->add_option("-n", shard_, "number of parts, at most one per series")->required();
+    slurm->add_option("--jobs", jobs_, "threads of each part; 0 = 1");
+    addQuick(*slurm);
+    addResults(*slurm);
+    auto* status = verb(app_, "status", "how far a study is: planned, finished, failed, stale, foreign, time needed",
+                        [this](Streams s) { return statusCommand(runOptions(), s); });
+    status->add_option("study", study_, "id or TOML file")->required();
+    status->add_option("--shard", shard_, "i/n or auto/n: this part of n only");
+    addQuick(*status);
+    addResults(*status);
+  }
+
+  void addSolve() {
+    auto* sub = verb(app_, "solve", "one integration", [this](Streams s) { return solve(s); });
+    sub->add_option("scene", solve_.scene, "see: irk list scenes")->required();
+    sub->add_option("--set", solve_.settings, "name=value, a parameter of the scene")
+        ->take_all()
+        ->expected(1);
+    sub->add_option("--step", solve_.step, "fixed steps (first step with --control paper, and of a peer)");
+    sub->add_option("--tol", solve_.tol, "rtol and atol");
+    sub->add_flag("--json", solve_.json, "print one JSON object");
+    sub->add_option("--plot", solve_.plot,
+                    "draw the solution to FILE.svg and FILE.png, in a folder that exists");
+    for (const auto& field : specFields()) {
+      const bool special = field.name == "scene" || field.name == "settings" || field.name == "h";
+      if (special) continue;
+      sub->add_option(optionName(field.name), fields_[std::string(field.name)], field.allowed());
+    }
+  }
+
+  int solve(Streams streams) {
+    for (const auto& [field, value] : fields_) {
+      if (!value.empty()) solve_.fields.emplace_back(field, value);
+    }
+    return solveCommand(solve_, streams);
+  }
+
+  void addList() {
+    auto* sub =
+        verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
+    sub->add_option("what", what_, "scenes, methods, studies or strategies");
+  }
+
+  void addTableau() {
+    auto* tableau = app_.add_subcommand("tableau", "coefficients of a method");
+    tableau->require_subcommand(1);
+    auto* show = verb(*tableau, "show", "print it", [this](Streams s) {
+      constexpr int kMostDigits = 75;
+      const auto digits = parseInteger("digits", digits_, 1, kMostDigits);
+      return tableauShow(method_, static_cast<int>(digits), s);
+    });
+    show->add_option("--digits", digits_, "significant digits")->capture_default_str();
+    auto* check = verb(*tableau, "check", "does it keep what it declares, and what is it?",
+                       [this](Streams s) { return tableauCheck(method_, s); });
+    auto* write = verb(*tableau, "export", "as a tableau file",
+                       [this](Streams s) { return tableauExport(method_, s); });
+    for (auto* sub : {show, check, write}) {
+      sub->add_option("method", method_, "id or file")->required();
+    }
+    auto* plot = verb(*tableau, "plot", "regions of stability and order stars",
+                      [this](Streams s) { return tableauPlot(methods_, out_, s); });
+    plot->add_option("methods", methods_, "ids or files")->required();
+    plot->add_option("--out", out_, "draw to FILE.svg and FILE.png, with the numbers in FILE.csv")
+        ->capture_default_str();
+    auto* table = verb(*tableau, "table", "properties of all families, 1 to 20 stages",
+                       [this](Streams s) { return tableauTable(results_, s); });
+    addResults(*table);
+  }
+
+  void addPlots() {
+    auto* plot = verb(app_, "plot", "the figures of a study",
+                      [this](Streams s) { return plotCommand(study_, results(), s); });
+    plot->add_option("study", study_, "id")->required();
+    addQuick(*plot);
+    addResults(*plot);
+    auto* report = verb(app_, "report", "all figures and the report page",
+                        [this](Streams s) { return reportCommand(results(), s); });
+    addQuick(*report);
+    addResults(*report);
+    auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
+                        [this](Streams s) { return claimsCommand(results(), s); });
+    addQuick(*judged);
+    addResults(*judged);
+  }
+
+  void addMerging() {
+    auto* merge = verb(app_, "merge", "join the results of shards", [this](Streams s) {
+      return mergeCommand({folders_, study_, results(), variant(), partial_, storeOptions()}, s);
+    });
+    merge->add_option("folders", folders_, "folders of one study, or of its shards")->required();
+    merge->add_flag("--partial", partial_, "merge although runs are missing, or disagree");
+    merge->add_flag("--wait", wait_, "wait where another process writes to the same study");
+    addTimes(*merge);
+    addQuick(*merge);
+    merge->add_option("--study", study_, "id or TOML file, if the tables' own is not built in");
+    addResults(*merge);
+    auto* compare = verb(app_, "compare", "what differs between two studies or trees of results",
+                         [this](Streams s) { return compareCommand(compare_, s); });
+    compare->add_option("first", compare_.first, "folder of a study or of results")->required();
+    compare->add_option("second", compare_.second, "another one")->required();
+    compare->add_option("--errors", compare_.errors, "a factor: errors differ from it on")
+        ->capture_default_str();
+    compare->add_option("--times", compare_.times, "a percentage: ratios of times up to it are noise")
+        ->capture_default_str();
+    compare->add_option("--alpha", compare_.alpha, "how probably noise alone makes a time differ")
+        ->capture_default_str();
+    compare->add_option("--counters", compare_.counters, "a percentage: counters differ from it on")
+        ->capture_default_str();
+  }
+
+  void addReference() {
+    auto* sub = verb(app_, "reference",
+                     "reference values in 50 digits: two methods, two tolerances each",
+                     [this](Streams s) {
+                       reference_.jobs = parseJobs();
+                       return referenceCommand(reference_, s);
+                     });
+    sub->add_option("scenes", reference_.scenes, "see: irk list scenes; all if left out");
+    sub->add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    sub->add_flag("--check", reference_.check,
+                  "write nothing; status 1 if a file disagrees with what is computed");
+    sub->add_option("--out", reference_.out, "folder of the files");
+    sub->add_flag("--into-sources", reference_.into_sources,
+                  "write to problems/reference of the sources instead of --out");
+  }
+
+  int parseJobs() const {
+    constexpr int kMostJobs = 1024;
+    return static_cast<int>(parseInteger("jobs", jobs_, 0, kMostJobs));
+  }
+
+  CLI::App app_;
+  Action action_;
+  bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false;
+  std::string stale_ = "keep", times_ = "all";
+  std::string study_, shard_, what_, method_;
+  std::string jobs_ = "0", digits_ = "17", results_ = "results";
+  std::string out_ = "stability";
+  std::vector<std::string> folders_, methods_;
+  std::map<std::string, std::string> fields_;
+  SolveOptions solve_;
+  CompareOptions compare_;
+  ReferenceOptions reference_;
+};
+
+}  // namespace
+
+int runProgram(const std::vector<std::string>& arguments, Streams streams) {
+  int status = 0;
+  try {
+    status = Program().run(arguments, streams);
+  } catch (...) {
+    status = reportException(streams.err);
+  }
+  if (streams.out.flush()) return status;
+  if (status == 0) printErrorLine(streams.err, "the output cannot be written: is the disk full?");
+  return status == 0 ? kFailedStatus : status;
+}
+
+}  // namespace irk

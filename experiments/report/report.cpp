@@ -1,0 +1,274 @@
+#include "experiments/report/report.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <ostream>
+#include <string_view>
+
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/results.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/html.h"
+#include "experiments/claims/claims.h"
+#include "experiments/report/figure_path.h"
+#include "experiments/report/html_tables.h"
+#include "experiments/study/study.h"
+#include "experiments/tables/environment.h"
+#include "experiments/tables/table.h"
+#include "irk/misuse.h"
+
+namespace irk {
+namespace {
+
+// Results that are no study's runs, see experiments/analyses/tableau_table.h.
+constexpr std::string_view kTableaus = "tableaus";
+
+std::filesystem::path figureFolder(const ReportOptions& options) {
+  return options.results / "report" / "figures";
+}
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : line) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+// What gnuplot has to say, but for curves of which a panel has no row: that is no fault.
+void forwardMessages(std::FILE* file, std::ostream& err) {
+  std::rewind(file);
+  for (char line[4096]; std::fgets(line, sizeof line, file);) {
+    const std::string_view text(line);
+    if (text != "\n" && text.find("no valid points") == text.npos) err << text;
+  }
+}
+
+// The exit status of `gnuplot -e commands script`, or -1 with errno if it cannot be started.
+int runGnuplot(const std::string& commands, const std::string& script, std::ostream& err) {
+  std::string words[] = {"gnuplot", "-e", commands, script};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(std::tmpfile(), std::fclose);
+  if (!messages) return -1;
+  posix_spawn_file_actions_t redirect;
+  posix_spawn_file_actions_init(&redirect);
+  posix_spawn_file_actions_adddup2(&redirect, fileno(messages.get()), STDERR_FILENO);
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "gnuplot", &redirect, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&redirect);
+  if (error != 0) {
+    errno = error;
+    return -1;
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  forwardMessages(messages.get(), err);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) {
+  return fmt::format("data='{}'; out='{}'; {}", (options.results / figure.study).string(),
+                     (figureFolder(options) / figure.name).string(), figure.assignments);
+}
+
+// Inside double quotes.
+std::string shellQuoted(std::string_view text) {
+  std::string quoted;
+  for (const char c : text) {
+    if (c == '"' || c == '$' || c == '`' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted;
+}
+
+std::string commandOf(const std::string& study) {
+  return study == kTableaus ? "tableau table" : "run " + study;
+}
+
+bool hasResults(const Figure& figure, const ReportOptions& options) {
+  return std::filesystem::is_directory(options.results / figure.study);
+}
+
+std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
+  std::vector<std::string> studies;
+  for (const auto& figure : figures) {
+    if (std::find(studies.begin(), studies.end(), figure.study) == studies.end()) {
+      studies.push_back(figure.study);
+    }
+  }
+  return studies;
+}
+
+// `study` has figures and results; without a study: any has results.
+void requireResults(const std::string& study, const std::vector<Figure>& figures,
+                    const ReportOptions& options) {
+  const auto studies = studiesOf(figures);
+  if (!study.empty() && std::find(studies.begin(), studies.end(), study) == studies.end()) {
+    throw Misuse(unknownName("study with figures", study, studies));
+  }
+  requireResultsFolder(options.results);
+  requirePlainPath("--results", options.results.string());
+  const bool found = std::any_of(figures.begin(), figures.end(), [&](const Figure& figure) {
+    return (study.empty() || figure.study == study) && hasResults(figure, options);
+  });
+  if (found) return;
+  if (study.empty()) {
+    throw Failure(fmt::format("no tables of any study in '{}': irk run STUDY makes them",
+                              options.results.string()));
+  }
+  throw Failure(fmt::format("no results of study '{}' in '{}': irk {} makes them", study,
+                            options.results.string(), commandOf(study)));
+}
+
+std::string studyTitle(const std::string& id) {
+  if (id == kTableaus) return "Tableaus: stability, order stars, conditioning";
+  try {
+    return loadStudy(id, StudyVariant::kQuick).title;
+  } catch (const Misuse&) {  // not built in: its figures stand in a list of the user's own
+    return id;
+  }
+}
+
+std::string figureHtml(const Figure& figure, const ReportOptions& options) {
+  const auto command = fmt::format("gnuplot -e \"{}\" plots/{}",
+                                   shellQuoted(gnuplotCommands(figure, options)), figure.script);
+  return fmt::format(
+      "<figure id=\"{0}\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
+      "loading=\"lazy\"></a>\n<figcaption><b>{1}.</b> {2} <a href=\"figures/{0}.png\">PNG</a>"
+      "<code>{3}</code></figcaption></figure>\n",
+      figure.name, escapeHtml(figure.title), escapeHtml(figure.caption), escapeHtml(command));
+}
+
+// Under the title of their study; a study without figures has no heading.
+std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions& options) {
+  std::string html;
+  for (const auto& study : studiesOf(figures)) {
+    std::string own;
+    for (const auto& figure : figures) {
+      const bool drawn = std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"));
+      if (figure.study == study && drawn) own += figureHtml(figure, options);
+    }
+    if (own.empty()) continue;
+    html +=
+        fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study)), own);
+  }
+  return html;
+}
+
+}  // namespace
+
+void requireResultsFolder(const std::filesystem::path& results) {
+  std::error_code none;
+  if (std::filesystem::is_directory(results, none)) return;
+  throw Misuse(fmt::format("--results '{}': a folder of results is expected", results.string()));
+}
+
+std::vector<Figure> readFigures(const std::filesystem::path& file) {
+  constexpr std::size_t kFields = 6;
+  std::ifstream in(file);
+  if (!in) throw Misuse(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  std::vector<Figure> figures;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    const auto parts = split(line, '|');
+    if (parts.size() != kFields) {
+      throw Misuse(
+          fmt::format("{}:{}: {} fields, expected study|script|name|title|caption|assignments",
+                      file.string(), number, parts.size()));
+    }
+    figures.push_back({parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]});
+  }
+  return figures;
+}
+
+bool drawFigure(const std::string& script, const std::string& commands,
+                const std::filesystem::path& home, std::ostream& err) {
+  const auto path = (home / "plots" / script).string();
+  const int status = runGnuplot(commands, path, err);
+  if (status < 0) {
+    fmt::print(err, "cannot start gnuplot ({}): install the package gnuplot-nox\n",
+               std::strerror(errno));
+  } else if (status > 0) {
+    fmt::print(err, "gnuplot ended with status {}: gnuplot -e \"{}\" {}\n", status, commands, path);
+  }
+  return status == 0;
+}
+
+int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
+  const auto figures = readFigures(options.home / "plots" / "figures.txt");
+  requireResults(study, figures, options);
+  std::filesystem::create_directories(figureFolder(options));
+  int failures = 0;
+  for (const auto& of : studiesOf(figures)) {
+    const auto refusal = refusedTimes(options.results / of / "runs.csv");
+    if (refusal.empty() || (!study.empty() && of != study)) continue;
+    ++failures;
+    fmt::print(err, "figures of {} have no times: {}\n", of, refusal);
+  }
+  for (const auto& figure : figures) {
+    if (!study.empty() && figure.study != study) continue;
+    if (!hasResults(figure, options)) {
+      fmt::print(err, "figure {}: no results of study '{}' yet: irk {}\n", figure.name,
+                 figure.study, commandOf(figure.study));
+      continue;
+    }
+    if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) {
+      ++failures;
+    }
+  }
+  return failures;
+}
+
+std::filesystem::path writeReport(const ReportOptions& options) {
+  const auto figures = readFigures(options.home / "plots" / "figures.txt");
+  std::string page = readInputFile(options.home / "plots" / "report.html");
+  std::string orders, environment;
+  for (const auto& study : studiesOf(figures)) {
+    const auto folder = options.results / study;
+    if (std::filesystem::exists(folder / "orders.csv")) {
+      orders += ordersHtml(study, readTable(folder / "orders.csv"));
+    }
+    if (std::filesystem::exists(folder / "runs.csv")) {
+      environment += environmentHtml(study, readTable(folder / "runs.csv"));
+    }
+  }
+  replacePlaceholder(page, "@CLAIMS@",
+                     claims::claimsHtml(claims::ResultTables(options.results), figureFolder(options)));
+  replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
+  replacePlaceholder(page, "@ORDER_WINDOW@", windowText());
+  replacePlaceholder(page, "@TABLES@", orders);
+  const auto tableaus = options.results / "tableaus" / "tableaus.csv";
+  replacePlaceholder(page, "@TABLEAUS@",
+                     std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus))
+                                                       : "<p>None yet: irk tableau table.</p>");
+  replacePlaceholder(page, "@ENVIRONMENT@", environment);
+  replacePlaceholder(page, "@DATE@", dateText());
+  const auto path = options.results / "report" / "index.html";
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream out(path, std::ios::binary);
+  if (!(out << page).flush()) {
+    throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+  return path;
+}
+
+}  // namespace irk

@@ -1,0 +1,143 @@
+#include "experiments/runner/shards.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+#include <queue>
+
+#include "experiments/base/numbers.h"
+#include "experiments/runs/setup.h"
+#include "irk/misuse.h"
+#include "irk/scene.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+constexpr int kMostShards = 1'000'000;
+
+const char* setting(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : nullptr;
+}
+
+int fromEnvironment(const char* name) {
+  return static_cast<int>(parseInteger(name, std::getenv(name), 0, kMostShards));
+}
+
+// i, and n where the environment knows it: else 0.
+Shard fromArrayJob() {
+  if (setting("SLURM_ARRAY_TASK_ID")) {
+    const int first = setting("SLURM_ARRAY_TASK_MIN") ? fromEnvironment("SLURM_ARRAY_TASK_MIN") : 1;
+    const int count = setting("SLURM_ARRAY_TASK_COUNT") ? fromEnvironment("SLURM_ARRAY_TASK_COUNT") : 0;
+    return {fromEnvironment("SLURM_ARRAY_TASK_ID") - first + 1, count};
+  }
+  for (const char* name : {"PBS_ARRAY_INDEX", "SGE_TASK_ID"}) {
+    if (setting(name)) return {fromEnvironment(name), 0};
+  }
+  throw Misuse("shard = 'auto': this is no array job, neither SLURM_ARRAY_TASK_ID nor PBS_ARRAY_INDEX nor SGE_TASK_ID "
+               "is set");
+}
+
+Shard checked(Shard shard, std::string_view text) {
+  if (shard.index < 1 || shard.index > shard.count) {
+    throw Misuse(fmt::format("shard = '{}': {} of {}; 1 <= i <= n is allowed", text, shard.index, shard.count));
+  }
+  return shard;
+}
+
+// Of the scene with these settings, one evaluation of the residual and more; each is asked for once.
+class Unknowns {
+ public:
+  double of(const RunSpec& spec) {
+    const auto [at, added] = known_.try_emplace({spec.scene, settingsText(spec.settings)}, 0);
+    if (added) {
+      const State<double> start = sceneOf<double>(spec).start;
+      at->second = static_cast<double>(start.u.size() + start.x.size() + start.z().size());
+    }
+    return at->second;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, double> known_;
+};
+
+// Steps fall with the tolerance's root of the order; of fixed steps their number is known but for the length.
+double expectedSteps(const RunSpec& spec, double stages) {
+  if (spec.options.step.control == StepControl::kFixed) return 1 / spec.options.step.h;
+  const double tol = std::max(spec.options.tolerances.rtol, spec.options.tolerances.atol);
+  constexpr double kMostOrder = 8;
+  return std::pow(tol, -1 / (1 + std::min(2 * stages - 1, kMostOrder)));
+}
+
+}  // namespace
+
+Shard parseShard(std::string_view text) {
+  const auto slash = text.find('/');
+  const auto index = text.substr(0, slash);
+  if (slash == std::string_view::npos) {
+    if (index != "auto") throw Misuse(fmt::format("shard = '{}' is not of the form i/n, auto/n or auto", text));
+    const Shard shard = fromArrayJob();
+    if (shard.count == 0) {
+      throw Misuse("shard = 'auto': the array job does not say how many tasks it has; give auto/n");
+    }
+    return checked(shard, text);
+  }
+  const int count = static_cast<int>(parseInteger("shard", text.substr(slash + 1), 1, kMostShards));
+  if (index == "auto") return checked({fromArrayJob().index, count}, text);
+  return {static_cast<int>(parseInteger("shard", index, 1, count)), count};
+}
+
+double expectedCost(const Series& series) {
+  static thread_local Unknowns unknowns;
+  const RunSpec first = series.runs.front();
+  const double given = static_cast<double>(isFamily(first.method) ? 5 : stagesInId(first.method));
+  const double stages = std::max(given, 1.0);
+  const double digits = first.scalar == ScalarKind::kDouble ? 1 : first.scalar == ScalarKind::kMp50 ? 40 : 80;
+  const double step = stages * (unknowns.of(first) + 3) * digits;
+  double cost = 0;
+  for (const auto& spec : series.runs) cost += step * expectedSteps(spec, stages);
+  // What is guessed varies more than what is measured: times of quick studies are shared out best by the root.
+  return std::sqrt(cost);
+}
+
+std::vector<int> shardOfSeries(const Study& study, int shards) {
+  std::vector<int> shard(study.series.size(), 1);
+  if (shards == 1) return shard;
+  std::vector<double> cost;
+  for (const auto& series : study.series) cost.push_back(expectedCost(series));
+  std::vector<std::size_t> order(cost.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
+  using Load = std::pair<double, int>;
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
+  for (int i = 1; i <= shards; ++i) least.push({0, i});
+  for (const auto i : order) {
+    const auto [load, index] = least.top();
+    least.pop();
+    shard[i] = index;
+    least.push({load + cost[i], index});
+  }
+  return shard;
+}
+
+std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command, int shards,
+                        int jobs) {
+  return fmt::format(
+      "#!/bin/bash\n"
+      "# {0}: submit with sbatch. When all jobs have ended:\n"
+      "#   {4}\n"
+      "#SBATCH --job-name=irk-{0}\n"
+      "#SBATCH --array=1-{1}\n"
+      "#SBATCH --ntasks=1\n"
+      "#SBATCH --cpus-per-task={2}\n"
+      "#SBATCH --output=irk-{0}-%a.log\n"
+      "{3} --shard auto/{1} --jobs {2}\n",
+      study.id, shards, jobs, run_command, merge_command);
+}
+
+}  // namespace irk

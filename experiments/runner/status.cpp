@@ -1,0 +1,148 @@
+#include "experiments/runner/status.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/base/progress.h"
+#include "experiments/base/time_left.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/store/facts.h"
+#include "experiments/study/series_walk.h"
+#include "experiments/tables/environment.h"
+
+namespace irk {
+namespace {
+
+/// Goes through the series and counts.
+class Counting {
+ public:
+  Counting(const Study& study, const store::Store& store) : study_(study), store_(store) {}
+
+  void count(const Series& series, const std::vector<std::uint64_t>& keys) {
+    const bool planned = series.end == SeriesEnd::kAsymptotic;
+    const store::Rows& runs = store_.runs();
+    const SeriesState state = stateOf(series, [&](std::size_t run) -> std::optional<RunFacts> {
+      const store::Entry* entry = runs.find(keys[run]);
+      if (!entry) return {};
+      return store::factsOf(runs, *entry, planned);
+    });
+    RunCounts counts;
+    counts.planned = state.found.size() + state.missing.size() + state.unplanned;
+    for (const std::size_t run : state.found) countFinished(series, run, *runs.find(keys[run]), counts);
+    for (const std::size_t run : state.missing) expect(kindOf(series.runs[run], series.end), 1);
+    expect(kindOf(series.runs.front(), series.end), state.unplanned);
+    scene(series.runs.front().scene).add(counts);
+    status_.all.add(counts);
+  }
+
+  StudyStatus result() {
+    for (const auto& [kind, runs] : expected_) {
+      if (!made_.contains(kind)) status_.guessed += runs;
+    }
+    status_.seconds_left = time_.left();
+    if (made_.empty()) status_.seconds_left = std::nan("");
+    if (status_.all.planned == status_.all.finished) status_.seconds_left = 0;
+    return std::move(status_);
+  }
+
+ private:
+  void expect(const std::string& kind, std::size_t runs) {
+    if (runs == 0) return;
+    time_.expect(kind, runs);
+    expected_[kind] += runs;
+  }
+
+  void countFinished(const Series& series, std::size_t run, const store::Entry& entry, RunCounts& counts) {
+    const store::Rows& runs = store_.runs();
+    const bool stale = !runs.isCurrent(entry), success = runs.name(entry.outcome) == name(Outcome::kSuccess);
+    ++counts.finished;
+    if (!success) ++counts.failed;
+    if (stale) ++counts.stale;
+    if (isForeign(entry.environment)) ++counts.foreign;
+    const double seconds = numberAt(names_, runs.row(entry), "cpu_s");
+    if (!std::isnan(seconds)) {
+      const std::string kind = kindOf(series.runs[run], series.end);
+      time_.made(kind, seconds);
+      made_.insert(kind);
+    }
+    const TimingOptions& timing = study_.timing;
+    if (!timing.wanted || !success || stale || seconds > timing.skip_above_s) return;
+    const int repetitions = seconds > timing.once_above_s ? 1 : timing.repetitions;
+    if (entry.repetitions >= repetitions) return;
+    ++status_.to_time;
+    status_.timing_seconds_left += (repetitions - entry.repetitions) * std::max(seconds, timing.min_time_s);
+  }
+
+  bool isForeign(std::uint16_t environment) {
+    const auto [at, added] = foreign_.try_emplace(environment);
+    if (added) at->second = store_.processor(store_.runs().name(environment)) != processorName();
+    return at->second;
+  }
+
+  RunCounts& scene(const std::string& id) {
+    const auto at = std::find_if(status_.scenes.begin(), status_.scenes.end(), [&](const auto& s) { return s.first == id; });
+    if (at != status_.scenes.end()) return at->second;
+    return status_.scenes.emplace_back(id, RunCounts()).second;
+  }
+
+  const Study& study_;
+  const store::Store& store_;
+  const Table names_{{}, runColumns(), {}};
+  StudyStatus status_;
+  TimeLeft time_;
+  std::map<std::string, std::size_t> expected_;
+  std::set<std::string> made_;
+  std::map<std::uint16_t, bool> foreign_;
+};
+
+}  // namespace
+
+void RunCounts::add(const RunCounts& other) {
+  planned += other.planned;
+  finished += other.finished;
+  failed += other.failed;
+  stale += other.stale;
+  foreign += other.foreign;
+}
+
+StudyStatus statusOf(const Study& study, const RunnerOptions& options, const store::Store& store) {
+  const RunKeys keys = runKeys(study, options);
+  Counting counting(study, store);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (!keys[i].empty()) counting.count(study.series[i], keys[i]);
+  }
+  return counting.result();
+}
+
+std::string textOf(const StudyStatus& status) {
+  std::size_t width = 5;
+  for (const auto& [scene, counts] : status.scenes) width = std::max(width, scene.size());
+  std::string text = fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "scene", width, "planned", "finished",
+                                 "failed", "stale", "foreign");
+  const auto line = [&](const std::string& scene, const RunCounts& c) {
+    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", scene, width, c.planned, c.finished, c.failed, c.stale,
+                        c.foreign);
+  };
+  for (const auto& [scene, counts] : status.scenes) line(scene, counts);
+  line("all", status.all);
+  const std::size_t missing = status.all.planned - status.all.finished;
+  if (missing == 0) {
+    text += "  all runs are finished\n";
+  } else if (std::isnan(status.seconds_left)) {
+    text += fmt::format("  {} runs to make; the time needed is unknown, as none has been made\n", missing);
+  } else {
+    text += fmt::format("  {} runs to make, about {} on one thread", missing, durationText(status.seconds_left));
+    if (status.guessed > 0) text += fmt::format("; {} of them are like none that is finished", status.guessed);
+    text += '\n';
+  }
+  if (status.to_time > 0) {
+    text += fmt::format("  {} runs to time, about {}\n", status.to_time, durationText(status.timing_seconds_left));
+  }
+  return text;
+}
+
+}  // namespace irk

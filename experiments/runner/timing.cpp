@@ -1,0 +1,134 @@
+#include "experiments/runner/timing.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/base/clock.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/base/progress.h"
+#include "experiments/runner/runner.h"
+#include "experiments/tables/build_info.h"
+#include "experiments/tables/environment.h"
+
+namespace irk {
+namespace {
+
+/// Keeps the seconds per integration; prints nothing.
+class Collector final : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const auto& run : runs) {
+      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
+    }
+  }
+  double seconds = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct Candidate {
+  TableRow* row;
+  RunSpec spec;
+  double seconds;  // of the accuracy run, wherever it was made
+  int repetitions;
+  std::vector<double> measured;  // by a pass that was interrupted, to begin with
+};
+
+// Runs of about the same length take about the same time to be timed.
+std::string kindOf(const Candidate& candidate) {
+  return std::to_string(std::ilogb(candidate.seconds));
+}
+
+// The repetitions that a row has of this processor. Of a row whose times do not count (forgetTiming) none.
+std::vector<double> measuredHere(const store::Store& store, const Table& runs, const TableRow& row) {
+  if (store.processor(textAt(runs, row, "cpu_environment")) != processorName()) return {};
+  std::vector<double> seconds;
+  std::istringstream in(textAt(runs, row, "cpu_all"));
+  for (std::string word; in >> word;) seconds.push_back(cellNumber(word));
+  return seconds;
+}
+
+// Also where the time does not count, as it was measured elsewhere.
+double lengthOf(const store::Store& store, const Table& runs, const TableRow& row) {
+  const double seconds = numberAt(runs, row, "cpu_s");
+  const auto* entry = store.runs().find(store::keyNumber(row.front()));
+  if (!std::isnan(seconds) || !entry) return seconds;
+  return numberAt(runs, store.runs().row(*entry), "cpu_s");
+}
+
+std::vector<Candidate> candidates(const Study& study, const store::Store& store, Table& runs) {
+  const SpecsByKey specs(study);
+  std::vector<Candidate> wanted;
+  for (auto& row : runs.rows) {
+    const auto spec = specs.find(row.front());
+    // What stale rows' counters say, this code's times would not belong to.
+    const bool stale = textAt(runs, row, "code") != buildInfo().code;
+    if (!spec || stale || !succeededAt(runs, row)) continue;
+    const double seconds = lengthOf(store, runs, row);
+    const int repetitions = seconds > study.timing.once_above_s ? 1 : study.timing.repetitions;
+    if (seconds > study.timing.skip_above_s || numberAt(runs, row, "cpu_runs") >= repetitions) continue;
+    wanted.push_back({&row, *spec, seconds, repetitions, measuredHere(store, runs, row)});
+  }
+  return wanted;
+}
+
+}  // namespace
+
+Timing timingOf(std::vector<double> seconds) {
+  std::vector<double> sorted = seconds;
+  std::sort(sorted.begin(), sorted.end());
+  const double least = sorted.front();
+  return {least, sorted[sorted.size() / 2], (sorted.back() - least) / least, std::move(seconds)};
+}
+
+double timeRun(PreparedRun& run, double min_time_s) {
+  benchmark::RegisterBenchmark("run",
+                               [&run](benchmark::State& state) {
+                                 for ([[maybe_unused]] auto _ : state) run.integrate();
+                               })
+      ->MinTime(min_time_s);
+  Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
+  benchmark::ClearRegisteredBenchmarks();
+  return collector.seconds;
+}
+
+void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostream& out) {
+  auto wanted = candidates(study, store, runs);
+  {
+    Progress progress(out, study.id + " timing");
+    for (const auto& candidate : wanted) {
+      for (auto i = candidate.measured.size(); i < static_cast<std::size_t>(candidate.repetitions); ++i) {
+        progress.expect(kindOf(candidate));
+      }
+    }
+    for (int round = 0; round < study.timing.repetitions; ++round) {
+      for (auto& candidate : wanted) {
+        const bool measured = static_cast<std::size_t>(round) < candidate.measured.size();
+        if (measured || round >= candidate.repetitions || interruptFlag()) continue;
+        const double start = wallSeconds();
+        RunSpec unlimited = candidate.spec;
+        unlimited.time_limit = 0;
+        const auto run = prepare(unlimited);
+        // A run so long that it is not repeated within the measurement: what it allocates once is there.
+        if (candidate.repetitions > 1 && candidate.seconds > study.timing.min_time_s) run->integrate();
+        candidate.measured.push_back(timeRun(*run, study.timing.min_time_s));
+        setTiming(runs, *candidate.row, timingOf(candidate.measured));
+        store.addTimes(*candidate.row);
+        progress.finished(kindOf(candidate), wallSeconds() - start);
+      }
+    }
+  }
+  std::vector<std::uint64_t> keys;
+  for (const auto& row : runs.rows) keys.push_back(store::keyNumber(row.front()));
+  store.exportTables(keys);
+}
+
+}  // namespace irk

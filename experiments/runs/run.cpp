@@ -1,0 +1,231 @@
+#include "experiments/runs/run.h"
+
+#include <algorithm>
+
+#include "core/system/first_order.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/decimal.h"
+#include "experiments/runs/peers/peer_integrator.h"
+#include "experiments/runs/setup.h"
+#include "irk/integrator.h"
+#include "irk/multiprecision.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+Vec<double> rounded(const auto& y) {
+  return y.unaryExpr([](const auto& value) { return static_cast<double>(value); });
+}
+
+/// An implicit Runge-Kutta method of the suite.
+template <class Real>
+class RungeKutta {
+ public:
+  explicit RungeKutta(const RunSpec& spec) : setup_(makeSetup<Real>(spec)), integrator_(setup_.integrator()) {}
+
+  const RunSpec& spec() const { return setup_.spec; }
+  const Scene<Real>& scene() const { return setup_.scene; }
+  const std::string& family() const { return setup_.methods.members.front().family; }
+  /// 0: a family's, by the tolerance.
+  Index stages() const { return isFamily(setup_.spec.method) ? 0 : setup_.stages(); }
+  Solution<Real> integrate(const State<Real>& start, const Real& t_end,
+                           const Monitor<Real>& monitor) {
+    auto solution = integrator_.integrate(start, t_end, monitor);
+    const auto* form = dynamic_cast<const FirstOrderForm<Real>*>(setup_.system.get());
+    if (form && solution.detail.empty()) {
+      solution.detail = "mass factorizations: " + std::to_string(form->massFactorizations());
+    }
+    return solution;
+  }
+
+ private:
+  Setup<Real> setup_;
+  Integrator<Real> integrator_;
+};
+
+/// An integrator of another library.
+class PeerMethod {
+ public:
+  explicit PeerMethod(const RunSpec& spec)
+      : spec_(resolved(spec)),
+        scene_(sceneOf<double>(spec_)),
+        entry_(*findPeer(spec_.method)),
+        integrator_(entry_, scene_, spec_) {}
+
+  const RunSpec& spec() const { return spec_; }
+  const Scene<double>& scene() const { return scene_; }
+  const std::string& family() const { return entry_.id; }
+  Index stages() const { return 0; }
+  Solution<double> integrate(const State<double>& start, double t_end,
+                             const Monitor<double>& monitor) {
+    return integrator_.integrate(start, t_end, monitor);
+  }
+
+ private:
+  RunSpec spec_;
+  Scene<double> scene_;
+  const PeerEntry& entry_;
+  PeerIntegrator integrator_;
+};
+
+// Asked before each step: whether the caller or the time limit ends a run that began at `start`.
+std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
+  return [&watch, start, limit] {
+    if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
+    const bool late = limit > 0 && threadSeconds() - start > limit;
+    return late ? Outcome::kTimeout : Outcome::kSuccess;
+  };
+}
+
+template <class Real, class Method>
+class Prepared final : public PreparedRun {
+ public:
+  explicit Prepared(const RunSpec& spec)
+      : method_(spec),
+        spec_(method_.spec()),
+        scene_(method_.scene()),
+        references_(references(spec_.scene, settingsAtStep(spec_))) {}
+
+  RunRecord execute(const Watch& watch) override {
+    Monitor<Real> monitor;
+    const double start = threadSeconds();
+    monitor.interrupt = interruption(watch, start, spec_.time_limit);
+    if (watch.accepted) {
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      watch.accepted({static_cast<double>(scene_.start.t), none, none, 0, values(scene_.start)});
+      monitor.accepted = [&](const StepRecord<Real>& step) {
+        watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations,
+                        values(step.state)});
+      };
+    }
+    std::vector<SwitchEvent> switches;
+    monitor.switched = [&](const SwitchRecord<Real>& change) {
+      const double t = static_cast<double>(change.t);
+      if (switches.size() < kMostRecordedSwitches) switches.push_back({t, change.name});
+      if (watch.switched) watch.switched(t, change.name);
+    };
+    const auto t_end = decimalNumber<Real>(spec_.t_end);
+    const auto solution = method_.integrate(scene_.start, t_end, monitor);
+    RunRecord result = record(solution, threadSeconds() - start);
+    result.switches = std::move(switches);
+    return result;
+  }
+
+  void integrate() override {
+    last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
+  }
+
+  std::vector<std::string> columns() const override {
+    auto names = scene_.names;
+    for (const auto& output : scene_.outputs) names.push_back(output.name);
+    return names;
+  }
+
+ private:
+  std::vector<double> values(const State<Real>& state) const {
+    std::vector<double> all;
+    const auto append = [&all](const Vec<double>& y) { all.insert(all.end(), y.begin(), y.end()); };
+    append(rounded(state.u));
+    append(rounded(state.v));
+    append(rounded(state.x));
+    append(rounded(state.z()));
+    for (const auto& output : scene_.outputs) {
+      all.push_back(static_cast<double>(output.value(state)));
+    }
+    return all;
+  }
+
+  RunRecord record(const Solution<Real>& solution, double seconds) const {
+    const State<Real>& state = solution.state;
+    RunRecord record{.spec = spec_,
+                     .family = method_.family(),
+                     .stages = method_.stages(),
+                     .outcome = std::string(name(solution.outcome)),
+                     .detail = solution.detail,
+                     .t = static_cast<double>(state.t),
+                     .u = rounded(state.u),
+                     .v = rounded(state.v),
+                     .x = rounded(state.x),
+                     .z = rounded(state.z()),
+                     .digits = {},
+                     .errors = {},
+                     .counters = solution.counters,
+                     .switches = {},
+                     .cpu_s = seconds};
+    // A state that violates its constraints is a final state as well: its error tells by how much.
+    if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
+      record.errors = errorsOf(scene_, references_, state);
+    }
+    if constexpr (!std::is_same_v<Real, double>) {
+      const auto append = [&record](const auto& y) {
+        for (const Real& value : y) record.digits.push_back(value.str());
+      };
+      append(state.u);
+      append(state.v);
+      append(state.x);
+      append(state.z());
+    }
+    return record;
+  }
+
+  Method method_;
+  const RunSpec& spec_;
+  const Scene<Real>& scene_;
+  std::vector<Reference> references_;
+  Outcome last_ = Outcome::kSuccess;
+};
+
+// A setting `X/h` has a value only where the step is the same throughout.
+void requireKnownStep(const RunSpec& spec) {
+  if (spec.options.step.control == StepControl::kFixed) return;
+  for (const auto& [name, value] : spec.settings) {
+    if (value.ends_with("/h")) {
+      throw Misuse(name + " = '" + value + "': a value over h needs fixed steps, --step H");
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
+  requireKnownStep(spec);
+  if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
+  switch (spec.scalar) {
+    case ScalarKind::kDouble:
+      return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
+    case ScalarKind::kMp50:
+      return std::make_unique<Prepared<mp50, RungeKutta<mp50>>>(spec);
+    case ScalarKind::kMp100:
+      return std::make_unique<Prepared<mp100, RungeKutta<mp100>>>(spec);
+  }
+  return nullptr;
+}
+
+RunRecord execute(const RunSpec& spec, const Watch& watch) { return prepare(spec)->execute(watch); }
+
+FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch) {
+  RungeKutta<double> method(spec);
+  Monitor<double> monitor;
+  monitor.interrupt = interruption(watch, threadSeconds(), method.spec().time_limit);
+  auto solution = method.integrate(start, method.spec().t_end, monitor);
+  return {solution.outcome, std::move(solution.detail), std::move(solution.state)};
+}
+
+RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make) {
+  try {
+    return make();
+  } catch (const Misuse& misuse) {
+    RunRecord record;
+    record.spec = spec;
+    const bool peer = findPeer(spec.method) != nullptr;
+    const bool whole = peer || isFamily(spec.method);
+    record.family = whole ? spec.method : spec.method.substr(0, spec.method.rfind('_'));
+    record.stages = stagesInId(spec.method);
+    record.outcome = "refused";
+    record.detail = misuse.what();
+    return record;
+  }
+}
+
+}  // namespace irk

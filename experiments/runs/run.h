@@ -1,0 +1,94 @@
+// RunSpec -> RunRecord: a pure function but for the times.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/runs/run_errors.h"
+#include "experiments/runs/run_spec.h"
+#include "irk/outcome.h"
+#include "irk/statistics.h"
+
+namespace irk {
+
+/// A change of the discrete state.
+struct SwitchEvent {
+  double t;
+  std::string name;  ///< of the switching function
+};
+
+struct RunRecord {
+  RunSpec spec;
+  std::string family;
+  Index stages = 0;
+  std::string outcome;  ///< as irk::name(Outcome), or `refused` for a misuse inside a sweep
+  std::string detail;   ///< of a failure, in one line
+  double t = std::numeric_limits<double>::quiet_NaN();
+  Vec<double> u, v, x, z;           ///< the last accepted state
+  std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
+  RunErrors errors;
+  Counters counters;
+  std::vector<SwitchEvent> switches;  ///< the first kMostRecordedSwitches
+  double cpu_s = std::numeric_limits<double>::quiet_NaN();
+
+  bool succeeded() const { return outcome == name(Outcome::kSuccess); }
+};
+
+/// A chattering run has no end of them.
+constexpr std::size_t kMostRecordedSwitches = 1000;
+
+/// An accepted step, or the start: NaN and 0 where there is no step.
+struct AcceptedStep {
+  double t;  ///< at its end
+  double h;
+  double error;  ///< estimate in units of the tolerance; NaN without one
+  int newton_iterations;
+  std::span<const double> values;  ///< the components and outputs of PreparedRun::columns
+};
+
+/// What the caller says and wants to hear while a run goes on. All optional.
+struct Watch {
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(const AcceptedStep&)> accepted;
+  /// A change of the discrete state.
+  std::function<void(double t, const std::string& name)> switched;
+};
+
+/// Scene, tableau and integrator of a spec, built once and run as often as wanted. One per thread.
+class PreparedRun {
+ public:
+  virtual ~PreparedRun() = default;
+  virtual RunRecord execute(const Watch& watch) = 0;
+  /// Nothing but the integration, for timing.
+  virtual void integrate() = 0;
+  /// Names of the components u, v, x, z and of the scene's outputs.
+  virtual std::vector<std::string> columns() const = 0;
+};
+
+/// Throws Misuse for everything that can never work.
+std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
+
+/// Throws Misuse as `prepare`.
+RunRecord execute(const RunSpec& spec, const Watch& watch = {});
+
+/// Where an integration ended.
+struct FinalState {
+  Outcome outcome = Outcome::kSuccess;
+  std::string detail;   ///< of a failure, in one line
+  State<double> state;  ///< the last accepted one, in the scene's unknowns
+};
+
+/// The integration of a spec in double precision with an implicit Runge-Kutta method, but from
+/// `start`, a state of the scene that may differ from its own start. Ends at the spec's t_end. Throws
+/// Misuse as `prepare`, and for a peer.
+FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch = {});
+
+/// For sweeps: `make()`, or a record with outcome `refused` if it throws Misuse.
+RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make);
+
+}  // namespace irk

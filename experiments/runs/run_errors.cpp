@@ -1,0 +1,139 @@
+#include "experiments/runs/run_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "experiments/base/decimal.h"
+
+namespace irk {
+namespace {
+
+// References are given at times like 0.3, which a run reaches up to round-off.
+constexpr double kSameTime = 1e-12;
+
+void raise(double& largest, double error) {
+  if (!std::isnan(error) && !(largest >= error)) largest = error;
+}
+
+template <class Real>
+double relativeError(const Real& value, const Real& reference, double scale) {
+  const double magnitude = std::max(std::abs(static_cast<double>(reference)), scale);
+  return std::abs(static_cast<double>(Real(value - reference))) / magnitude;
+}
+
+// The most accurate reference of every component at time t.
+std::map<std::string, const Reference*> bestAt(const std::vector<Reference>& references, double t) {
+  std::map<std::string, const Reference*> best;
+  for (const Reference& reference : references) {
+    if (std::abs(reference.t - t) > kSameTime * std::max(1.0, std::abs(t))) continue;
+    const auto [at, added] = best.try_emplace(reference.component, &reference);
+    if (!added && reference.accuracy < at->second->accuracy) at->second = &reference;
+  }
+  return best;
+}
+
+// Which group component i belongs to.
+double& group(RunErrors& errors, const Sizes& n, Index i) {
+  if (i < n.nu) return errors.u;
+  if (i < 2 * n.nu) return errors.v;
+  return i < 2 * n.nu + n.nx ? errors.x : errors.z;
+}
+
+double scaleOf(const Vec<double>& scale, Index i) { return i < scale.size() ? scale[i] : 1; }
+
+template <class Real>
+void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& state,
+                  RunErrors& errors) {
+  const Vec<Real> y = components(state);
+  const Vec<Real> reference = components(scene.exact(state.t));
+  for (Index i = 0; i < std::min(y.size(), reference.size()); ++i) {
+    if (std::isnan(static_cast<double>(reference[i]))) continue;
+    const double error = relativeError(y[i], reference[i], scaleOf(scene.scale, i));
+    raise(group(errors, n, i), error);
+    raise(errors.all, error);
+  }
+}
+
+template <class Real>
+void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real>& state,
+                      const Reference& reference, RunErrors& errors) {
+  const Real value = decimalNumber<Real>(reference.value);
+  const auto at = std::find(scene.names.begin(), scene.names.end(), reference.component);
+  if (at != scene.names.end()) {
+    const Index i = at - scene.names.begin();
+    const double error = relativeError(components(state)[i], value, scaleOf(scene.scale, i));
+    raise(group(errors, n, i), error);
+    raise(errors.all, error);
+    return;
+  }
+  for (const auto& output : scene.outputs) {
+    if (output.name == reference.component) {
+      raise(errors.all, relativeError(output.value(state), value, 1));
+    }
+  }
+}
+
+template <class Real>
+double driftOf(const Scene<Real>& scene, const State<Real>& state) {
+  const auto system = scene.system({});
+  const Sizes n = system->sizes();
+  double drift = std::numeric_limits<double>::quiet_NaN();
+  Vec<Real> r(n.n());
+  if (n.constraints > 0) system->evaluate(Level::kPosition, pointOf(state), {r.data(), r.size()});
+  for (Index i = n.nu + n.nx; i < n.nu + n.nx + n.constraints; ++i) {
+    raise(drift, std::abs(static_cast<double>(r[i])));
+  }
+  return drift;
+}
+
+}  // namespace
+
+std::string_view referenceName(ReferenceKind kind) {
+  switch (kind) {
+    case ReferenceKind::kNone:
+      return "none";
+    case ReferenceKind::kExact:
+      return "exact";
+    case ReferenceKind::kFile:
+      return "file";
+  }
+  return "?";
+}
+
+template <class Real>
+Vec<Real> components(const State<Real>& s) {
+  Vec<Real> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());
+  y << s.u, s.v, s.x, s.z();
+  return y;
+}
+
+template <class Real>
+RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references,
+                   const State<Real>& state) {
+  RunErrors errors;
+  const Sizes n = scene.sizes();
+  errors.drift = driftOf(scene, state);
+  if (scene.exact) compareExact(scene, n, state, errors);
+  if (!std::isnan(errors.all)) {
+    errors.reference = ReferenceKind::kExact;
+    return errors;
+  }
+  for (const auto& [component, reference] : bestAt(references, static_cast<double>(state.t))) {
+    compareReference(scene, n, state, *reference, errors);
+  }
+  if (!std::isnan(errors.all)) errors.reference = ReferenceKind::kFile;
+  return errors;
+}
+
+template Vec<double> components(const State<double>&);
+template Vec<mp50> components(const State<mp50>&);
+template Vec<mp100> components(const State<mp100>&);
+template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&,
+                            const State<double>&);
+template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
+template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&,
+                            const State<mp100>&);
+
+}  // namespace irk

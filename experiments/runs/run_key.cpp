@@ -1,0 +1,77 @@
+// What decides the numbers of a run, as one text and as a key.
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include "core/base/input_file.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run_spec.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+// A hash of A, b and c, rounded to double as every user of the tableau sees them.
+std::uint64_t tableauHash(const Tableau<double>& tableau) {
+  std::string bytes;
+  const auto append = [&bytes](const auto& numbers) {
+    bytes.append(reinterpret_cast<const char*>(numbers.data()),
+                 static_cast<std::size_t>(numbers.size()) * sizeof(double));
+  };
+  append(tableau.A);
+  append(tableau.b);
+  append(tableau.c);
+  return fnv1a(bytes);
+}
+
+std::string hashedCoefficients(const std::string& method, int max_stages, OrderControl order) {
+  if (order == OrderControl::kFixed) return hexText(tableauHash(makeTableau<double>(method)));
+  std::string all;
+  for (const auto& member : makeMethods<double>(method, max_stages, 1).members) {
+    all += hexText(tableauHash(member));
+  }
+  return hexText(fnv1a(all));
+}
+
+// What a run's method is made of: a file's contents, the numbers of tableaus; nothing of a peer. A method that cannot
+// be made has none either: its run is refused.
+std::string coefficients(const RunSpec& spec) {
+  if (findPeer(spec.method)) return "";
+  if (std::filesystem::is_regular_file(spec.method)) return hexText(fnv1a(readInputFile(spec.method)));
+  static std::mutex mutex;
+  static std::map<std::tuple<std::string, int, OrderControl>, std::string> known;
+  const bool variable = spec.options.order == OrderControl::kVariable;
+  const std::tuple name{spec.method, variable ? spec.max_stages : 0, spec.options.order};
+  {
+    const std::lock_guard lock(mutex);
+    const auto found = known.find(name);
+    if (found != known.end()) return found->second;
+  }
+  std::string text;
+  try {
+    text = hashedCoefficients(spec.method, spec.max_stages, spec.options.order);
+  } catch (const Misuse&) {
+  }
+  const std::lock_guard lock(mutex);
+  return known[name] = text;
+}
+
+}  // namespace
+
+std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameters) {
+  auto text = canonicalText(spec);
+  for (const auto& parameter : parameters) {
+    if (!spec.settings.contains(parameter.name)) {
+      text.append(";").append(parameter.name).append("=").append(parameter.default_value);
+    }
+  }
+  return text + ";coefficients=" + coefficients(spec);
+}
+
+std::string specKey(const RunSpec& spec) {
+  return hexText(fnv1a(keyText(resolved(spec), findScene(spec.scene).parameters)));
+}
+
+}  // namespace irk

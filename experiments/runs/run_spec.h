@@ -1,0 +1,104 @@
+// A run is a value: everything that decides its numbers, as a struct, as text and as a key.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "irk/options.h"
+#include "irk/scene.h"
+
+namespace irk {
+
+enum class ScalarKind { kDouble, kMp50, kMp100 };
+template <>
+std::span<const Named<ScalarKind>> named<ScalarKind>();
+template <>
+ScalarKind parseId<ScalarKind>(std::string_view id);
+template <>
+std::string_view axisName<ScalarKind>();
+
+/// A named choice of strategies. Setting it sets all of its fields; fields set later override them.
+struct Configuration {
+  std::string_view id;
+  std::string_view meaning;
+  std::string_view fields;  ///< `field=value;field=value`
+};
+/// `default`, `paper`, `embedded`, `variable`: the first is what a spec starts with.
+std::span<const Configuration> configurations();
+
+/// Round-off of a number of this kind.
+double epsilonOf(ScalarKind scalar);
+
+struct RunSpec {
+  std::string scene;
+  /// Of `configurations`: a name for tables and figures.
+  std::string configuration = "default";
+  Settings settings;
+  /// An id, of a peer also, or a tableau file; for variable order also a family.
+  std::string method = "radau_iia_5";
+  Formulation formulation = Formulation::kIndex2;
+  ConstraintScaling scaling = ConstraintScaling::kOn;
+  Discontinuity discontinuity = Discontinuity::kLocate;
+  ScalarKind scalar = ScalarKind::kDouble;
+  IntegratorOptions options;
+  /// 1 .. kMaxStages. Variable order: the largest member of the method's family.
+  int max_stages = 13;
+  /// NaN: the scene's own.
+  double t_end = std::numeric_limits<double>::quiet_NaN();
+  /// >= 0, seconds of the thread's CPU clock; 0 = no limit.
+  double time_limit = 0;
+};
+
+/// One field as text. The same names in canonical forms, study files, options and tables.
+struct SpecField {
+  std::string_view name;
+  std::string (*get)(const RunSpec&);
+  /// Throws Misuse naming field, value and range or nearest id.
+  void (*set)(RunSpec&, std::string_view value);
+  /// For help texts: the ids or the range, the default.
+  std::string (*allowed)();
+};
+
+/// All fields in the order of the canonical form.
+std::span<const SpecField> specFields();
+/// Throws Misuse naming the nearest field.
+const SpecField& findField(std::string_view name);
+
+/// The scene's t_end filled in, settings at their defaults left out, so that equal runs are equal
+/// specs. Throws Misuse for an unknown scene or setting.
+RunSpec resolved(RunSpec spec);
+
+/// The settings with every value `X/h` replaced by X / h: stiffness that grows as the step shrinks,
+/// `lambda=-1e8/h` for z = h lambda = -1e8. Where no step is known, h = 1.
+Settings settingsAtStep(const RunSpec& spec);
+
+/// `field=value;field=value;...`, all fields. parseSpec(canonicalText(s)) equals s.
+std::string canonicalText(const RunSpec& spec);
+RunSpec parseSpec(std::string_view text);
+
+/// All that decides a run but code: the canonical text of the resolved spec, the scene's parameters at their defaults, a
+/// hash of the method's A, b and c, or of a method file's contents.
+std::string keyText(const RunSpec& resolved, const std::vector<Parameter>& parameters);
+
+/// 16 hexadecimal digits: a hash of keyText. What the code is stands beside it in a row (`code`).
+std::string specKey(const RunSpec& spec);
+
+/// What a user would call the integrator: a peer's id, `variable` or another configuration with variable
+/// order, else `configuration:method`.
+std::string integratorName(const RunSpec& spec);
+
+/// The number of stages that a method's id ends with; 0 for a file.
+Index stagesInId(std::string_view method);
+
+/// Throws Misuse for a family where one method is needed: order 'fixed'.
+void refuseFamilyOfFixedOrder(const RunSpec& spec);
+
+/// `name=value name=value`.
+std::string settingsText(const Settings& settings);
+/// `name=value`. Throws Misuse for text without name or '='.
+void addSetting(Settings& settings, std::string_view text);
+
+}  // namespace irk

@@ -1,0 +1,129 @@
+#include "experiments/runs/run_table.h"
+
+#include <algorithm>
+#include <map>
+
+#include "experiments/base/numbers.h"
+#include "experiments/tables/build_info.h"
+#include "experiments/tables/environment.h"
+
+namespace irk {
+namespace {
+
+// These fields stand before the derived columns, all others of specFields() after them: a field that is
+// added to a spec has its column.
+constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
+constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
+// What a series runs through.
+constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
+constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
+                                        "error_x", "error_z", "drift"};
+constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all",
+                                       "cpu_environment"};
+// Which code made a row, where, when, and when it was asked for anew (--fresh).
+constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
+
+void append(std::vector<std::string>& to, std::span<const std::string_view> names) {
+  to.insert(to.end(), names.begin(), names.end());
+}
+
+bool isIn(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// In the order of their columns.
+std::vector<std::string_view> laterFields() {
+  std::vector<std::string_view> names;
+  for (const auto& field : specFields()) {
+    if (!isIn(kFirst, field.name)) names.push_back(field.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> runColumns() {
+  std::vector<std::string> columns{"key", "study"};
+  append(columns, kFirst);
+  append(columns, kDerived);
+  append(columns, laterFields());
+  columns.emplace_back("outcome");
+  append(columns, kErrors);
+  Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
+  append(columns, kTimes);
+  columns.emplace_back("detail");
+  append(columns, kOrigin);
+  return columns;
+}
+
+TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record) {
+  TableRow row{key, study};
+  for (const auto name : kFirst) row.push_back(findField(name).get(record.spec));
+  row.insert(row.end(), {record.family, std::to_string(record.stages), integratorName(record.spec)});
+  for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
+  row.push_back(record.outcome);
+  const RunErrors& e = record.errors;
+  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift}) row.push_back(numberText(error));
+  record.counters.forEach(
+      [&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
+  const std::string& environment = thisEnvironment().front();
+  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", "", environment, record.detail,
+                         std::string(buildInfo().code), environment, dateText(), ""});
+  return row;
+}
+
+std::vector<std::string> seriesColumns(const Table& table) {
+  std::vector<std::string> columns;
+  append(columns, kFirst);
+  append(columns, kDerived);
+  append(columns, laterFields());
+  std::erase_if(columns,
+                [&](const auto& name) { return isIn(kSwept, name) || !table.hasColumn(name); });
+  return columns;
+}
+
+std::vector<RunSeries> seriesOf(const Table& runs) {
+  const auto columns = seriesColumns(runs);
+  std::map<TableRow, std::size_t> place;
+  std::vector<RunSeries> all;
+  for (const auto& row : runs.rows) {
+    TableRow name;
+    for (const auto& column : columns) name.push_back(textAt(runs, row, column));
+    const auto [at, added] = place.try_emplace(name, all.size());
+    if (added) all.push_back({name, {}});
+    all[at->second].rows.push_back(&row);
+  }
+  return all;
+}
+
+void setTiming(const Table& table, TableRow& row, const Timing& timing) {
+  row[table.column("cpu_s")] = numberText(timing.minimum_s);
+  row[table.column("cpu_median_s")] = numberText(timing.median_s);
+  row[table.column("cpu_spread")] = numberText(timing.spread);
+  row[table.column("cpu_runs")] = std::to_string(timing.all_s.size());
+  std::string all;
+  for (const double seconds : timing.all_s) all += (all.empty() ? "" : " ") + numberText(seconds);
+  row[table.column("cpu_all")] = all;
+  row[table.column("cpu_environment")] = thisEnvironment().front();
+  row[table.column("date")] = dateText();
+}
+
+void forgetTiming(const Table& table, TableRow& row) {
+  for (const char* name : {"cpu_s", "cpu_median_s", "cpu_spread"}) row[table.column(name)] = "nan";
+  row[table.column("cpu_runs")] = "0";
+  row[table.column("cpu_all")].clear();
+}
+
+double numberAt(const Table& table, const TableRow& row, std::string_view column) {
+  return cellNumber(row[table.column(column)]);
+}
+
+const std::string& textAt(const Table& table, const TableRow& row, std::string_view column) {
+  return row[table.column(column)];
+}
+
+bool succeededAt(const Table& table, const TableRow& row) {
+  return textAt(table, row, "outcome") == name(Outcome::kSuccess);
+}
+
+}  // namespace irk

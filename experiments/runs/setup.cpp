@@ -1,0 +1,55 @@
+#include "experiments/runs/setup.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/estimates/variable_order.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "irk/multiprecision.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+Methods<Real> methodsOf(const RunSpec& spec) {
+  if (findPeer(spec.method)) {
+    throw Misuse("method '" + spec.method + "' is an integrator of another library: it has no tableau");
+  }
+  refuseFamilyOfFixedOrder(spec);
+  if (spec.options.order == OrderControl::kFixed) return makeTableau<Real>(spec.method);
+  return makeMethods<Real>(spec.method, spec.max_stages, firstStages(spec.options.tolerances));
+}
+
+}  // namespace
+
+Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
+  Vec<double> all = Vec<double>::Ones(system.components());
+  const Index known = std::min(scene.size(), all.size());
+  all.head(known) = scene.head(known);
+  return all;
+}
+
+template <class Real>
+Scene<Real> sceneOf(const RunSpec& spec) {
+  return makeScene<Real>(spec.scene, settingsAtStep(spec));
+}
+
+template <class Real>
+Setup<Real> makeSetup(const RunSpec& given) {
+  RunSpec spec = resolved(given);
+  auto scene = sceneOf<Real>(spec);
+  auto methods = methodsOf<Real>(spec);
+  auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
+  auto scale = systemScale(scene.scale, system->sizes());
+  return {std::move(spec), std::move(scene), std::move(system), std::move(methods), std::move(scale)};
+}
+
+template Scene<double> sceneOf(const RunSpec&);
+template Scene<mp50> sceneOf(const RunSpec&);
+template Scene<mp100> sceneOf(const RunSpec&);
+template Setup<double> makeSetup(const RunSpec&);
+template Setup<mp50> makeSetup(const RunSpec&);
+template Setup<mp100> makeSetup(const RunSpec&);
+
+}  // namespace irk

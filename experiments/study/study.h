@@ -1,0 +1,91 @@
+// A study: which runs, and what to do with them afterwards.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/runs/run_spec.h"
+#include "experiments/study/series_runs.h"
+
+namespace irk {
+
+/// When the runs of a series that come later need not be made.
+enum class SeriesEnd {
+  kAll,         ///< every run is made
+  kAsymptotic,  ///< a StepPlanner chooses among them, to measure orders
+  kTooLong,     ///< after one that ran out of steps or time, the harder ones are recorded as such
+};
+
+/// Runs of one method on one scene, from the easiest to the hardest: made in this order.
+struct Series {
+  SeriesRuns runs;
+  SeriesEnd end = SeriesEnd::kAll;
+};
+
+/// The serial timing pass.
+struct TimingOptions {
+  bool wanted = false;
+  double min_time_s = 0.02;   ///< > 0. Google Benchmark repeats a run until this much time is spent
+  int repetitions = 3;        ///< >= 1; rounds over all runs
+  double once_above_s = 0.5;  ///< > 0. Longer runs are repeated once only, ...
+  double skip_above_s = 3;    ///< > 0. ... and still longer ones keep the accuracy run's time
+};
+
+/// An audit: runs drawn at random instead of blocks (experiments/study/draw.h).
+struct AuditOptions {
+  int runs = 12000;        ///< > 0
+  std::uint64_t seed = 1;  ///< of the draw
+  int variants = 40;       ///< > 0. Drawn settings per scene: runs share their references
+  double time_limit = 2;   ///< > 0, CPU seconds of each run
+};
+
+struct Study {
+  std::string id;
+  std::string title;
+  std::vector<Series> series;
+  bool orders = false;          ///< fit orders: orders.csv
+  bool trajectories = false;    ///< write the solution over time of every run: <scene>.<method>.csv
+  bool estimates = false;       ///< compare estimated with true errors of steps: estimates.csv
+  bool scaling = false;         ///< time of a step over n, stages, threads: scaling.csv
+  bool energy = false;          ///< what round-off does to an energy: energy.csv
+  bool phases = false;          ///< shares of the parts of Newton's method: phases.csv
+  std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv
+  bool profile = false;         ///< performance profiles at the targets: profile.csv
+  bool states = false;          ///< keep the final states of all runs: states.csv
+  /// Judge every success: audit.csv. The series are the drawn runs, one each.
+  std::optional<AuditOptions> audit;
+  TimingOptions timing;
+};
+
+enum class StudyVariant { kFull, kQuick };
+
+/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is allowed, and for a
+/// file with another study whose name is a built-in one's, or that of a folder of results: they would share a folder.
+Study loadStudy(std::string_view id_or_file, StudyVariant variant);
+
+/// The specs of all runs by their keys; the study must outlive it.
+class SpecsByKey {
+ public:
+  explicit SpecsByKey(const Study& study);
+  /// Nothing where the study has no such run.
+  std::optional<RunSpec> find(const std::string& key) const;
+
+ private:
+  const Study& study_;
+  std::map<std::string, std::pair<std::size_t, std::size_t>> places_;  // number of the series, and in it
+};
+
+/// From TOML text; `file` names it in messages.
+Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);
+
+/// N = 2, 4, ... growing by about a tenth, up to `most`: steps t_end / N. Even, because errors of
+/// methods with R(infinity) = -1 alternate.
+std::vector<int> divisions(int most);
+
+}  // namespace irk

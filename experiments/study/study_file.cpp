@@ -1,0 +1,215 @@
+#include "experiments/study/study_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/base/text.h"
+#include "experiments/base/numbers.h"
+
+namespace irk {
+namespace {
+
+class FileReader {
+ public:
+  explicit FileReader(std::string file) : file_(std::move(file)) {}
+
+  std::string place(const toml::source_region& region) const {
+    return fmt::format("{}:{}", file_, region.begin.line);
+  }
+
+  [[noreturn]] void refuse(const toml::node& node, std::string_view reason) const {
+    throw Misuse(fmt::format("{}: {}", place(node.source()), reason));
+  }
+
+  std::string scalar(std::string_view key, const toml::node& node) const {
+    if (const auto* text = node.as_string()) return text->get();
+    if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
+    if (const auto* number = node.as_floating_point()) return numberText(number->get());
+    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    refuse(node, fmt::format("{}: text, a number, true or false is expected", key));
+  }
+
+  StudyValue value(std::string_view key, const toml::node& node) const {
+    StudyValue value{{}, place(node.source())};
+    if (const auto* list = node.as_array()) {
+      for (const auto& item : *list) {
+        auto text = scalar(key, item);
+        if (std::find(value.items.begin(), value.items.end(), text) != value.items.end()) {
+          refuse(item, fmt::format("{}: '{}' twice in the list", key, text));
+        }
+        value.items.push_back(std::move(text));
+      }
+      if (value.items.empty()) refuse(node, fmt::format("{}: an empty list", key));
+    } else {
+      value.items.push_back(scalar(key, node));
+    }
+    return value;
+  }
+
+  const toml::table& table(std::string_view key, const toml::node& node) const {
+    if (const auto* found = node.as_table()) return *found;
+    refuse(node, fmt::format("{}: a table is expected", key));
+  }
+
+  enum class Quick { kRefused, kLeftOut };
+
+  /// Overwrites `keys` with what the table holds.
+  void merge(const toml::table& from, StudyKeys& keys, Quick quick) const {
+    for (const auto& [key, node] : from) {
+      if (key.str() == "quick") {
+        if (quick == Quick::kLeftOut) continue;
+        refuse(node, "a table 'quick' in this table has no effect: [quick], [block.quick], [timing.quick] or "
+                     "[audit.quick] is expected");
+      }
+      keys.insert_or_assign(std::string(key.str()), value(key.str(), node));
+    }
+  }
+
+  void mergeQuick(const toml::table& from, StudyKeys& keys) const {
+    if (const auto* quick = from.get("quick")) merge(table("quick", *quick), keys, Quick::kRefused);
+  }
+
+ private:
+  std::string file_;
+};
+
+constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
+                                           "energy", "phases", "timing",       "targets",
+                                           "profile", "scaling", "audit", "defaults",
+                                           "quick", "block"};
+
+// A table of the study itself: `timing.repetitions`. Its table `quick` holds for --quick only.
+void readStudyTable(const FileReader& reader, const std::string& key, const toml::node& node,
+                    bool quick, StudyKeys& study) {
+  const toml::table& table = reader.table(key, node);
+  StudyKeys keys;
+  reader.merge(table, keys, FileReader::Quick::kLeftOut);
+  if (quick) reader.mergeQuick(table, keys);
+  study[key] = {{"true"}, reader.place(node.source())};
+  for (auto& [name, value] : keys) study[key + "." + name] = std::move(value);
+}
+
+void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
+                  bool quick, StudyKeys& study) {
+  if (key == "defaults" || key == "quick" || key == "block") return;
+  if (std::find(std::begin(kStudyKeys), std::end(kStudyKeys), key) == std::end(kStudyKeys)) {
+    reader.refuse(node, unknownName("key", key, {std::begin(kStudyKeys), std::end(kStudyKeys)}));
+  }
+  if (key == "timing" || key == "audit") {
+    return readStudyTable(reader, std::string(key), node, quick, study);
+  }
+  study[std::string(key)] = reader.value(key, node);
+}
+
+// The text with strings and comments blanked out, line by line the same.
+std::string structureOf(std::string_view text) {
+  std::string bare(text);
+  for (std::size_t at = 0; at < bare.size();) {
+    const char c = bare[at];
+    if (c == '#') {
+      for (; at < bare.size() && bare[at] != '\n'; ++at) bare[at] = ' ';
+    } else if (c == '"' || c == '\'') {
+      const bool lines = text.substr(at).starts_with(std::string(3, c));
+      const std::string end(lines ? 3 : 1, c);
+      for (at += end.size(); at < bare.size() && !text.substr(at).starts_with(end); ++at) {
+        if (bare[at] == '\n' && !lines) break;
+        if (c == '"' && bare[at] == '\\' && at + 1 < bare.size()) bare[at++] = '_';
+        if (bare[at] != '\n') bare[at] = '_';
+      }
+      at = std::min(at + end.size(), bare.size());
+    } else {
+      ++at;
+    }
+  }
+  return bare;
+}
+
+// toml++ (3.3) ends the program, or without assertions reads on, at a table without a name (`[` and the end of the
+// line), at some times of day, and in a list at a brace and at blanks beyond ASCII: refused before. A study needs no
+// braces, no times and no lists of lists.
+void refuseUnreadable(std::string_view text, const FileReader& reader) {
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
+  const auto isForeign = [&](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return !isBlank(c) && c != '\r' && (code < 0x20 || code >= 0x7f);
+  };
+  const auto mayBegin = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-\"'").find(c) != std::string_view::npos;
+  };
+  const auto trimmed = [&](std::string_view line) {
+    while (!line.empty() && isBlank(line.front())) line.remove_prefix(1);
+    return line;
+  };
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::string structure = structureOf(text);
+  std::string_view rest = structure;
+  for (toml::source_index number = 1; !rest.empty();) {
+    const auto end = std::min(rest.find('\n'), rest.size());
+    const auto line = trimmed(rest.substr(0, end));
+    const auto refuse = [&](std::string_view reason) {
+      throw Misuse(fmt::format("{}: {}", reader.place({{number, 1}, {}, {}}), reason));
+    };
+    if (std::any_of(line.begin(), line.end(), isForeign)) {
+      refuse("a character that is no printable ASCII, outside of quotes and comments");
+    }
+    if (line.find_first_of("{}") != line.npos) {
+      refuse("a brace: a table of a study begins with a line [name], a list has brackets");
+    }
+    if (line.find(':') != line.npos) refuse("a colon outside of quotes and comments: a study has no times");
+    if (line.starts_with('[')) {
+      const auto name = trimmed(line.substr(line.starts_with("[[") ? 2 : 1));
+      if (name.empty() || !mayBegin(name.front())) refuse("a table's name is expected after '['");
+    }
+    ++number;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+toml::table parsed(std::string_view text, const FileReader& reader) {
+  refuseUnreadable(text, reader);
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw Misuse(fmt::format("{}: {}", reader.place(error.source()), error.description()));
+  }
+}
+
+}  // namespace
+
+StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVariant variant) {
+  const FileReader reader(file);
+  const toml::table root = parsed(text, reader);
+  StudyFile result;
+  const bool quick = variant == StudyVariant::kQuick;
+  for (const auto& [key, node] : root) readStudyKey(reader, key.str(), node, quick, result.study);
+
+  StudyKeys defaults;
+  if (const auto* node = root.get("defaults"))
+    reader.merge(reader.table("defaults", *node), defaults, FileReader::Quick::kRefused);
+  const auto* blocks = root.get_as<toml::array>("block");
+  if (root.contains("audit")) {
+    for (const auto& [key, name] : {std::pair("block", "[[block]]"), {"defaults", "[defaults]"}, {"quick", "[quick]"}}) {
+      const auto* node = root.get(key);
+      if (node) reader.refuse(*node, fmt::format("[audit] draws its runs: no {} beside it", name));
+    }
+    return result;
+  }
+  if (!blocks || blocks->empty()) throw Misuse(file + ": no [[block]]: a study needs at least one");
+  for (const auto& node : *blocks) {
+    const toml::table& block = reader.table("block", node);
+    StudyKeys keys = defaults;
+    reader.merge(block, keys, FileReader::Quick::kLeftOut);
+    if (quick) reader.mergeQuick(root, keys);
+    if (quick) reader.mergeQuick(block, keys);
+    keys.try_emplace("scene", StudyValue{{}, reader.place(node.source())});
+    result.blocks.push_back(std::move(keys));
+  }
+  return result;
+}
+
+}  // namespace irk

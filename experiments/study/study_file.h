@@ -1,0 +1,37 @@
+// TOML text -> lists of texts by key. What the keys mean is the matter of study.cpp.
+//
+//   title = "..."                  orders, trajectories, estimates, energy, phases, profile, scaling = true
+//   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...
+//   [audit]                runs, seed, ... instead of blocks; [audit.quick] the same, --quick only
+//   [defaults]                     keys of every block   [quick]        the same, --quick only
+//   [[block]]                      one sweep             [block.quick]  the same, --quick only
+//
+// In a block: scene, methods or families and stages; one of tolerances, steps, refine_most; fields of a spec. A block
+// has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/study/study.h"
+
+namespace irk {
+
+/// A key's value: a list, of one item for a scalar.
+struct StudyValue {
+  std::vector<std::string> items;
+  std::string place;  ///< `file:line`
+};
+using StudyKeys = std::map<std::string, StudyValue, std::less<>>;
+
+struct StudyFile {
+  StudyKeys study;                ///< title, orders, ..., `timing.repetitions`
+  std::vector<StudyKeys> blocks;  ///< defaults and quick variants merged in; empty for an audit only
+};
+
+/// Throws Misuse `file:line: reason`.
+StudyFile parseStudyFile(std::string_view toml, const std::string& file, StudyVariant variant);
+
+}  // namespace irk

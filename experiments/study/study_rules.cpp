@@ -1,0 +1,122 @@
+#include "experiments/study/study_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/unused_options.h"
+
+namespace irk {
+namespace {
+
+// Analyses that take one method's tableau: with variable order every step can have another one.
+struct OneMethodAnalysis {
+  const char* key;
+  bool Study::*wanted;
+  const char* reason;
+};
+constexpr OneMethodAnalysis kOneMethod[] = {
+    {"scaling", &Study::scaling, "the time of a step is compared between methods of fixed stages"},
+    {"estimates", &Study::estimates, "the error of a step is compared with one method's estimate"},
+    {"phases", &Study::phases, "the parts of a run are timed with one method's matrices"}};
+
+const StudyValue* keyOf(const StudyKeys& keys, std::string_view key) {
+  const auto at = keys.find(key);
+  return at == keys.end() ? nullptr : &at->second;
+}
+
+// How long the runs of a series are made; one of them.
+constexpr std::string_view kSeriesKeys[] = {"tolerances", "steps", "refine_most"};
+// Keys of a block that are no fields of a spec.
+constexpr std::string_view kSweepKeys[] = {"families", "stages",      "methods",  "tolerances",
+                                           "steps",    "refine_most", "most_runs"};
+
+// Keys that another key of the block overrides; `fitting`: the one value that says the same.
+struct Overridden {
+  std::string_view key, by, fitting;
+};
+constexpr Overridden kOverridden[] = {{"rtol", "tolerances", ""},     {"atol", "tolerances", ""},
+                                      {"h", "steps", ""},             {"h", "refine_most", ""},
+                                      {"control", "steps", "fixed"},  {"control", "refine_most", "fixed"},
+                                      {"estimate", "steps", "none"},  {"estimate", "refine_most", "none"}};
+
+bool contains(std::span<const std::string_view> all, std::string_view key) {
+  return std::find(all.begin(), all.end(), key) != all.end();
+}
+
+}  // namespace
+
+bool isSpecKey(std::string_view key) { return !contains(kSweepKeys, key); }
+
+void refuseContradictions(const StudyKeys& block) {
+  std::string_view first;
+  for (const auto key : kSeriesKeys) {
+    const auto* value = keyOf(block, key);
+    if (!value) continue;
+    if (!first.empty()) {
+      throw Misuse(fmt::format("{}: {} and {} in one block: one of tolerances, steps, refine_most is expected",
+                               value->place, key, first));
+    }
+    first = key;
+  }
+  for (const auto& [key, by, fitting] : kOverridden) {
+    const auto* value = keyOf(block, key);
+    if (!value || !keyOf(block, by)) continue;
+    if (value->items.size() == 1 && value->items.front() == fitting) continue;
+    throw Misuse(fmt::format("{}: {} beside {} has no effect{}", value->place, key, by,
+                             fitting.empty() ? "" : fmt::format(": only '{}' fits", fitting)));
+  }
+  if (const auto* method = keyOf(block, "method")) {
+    throw Misuse(method->place + ": method: the key of a block is 'methods'");
+  }
+  if (keyOf(block, "stages") && !keyOf(block, "families")) {
+    throw Misuse(keyOf(block, "stages")->place + ": stages without families have no effect");
+  }
+}
+
+void refusePeersInSweeps(const StudyKeys& block, const std::vector<std::string>& methods) {
+  const auto peer = std::find_if(methods.begin(), methods.end(), [](const auto& id) { return findPeer(id); });
+  if (peer == methods.end()) return;
+  const auto& taken = peerFields();
+  for (const auto& [key, value] : block) {
+    if (value.items.size() < 2 || !isSpecKey(key) || key == "scene" || key == "settings") continue;
+    if (std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
+    throw Misuse(fmt::format("{}: {}: a list of {} has no effect on '{}', another library's integrator: give it a "
+                             "block of its own",
+                             value.place, key, value.items.size(), *peer));
+  }
+}
+
+void refuseTooMany(const StudyKeys& block, std::size_t methods, std::size_t runs_of_series, std::int64_t most) {
+  double runs = static_cast<double>(methods) * static_cast<double>(runs_of_series);
+  std::string lists = fmt::format("methods {}, runs of each {}", methods, runs_of_series);
+  for (const auto& [key, value] : block) {
+    if (!isSpecKey(key) || value.items.size() < 2) continue;
+    runs *= static_cast<double>(value.items.size());
+    lists += fmt::format(", {} {}", key, value.items.size());
+  }
+  if (runs <= static_cast<double>(most)) return;
+  throw Misuse(fmt::format("{}: {:.0f} runs in one block ({}): up to {}; most_runs = N allows more",
+                           keyOf(block, "scene")->place, runs, lists, most));
+}
+
+void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t first) {
+  const auto& series = study.series;
+  for (const auto& analysis : kOneMethod) {
+    if (!(study.*analysis.wanted)) continue;
+    for (std::size_t i = first; i < series.size(); ++i) {
+      const RunSpec& spec = series[i].runs.front();
+      if (spec.options.order != OrderControl::kVariable || findPeer(spec.method)) continue;
+      const auto* key = keyOf(block, "order");
+      if (!key) key = keyOf(block, "configuration");
+      throw Misuse(fmt::format("{}: order 'variable' with {} = true: {}; use order 'fixed'",
+                               (key ? key : keyOf(block, "scene"))->place, analysis.key,
+                               analysis.reason));
+    }
+  }
+}
+
+}  // namespace irk

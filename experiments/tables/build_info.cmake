@@ -1,0 +1,26 @@
+# Run at build time: writes OUT with today's commit, and touches it only when something changed.
+execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty
+                OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(NOT COMMIT)
+  set(COMMIT unknown)
+endif()
+
+# The fingerprint of all sources that decide the numbers of a row: rows of another one are stale. Neither compiler
+# nor flags are in it; they belong to a row's environment.
+set(deciding ${SOURCE_DIR}/experiments/study/series_rules.cpp)
+foreach(folder core tableaus problems experiments/runs)
+  file(GLOB_RECURSE found ${SOURCE_DIR}/${folder}/*.cpp ${SOURCE_DIR}/${folder}/*.h)
+  list(APPEND deciding ${found})
+endforeach()
+file(GLOB found ${SOURCE_DIR}/problems/reference/*.csv)
+list(APPEND deciding ${found})
+list(SORT deciding)
+set(hashes "")
+foreach(source IN LISTS deciding)
+  file(SHA256 ${source} hash)
+  file(RELATIVE_PATH source ${SOURCE_DIR} ${source})
+  string(APPEND hashes "${source} ${hash}\n")
+endforeach()
+string(SHA256 CODE "${hashes}")
+string(SUBSTRING ${CODE} 0 12 CODE)
+configure_file(${SOURCE_DIR}/experiments/tables/build_info.cpp.in ${OUT} @ONLY)

@@ -1,0 +1,124 @@
+#include "experiments/tables/environment.h"
+
+#include <fmt/format.h>
+#include <gsl/gsl_version.h>
+#include <omp.h>
+#include <sundials/sundials_config.h>
+#include <unistd.h>
+
+#include <Eigen/Core>
+#include <boost/version.hpp>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+
+#include "experiments/base/numbers.h"
+#include "experiments/tables/build_info.h"
+#include "irk/misuse.h"
+
+namespace irk {
+namespace {
+
+std::string readProcessorName() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+double memoryInGb() {
+  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  return bytes / (1 << 30);
+}
+
+std::string libraryVersions() {
+  return fmt::format("Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION);
+}
+
+TableRow makeEnvironment() {
+  const BuildInfo& build = buildInfo();
+  TableRow row{"",
+               std::string(build.commit),
+               std::string(build.version),
+               hostName(),
+               processorName(),
+               std::to_string(omp_get_num_procs()),
+               fmt::format("{:.1f}", memoryInGb()),
+               std::string(build.compiler),
+               std::string(build.flags),
+               libraryVersions()};
+  row.front() = hexText(fnv1a(csvLine(row)));
+  row.push_back(dateText());
+  return row;
+}
+
+}  // namespace
+
+std::vector<std::string> environmentColumns() {
+  return {"environment", "commit",   "version", "host",      "cpu",       "cores",
+          "memory_gb",   "compiler", "flags",   "libraries", "first_date"};
+}
+
+const TableRow& thisEnvironment() {
+  static const TableRow row = makeEnvironment();
+  return row;
+}
+
+const std::string& processorName() {
+  static const std::string name = readProcessorName();
+  return name;
+}
+
+std::string hostName() {
+  char name[256] = "";
+  if (gethostname(name, sizeof name - 1) != 0 || name[0] == '\0') return "unknown";
+  return name;
+}
+
+TableHead environmentHead(const std::string& study, int threads) {
+  const BuildInfo& build = buildInfo();
+  return {{"study", study},
+          {"version", std::string(build.version)},
+          {"commit", std::string(build.commit)},
+          {"compiler", std::string(build.compiler)},
+          {"flags", std::string(build.flags)},
+          {"cpu", processorName()},
+          {"threads", std::to_string(threads)},
+          {"date", dateText()}};
+}
+
+std::string dateText() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+std::filesystem::path homeFolder() {
+  namespace fs = std::filesystem;
+  const auto isHome = [](const fs::path& folder) {
+    std::error_code none;
+    return fs::is_regular_file(folder / "plots" / "figures.txt", none);
+  };
+  if (const char* home = std::getenv("IRK_HOME")) {
+    if (isHome(home)) return home;
+    throw Misuse(fmt::format("IRK_HOME = '{}': a folder with plots/figures.txt is expected", home));
+  }
+  const fs::path sources = buildInfo().source_dir;
+  if (isHome(sources)) return sources;
+  // The tree was moved: the program lies below it, in build/release.
+  std::error_code error;
+  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (int up = 0; up < 3 && !error; ++up, folder = folder.parent_path()) {
+    if (isHome(folder)) return folder;
+  }
+  throw Misuse(fmt::format("no plots/figures.txt in {} or above the program: set IRK_HOME to the folder of the sources",
+                           sources.string()));
+}
+
+}  // namespace irk

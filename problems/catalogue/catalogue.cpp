@@ -1,0 +1,115 @@
+#include <type_traits>
+
+#include "core/base/text.h"
+#include "irk/misuse.h"
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+
+const std::vector<SceneEntry>& sceneCatalogue() {
+  static const std::vector<SceneEntry> entries = {
+      ancfCantileverEntry(),
+      ancfPendulumEntry(),
+      beamChainEntry(),
+      bouncingMassEntry(),
+      dahlquistEntry(),
+      dcMotorChopperEntry(),
+      elasticaEntry(),
+      elastoplasticEntry(),
+      hiresEntry(),
+      hydraulicArmEntry(),
+      hydraulicManipulatorEntry(),
+      index1NonlinearEntry(),
+      index2NonlinearEntry(),
+      index3NonlinearEntry(),
+      kapsEntry(),
+      keplerEntry(),
+      mechanicalDaeEntry(),
+      mechatronicCrankEntry(),
+      pendulumEntry(),
+      protheroRobinsonEntry(),
+      riccatiTrackingEntry(),
+      robertsonEntry(),
+      sampledControlEntry(),
+      sliderCrankEntry(),
+      sliderCrankFlexibleEntry(),
+      stickSlipEntry(),
+      stickSlipLugreEntry(),
+      vanDerPolEntry(),
+  };
+  return entries;
+}
+
+const SceneEntry& findScene(std::string_view id) {
+  std::vector<std::string> known;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    if (entry.id == id) return entry;
+    known.push_back(entry.id);
+  }
+  throw Misuse(unknownName("scene", id, known));
+}
+
+namespace {
+
+template <class Real>
+const std::function<Scene<Real>(const Settings&)>& makerOf(const SceneEntry& entry) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return entry.make;
+  } else if constexpr (std::is_same_v<Real, mp50>) {
+    return entry.make_mp50;
+  } else {
+    return entry.make_mp100;
+  }
+}
+
+// Ids of scalars: experiments/runs/run_spec.cpp.
+template <class Real>
+constexpr const char* kScalarId = "double";
+template <>
+constexpr const char* kScalarId<mp50> = "mp50";
+template <>
+constexpr const char* kScalarId<mp100> = "mp100";
+
+template <class Real>
+[[noreturn]] void refuseScalar(const SceneEntry& refused) {
+  std::string offers, offering;
+  const auto append = [](std::string& list, const char* comma, const std::string& word) {
+    list += (list.empty() ? "" : comma) + word;
+  };
+  if (refused.make) append(offers, " and ", "double");
+  if (refused.make_mp50) append(offers, " and ", "mp50");
+  if (refused.make_mp100) append(offers, " and ", "mp100");
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    if (makerOf<Real>(entry)) append(offering, ", ", entry.id);
+  }
+  const std::string id = kScalarId<Real>;
+  throw Misuse("scalar = '" + id + "': scene " + refused.id + " offers " + (offers.empty() ? "none" : offers) +
+               "; with " + id + ": " + offering);
+}
+
+}  // namespace
+
+template <class Real>
+Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
+  const Settings completed = completedSettings(entry.id, entry.parameters, settings);
+  const auto& make = makerOf<Real>(entry);
+  if (!make) refuseScalar<Real>(entry);
+  Scene<Real> scene = make(completed);
+  if (!scene.system) throw Misuse("scene " + entry.id + " makes no system");
+  return scene;
+}
+
+template <class Real>
+Scene<Real> makeScene(std::string_view id, const Settings& settings) {
+  return makeScene<Real>(findScene(id), settings);
+}
+
+template Scene<double> makeScene<double>(const SceneEntry&, const Settings&);
+template Scene<mp50> makeScene<mp50>(const SceneEntry&, const Settings&);
+template Scene<mp100> makeScene<mp100>(const SceneEntry&, const Settings&);
+template Scene<double> makeScene<double>(std::string_view, const Settings&);
+template Scene<mp50> makeScene<mp50>(std::string_view, const Settings&);
+template Scene<mp100> makeScene<mp100>(std::string_view, const Settings&);
+
+}  // namespace irk

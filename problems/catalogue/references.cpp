@@ -1,0 +1,94 @@
+// problems/reference/*.csv, embedded at build time (reference/embedded.cpp.in), parsed once.
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+#include "problems/catalogue/embedded.h"
+#include "problems/support/build.h"
+
+namespace irk {
+namespace {
+
+struct Row {
+  std::string scene;
+  Settings settings;
+  Reference reference;
+};
+
+// `name=value` pairs separated by blanks.
+Settings parseSettings(const std::string& text) {
+  Settings settings;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) throw std::logic_error("reference setting: " + word);
+    settings[word.substr(0, equals)] = word.substr(equals + 1);
+  }
+  return settings;
+}
+
+// scene,settings,t,component,value,accuracy,source: the source is the rest of the line.
+Row parseRow(const std::string& line) {
+  constexpr int kFields = 6;
+  std::string fields[kFields];
+  std::istringstream in(line);
+  for (std::string& field : fields) {
+    if (!std::getline(in, field, ',')) throw std::logic_error("reference line: " + line);
+  }
+  Row row{fields[0], parseSettings(fields[1]), {}};
+  row.reference.t = std::strtod(fields[2].c_str(), nullptr);
+  row.reference.component = fields[3];
+  row.reference.value = fields[4];
+  row.reference.accuracy = std::strtod(fields[5].c_str(), nullptr);
+  std::getline(in, row.reference.source);
+  return row;
+}
+
+std::vector<Row> parseRows() {
+  std::vector<Row> rows;
+  std::istringstream in{std::string(kEmbeddedReferences)};
+  for (std::string line; std::getline(in, line);) {
+    const bool head = line.starts_with("scene,settings,");
+    if (!line.empty() && line[0] != '#' && !head) rows.push_back(parseRow(line));
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return std::tie(a.reference.t, a.reference.accuracy) <
+           std::tie(b.reference.t, b.reference.accuracy);
+  });
+  return rows;
+}
+
+// Numbers compare as numbers ("0.50" is "0.5"), words as text.
+bool sameValue(const std::string& a, const std::string& b) {
+  char* end_a = nullptr;
+  char* end_b = nullptr;
+  const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
+  const bool numbers = *end_a == '\0' && *end_b == '\0';
+  return numbers ? x == y : a == b;
+}
+
+}  // namespace
+
+std::vector<Reference> references(std::string_view id, const Settings& settings) {
+  static const std::vector<Row> rows = parseRows();
+  const SceneEntry& entry = findScene(id);
+  const Settings wanted = completedSettings(id, entry.parameters, settings);
+  std::vector<Reference> found;
+  for (const Row& row : rows) {
+    if (row.scene != id) continue;
+    const Settings given = completedSettings(id, entry.parameters, row.settings);
+    const bool match =
+        std::all_of(entry.parameters.begin(), entry.parameters.end(), [&](const Parameter& p) {
+          return !p.changes_solution || sameValue(wanted.at(p.name), given.at(p.name));
+        });
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Reference& r) {
+      return r.t == row.reference.t && r.component == row.reference.component;
+    });
+    if (match && !known) found.push_back(row.reference);
+  }
+  return found;
+}
+
+}  // namespace irk

@@ -1,0 +1,126 @@
+// A slider-crank with a DC motor, a chopper, a speed controller and Coulomb friction on the slider.
+//
+// u = (theta, phi), z = (lambda) as in slider_crank's redundant form; x = (i, e), the motor's
+// current and the integral of the speed's error.
+#include <cmath>
+
+#include "problems/mechanisms/slider_crank_data.h"
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+using slider_crank::Angles;
+using slider_crank::Data;
+using slider_crank::treeRows;
+
+// d: 1 while the supply is on; the sign of the slider's velocity. The chopper's hysteresis is a
+// memory: no regularisation.
+enum Discrete : Index { kSupply, kDirection };
+enum Switch : Index { kChopper, kSliderTurns };
+
+template <class Real>
+struct MechatronicCrank {
+  Data<Real> crank;
+  Real U, R, L, kM;      // V, Ohm, H, N m/A
+  Real Fc;               // N
+  Real wref, Kp, Ki, D;  // rad/s, A s, A, A
+
+  Sizes sizes() const {
+    return {.nu = 2, .nx = 2, .nz = 1, .constraints = 1, .discrete = 2, .switches = 2};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    using std::sin;
+    const Angles<T> q{sin(p.u[0]), cos(p.u[0]), sin(p.u[1]), cos(p.u[1])};
+    const auto rows = treeRows<Real, T>(crank, q, p.v[0], p.v[1], p.a[0], p.a[1]);
+    const T& current = p.x[0];
+    const T friction =
+        Fc * p.d[kDirection];  // against x3' = -L1 sin theta theta' - L2 sin phi phi'
+    r.u[0] = kM * current + friction * (crank.L1 * q.sin_theta) + rows.theta -
+             crank.L1 * q.cos_theta * p.z[0];
+    r.u[1] = friction * (crank.L2 * q.sin_phi) + rows.phi - crank.L2 * q.cos_phi * p.z[0];
+    r.x[0] = U * p.d[kSupply] - R * current - kM * p.v[0] - L * p.k[0];
+    r.x[1] = wref - p.v[0] - p.k[1];
+  }
+  template <class T, class Angle, class G>
+  void constraints(const T&, const Angle& u, G&& g) const {
+    using std::sin;
+    g[0] = crank.L1 * sin(u[0]) + crank.L2 * sin(u[1]);
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* due) const {
+    using std::sin;
+    const T above = p.x[0] - Kp * (wref - p.v[0]) - Ki * p.x[1];
+    due[kChopper] = p.d[kSupply] > T(0.0) ? T(above - D) : T(-D - above);
+    const T x3_rate = -crank.L1 * sin(p.u[0]) * p.v[0] - crank.L2 * sin(p.u[1]) * p.v[1];
+    due[kSliderTurns] = -p.d[kDirection] * x3_rate;
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>& p, T* d) const {
+    if (i == kChopper) {
+      d[kSupply] = 1 - p.d[kSupply];
+    } else {
+      d[kDirection] = -p.d[kDirection];
+    }
+  }
+  std::string switchName(Index i) const { return i == kChopper ? "chopper" : "slider turns"; }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const auto value = [&](const char* name) { return number<Real>(settings, name); };
+  const MechatronicCrank<Real> problem{.crank = slider_crank::dataFrom<Real>(settings),
+                                       .U = value("U"),
+                                       .R = value("R"),
+                                       .L = value("L"),
+                                       .kM = value("kM"),
+                                       .Fc = value("Fc"),
+                                       .wref = value("wref"),
+                                       .Kp = value("Kp"),
+                                       .Ki = value("Ki"),
+                                       .D = value("D")};
+  Scene<Real> scene;
+  scene.id = "mechatronic_crank";
+  setProblem(scene, problem);
+  scene.start.d << 1, -1;
+  completeStart(scene);
+  scene.t_end = 1;
+  scene.names = componentNames({"theta", "phi"}, {"i", "e"}, {"lambda"});
+  scene.scale = scales({1, 1, 10, 10, 5, 1, 1});
+  scene.outputs = {{"x3", [problem](const State<Real>& s) {
+                      using std::cos;
+                      return Real(problem.crank.L1 * cos(s.u[0]) + problem.crank.L2 * cos(s.u[1]));
+                    }}};
+  return scene;
+}
+
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> all = slider_crank::bodyParameters();
+  all.insert(all.end(),
+             {positiveParameter("U", "V", "supply voltage", "12"),
+              numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
+              positiveParameter("L", "H", "inductance of the armature", "0.1"),
+              positiveParameter("kM", "N m/A", "motor constant", "0.1"),
+              numberParameter("Fc", "N", "Coulomb friction of the slider", "1", 0, 1e15),
+              numberParameter("wref", "rad/s", "wanted speed of the crank", "10", -1e6, 1e6),
+              numberParameter("Kp", "A s", "proportional gain", "0.5", -1e15, 1e15),
+              numberParameter("Ki", "A", "integral gain", "2", -1e15, 1e15),
+              positiveParameter("D", "A", "half width of the current's band", "1")});
+  return all;
+}
+
+}  // namespace
+
+SceneEntry mechatronicCrankEntry() {
+  return {.id = "mechatronic_crank",
+          .title = "slider-crank with motor, chopper, speed controller and friction",
+          .shows = "a whole mechatronic system: u, x, z and two kinds of switches",
+          .parameters = parameters(),
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,122 @@
+// The rigid slider-crank: one mechanism in three sets of coordinates.
+#include <cmath>
+
+#include "problems/mechanisms/slider_crank_coordinates.h"
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+using slider_crank::Absolute;
+using slider_crank::Data;
+using slider_crank::Minimal;
+using slider_crank::Redundant;
+using slider_crank::SwitchedTorque;
+
+// Magnitudes over the first two seconds: the crank ends at 40 rad/s, forces at some newton.
+constexpr double kAngle = 1, kAngleRate = 10, kForce = 1;
+constexpr const char* kNever = "inf";
+
+template <class Real>
+void makeRedundant(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
+  setProblem(scene, Redundant<Real>{torque, d});
+  scene.names = componentNames({"theta", "phi"}, {}, {"lambda"});
+  scene.scale = scales({kAngle, kAngle, kAngleRate, kAngleRate, kForce});
+  scene.outputs = {{"x3", [d](const State<Real>& s) {
+                      using std::cos;
+                      return Real(d.L1 * cos(s.u[0]) + d.L2 * cos(s.u[1]));
+                    }}};
+}
+
+template <class Real>
+void makeMinimal(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
+  setProblem(scene, Minimal<Real>{torque, d});
+  scene.names = componentNames({"theta"}, {}, {});
+  scene.scale = scales({kAngle, kAngleRate});
+  const auto phi = [d](const State<Real>& s) {
+    using std::asin;
+    using std::sin;
+    return Real(-asin(d.L1 / d.L2 * sin(s.u[0])));
+  };
+  scene.outputs = {{"phi", phi},
+                   {"phi'",
+                    [d, phi](const State<Real>& s) {
+                      using std::cos;
+                      return Real(-d.L1 * cos(s.u[0]) * s.v[0] / (d.L2 * cos(phi(s))));
+                    }},
+                   {"x3", [d, phi](const State<Real>& s) {
+                      using std::cos;
+                      return Real(d.L1 * cos(s.u[0]) + d.L2 * cos(phi(s)));
+                    }}};
+}
+
+template <class Real>
+void makeAbsolute(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
+  setProblem(scene, Absolute<Real>{torque, d});
+  scene.names =
+      componentNames({"x1", "y1", "theta", "x2", "y2", "phi", "x3", "y3"}, {},
+                     {"lambda1", "lambda2", "lambda3", "lambda4", "lambda5", "lambda6", "lambda7"});
+  const double length = static_cast<double>(d.L1);
+  const double speed = length * kAngleRate;
+  scene.scale = Vec<double>(23);
+  scene.scale << length, length, kAngle, length, length, kAngle, length, length,  //
+      speed, speed, kAngleRate, speed, speed, kAngleRate, speed, speed,           //
+      Vec<double>::Constant(7, kForce);
+  scene.start.u[0] = d.L1 / 2;
+  scene.start.u[3] = d.L1 + d.L2 / 2;
+  scene.start.u[6] = d.L1 + d.L2;
+}
+
+// Stretched, at rest: theta = phi = 0.
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const auto value = [&](const char* name) { return number<Real>(settings, name); };
+  const Data<Real> d = slider_crank::dataFrom<Real>(settings);
+  const bool switched = settings.at("torque_off_at") != kNever;
+  const SwitchedTorque<Real> torque{.torque = value("T"),
+                                    .switched = switched,
+                                    .off_at = switched ? value("torque_off_at") : Real(0),
+                                    .smoothing = value("smoothing")};
+  Scene<Real> scene;
+  scene.id = "slider_crank";
+  const std::string& coordinates = settings.at("coordinates");
+  if (coordinates == "minimal") {
+    makeMinimal(torque, d, scene);
+  } else if (coordinates == "absolute") {
+    makeAbsolute(torque, d, scene);
+  } else {
+    makeRedundant(torque, d, scene);
+  }
+  scene.start.d.setOnes();  // torque on
+  completeStart(scene);
+  scene.t_end = 2;
+  return scene;
+}
+
+std::vector<Parameter> parameters() {
+  Parameter coordinates = wordParameter("coordinates", "description of the same mechanism",
+                                        {"redundant", "absolute", "minimal"});
+  coordinates.changes_solution = false;
+  std::vector<Parameter> all = slider_crank::bodyParameters();
+  all.insert(all.begin(), coordinates);
+  all.insert(all.end(),
+             {numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6),
+              numberParameter("torque_off_at", "s",
+                              "time when the torque is switched off; inf = never", kNever, 0, 1e15),
+              smoothingParameter("s", "half of the time in which the torque goes", "1e-3")});
+  return all;
+}
+
+}  // namespace
+
+SceneEntry sliderCrankEntry() {
+  return {.id = "slider_crank",
+          .title = "rigid slider-crank driven by a constant torque",
+          .shows = "M(u) with a constraint: every term of the Jacobian is alive",
+          .parameters = parameters(),
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

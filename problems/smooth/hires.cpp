@@ -1,0 +1,57 @@
+// HIRES: high irradiance responses of photomorphogenesis, Schaefer (1975). HW II (IV.10).
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct Hires {
+  Real c171 = decimal<Real>("1.71"), c043 = decimal<Real>("0.43"), c832 = decimal<Real>("8.32");
+  Real c0007 = decimal<Real>("0.0007"), c10_03 = decimal<Real>("10.03");
+  Real c0035 = decimal<Real>("0.035"), c112 = decimal<Real>("1.12");
+  Real c069 = decimal<Real>("0.69"), c181 = decimal<Real>("1.81"), c1745 = decimal<Real>("1.745");
+
+  Sizes sizes() const { return {.nu = 0, .nx = 8, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const auto& y = p.x;
+    const T binding = 280 * (y[5] * y[7]);
+    r.x[0] = -c171 * y[0] + c043 * y[1] + c832 * y[2] + c0007 - p.k[0];
+    r.x[1] = c171 * y[0] - 8.75 * y[1] - p.k[1];
+    r.x[2] = -c10_03 * y[2] + c043 * y[3] + c0035 * y[4] - p.k[2];
+    r.x[3] = c832 * y[1] + c171 * y[2] - c112 * y[3] - p.k[3];
+    r.x[4] = -c1745 * y[4] + c043 * y[5] + c043 * y[6] - p.k[4];
+    r.x[5] = -binding + c069 * y[3] + c171 * y[4] - c043 * y[5] + c069 * y[6] - p.k[5];
+    r.x[6] = binding - c181 * y[6] - p.k[6];
+    r.x[7] = c181 * y[6] - binding - p.k[7];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings&) {
+  Scene<Real> scene;
+  scene.id = "hires";
+  setProblem(scene, Hires<Real>{});
+  scene.start.x[0] = Real(1);
+  scene.start.x[7] = decimal<Real>("0.0057");
+  completeStart(scene);
+  scene.t_end = 321.8122;
+  scene.names = componentNames({}, {"y1", "y2", "y3", "y4", "y5", "y6", "y7", "y8"}, {});
+  // HW II (IV.10): Atol = 1e-4 Rtol.
+  scene.scale = Vec<double>::Constant(8, 1e-4);
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry hiresEntry() {
+  return {.id = "hires",
+          .title = "HIRES, eight chemical reactions of plant physiology",
+          .shows = "a moderately stiff ODE of the standard test sets",
+          .parameters = {},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,56 @@
+// Kaps' problem: y1' = -(2 + 1/eps) y1 + y2^2 / eps, y2' = y1 - y2 - y2^2; y = (exp -2t, exp -t)
+// for every eps.
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct Kaps {
+  Real eps;
+
+  Sizes sizes() const { return {.nu = 0, .nx = 2, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T square = p.x[1] * p.x[1];
+    r.x[0] = (square - p.x[0]) / eps - 2 * p.x[0] - p.k[0];
+    r.x[1] = p.x[0] - p.x[1] - square - p.k[1];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const Kaps<Real> problem{number<Real>(settings, "eps")};
+  Scene<Real> scene;
+  scene.id = "kaps";
+  setProblem(scene, problem);
+  scene.t_end = 1;
+  scene.names = componentNames({}, {"y1", "y2"}, {});
+  scene.scale = scales({1, 1});
+  scene.exact = [problem](const Real& t) {
+    using std::exp;
+    State<Real> s(problem.sizes());
+    s.t = t;
+    s.x << exp(-2 * t), exp(-t);
+    s.w << -2 * s.x[0], -s.x[1];
+    return s;
+  };
+  scene.start = scene.exact(Real(0));
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry kapsEntry() {
+  return {.id = "kaps",
+          .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
+          .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
+          .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

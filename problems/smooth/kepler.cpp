@@ -1,0 +1,88 @@
+// The planar two-body problem q'' = -q / |q|^3 of eccentricity e, started at the pericentre.
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct Kepler {
+  Real e;
+
+  Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sqrt;
+    const T r2 = p.u[0] * p.u[0] + p.u[1] * p.u[1];
+    const T inverse_cube = T(1.0) / (r2 * sqrt(r2));
+    r.u[0] = -p.u[0] * inverse_cube - p.a[0];
+    r.u[1] = -p.u[1] * inverse_cube - p.a[1];
+  }
+
+  // Kepler's equation M = E - e sin E with M = t, by Newton from E = M + e sign(sin M): convex on
+  // the way to the root, hence monotone.
+  Real eccentricAnomaly(const Real& t) const {
+    using std::abs;
+    using std::cos;
+    using std::floor;
+    using std::sin;
+    const Real turn = 2 * piOf<Real>();
+    const Real revolutions = floor(t / turn) * turn;
+    const Real M = t - revolutions;
+    Real E = M + (sin(M) < 0 ? -e : e);
+    for (int i = 0; i < 50; ++i) {
+      const Real step = (E - e * sin(E) - M) / (1 - e * cos(E));
+      E -= step;
+      if (abs(step) <= 4 * Eigen::NumTraits<Real>::epsilon() * (1 + abs(E))) break;
+    }
+    return E + revolutions;
+  }
+
+  State<Real> exact(const Real& t) const {
+    using std::cos;
+    using std::sin;
+    using std::sqrt;
+    const Real E = eccentricAnomaly(t);
+    const Real minor = sqrt(1 - e * e);
+    const Real radius = 1 - e * cos(E);
+    State<Real> s(sizes());
+    s.t = t;
+    s.u << cos(E) - e, minor * sin(E);
+    s.v << -sin(E) / radius, minor * cos(E) / radius;
+    s.w = -s.u / (radius * radius * radius);
+    return s;
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const Kepler<Real> problem{number<Real>(settings, "e")};
+  Scene<Real> scene;
+  scene.id = "kepler";
+  setProblem(scene, problem);
+  scene.t_end = 62.83185307179586;  // ten revolutions
+  scene.names = componentNames({"q1", "q2"}, {}, {});
+  scene.scale = Vec<double>::Ones(4);
+  scene.exact = [problem](const Real& t) { return problem.exact(t); };
+  scene.start = problem.exact(Real(0));
+  scene.outputs = {
+      {"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }},
+      {"angular_momentum",
+       [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }}};
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry keplerEntry() {
+  return {.id = "kepler",
+          .title = "Kepler's two-body problem",
+          .shows = "invariants: energy and angular momentum over many revolutions",
+          .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,56 @@
+// Prothero & Robinson: y' = lambda (y - phi) + phi', phi = cos t; y = phi. HW II (IV.15).
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct ProtheroRobinson {
+  Real lambda;  // 1/s
+
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    using std::sin;
+    r.x[0] = lambda * (p.x[0] - cos(p.t)) - sin(p.t) - p.k[0];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const ProtheroRobinson<Real> problem{number<Real>(settings, "lambda")};
+  Scene<Real> scene;
+  scene.id = "prothero_robinson";
+  setProblem(scene, problem);
+  scene.t_end = 1;
+  scene.names = componentNames({}, {"y"}, {});
+  scene.scale = scales({1});
+  scene.exact = [problem](const Real& t) {
+    using std::cos;
+    using std::sin;
+    State<Real> s(problem.sizes());
+    s.t = t;
+    s.x[0] = cos(t);
+    s.w[0] = -sin(t);
+    return s;
+  };
+  scene.start = scene.exact(Real(0));
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry protheroRobinsonEntry() {
+  return {.id = "prothero_robinson",
+          .title = "y' = lambda (y - cos t) - sin t",
+          .shows = "order reduction of stiff systems, one component, one parameter",
+          .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

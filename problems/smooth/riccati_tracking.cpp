@@ -1,0 +1,55 @@
+// y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t; y = phi. Nonlinear and non-autonomous: a linear,
+// an autonomous or a quadrature problem is blind to some damaged tableaus.
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+struct RiccatiTracking {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    using std::sin;
+    const T phi = 1.5 + sin(p.t);
+    r.x[0] = phi * phi - p.x[0] * p.x[0] + cos(p.t) - p.k[0];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings&) {
+  Scene<Real> scene;
+  scene.id = "riccati_tracking";
+  setProblem(scene, RiccatiTracking{});
+  scene.t_end = 2;
+  scene.names = componentNames({}, {"y"}, {});
+  scene.scale = scales({1});
+  scene.exact = [](const Real& t) {
+    using std::cos;
+    using std::sin;
+    State<Real> s(RiccatiTracking{}.sizes());
+    s.t = t;
+    s.x[0] = sin(t) + 1.5;
+    s.w[0] = cos(t);
+    return s;
+  };
+  scene.start = scene.exact(Real(0));
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry riccatiTrackingEntry() {
+  return {.id = "riccati_tracking",
+          .title = "y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t",
+          .shows = "the order of a scheme: no damaged tableau passes it",
+          .parameters = {},
+          .make = make<double>,
+          .make_mp50 = make<mp50>,
+          .make_mp100 = make<mp100>};
+}
+
+}  // namespace irk

@@ -1,0 +1,49 @@
+// Robertson's chemical kinetics to t = 1e11. HW II (IV.10), "ROBER".
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct Robertson {
+  Real slow = decimal<Real>("0.04");
+
+  Sizes sizes() const { return {.nu = 0, .nx = 3, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T first = slow * p.x[0];
+    const T second = 1e4 * (p.x[1] * p.x[2]);
+    const T third = 3e7 * (p.x[1] * p.x[1]);
+    r.x[0] = second - first - p.k[0];
+    r.x[1] = first - second - third - p.k[1];
+    r.x[2] = third - p.k[2];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings&) {
+  Scene<Real> scene;
+  scene.id = "robertson";
+  setProblem(scene, Robertson<Real>{});
+  scene.start.x << Real(1), Real(0), Real(0);
+  completeStart(scene);
+  scene.t_end = 1e11;
+  scene.names = componentNames({}, {"y1", "y2", "y3"}, {});
+  // HW II (IV.10): Atol = 1e-6 Rtol.
+  scene.scale = scales({1e-6, 1e-6, 1e-6});
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry robertsonEntry() {
+  return {.id = "robertson",
+          .title = "Robertson's chemical kinetics to t = 1e11",
+          .shows = "eleven decades of time, a component that falls to 1e-13",
+          .parameters = {},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

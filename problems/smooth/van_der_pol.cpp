@@ -1,0 +1,45 @@
+// Van der Pol's equation, singularly perturbed: y1' = y2, eps y2' = (1 - y1^2) y2 - y1. HW II
+// (IV.10).
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct VanDerPol {
+  Real eps;
+
+  Sizes sizes() const { return {.nu = 0, .nx = 2, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.x[1] - p.k[0];
+    r.x[1] = ((1 - p.x[0] * p.x[0]) * p.x[1] - p.x[0]) / eps - p.k[1];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  Scene<Real> scene;
+  scene.id = "van_der_pol";
+  setProblem(scene, VanDerPol<Real>{number<Real>(settings, "eps")});
+  scene.start.x << Real(2), decimal<Real>("-0.66");
+  completeStart(scene);
+  scene.t_end = 2;
+  scene.names = componentNames({}, {"y1", "y2"}, {});
+  scene.scale = scales({1, 1});
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry vanDerPolEntry() {
+  return {.id = "van_der_pol",
+          .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
+          .shows = "stiffness with fast transitions: step control and Newton",
+          .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,82 @@
+// A mass that falls on an elastic floor and bounces.
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+#include "problems/support/piecewise_linear.h"
+#include "problems/support/regularised.h"
+
+namespace irk {
+namespace {
+
+// d = (1 in contact, else 0).
+template <class Real>
+struct BouncingMass {
+  Real m, k, g;    // kg, N/m, m/s^2
+  Real smoothing;  // m
+
+  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -m * g - k * (p.d[0] * p.u[0]) - m * p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* due) const {
+    due[0] = p.d[0] > T(0.0) ? T(p.u[0]) : T(-p.u[0]);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = 1 - p.d[0];
+  }
+  // The floor stiffens over the first part of the penetration; it never pulls.
+  template <class T>
+  void smoothed(const Point<T>& p, T* d) const {
+    d[0] = smoothStep<T>(-p.u[0] / smoothing);
+  }
+  // v' from (u, v, 1)
+  Mat<Real> rates(const Vec<Real>& d) const {
+    Mat<Real> rows(1, 3);
+    rows << -k / m * d[0], 0, -g;
+    return rows;
+  }
+  std::string switchName(Index) const { return "contact"; }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const auto value = [&](const char* name) { return number<Real>(settings, name); };
+  const BouncingMass<Real> problem{
+      .m = value("m"), .k = value("k"), .g = value("g"), .smoothing = value("smoothing")};
+  Scene<Real> scene;
+  scene.id = "bouncing_mass";
+  setProblem(scene, problem);
+  scene.start.u[0] = value("gap0");
+  scene.start.v[0] = value("v0");
+  scene.start.d[0] = Real(scene.start.u[0] < 0 ? 1 : 0);
+  completeStart(scene);
+  scene.t_end = 0.5;
+  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
+  scene.names = componentNames({"gap"}, {}, {});
+  scene.scale = scales({0.01, 1});
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry bouncingMassEntry() {
+  return {.id = "bouncing_mass",
+          .title = "mass bouncing on an elastic floor",
+          .shows = "contact: a stiffness that comes and goes",
+          .parameters = {positiveParameter("m", "kg", "mass", "0.25"),
+                         positiveParameter("k", "N/m", "stiffness of the floor", "2e4"),
+                         numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
+                         numberParameter("gap0", "m", "gap at the start", "0.01", -1e6, 1e6),
+                         numberParameter("v0", "m/s", "velocity at the start", "-1", -1e6, 1e6),
+                         smoothingParameter(
+                             "m", "penetration until the floor has its whole stiffness", "1e-5")},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

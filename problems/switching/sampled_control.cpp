@@ -1,0 +1,88 @@
+// An oscillator under a PD controller that is sampled at fixed times and held in between.
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+#include "problems/support/piecewise_linear.h"
+
+namespace irk {
+namespace {
+
+// d: the held force F_k, and the number k + 1 of the next sample. A memory: no regularisation.
+enum Discrete : Index { kForce, kNext };
+
+template <class Real>
+struct SampledControl {
+  Real m, d, c;        // kg, N s/m, N/m
+  Real Kp, Kd, r, Ts;  // N/m, N s/m, m, s
+
+  Sizes sizes() const { return {.nu = 1, .discrete = 2, .switches = 1}; }
+  template <class T>
+  T control(const T& x, const T& v) const {
+    return Kp * (r - x) - Kd * v;
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> rows) const {
+    rows.u[0] = p.d[kForce] - d * p.v[0] - c * p.u[0] - m * p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* due) const {
+    due[0] = p.t - p.d[kNext] * Ts;
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* modes) const {
+    modes[kForce] = control<T>(p.u[0], p.v[0]);
+    modes[kNext] = p.d[kNext] + 1;
+    // A step may be longer than the sampling.
+    while (p.t >= modes[kNext] * Ts) modes[kNext] = modes[kNext] + 1;
+  }
+  // v' from (u, v, 1)
+  Mat<Real> rates(const Vec<Real>& modes) const {
+    Mat<Real> rows(1, 3);
+    rows << -c / m, -d / m, modes[kForce] / m;
+    return rows;
+  }
+  std::string switchName(Index) const { return "sample"; }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const auto value = [&](const char* name) { return number<Real>(settings, name); };
+  const SampledControl<Real> problem{.m = value("m"),
+                                     .d = value("d"),
+                                     .c = value("c"),
+                                     .Kp = value("Kp"),
+                                     .Kd = value("Kd"),
+                                     .r = value("r"),
+                                     .Ts = value("Ts")};
+  Scene<Real> scene;
+  scene.id = "sampled_control";
+  setProblem(scene, problem);
+  scene.start.d << problem.control(scene.start.u[0], scene.start.v[0]), 1;
+  completeStart(scene);
+  scene.t_end = 1;
+  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
+  scene.names = componentNames({"x"}, {}, {});
+  scene.scale = scales({1, 5});
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry sampledControlEntry() {
+  return {.id = "sampled_control",
+          .title = "oscillator under a sampled PD controller",
+          .shows = "a digital controller: a discrete state that is set at fixed times",
+          .parameters = {positiveParameter("m", "kg", "mass", "1"),
+                         numberParameter("d", "N s/m", "damping", "0.5", 0, 1e15),
+                         numberParameter("c", "N/m", "spring", "20", 0, 1e15),
+                         numberParameter("Kp", "N/m", "proportional gain", "60", -1e15, 1e15),
+                         numberParameter("Kd", "N s/m", "derivative gain", "5", -1e15, 1e15),
+                         numberParameter("r", "m", "wanted position", "1", -1e6, 1e6),
+                         positiveParameter("Ts", "s", "time between samples", "0.1")},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,82 @@
+// Stick-slip with bristles: LuGre's friction, Canudas de Wit, Olsson, Astrom & Lischinsky (1995).
+//
+// u = X, x = Z, the bristles' mean deflection. The mass is pulled through a spring whose other end
+// moves at vb.
+#include <cmath>
+
+#include "problems/support/build.h"
+#include "problems/support/entries.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct LuGre {
+  Real M, K, vb;                // kg, N/m, m/s
+  Real sigma0, sigma1, sigma2;  // N/m, N s/m, N s/m
+  Real Fc, Fs, Vs;              // N, N, m/s
+
+  Sizes sizes() const { return {.nu = 1, .nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::abs;
+    using std::exp;
+    const T& V = p.v[0];
+    const T& Z = p.x[0];
+    const T ratio = V / Vs;
+    const T G = (Fc + (Fs - Fc) * exp(-ratio * ratio)) / sigma0;
+    const T Z_rate = V - Z * abs(V) / G;
+    const T F_L = sigma0 * Z + sigma1 * Z_rate + sigma2 * V;
+    r.u[0] = K * (vb * p.t - p.u[0]) - F_L - M * p.a[0];
+    r.x[0] = Z_rate - p.k[0];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  using std::sqrt;
+  const auto value = [&](const char* name) { return number<Real>(settings, name); };
+  const Real sigma0 = value("sigma0");
+  const LuGre<Real> problem{
+      .M = value("M"),
+      .K = value("K"),
+      .vb = value("vb"),
+      .sigma0 = sigma0,
+      .sigma1 = settings.at("sigma1") == "sqrt(sigma0)" ? Real(sqrt(sigma0)) : value("sigma1"),
+      .sigma2 = value("sigma2"),
+      .Fc = value("Fc"),
+      .Fs = value("Fs"),
+      .Vs = value("Vs")};
+  Scene<Real> scene;
+  scene.id = "stick_slip_lugre";
+  setProblem(scene, problem);
+  completeStart(scene);
+  scene.t_end = 25;
+  scene.names = componentNames({"X"}, {"Z"}, {});
+  const double bristle = static_cast<double>(Real(problem.Fs / sigma0));
+  scene.scale = scales({1, 0.1, bristle});
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry stickSlipLugreEntry() {
+  return {
+      .id = "stick_slip_lugre",
+      .title = "mass pulled over a surface with bristles (LuGre friction)",
+      .shows = "stick-slip without switches: smooth and very stiff",
+      .parameters =
+          {positiveParameter("M", "kg", "mass", "1"), positiveParameter("K", "N/m", "spring", "2"),
+           numberParameter("vb", "m/s", "speed of the spring's other end", "0.1", -1e3, 1e3),
+           positiveParameter("sigma0", "N/m", "stiffness of the bristles", "1e5"),
+           numberParameter("sigma1", "N s/m", "damping of the bristles", "sqrt(sigma0)", 0, 1e15),
+           numberParameter("sigma2", "N s/m", "viscous friction", "0.4", 0, 1e15),
+           positiveParameter("Fc", "N", "Coulomb friction", "1"),
+           positiveParameter("Fs", "N", "largest sticking force", "1.5"),
+           positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc",
+                             "0.001")},
+      .make = make<double>,
+      .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

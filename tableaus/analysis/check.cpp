@@ -1,0 +1,259 @@
+#include "tableaus/analysis/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tableaus/analysis/rooted_trees.h"
+#include "tableaus/families/families.h"
+#include "tableaus/families/precise.h"
+
+namespace irk {
+
+using tableaus::Finding;
+using tableaus::Place;
+using tableaus::Verdict;
+
+namespace {
+
+struct Subject {
+  const Tableau<mp80>& tableau;
+  const TableauAnalysis& analysis;
+};
+
+using Findings = std::vector<Finding>;
+using Check = void (*)(const Subject&, Findings&);
+
+void add(Findings& findings, Verdict verdict, Place place, std::string name, std::string text) {
+  findings.push_back({verdict, place, 0, std::move(name), std::move(text)});
+}
+
+void checkWeights(const Subject& subject, Findings& findings) {
+  const double residual = subject.analysis.residuals.B[0];
+  const bool holds = residual <= subject.analysis.tolerance;
+  add(findings, holds ? Verdict::kHolds : Verdict::kContradiction, Place::kWeights, "sum of b",
+      holds ? "sum of b is 1"
+            : fmt::format("not consistent: sum of b is {:.6g}, off 1 by {:.3g}",
+                          static_cast<double>(subject.tableau.b.sum()),
+                          static_cast<double>(abs(subject.tableau.b.sum() - 1))));
+}
+
+void checkRowSums(const Subject& subject, Findings& findings) {
+  if (subject.tableau.stage_order < 1) {
+    add(findings, Verdict::kNote, Place::kStageOrder, "row sums",
+        "stage order 0 is declared: row sums of A need not be c");
+    return;
+  }
+  if (subject.analysis.q >= 1) {
+    add(findings, Verdict::kHolds, Place::kStageOrder, "row sums", "every row of A sums up to c");
+    return;
+  }
+  Index row = 0;
+  const double error = subject.analysis.row_sum_errors.maxCoeff(&row);
+  findings.push_back(
+      {Verdict::kContradiction, Place::kRow, row, "row sums",
+       fmt::format("row {} of A does not sum up to c_{} = {:.17g}: it is off by {:.3g}", row + 1,
+                   row + 1, static_cast<double>(subject.tableau.c[row]), error)});
+}
+
+// B(p) is necessary for order p: quadrature is a differential equation.
+void checkQuadrature(const Subject& subject, Findings& findings) {
+  const auto& [tableau, analysis] = subject;
+  const int declared = tableau.order;
+  if (declared < 1 || declared > 2 * tableau.stages()) {
+    add(findings, Verdict::kContradiction, Place::kOrder, "B",
+        fmt::format("order {} is impossible: {} stages reach 1 to {}", declared, tableau.stages(),
+                    2 * tableau.stages()));
+  } else if (declared > analysis.p) {
+    add(findings, Verdict::kContradiction, Place::kOrder, "B",
+        fmt::format("order {} is contradicted by B({}), whose residual is {:.3g}", declared,
+                    analysis.p + 1, analysis.residuals.B[analysis.p]));
+  } else {
+    add(findings, Verdict::kHolds, Place::kOrder, "B", fmt::format("B({}) holds", declared));
+  }
+}
+
+void checkStageOrder(const Subject& subject, Findings& findings) {
+  const auto& [tableau, analysis] = subject;
+  const int declared = tableau.stage_order;
+  if (declared < 0 || declared > tableau.stages()) {
+    add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
+        fmt::format("stage order {} is impossible: {} stages reach 0 to {}", declared,
+                    tableau.stages(), tableau.stages()));
+  } else if (declared > analysis.q) {
+    add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
+        fmt::format("stage order {} is contradicted by C({}), whose residual is {:.3g}", declared,
+                    analysis.q + 1, analysis.residuals.C[analysis.q]));
+  } else {
+    add(findings, Verdict::kHolds, Place::kStageOrder, "C", fmt::format("C({}) holds", declared));
+  }
+}
+
+/// Largest |x - y| / max(1, |y|).
+double distance(const Mat<mp80>& x, const Mat<mp80>& y) {
+  const Mat<mp80> magnitude = y.cwiseAbs().cwiseMax(mp80(1));
+  return static_cast<double>((x - y).cwiseAbs().cwiseQuotient(magnitude).maxCoeff());
+}
+
+// B, C and D alone cannot tell the three Lobatto IIIC-like families apart, the coefficients can.
+void checkFamilyMember(const Subject& subject, const Family& family, Findings& findings) {
+  const auto& tableau = subject.tableau;  // no structured binding: clang 14 captures none
+  const auto& analysis = subject.analysis;
+  const SimplifyingOrders orders = family.orders(tableau.stages());
+  const auto contradict = [&](Place place, const std::string& text) {
+    add(findings, Verdict::kContradiction, place, "family", text);
+  };
+  const auto declares = [&](Place place, std::string_view what, int declared, int theory) {
+    if (declared == theory) return;
+    contradict(place, fmt::format("{} {} is declared, but {} with {} stages has {}", what, declared,
+                                  family.title, tableau.stages(), theory));
+  };
+  declares(Place::kOrder, "order", tableau.order, orders.p);
+  declares(Place::kStageOrder, "stage order", tableau.stage_order, orders.q);
+  const auto requires_at_least = [&](std::string_view condition, int holds, int theory) {
+    if (holds >= theory) return;
+    contradict(Place::kFamily, fmt::format("{0} has {1}({2}), but here {1}({3}) fails",
+                                           family.title, condition, theory, holds + 1));
+  };
+  requires_at_least("B", analysis.p, orders.p);
+  requires_at_least("C", analysis.q, orders.q);
+  requires_at_least("D", analysis.r, orders.r);
+
+  const Tableau<mp80> expected = constructFamily(family, tableau.stages());
+  const double error = std::max({distance(tableau.A, expected.A), distance(tableau.b, expected.b),
+                                 distance(tableau.c, expected.c)});
+  if (error <= analysis.tolerance) {
+    add(findings, Verdict::kHolds, Place::kFamily, "family",
+        fmt::format("coefficients are those of {}: B({}), C({}), D({})", family.title, orders.p,
+                    orders.q, orders.r));
+  } else {
+    contradict(Place::kFamily, fmt::format("coefficients differ from those of {} by up to {:.3g}",
+                                           family.title, error));
+  }
+}
+
+void checkFamily(const Subject& subject, Findings& findings) {
+  const Family* family = findFamily(subject.tableau.family);
+  const Index s = subject.tableau.stages();
+  if (family == nullptr) {
+    add(findings, Verdict::kNote, Place::kFamily, "family",
+        fmt::format("'{}' is not one of the suite's families: judged by its numbers alone",
+                    subject.tableau.family));
+  } else if (s < family->minStages() || s > kMaxStages) {
+    add(findings, Verdict::kContradiction, Place::kFamily, "family",
+        fmt::format("{} has {} to {} stages, not {}", family->title, family->minStages(),
+                    kMaxStages, s));
+  } else {
+    checkFamilyMember(subject, *family, findings);
+  }
+}
+
+void checkProof(const Subject& subject, Findings& findings) {
+  const auto& [tableau, analysis] = subject;
+  const int declared = tableau.order;
+  if (declared > analysis.p) return;  // contradicted, which checkQuadrature says
+  const bool of_family = findFamily(tableau.family) != nullptr;  // whose order theory knows
+  if (declared > analysis.proven_order) {
+    add(findings, Verdict::kUnproven, Place::kOrder, "order",
+        fmt::format("order {} is not proven by B, C, D, which reach {}; it may be true", declared,
+                    analysis.proven_order));
+  } else if (declared == analysis.proven_order || of_family) {
+    add(findings, Verdict::kHolds, Place::kOrder, "order",
+        fmt::format("order {} is proven by B, C, D", declared));
+  } else {
+    add(findings, Verdict::kNote, Place::kOrder, "order",
+        fmt::format("order {} is declared, B, C, D reach {} to the tolerance", declared,
+                    analysis.proven_order));
+  }
+}
+
+std::string residualsText(const Vec<double>& residuals) {
+  std::string text = "worst residual per order:";
+  for (const double residual : residuals) text += fmt::format(" {:.1e}", residual);
+  return text;
+}
+
+// Necessary and sufficient, where B, C, D only suffice; blind beyond the largest trees.
+void checkTrees(const Subject& subject, Findings& findings) {
+  const int declared = subject.tableau.order;
+  const auto [order, residuals] = treeConditions(subject.tableau, subject.analysis);
+  const std::string numbers = residualsText(residuals);
+  if (order == kMaxTreeOrder) {
+    add(findings, Verdict::kHolds, Place::kOrder, "trees",
+        fmt::format("the conditions of all rooted trees hold up to order {}, the largest looked at"
+                    "; {}",
+                    order, numbers));
+  } else if (declared > order) {
+    add(findings, Verdict::kContradiction, Place::kOrder, "trees",
+        fmt::format("order {} is contradicted by a rooted tree of order {}: the order is {}; {}",
+                    declared, order + 1, order, numbers));
+  } else {
+    add(findings, declared == order ? Verdict::kHolds : Verdict::kNote, Place::kOrder, "trees",
+        fmt::format("by the conditions of all rooted trees the order is {}; {}", order, numbers));
+  }
+}
+
+// In the order of their printing; the first contradiction is the one that a file is refused for.
+constexpr Check kChecks[] = {checkWeights, checkRowSums, checkQuadrature, checkStageOrder,
+                             checkFamily,  checkProof,   checkTrees};
+
+std::string_view verdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHolds:
+      return "ok";
+    case Verdict::kNote:
+      return "note";
+    case Verdict::kUnproven:
+      return "unproven";
+    case Verdict::kContradiction:
+      return "WRONG";
+  }
+  return "";
+}
+
+std::string analysisText(const TableauAnalysis& analysis) {
+  const auto condition = [&](char name, const Vec<double>& residuals, int holds) {
+    std::string text = fmt::format("  {}({})", name, holds);
+    text += holds == 0 ? "" : fmt::format(", residual {:.2g}", residuals.head(holds).maxCoeff());
+    text += holds == residuals.size()
+                ? ""
+                : fmt::format("; {}({}) fails by {:.2g}", name, holds + 1, residuals[holds]);
+    return text + "\n";
+  };
+  return condition('B', analysis.residuals.B, analysis.p) +
+         condition('C', analysis.residuals.C, analysis.q) +
+         condition('D', analysis.residuals.D, analysis.r);
+}
+
+std::string reportText(const Tableau<mp80>& tableau, const TableauReport& report) {
+  std::string text =
+      fmt::format("{}: family {}, {} stages, order {}, stage order {}\n", tableau.id,
+                  tableau.family, tableau.stages(), tableau.order, tableau.stage_order);
+  text += analysisText(report.analysis);
+  for (const Finding& finding : report.findings) {
+    text += fmt::format("  {:<9} {}\n", verdictName(finding.verdict), finding.text);
+  }
+  return text + fmt::format("{}, to a tolerance of {:.1g}\n",
+                            report.ok ? "keeps what it declares" : "CONTRADICTS what it declares",
+                            report.analysis.tolerance);
+}
+
+}  // namespace
+
+template <class Real>
+TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance) {
+  const Tableau<mp80> wide = tableau.template cast<mp80>();
+  TableauReport report{tableau.id, analyzeTableau(wide, tolerance), {}, true, ""};
+  for (const Check check : kChecks) check({wide, report.analysis}, report.findings);
+  report.ok = std::ranges::find(report.findings, Verdict::kContradiction, &Finding::verdict) ==
+              report.findings.end();
+  report.text = reportText(wide, report);
+  return report;
+}
+
+template TableauReport checkTableau(const Tableau<double>&, double);
+template TableauReport checkTableau(const Tableau<mp50>&, double);
+template TableauReport checkTableau(const Tableau<mp80>&, double);
+
+}  // namespace irk

@@ -1,0 +1,132 @@
+#include "tableaus/analysis/spectrum.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace irk {
+namespace {
+
+constexpr double kLargestCondition = 1e38;  // its square is what 80 digits resolve
+
+mp80 magnitude(const mp80& re, const mp80& im) { return sqrt(re * re + im * im); }
+
+/// Of the 2 x 2 block [a b; c d].
+void appendPair(const mp80& a, const mp80& b, const mp80& c, const mp80& d,
+                std::vector<Eigenvalue>& values) {
+  const mp80 centre = (a + d) / 2, half = (a - d) / 2;
+  const mp80 discriminant = half * half + b * c;
+  const mp80 root = sqrt(abs(discriminant));
+  if (discriminant < 0) {
+    values.push_back({centre, root});
+    values.push_back({centre, -root});
+  } else {
+    values.push_back({centre + root, 0});
+    values.push_back({centre - root, 0});
+  }
+}
+
+std::vector<Eigenvalue> ofSchurForm(const Mat<mp80>& T) {
+  std::vector<Eigenvalue> values;
+  for (Index i = 0; i < T.rows(); ++i) {
+    if (i + 1 < T.rows() && T(i + 1, i) != 0) {
+      appendPair(T(i, i), T(i, i + 1), T(i + 1, i), T(i + 1, i + 1), values);
+      ++i;
+    } else {
+      values.push_back({T(i, i), 0});
+    }
+  }
+  return values;
+}
+
+double smallestGap(const std::vector<Eigenvalue>& values) {
+  mp80 largest = 0, gap = -1;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    largest = std::max(largest, magnitude(values[i].re, values[i].im));
+    for (std::size_t j = 0; j < i; ++j) {
+      const mp80 d = magnitude(values[i].re - values[j].re, values[i].im - values[j].im);
+      if (gap < 0 || d < gap) gap = d;
+    }
+  }
+  if (gap < 0) return 1;
+  return largest == 0 ? 0 : static_cast<double>(gap / largest);
+}
+
+// A pair p +- i q has the unit eigenvectors (p +- i q) / sqrt(|p|^2 + |q|^2). They are sqrt(2) (p,
+// q), so scaled, times a unitary matrix: a real matrix of the same condition.
+Mat<mp80> realUnitEigenvectors(const Eigen::EigenSolver<Mat<mp80>>& eigen) {
+  Mat<mp80> V = eigen.pseudoEigenvectors();
+  const auto D = eigen.eigenvalues();
+  for (Index k = 0; k < V.cols(); ++k) {
+    if (D[k].imag() == 0) {
+      V.col(k).normalize();
+    } else {
+      V.middleCols(k, 2) *= sqrt(mp80(2)) / V.middleCols(k, 2).norm();
+      ++k;
+    }
+  }
+  return V;
+}
+
+double condition2(const Mat<mp80>& V) {
+  const auto squares = eigenvalues(V.transpose() * V);
+  const auto [lowest, highest] = std::ranges::minmax(squares, {}, &Eigenvalue::re);
+  const mp80 low = lowest.re, high = highest.re;
+  const bool resolved = low > 0 && high / low < mp80(kLargestCondition) * mp80(kLargestCondition);
+  return resolved ? static_cast<double>(sqrt(high / low)) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::complex<double> Eigenvalue::rounded() const {
+  return {static_cast<double>(re), static_cast<double>(im)};
+}
+
+std::vector<Eigenvalue> eigenvalues(const Mat<mp80>& matrix) {
+  if (matrix.rows() == 0) return {};
+  const Eigen::RealSchur<Mat<mp80>> schur(matrix, false);
+  if (schur.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not end");
+  return ofSchurForm(schur.matrixT());
+}
+
+std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending) {
+  const Index n = ascending.size() - 1;
+  if (n < 1) return {};
+  const mp80 scale = pow(abs(ascending[0] / ascending[n]), mp80(1) / n);
+  Mat<mp80> companion = Mat<mp80>::Zero(n, n);
+  companion.diagonal(-1).setOnes();
+  mp80 power = 1;  // of the scale
+  for (Index k = 0; k < n; ++k, power *= scale) {
+    companion(k, n - 1) = -ascending[k] * power;
+  }
+  companion.col(n - 1) /= ascending[n] * power;
+  auto zeros = eigenvalues(companion);
+  for (Eigenvalue& zero : zeros) zero = {zero.re * scale, zero.im * scale};
+  return zeros;
+}
+
+Spectrum spectrum(const Mat<mp80>& matrix, double tolerance) {
+  const Eigen::EigenSolver<Mat<mp80>> eigen(matrix);
+  if (eigen.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not end");
+  Spectrum result;
+  // The diagonal of a triangular matrix is exact: the iteration would split the s equal eigenvalues
+  // of an SDIRK method by the s-th root of its rounding.
+  const Mat<mp80> above = matrix.triangularView<Eigen::StrictlyUpper>();
+  if (above.isZero(0)) {
+    for (const mp80& value : matrix.diagonal()) result.values.push_back({value, 0});
+  } else {
+    for (const auto& value : eigen.eigenvalues()) {
+      result.values.push_back({value.real(), value.imag()});
+    }
+  }
+  const double split = std::sqrt(tolerance);
+  result.gap = smallestGap(result.values);
+  result.eigenvector_condition = condition2(realUnitEigenvectors(eigen));
+  result.repeated = result.gap <= split;
+  result.defective = result.repeated && result.eigenvector_condition >= 1 / split;
+  return result;
+}
+
+}  // namespace irk

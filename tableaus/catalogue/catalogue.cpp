@@ -1,0 +1,161 @@
+#include "irk/tableaus.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "core/base/text.h"
+#include "irk/misuse.h"
+#include "tableaus/catalogue/source.h"
+#include "tableaus/families/families.h"
+#include "tableaus/files/file.h"
+
+namespace irk {
+namespace {
+
+struct MemberId {
+  std::string_view family, stages;  ///< `radau_iia`, `5`
+};
+
+std::optional<MemberId> splitId(std::string_view id) {
+  const std::size_t underscore = id.rfind('_');
+  if (underscore == std::string_view::npos) return std::nullopt;
+  return MemberId{id.substr(0, underscore), id.substr(underscore + 1)};
+}
+
+bool isWholeNumber(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+[[noreturn]] void refuseId(std::string_view id) {
+  if (const Family* family = findFamily(id)) {
+    throw Misuse(fmt::format("tableau '{0}' lacks its number of stages: {0}_{1} to {0}_{2}", id,
+                             family->minStages(), kMaxStages));
+  }
+  const auto member = splitId(id);
+  const bool numbered = member && isWholeNumber(member->stages);
+  std::vector<std::string> known;
+  for (const Family& family : families()) {
+    known.push_back(fmt::format("{}_{}", family.id, numbered ? member->stages : "S"));
+  }
+  throw Misuse(unknownName("tableau", id, known));
+}
+
+bool looksLikeFile(std::string_view text) {
+  return text.find('/') != std::string_view::npos || text.ends_with(".txt");
+}
+
+/// A member of a family, nothing for files and unknown ids.
+std::optional<MemberId> memberOf(std::string_view id_or_file) {
+  const auto member = splitId(id_or_file);
+  const bool known = member && !looksLikeFile(id_or_file) && findFamily(member->family);
+  return known ? member : std::nullopt;
+}
+
+Index stagesOf(std::string_view id, const MemberId& member) {
+  const Family& family = familyOf(member.family);
+  int s = 0;
+  const char* const end = member.stages.data() + member.stages.size();
+  const auto [stop, error] = std::from_chars(member.stages.data(), end, s);
+  const bool canonical = error == std::errc() && stop == end && std::to_string(s) == member.stages;
+  if (!canonical || s < family.minStages() || s > kMaxStages) {
+    throw Misuse(fmt::format("tableau '{}': '{}' stages, but {} has {} to {}", id, member.stages,
+                             family.id, family.minStages(), kMaxStages));
+  }
+  return s;
+}
+
+TableauFile locate(std::string_view id_or_file, TableauFile (*read)(const std::string&)) {
+  const std::string path(id_or_file);
+  if (looksLikeFile(id_or_file)) return read(path);
+  if (const auto member = memberOf(id_or_file)) {
+    return constructedFile(member->family, stagesOf(id_or_file, *member));
+  }
+  if (std::filesystem::is_regular_file(path)) return read(path);
+  refuseId(id_or_file);
+}
+
+}  // namespace
+
+const std::vector<FamilyEntry>& familyCatalogue() {
+  static const std::vector<FamilyEntry> catalogue = [] {
+    std::vector<FamilyEntry> entries;
+    for (const Family& family : families()) {
+      const std::string order = family.p_gap == 0 ? "2s" : fmt::format("2s-{}", family.p_gap);
+      entries.push_back({family.id, family.title, family.minStages(), order});
+    }
+    return entries;
+  }();
+  return catalogue;
+}
+
+TableauFile findTableau(std::string_view id_or_file) { return locate(id_or_file, readTableau); }
+
+TableauFile findUncheckedTableau(std::string_view id_or_file) {
+  return locate(id_or_file, openTableau);
+}
+
+template <class Real>
+Tableau<Real> makeTableau(std::string_view id_or_file) {
+  if (const auto member = memberOf(id_or_file)) {
+    using Precise = std::conditional_t<std::is_same_v<Real, mp100>, mp130, mp80>;
+    const Index s = stagesOf(id_or_file, *member);
+    return constructFamily<Precise>(familyOf(member->family), s).template cast<Real>();
+  }
+  const TableauFile file = findTableau(id_or_file);
+  constexpr int kWanted = std::numeric_limits<Real>::digits10;
+  if (kWanted > kFileDigits) {
+    throw Misuse(fmt::format("{}: a tableau file is not for this scalar of {} digits; use one of "
+                             "the families",
+                             id_or_file, kWanted));
+  }
+  if (file.digits < kWanted) {
+    throw Misuse(fmt::format(
+        "{}: right to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
+        id_or_file, file.digits, kWanted, kWanted));
+  }
+  return file.tableau.cast<Real>();
+}
+
+bool isFamily(std::string_view id) { return findFamily(id) != nullptr; }
+
+template <class Real>
+Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
+  const auto member = memberOf(id);
+  if (!member && !isFamily(id)) {
+    static_cast<void>(makeTableau<Real>(id));  // says what is wrong with an id or a file
+    throw Misuse(fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
+                             "a file is one method; use one of the families",
+                             id));
+  }
+  const Family& family = familyOf(member ? member->family : id);
+  // Their estimate would not see forces that change with time: EmbeddedEstimate.
+  Index least = family.minStages();
+  while (family.orders(least).q < 1) ++least;
+  const Index given = member ? stagesOf(id, *member) : least;
+  least = std::min(least, given);
+  const Index most = std::max(max_stages, given);
+  const Index start = member ? given : std::clamp(first, least, most);
+  std::vector<Tableau<Real>> members;
+  for (Index s = least; s <= most; ++s) {
+    members.push_back(makeTableau<Real>(fmt::format("{}_{}", family.id, s)));
+  }
+  return {std::move(members), static_cast<std::size_t>(start - least)};
+}
+
+int classicalOrder(std::string_view family, Index s) { return familyOf(family).orders(s).p; }
+
+int stageOrder(std::string_view family, Index s) { return familyOf(family).orders(s).q; }
+
+template Tableau<double> makeTableau(std::string_view);
+template Tableau<mp50> makeTableau(std::string_view);
+template Tableau<mp100> makeTableau(std::string_view);
+template Methods<double> makeMethods(std::string_view, Index, Index);
+template Methods<mp50> makeMethods(std::string_view, Index, Index);
+template Methods<mp100> makeMethods(std::string_view, Index, Index);
+
+}  // namespace irk

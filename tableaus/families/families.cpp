@@ -1,0 +1,143 @@
+#include "tableaus/families/families.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/text.h"
+#include "irk/misuse.h"
+#include "tableaus/families/nodes.h"
+
+namespace irk {
+namespace {
+
+// In units of round-off: far above the construction's (1e8 at s = 100), far below any coefficient.
+constexpr double kZeroThreshold = 1e15;
+
+bool hasLeftEnd(Quadrature quadrature) {
+  return quadrature == Quadrature::kRadauLeft || quadrature == Quadrature::kLobatto;
+}
+
+bool hasRightEnd(Quadrature quadrature) {
+  return quadrature == Quadrature::kRadauRight || quadrature == Quadrature::kLobatto;
+}
+
+// An end that is a node puts its factor into the weight of the other nodes' polynomial.
+template <class Real>
+Vec<Real> quadratureNodes(Quadrature quadrature, Index s) {
+  const int left = hasLeftEnd(quadrature) ? 1 : 0;
+  const int right = hasRightEnd(quadrature) ? 1 : 0;
+  Vec<Real> c(s);
+  if (left == 1) c[0] = 0;
+  if (right == 1) c[s - 1] = 1;
+  c.segment(left, s - left - right) = jacobiZeros<Real>(s - left - right, right, left);
+  return c;
+}
+
+/// W_ik = P_k(c_i), orthonormal on [0, 1], k = 0 .. s-1.
+template <class Real>
+Mat<Real> legendreBasis(const Vec<Real>& c) {
+  const Index s = c.size();
+  Mat<Real> W(s, s);
+  for (Index i = 0; i < s; ++i) {
+    const Real x = 2 * c[i] - 1;
+    Real L = 1, L_before = 0;
+    for (Index k = 0; k < s; ++k) {
+      W(i, k) = sqrt(Real(2 * k + 1)) * L;
+      const Real L_next = ((2 * k + 1) * x * L - k * L_before) / (k + 1);
+      L_before = L;
+      L = L_next;
+    }
+  }
+  return W;
+}
+
+/// d_s: 1 unless the quadrature is too weak to integrate P_{s-1}^2 exactly.
+template <class Real>
+Real lastNorm(Quadrature quadrature, Index s) {
+  return quadrature == Quadrature::kLobatto ? 2 + Real(1) / (s - 1) : Real(1);
+}
+
+template <class Real>
+Real cornerSize(Quadrature quadrature, Index s) {
+  return Real(1) / (quadrature == Quadrature::kLobatto ? 2 * (s - 1) : 4 * s - 2);
+}
+
+/// X of Hairer & Wanner II, IV.5: integration in the basis W, last row and column by family.
+template <class Real>
+Mat<Real> integrationMatrix(const Family& family, Index s) {
+  Mat<Real> X = Mat<Real>::Zero(s, s);
+  X(0, 0) = Real(1) / 2;
+  for (Index k = 1; k < s; ++k) {
+    const Real xi = 1 / (2 * sqrt(Real(4 * k * k - 1)));
+    const bool last = k == s - 1;
+    X(k, k - 1) = last ? family.below * xi : xi;
+    X(k - 1, k) = last ? -family.above * xi * lastNorm<Real>(family.quadrature, s) : Real(-xi);
+  }
+  if (family.corner != 0) X(s - 1, s - 1) += family.corner * cornerSize<Real>(family.quadrature, s);
+  return X;
+}
+
+}  // namespace
+
+SimplifyingOrders Family::orders(Index s) const {
+  const int stages = static_cast<int>(s);
+  return {2 * stages - p_gap, stages - q_gap, stages - r_gap};
+}
+
+const std::vector<Family>& families() {
+  using enum Quadrature;
+  static const std::vector<Family> all = {
+      {"gauss", "Gauss", kGauss, 0, 0, 0, 1, 1, 0},
+      {"radau_ia", "Radau IA", kRadauLeft, 1, 1, 0, 1, 1, 1},
+      {"radau_iia", "Radau IIA", kRadauRight, 1, 0, 1, 1, 1, 1},
+      {"lobatto_iiia", "Lobatto IIIA", kLobatto, 2, 0, 2, 0, 1, 0},
+      {"lobatto_iiib", "Lobatto IIIB", kLobatto, 2, 2, 0, 1, 0, 0},
+      {"lobatto_iiic", "Lobatto IIIC", kLobatto, 2, 1, 1, 1, 1, 1},
+      {"lobatto_iiics", "Lobatto IIIC*", kLobatto, 2, 1, 1, 1, 1, -1},
+      {"lobatto_iiid", "Lobatto IIID", kLobatto, 2, 1, 1, 1, 1, 0},
+  };
+  return all;
+}
+
+const Family* findFamily(std::string_view id) {
+  const auto found = std::ranges::find(families(), id, &Family::id);
+  return found == families().end() ? nullptr : &*found;
+}
+
+const Family& familyOf(std::string_view id) {
+  if (const Family* family = findFamily(id)) return *family;
+  std::vector<std::string> known;
+  for (const Family& family : families()) known.push_back(family.id);
+  throw Misuse(unknownName("tableau family", id, known));
+}
+
+template <class Real>
+Tableau<Real> constructFamily(const Family& family, Index s) {
+  if (s < family.minStages() || s > kMaxStages) {
+    throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s,
+                             family.minStages(), kMaxStages));
+  }
+  const Vec<Real> c = quadratureNodes<Real>(family.quadrature, s);
+  const Mat<Real> W = legendreBasis<Real>(c);
+  Vec<Real> d = Vec<Real>::Ones(s);
+  d[s - 1] = lastNorm<Real>(family.quadrature, s);
+
+  // W^T diag(b) W = D, hence diag(b)^-1 = W D^-1 W^T.
+  const Mat<Real> W_scaled = W * d.cwiseInverse().asDiagonal();
+  const Vec<Real> b = W_scaled.cwiseProduct(W).rowwise().sum().cwiseInverse();
+
+  const Mat<Real> X = integrationMatrix<Real>(family, s);
+  const Mat<Real> WX = W * X;
+  Mat<Real> A = WX * W_scaled.transpose() * b.asDiagonal();
+  const Real zero = kZeroThreshold * Eigen::NumTraits<Real>::epsilon();
+  A = A.unaryExpr([&zero](const Real& a) { return abs(a) < zero ? Real(0) : a; }).eval();
+
+  const SimplifyingOrders orders = family.orders(s);
+  return {fmt::format("{}_{}", family.id, s), family.id, A, b, c, orders.p, orders.q};
+}
+
+template Tableau<mp80> constructFamily(const Family&, Index);
+template Tableau<mp130> constructFamily(const Family&, Index);
+
+}  // namespace irk

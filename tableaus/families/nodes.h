@@ -1,0 +1,15 @@
+// Nodes: zeros of Jacobi polynomials.
+#pragma once
+
+#include "irk/scalar.h"
+#include "tableaus/families/precise.h"
+
+namespace irk {
+
+/// The n >= 0 zeros, ascending in (0, 1), of the polynomial of degree n that is orthogonal with
+/// weight (1 - c)^alpha c^beta on [0, 1]; alpha, beta >= 0. Accurate to all but about 5 digits
+/// of Real (mp80, mp130) for n <= 100.
+template <class Real>
+Vec<Real> jacobiZeros(Index n, int alpha, int beta);
+
+}  // namespace irk

@@ -1,0 +1,92 @@
+#include "tableaus/files/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/input_file.h"
+#include "irk/misuse.h"
+#include "tableaus/families/families.h"
+
+namespace irk {
+
+using tableaus::Finding;
+using tableaus::Place;
+using tableaus::Verdict;
+
+namespace {
+
+int lineOf(const TableauFile& file, const Finding& finding) {
+  const auto orRowOne = [&](int line) { return line > 0 ? line : file.row_lines.front(); };
+  switch (finding.place) {
+    case Place::kFamily:
+      return orRowOne(file.family_line);
+    case Place::kOrder:
+      return orRowOne(file.order_line);
+    case Place::kStageOrder:
+      return orRowOne(file.stage_order_line);
+    case Place::kRow:
+      return file.row_lines[static_cast<std::size_t>(finding.row)];
+    case Place::kWeights:
+      return file.weights_line;
+  }
+  return 0;
+}
+
+/// One line per row, columns as wide as their widest number.
+std::string blockText(const Mat<mp80>& block) {
+  const auto number = [](const mp80& x) { return x.str(kFileDigits); };
+  std::string text;
+  for (Index i = 0; i < block.rows(); ++i) {
+    for (Index j = 0; j < block.cols(); ++j) {
+      std::size_t width = 0;
+      for (const mp80& x : block.col(j)) width = std::max(width, number(x).size());
+      text += fmt::format("{}{:>{}}", j == 0 ? "" : "  ", number(block(i, j)), width);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+TableauFile openTableau(const std::string& path) {
+  return parseTableau(readInputFile(path), path);
+}
+
+TableauFile readTableau(const std::string& path) {
+  TableauFile file = openTableau(path);
+  for (const Finding& finding : checkTableau(file).findings) {
+    if (finding.verdict != Verdict::kContradiction) continue;
+    throw Misuse(fmt::format("{}:{}: {} (tolerance {:.1g} for {} digits)", path,
+                             lineOf(file, finding), finding.text, toleranceOfDigits(file.digits),
+                             file.digits));
+  }
+  return file;
+}
+
+TableauReport checkTableau(const TableauFile& file) {
+  return checkTableau(file.tableau, toleranceOfDigits(file.digits));
+}
+
+std::string writeTableau(const TableauFile& file) {
+  const Tableau<mp80>& tableau = file.tableau;
+  return fmt::format("# Butcher tableau {}\n", tableau.id) +
+         fmt::format("family: {}\nstages: {}\norder: {}\nstage_order: {}\n", tableau.family,
+                     tableau.stages(), tableau.order, tableau.stage_order) +
+         (file.source.empty() ? "" : fmt::format("source: {}\n", file.source)) +
+         fmt::format("digits: {}\n", file.digits) + "A\n" + blockText(tableau.A) + "b\n" +
+         blockText(tableau.b.transpose()) + "c\n" + blockText(tableau.c.transpose());
+}
+
+TableauFile constructedFile(std::string_view family, Index s) {
+  TableauFile file{};
+  file.tableau = constructFamily(familyOf(family), s);
+  file.source =
+      "constructed in the Legendre basis, Hairer & Wanner, Solving ODEs II (1996), IV.5; "
+      "80 digits, rounded once";
+  file.digits = kFileDigits;
+  return file;
+}
+
+}  // namespace irk

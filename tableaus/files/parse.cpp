@@ -1,0 +1,211 @@
+// The reader's first half: from text to numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <regex>
+
+#include "core/base/text.h"
+#include "irk/misuse.h"
+#include "tableaus/families/families.h"
+#include "tableaus/files/file.h"
+
+namespace irk {
+namespace {
+
+constexpr int kMinDigits = 15;  // a double's, and what a file has that does not say
+constexpr int kMaxDigits = 75;  // five less than the reader's own arithmetic
+constexpr std::size_t kMaxNumberLength = 200;
+
+const std::vector<std::string>& headerKeys() {
+  static const std::vector<std::string> keys = {"family",      "stages", "order",
+                                                "stage_order", "source", "digits"};
+  return keys;
+}
+
+struct Line {
+  int number;
+  std::string text;  ///< without surrounding blanks
+};
+
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> result;
+  for (std::size_t end = 0, start = 0; start != std::string::npos;) {
+    start = text.find_first_not_of(" \t", end);
+    if (start == std::string::npos) break;
+    end = std::min(text.find_first_of(" \t", start), text.size());
+    result.push_back(text.substr(start, end - start));
+  }
+  return result;
+}
+
+class Parser {
+ public:
+  Parser(std::string_view text, std::string name) : name_(std::move(name)) {
+    int number = 0;
+    for (std::size_t start = 0; start < text.size(); ++number) {
+      const std::size_t end = std::min(text.find('\n', start), text.size());
+      const std::string line = trimmed(text.substr(start, end - start));
+      if (!line.empty() && line.front() != '#') lines_.push_back({number + 1, line});
+      start = end + 1;
+    }
+    last_line_ = std::max(number, 1);
+  }
+
+  TableauFile parse() {
+    parseHeader();
+    const int s = integer("stages", 1, static_cast<int>(kMaxStages));
+    TableauFile file{};
+    Tableau<mp80>& tableau = file.tableau;
+    tableau.id = name_;
+    tableau.family = header_.contains("family") ? header_["family"].text : "user";
+    tableau.order = integer("order", 1, 2 * s);
+    file.source = header_.contains("source") ? header_["source"].text : "";
+    file.digits =
+        header_.contains("digits") ? integer("digits", kMinDigits, kMaxDigits) : kMinDigits;
+    file.family_line = header_["family"].number;
+    file.order_line = header_["order"].number;
+    file.stage_order_line = header_["stage_order"].number;
+
+    tableau.A.resize(s, s);
+    expectWord("A");
+    for (int i = 0; i < s; ++i) {
+      const std::string what = fmt::format("row {} of A", i + 1);
+      file.row_lines.push_back(nextLine(what).number);
+      tableau.A.row(i) = row(what, s).transpose();
+    }
+    expectWord("b");
+    file.weights_line = nextLine("the row of b").number;
+    tableau.b = row("the row of b", s);
+    expectWord("c");
+    tableau.c = row("the row of c", s);
+    if (position_ < lines_.size()) {
+      fail(lines_[position_].number, fmt::format("'{}' after the end of block c", shown()));
+    }
+    tableau.stage_order = stageOrderOf(file);
+    return file;
+  }
+
+ private:
+  [[noreturn]] void fail(int line, std::string_view reason) const {
+    throw Misuse(fmt::format("{}:{}: {}", name_, line, reason));
+  }
+
+  /// Start of the current line, short enough for a message.
+  std::string shown() const {
+    constexpr std::size_t kShown = 30;
+    const std::string& text = lines_[position_].text;
+    return text.size() <= kShown ? text : text.substr(0, kShown) + "...";
+  }
+
+  const Line& nextLine(std::string_view wanted) const {
+    if (position_ == lines_.size())
+      fail(last_line_, fmt::format("cut short: {} is missing", wanted));
+    return lines_[position_];
+  }
+
+  void parseHeader() {
+    for (; nextLine("block A").text != "A"; ++position_) {
+      const auto& [number, text] = lines_[position_];
+      const std::size_t colon = text.find(':');
+      if (colon == std::string::npos) {
+        fail(number, fmt::format("'{}' is neither 'key: value' nor the start of block A", shown()));
+      }
+      const std::string key = trimmed(std::string_view(text).substr(0, colon));
+      const std::string value = trimmed(std::string_view(text).substr(colon + 1));
+      if (std::ranges::find(headerKeys(), key) == headerKeys().end()) {
+        fail(number, unknownName("key", key, headerKeys()));
+      }
+      if (value.empty()) fail(number, fmt::format("'{}' has no value", key));
+      const auto [entry, is_new] = header_.try_emplace(key, Line{number, value});
+      if (!is_new) {
+        fail(number, fmt::format("'{}' again, first on line {}", key, entry->second.number));
+      }
+    }
+  }
+
+  int integer(const std::string& key, int low, int high) const {
+    const auto entry = header_.find(key);
+    if (entry == header_.end()) {
+      fail(lines_[position_].number, fmt::format("the header has no '{}'", key));
+    }
+    const auto& [number, text] = entry->second;
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < low || value > high) {
+      fail(number,
+           fmt::format("{}: '{}' is not a whole number from {} to {}", key, text, low, high));
+    }
+    return value;
+  }
+
+  void expectWord(std::string_view word) {
+    if (nextLine(fmt::format("block {}", word)).text != word) {
+      fail(lines_[position_].number, fmt::format("block {} expected, not '{}'", word, shown()));
+    }
+    ++position_;
+  }
+
+  Vec<mp80> row(const std::string& what, Index s) {
+    const auto& [number, text] = nextLine(what);
+    if (text == "b" || text == "c") {
+      fail(number, fmt::format("block {} starts, but {} is missing", text, what));
+    }
+    const std::vector<std::string> entries = words(text);
+    const auto count = static_cast<Index>(entries.size());
+    if (count != s) fail(number, fmt::format("{} has {} numbers, not {}", what, count, s));
+    Vec<mp80> values(s);
+    for (Index j = 0; j < s; ++j) {
+      values[j] = numberOrFraction(entries[static_cast<std::size_t>(j)], number);
+    }
+    ++position_;
+    return values;
+  }
+
+  mp80 numberOrFraction(const std::string& word, int line) const {
+    const std::size_t slash = word.find('/');
+    if (slash == std::string::npos) return decimal(word, line);
+    const mp80 denominator = decimal(word.substr(slash + 1), line);
+    if (denominator == 0) fail(line, fmt::format("'{}' divides by zero", word));
+    return decimal(word.substr(0, slash), line) / denominator;
+  }
+
+  // Three digits of exponent: no value overflows, and none takes long to read.
+  mp80 decimal(const std::string& word, int line) const {
+    static const std::regex form(R"([+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?)");
+    if (word.size() > kMaxNumberLength || !std::regex_match(word, form)) {
+      fail(line, fmt::format("'{}' is not a finite number", word.substr(0, kMaxNumberLength)));
+    }
+    return mp80(word.front() == '+' ? word.substr(1) : word);
+  }
+
+  int stageOrderOf(const TableauFile& file) const {
+    const Tableau<mp80>& tableau = file.tableau;
+    const auto s = static_cast<int>(tableau.stages());
+    if (header_.at("stage_order").number > 0) return integer("stage_order", 0, s);
+    if (const Family* family = findFamily(tableau.family)) return family->orders(s).q;
+    return std::min(s, analyzeTableau(tableau, toleranceOfDigits(file.digits)).q);
+  }
+
+  std::string name_;
+  std::vector<Line> lines_;
+  int last_line_ = 1;
+  std::size_t position_ = 0;
+  std::map<std::string, Line> header_;
+};
+
+}  // namespace
+
+TableauFile parseTableau(std::string_view text, const std::string& name) {
+  return Parser(text, name).parse();
+}
+
+}  // namespace irk

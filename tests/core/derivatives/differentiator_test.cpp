@@ -1,0 +1,83 @@
+// D0, D1, D2: automatic against differences, and beyond one chunk of directions.
+#include <gtest/gtest.h>
+
+#include "core/derivatives/differentiator.h"
+#include "irk/multiprecision.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// A chain of nu nonlinear oscillators with nx filters and a coupled mass: every block is alive.
+struct Chain {
+  Index nu, nx;
+  Sizes sizes() const { return {.nu = nu, .nx = nx, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    for (Index i = 0; i < nu; ++i) {
+      const Index j = (i + 1) % nu;
+      r.u[i] = sin(p.u[i] - p.u[j]) - p.v[i] * p.v[j] + p.x[i % nx] * p.u[i] -
+               (2.0 + p.u[j] * p.v[i]) * p.a[i];
+    }
+    for (Index i = 0; i < nx; ++i) r.x[i] = p.u[i % nu] * p.v[i % nu] - p.x[i] * p.x[i] - p.k[i];
+  }
+};
+
+template <class Real>
+Linearization<Real> linearize(const System<Real>& system, DerivativeSource source) {
+  const Sizes n = system.sizes();
+  const auto wave = [](Index size, double phase) {
+    return Vec<Real>(Vec<double>::NullaryExpr(size, [=](Index i) {
+                       return std::sin(0.7 * static_cast<double>(i) + phase);
+                     }).template cast<Real>());
+  };
+  const Vec<Real> u = wave(n.nu, 0.1), v = wave(n.nu, 0.4), x = wave(n.nx, 0.9);
+  const Vec<Real> w = wave(n.n(), 1.3);
+  const Point<Real> p{Real(0.3),
+                      {u.data(), n.nu},
+                      {v.data(), n.nu},
+                      {x.data(), n.nx},
+                      {w.data(), n.nu},
+                      {w.data() + n.nu, n.nx},
+                      {w.data() + n.nu + n.nx, n.nz}};
+  Linearization<Real> D(Pattern::dense(n.n()));
+  Differentiator<Real>(system, source).evaluate(Level::kFormulated, p, D);
+  return D;
+}
+
+void expectNear(const Linearization<double>& a, const Linearization<double>& b, double tolerance) {
+  EXPECT_LE((a.d0 - b.d0).lpNorm<Eigen::Infinity>(), tolerance);
+  EXPECT_LE((a.d1 - b.d1).lpNorm<Eigen::Infinity>(), tolerance);
+  EXPECT_LE((a.d2 - b.d2).lpNorm<Eigen::Infinity>(), tolerance);
+  EXPECT_GT(a.d0.norm() + a.d1.norm(), 0.1);
+}
+
+TEST(Linearization, SourcesAgreeAtTwoHundredUnknowns) {
+  const auto system = makeSystem<double>(Chain{160, 40});
+  const auto automatic = linearize(*system, DerivativeSource::kAutomatic);
+  // eps^(2/3) and eps^(1/2) times second and third derivatives of order one.
+  expectNear(automatic, linearize(*system, DerivativeSource::kCentral), 1e-9);
+  expectNear(automatic, linearize(*system, DerivativeSource::kForward), 1e-6);
+}
+
+TEST(Linearization, AutomaticIsExactToRoundOff) {
+  const auto coarse = linearize(*makeSystem<double>(Chain{5, 3}), DerivativeSource::kAutomatic);
+  const auto fine = linearize(*makeSystem<mp50>(Chain{5, 3}), DerivativeSource::kCentral);
+  for (Index i = 0; i < coarse.d0.size(); ++i) {
+    EXPECT_NEAR(coarse.d0[i], static_cast<double>(fine.d0[i]), 1e-14);
+    EXPECT_NEAR(coarse.d1[i], static_cast<double>(fine.d1[i]), 1e-14);
+    EXPECT_NEAR(coarse.d2[i], static_cast<double>(fine.d2[i]), 1e-14);
+  }
+}
+
+TEST(Linearization, ConstraintRowsAreTheDerivativesOfTheirLevel) {
+  for (const auto& formulation : named<Formulation>()) {
+    const auto system = makeSystem<double>(CartesianPendulum{}, {formulation.value});
+    expectNear(linearize(*system, DerivativeSource::kAutomatic),
+               linearize(*system, DerivativeSource::kCentral), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

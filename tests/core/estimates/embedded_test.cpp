@@ -1,0 +1,218 @@
+// The embedded estimate against the formulas of HW II (IV.8) written down for y' = f(t, y).
+#include "core/estimates/embedded.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "core/steps/stepper.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// The oscillators of second order as a system of first order, x = (u, v).
+struct FirstOrderOscillators {
+  Sizes sizes() const { return {.nu = 0, .nx = 4, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    using std::sin;
+    const T c = cos(p.x[0] - p.x[1]), s = sin(p.x[0] - p.x[1]);
+    r.x[0] = p.x[2] - p.k[0];
+    r.x[1] = p.x[3] - p.k[1];
+    r.x[2] = -2.0 * p.k[2] - c * p.k[3] - s * p.x[3] * p.x[3] - 19.62 * sin(p.x[0]);
+    r.x[3] = -c * p.k[2] - p.k[3] + s * p.x[2] * p.x[2] - 9.81 * sin(p.x[1]);
+  }
+};
+
+// At t = 0 every other derivative of the solution vanishes.
+State<double> movingRiccati() {
+  State<double> start = riccatiStart<double>();
+  start.t = 0.7;
+  start.x[0] = 1.5 + std::sin(0.7);
+  return start;
+}
+
+/// One step and its estimate.
+template <class P>
+class OneStep {
+ public:
+  OneStep(P problem, const State<double>& start, const std::string& method, double h,
+          StageSolverKind solver = StageSolverKind::kSchur)
+      : system_(makeSystem<double>(problem)),
+        scheme_(makeTableau<double>(method)),
+        options_(with(solver)),
+        norm_(*system_, {0, 1e-12, NormKind::kAbsolute}, {}),
+        jacobian_(*system_, scheme_, options_, counters_),
+        stepper_(*system_, scheme_, options_, jacobian_, norm_, counters_),
+        estimate_(*system_, scheme_, options_, jacobian_, stepper_.matrix(), norm_, counters_),
+        start_(start),
+        end_(system_->sizes()) {
+    norm_.update(start_);
+    EXPECT_EQ(stepper_.attempt(stepper_.stages(), start_, h, end_).outcome, Outcome::kSuccess);
+  }
+
+  const Mat<double>& stages() const { return stepper_.stages().W; }
+  const Scheme<double>& scheme() const { return scheme_; }
+  double mu() const { return estimate_.mu(); }
+  double error(bool again = false) {
+    const double again_above = again ? 1 : std::numeric_limits<double>::infinity();
+    const auto result = estimate_.evaluate(start_, stepper_.stages(), again_above);
+    EXPECT_EQ(result.outcome, Outcome::kSuccess);
+    return result.error;
+  }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  static IntegratorOptions with(StageSolverKind solver) {
+    IntegratorOptions o = adaptive(1e-12);
+    o.solver = solver;
+    return o;
+  }
+
+  std::shared_ptr<const System<double>> system_;
+  Scheme<double> scheme_;
+  IntegratorOptions options_;
+  Counters counters_;
+  ErrorNorm<double> norm_;
+  SharedJacobian<double> jacobian_;
+  Stepper<double> stepper_;
+  EmbeddedEstimate<double> estimate_;
+  State<double> start_, end_;
+};
+
+// A real eigenvalue's system is one of the stages' own: its factors serve. Where the stages are solved
+// coupled, or all eigenvalues are complex, the estimate has its own; the numbers are the same.
+TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
+  for (const char* method : {"radau_iia_3", "radau_iia_5", "radau_iia_4"}) {
+    OneStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05,
+                StageSolverKind::kCoupledDense);
+    const double expected = own.error(true);
+    EXPECT_GT(expected, 1);
+    for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+      SCOPED_TRACE(std::string(method) + " " + std::string(idOf(solver)));
+      OneStep shared(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, solver);
+      const auto before = shared.counters().factorizations;
+      EXPECT_NEAR(shared.error(true), expected, 1e-7 * expected);
+      const bool odd = std::string(method) != "radau_iia_4";
+      EXPECT_EQ(shared.counters().factorizations - before, odd ? 0 : 1);
+    }
+  }
+}
+
+// y1^ = y0 + h (mu f0 + sum b^_i k_i) with sum b^_i c_i^(k-1) = 1/k - mu delta_k1, k = 1..s, and
+// err = (1 - h mu J)^-1 (y1^ - y1).
+double hairerWanner(const Scheme<double>& scheme, const Mat<double>& k, double mu, double f0,
+                    double J, double h) {
+  const Index s = scheme.s;
+  Mat<double> powers(s, s);
+  Vec<double> right(s);
+  for (Index i = 0; i < s; ++i) {
+    powers.row(i) = scheme.c.transpose().array().pow(static_cast<double>(i));
+    right[i] = 1.0 / static_cast<double>(i + 1) - (i == 0 ? mu : 0);
+  }
+  const Vec<double> b_hat = powers.fullPivLu().solve(right);
+  const double difference = h * (mu * f0 + (k.row(0) * (b_hat - scheme.b))(0, 0));
+  return std::abs(difference / (1 - h * mu * J));
+}
+
+TEST(EmbeddedEstimate, IsHairerAndWannersForAnOrdinaryEquation) {
+  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "gauss_4",
+                             "lobatto_iiic_3", "lobatto_iiic_4"}) {
+    for (const double h : {0.5, 0.05}) {
+      OneStep step(Riccati{}, movingRiccati(), method, h);
+      const double f0 = std::cos(0.7), J = -2 * (1.5 + std::sin(0.7));  // f and df/dy = -2 y
+      const double expected = hairerWanner(step.scheme(), step.stages(), step.mu(), f0, J, h);
+      EXPECT_NEAR(step.error() * 1e-12, expected, 1e-6 * expected + 1e-15) << method << " " << h;
+    }
+  }
+}
+
+TEST(EmbeddedEstimate, WeightIsTheRealEigenvalueOfRadauIIA) {
+  // HW II (IV.8): gamma0 of RADAU5 is 3.637834252744496, of order 9 and 13 6.286704751729276 and
+  // 8.936832788405216.
+  const auto weight = [](const char* method) {
+    return EmbeddedEstimate<double>::weight(Scheme<double>(makeTableau<double>(method)));
+  };
+  // Bauer and Fike: an eigenvalue of A, |A| about 1, is off by at most eps times the condition of the
+  // eigenvectors (9, 95, 1170; irk tableau check), its inverse by its square times that; 4 for the QR steps.
+  const auto expect = [&](const char* method, double inverse, double condition) {
+    const double bound = 4 * std::numeric_limits<double>::epsilon() * condition * inverse * inverse;
+    EXPECT_NEAR(1 / weight(method), inverse, bound) << method;
+  };
+  expect("radau_iia_3", 3.637834252744496, 9);
+  expect("radau_iia_5", 6.286704751729276, 95);
+  expect("radau_iia_7", 8.936832788405216, 1170);
+}
+
+// Both linearize the step's start, but for the slip of u, which the second-order form feeds into the
+// residual itself: they agree up to its square.
+TEST(EmbeddedEstimate, SecondOrderSystemsHaveTheEstimateOfTheirFirstOrderForm) {
+  const auto start = integrate<double>(Oscillators{}, oscillatorsStart<double>(), 0.1,
+                                       makeTableau<double>("radau_iia_5"), fixedSteps(0.01))
+                         .state;  // moving, with its accelerations
+  State<double> first(FirstOrderOscillators{}.sizes());
+  first.x << start.u, start.v;
+  first.w << start.v, start.w;
+  for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiic_3"}) {
+    for (const bool again : {false, true}) {
+      OneStep second(Oscillators{}, start, method, 0.02);
+      OneStep reference(FirstOrderOscillators{}, first, method, 0.02);
+      EXPECT_GT(reference.error(again), 1);  // else it is not filtered again
+      EXPECT_NEAR(second.error(again) / reference.error(again), 1, 1e-3) << method << again;
+    }
+  }
+}
+
+TEST(EmbeddedEstimate, HasOrderS) {
+  const auto start = movingRiccati();
+  for (const char* method :
+       {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "lobatto_iiic_3"}) {
+    std::vector<double> steps, errors;
+    for (const double h : {0.08, 0.06, 0.04, 0.03}) {
+      OneStep step(Riccati{}, start, method, h);
+      steps.push_back(h);
+      errors.push_back(step.error());
+    }
+    const double s = static_cast<double>(makeTableau<double>(method).stages());
+    EXPECT_NEAR(slope(steps, errors), s + 1, 0.3) << method;
+  }
+}
+
+TEST(EmbeddedEstimate, RefusesASingularA) {
+  IntegratorOptions o = adaptive(1e-6);
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
+                                  makeTableau<double>("lobatto_iiia_3"), o),
+               Misuse);
+}
+
+// Radau IA with one stage lies at c = 0 with a = 1: neither it nor its estimate sees a force that grows from 0.
+TEST(EmbeddedEstimate, RefusesStageOrderZero) {
+  IntegratorOptions o = adaptive(1e-6);
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  EXPECT_THROW(
+      Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_1"), o), Misuse);
+  EXPECT_NO_THROW(
+      Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_2"), o));
+}
+
+TEST(EmbeddedEstimate, ControlsTheErrorOfRuns) {
+  for (const char* method : {"radau_iia_3", "radau_iia_4", "gauss_3", "lobatto_iiic_4"}) {
+    for (const double tol : {1e-4, 1e-7, 1e-10}) {
+      IntegratorOptions o = adaptive(tol);
+      o.step.estimate = ErrorEstimate::kEmbedded;
+      o.step.control = StepControl::kPredictive;
+      const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 5,
+                                       makeTableau<double>(method), o);
+      ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+      EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(5.0))), 20 * tol) << method << " " << tol;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

@@ -1,0 +1,109 @@
+// Errors of many steps: they add up, and a result that they may spoil is no success.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/estimates/accumulation.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// u'' = -u - (u - cos t) (u + v), u(0) = 1, v(0) = 0: u = cos t.
+struct Oscillator {
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    const T& u = p.u[0];
+    r.u[0] = -u - 0.01 * (u - cos(p.t)) * (u + p.v[0]) - p.a[0];
+  }
+};
+
+Solution<double> oscillate(const char* method, double tol, double t_end) {
+  State<double> start(Oscillator{}.sizes());
+  start.u[0] = 1;
+  return integrate<double>(Oscillator{}, start, t_end, makeTableau<double>(method), adaptive(tol));
+}
+
+TEST(ErrorSum, IsAboveItsBarAfterAThousandTolerances) {
+  ErrorSum sum({1e-4, 1e-4, NormKind::kMixed});
+  sum.begin();
+  for (int i = 0; i < 1000; ++i) sum.add(0.999);
+  EXPECT_FALSE(sum.aboveBar());
+  sum.add(1.1);
+  EXPECT_TRUE(sum.aboveBar());
+  sum.begin();
+  EXPECT_FALSE(sum.aboveBar());
+}
+
+// 1e-9, as an absolute error, is right at any tolerance.
+TEST(ErrorSum, AllowsRoundOffAtTightTolerances) {
+  ErrorSum sum({1e-13, 1e-13, NormKind::kMixed});
+  sum.begin();
+  sum.add(10'990);
+  EXPECT_FALSE(sum.aboveBar());
+  sum.add(20);
+  EXPECT_TRUE(sum.aboveBar());
+}
+
+// What the factor asks for: N steps whose estimates, multiplied by it, reach the tolerance, err by some hundred
+// tolerances together, whatever N.
+TEST(ErrorSum, OfStepsUnderAccumulationStaysBelowTheBar) {
+  const Tolerances tolerances{1e-8, 1e-8, NormKind::kMixed};
+  const Accumulation accumulation(1, tolerances);
+  double sum = 0;
+  for (int i = 0; i < 15'000; ++i) sum += 1 / accumulation.factor(i, sum);
+  EXPECT_GT(sum, 100);
+  EXPECT_LT(sum, 500);
+}
+
+// Errors far below the tolerance are not asked to be smaller still, however many they are.
+TEST(ErrorSum, AsksNothingOfSmallErrors) {
+  const Accumulation accumulation(10, {1e-8, 1e-8, NormKind::kMixed});
+  EXPECT_EQ(accumulation.factor(100'000, 3), 10);
+  EXPECT_GT(accumulation.factor(100'000, 30), 10);
+  EXPECT_LE(accumulation.factor(100'000, 300), 300);
+}
+
+// A rejected error that a shorter step does not lower is accepted, one that it lowers is not.
+TEST(ErrorSum, IsNotControlledByStepsThatDoNotHelp) {
+  Accumulation accumulation(1, {1e-8, 1e-8, NormKind::kMixed});
+  EXPECT_EQ(accumulation.asked(0.5, 10, 1, 0.1), 5);
+  EXPECT_EQ(accumulation.asked(0.49, 10, 1, 0.05), 1) << "accepted";
+  EXPECT_EQ(accumulation.asked(0.5, 10, 2, 0.1), 5);
+  EXPECT_EQ(accumulation.asked(0.3, 10, 2, 0.05), 3) << "it falls";
+  EXPECT_EQ(accumulation.asked(2, 10, 3, 0.1), 20);
+  EXPECT_EQ(accumulation.asked(2, 10, 3, 0.05), 20) << "above the tolerance";
+  EXPECT_EQ(accumulation.asked(2, 10, 3.05, 0.05), 20) << "another step";
+}
+
+TEST(ErrorSum, ManyStepsOfLowOrderAreRightOrSaySo) {
+  int right = 0, failed = 0;
+  for (const double t_end : {3.0, 30.0, 300.0, 1000.0}) {
+    for (const double tol : {1e-4, 1e-6}) {
+      const auto s = oscillate("radau_iia_1", tol, t_end);
+      if (s.outcome == Outcome::kSuccess) {
+        ++right;
+        EXPECT_LE(std::abs(s.state.u[0] - std::cos(t_end)), 1000 * tol) << t_end << " " << tol;
+      } else {
+        ++failed;
+        EXPECT_EQ(s.outcome, Outcome::kInaccurate) << s.detail;
+        EXPECT_NE(s.detail.find("add up"), std::string::npos) << s.detail;
+      }
+    }
+  }
+  EXPECT_GE(right, 2);
+  EXPECT_GE(failed, 1);
+}
+
+TEST(ErrorSum, HighOrderIsNotBlamedForItsEstimate) {
+  for (const char* method : {"radau_iia_3", "gauss_3"}) {
+    const auto s = oscillate(method, 1e-9, 300);
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << method << s.detail;
+    EXPECT_NEAR(s.state.u[0], std::cos(300.0), 1e-6) << method;
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

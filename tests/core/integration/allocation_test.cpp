@@ -1,0 +1,142 @@
+// A step allocates nothing: malloc is counted from the second step to the end.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <string_view>
+
+#include "irk/scene.h"
+#include "tests/core/support.h"
+
+namespace {
+bool counting = false;
+long allocations = 0, allocations_of_klu = 0;
+
+// KLU allocates where it chooses pivots anew, through SuiteSparse's own allocator.
+bool isKlu(void* caller) {
+  Dl_info info;
+  if (dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return false;
+  const std::string_view library(info.dli_fname);
+  return library.find("libklu") != library.npos ||
+         library.find("libsuitesparseconfig") != library.npos;
+}
+}  // namespace
+
+// Eigen's aligned memory, operator new and the containers all end in malloc (glibc), which is
+// interposed here.
+extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* malloc(std::size_t size) {
+  if (counting) ++(isKlu(__builtin_return_address(0)) ? allocations_of_klu : allocations);
+  return __libc_malloc(size);
+}
+
+namespace irk::test {
+namespace {
+
+long allocationsOf(const std::shared_ptr<const System<double>>& system, const State<double>& start,
+                   const Methods<double>& methods, const IntegratorOptions& options,
+                   double t_end = 1.0) {
+  Integrator<double> integrator(system, methods, options);
+  int steps = 0;
+  long before_last_step = 0;
+  Monitor<double> monitor;
+  monitor.interrupt = [&] {
+    counting = steps++ >= 1;
+    before_last_step = allocations;
+    return Outcome::kSuccess;
+  };
+  allocations = 0;
+  const auto s = integrator.integrate(start, t_end, monitor);
+  counting = false;
+  EXPECT_EQ(s.outcome, Outcome::kSuccess);
+  EXPECT_GT(steps, 2);
+  return before_last_step;  // the solution returned after it is the caller's
+}
+
+TEST(Allocation, TheCounterSeesAnAllocation) {
+  allocations = 0;
+  counting = true;
+  const Vec<double> v(100);
+  void* volatile p = std::malloc(8);
+  counting = false;
+  std::free(p);
+  EXPECT_EQ(v.size(), 100);
+  EXPECT_GE(allocations, 2);
+}
+
+TEST(Allocation, StepsAllocateNothing) {
+  for (const auto& solver : named<StageSolverKind>()) {
+    for (const auto& newton : named<NewtonKind>()) {
+      const bool coupled = solver.value == StageSolverKind::kCoupledDense ||
+                           solver.value == StageSolverKind::kCoupledSparse;
+      if (newton.value == NewtonKind::kFull && !coupled) continue;
+      for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiia_3", "radau_iia_20"}) {
+        const auto tableau = makeTableau<double>(method);
+        IntegratorOptions o = adaptive(1e-5);
+        o.solver = solver.value;
+        o.newton.kind = newton.value;
+        const std::string what = std::string(solver.id) + " " + std::string(newton.id) + " " + method;
+        EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), tableau, o), 0) << what;
+      }
+    }
+  }
+  EXPECT_EQ(allocationsOf(makeSystem<double>(CartesianPendulum{}), pendulumStart<double>(),
+                          makeTableau<double>("radau_iia_5"), fixedSteps(0.01)), 0);
+}
+
+// Whole adaptive runs: dense up to s n = 300, sparse at any size.
+TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
+  struct Case {
+    int elements;
+    Storage storage;
+  };
+  for (const Case& c : {Case{14, Storage::kDense}, Case{14, Storage::kSparse},
+                        Case{250, Storage::kSparse}}) {
+    const Scene<double> scene =
+        makeScene<double>("ancf_pendulum", {{"elements", std::to_string(c.elements)}});
+    const auto system = scene.system({});
+    const auto one = Methods<double>(makeTableau<double>("radau_iia_5"));
+    for (const NewtonKind newton :
+         {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
+      for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
+        IntegratorOptions o = adaptive(1e-4);
+        o.storage = c.storage;
+        o.newton.kind = newton;
+        o.step.estimate = estimate;
+        o.step.h = 1e-5;
+        for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+          o.solver = solver;
+          EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
+              << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " "
+              << idOf(estimate) << " " << idOf(solver);
+        }
+      }
+    }
+  }
+}
+
+// Orders change, and nothing is allocated for it.
+TEST(Allocation, VariableOrderAllocatesNothingAfterTheFirstStep) {
+  IntegratorOptions o = adaptive(1e-9);
+  o.order = OrderControl::kVariable;
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  o.step.control = StepControl::kPredictive;
+  o.newton.kind = NewtonKind::kBroyden;
+  const auto methods = makeMethods<double>("radau_iia_2", 13, 5);
+  EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), methods, o,
+                          5.0),
+            0);
+  for (const Storage storage : {Storage::kDense, Storage::kSparse}) {
+    const Scene<double> scene = makeScene<double>("ancf_pendulum", {{"elements", "14"}});
+    o.storage = storage;
+    for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
+      o.solver = solver;
+      EXPECT_EQ(allocationsOf(scene.system({}), scene.start, methods, o, 2e-2), 0)
+          << idOf(storage) << " " << idOf(solver);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

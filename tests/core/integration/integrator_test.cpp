@@ -1,0 +1,206 @@
+// Runs end as they should: successes, failures by name, refusals, counters, equivalences.
+#include <gtest/gtest.h>
+
+#include "irk/multiprecision.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+// Paper, section 2: 2-stage Lobatto IIIA in K-form is Newmark's method with beta 1/4, gamma 1/2:
+//   u1 = u0 + h v0 + h^2/4 (a0 + a1),  v1 = v0 + h/2 (a0 + a1),  r(u1, v1, a1) = 0.
+struct Duffing {
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    r.u[0] = cos(p.t) - p.u[0] - p.u[0] * p.u[0] * p.u[0] - 0.2 * p.v[0] - 2.0 * p.a[0];
+  }
+};
+
+TEST(Integrator, TwoStageLobattoIiiaIsNewmark) {
+  State<double> start(Duffing{}.sizes());
+  start.u[0] = 0.7;
+  start.v[0] = -0.3;
+  const double h = 0.1;
+  const auto force = [](double t, double u, double v) {
+    return (std::cos(t) - u - u * u * u - 0.2 * v) / 2;
+  };
+  double t = 0, u = 0.7, v = -0.3, a = force(t, u, v);
+  for (int step = 0; step < 20; ++step) {
+    double a1 = a;
+    for (int i = 0; i < 100; ++i) {  // contraction h^2/4 |df/du| < 0.02 per iteration
+      a1 = force(t + h, u + h * v + h * h / 4 * (a + a1), v + h / 2 * (a + a1));
+    }
+    u += h * v + h * h / 4 * (a + a1);
+    v += h / 2 * (a + a1);
+    a = a1;
+    t += h;
+  }
+  const auto s = integrate<double>(Duffing{}, start, 2, makeTableau<double>("lobatto_iiia_2"),
+                                   fixedSteps(h));
+  ASSERT_EQ(s.outcome, Outcome::kSuccess);
+  EXPECT_NEAR(s.state.u[0], u, 50 * 2.2e-16);
+  EXPECT_NEAR(s.state.v[0], v, 50 * 2.2e-16);
+  EXPECT_NEAR(s.state.a()[0], a, 200 * 2.2e-16);
+}
+
+TEST(Integrator, ToleranceIsReachedByEveryNewton) {
+  for (const auto& newton : named<NewtonKind>()) {
+    IntegratorOptions o = adaptive(1e-9);
+    o.newton.kind = newton.value;
+    o.solver = StageSolverKind::kCoupledDense;
+    const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 2,
+                                     makeTableau<double>("radau_iia_3"), o);
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << newton.id << s.detail;
+    EXPECT_LT(std::abs(s.state.x[0] - 1.5 - std::sin(2.0)), 1e-8) << newton.id;
+    EXPECT_GT(s.counters.steps_accepted, 3) << newton.id;
+  }
+}
+
+TEST(Integrator, MultiprecisionGoesBelowDouble) {
+  const auto s = integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 2, makeTableau<mp50>("gauss_12"),
+                                 fixedSteps(0.05));
+  ASSERT_EQ(s.outcome, Outcome::kSuccess);
+  const mp50 exact = mp50(1.5) + sin(mp50(2));
+  EXPECT_LT(std::abs(static_cast<double>(mp50(s.state.x[0] - exact))), 1e-35);
+}
+
+// A linear problem with constant coefficients: one Jacobian, one factorization, and per step one
+// iteration of the paper's Newton, which leaves a residual of round-off.
+struct Linear {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = -p.x[0] - p.k[0];
+  }
+};
+
+TEST(Integrator, CountersAreWhatTheAlgorithmSays) {
+  State<double> start(Linear{}.sizes());
+  start.x[0] = 1;
+  IntegratorOptions o = fixedSteps(0.125);
+  o.predictor = Predictor::kAcceleration;
+  o.newton.kind = NewtonKind::kModified;
+  const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("radau_iia_2"), o);
+  ASSERT_EQ(s.outcome, Outcome::kSuccess);
+  EXPECT_EQ(s.counters.steps_accepted, 8);
+  EXPECT_EQ(s.counters.jacobians, 1);
+  EXPECT_EQ(s.counters.factorizations, 1);
+  EXPECT_EQ(s.counters.newton_iterations, 8);
+  EXPECT_EQ(s.counters.solves, 8);
+  EXPECT_EQ(s.counters.newton_restarts, 0);
+}
+
+TEST(Integrator, FixedStepsEndAtTheEnd) {
+  State<double> start(Linear{}.sizes());
+  start.x[0] = 1;
+  for (const double h : {0.1, 0.3, 2.0}) {
+    const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("gauss_8"),
+                                     fixedSteps(h));
+    EXPECT_EQ(s.outcome, Outcome::kSuccess);
+    EXPECT_EQ(s.state.t, 1.0);
+    EXPECT_NEAR(s.state.x[0], std::exp(-1.0), 1e-14);
+    EXPECT_EQ(s.counters.steps_accepted, static_cast<int>(std::ceil(1 / h - 1e-9)));
+  }
+}
+
+TEST(Integrator, ARunStopsWhereItsCallerSays) {
+  State<double> start(Linear{}.sizes());
+  start.x[0] = 1;
+  Integrator<double> integrator(makeSystem<double>(Linear{}), makeTableau<double>("gauss_1"),
+                                fixedSteps(0.1));
+  int steps = 0;
+  Monitor<double> monitor;
+  monitor.accepted = [&](const StepRecord<double>&) { ++steps; };
+  monitor.interrupt = [&] { return steps == 3 ? Outcome::kTimeout : Outcome::kSuccess; };
+  const auto s = integrator.integrate(start, 1.0, monitor);
+  EXPECT_EQ(s.outcome, Outcome::kTimeout);
+  EXPECT_NEAR(s.state.t, 0.3, 1e-15);
+  EXPECT_EQ(integrator.integrate(start, 1.0).outcome, Outcome::kSuccess);
+}
+
+struct NotFinite {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  double from;
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sqrt;
+    r.x[0] = sqrt(T(from - p.t)) - p.k[0];  // NaN for t > from
+  }
+};
+
+TEST(Integrator, NotANumberIsNamed) {
+  const State<double> start(NotFinite{-1}.sizes());
+  const auto at_once = integrate<double>(NotFinite{-1}, start, 1,
+                                         makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  EXPECT_EQ(at_once.outcome, Outcome::kNotFinite);
+  EXPECT_NE(at_once.detail.find("row 0"), std::string::npos) << at_once.detail;
+  const auto later = integrate<double>(NotFinite{0.5}, start, 1,
+                                       makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  EXPECT_EQ(later.outcome, Outcome::kNotFinite) << later.detail;
+  EXPECT_NEAR(later.state.t, 0.5, 1e-3);
+}
+
+TEST(Integrator, AnInconsistentStartIsNamed) {
+  State<double> off = pendulumStart<double>();
+  off.u[0] = 1.01;
+  auto s = integrate<double>(CartesianPendulum{}, off, 1, makeTableau<double>("radau_iia_2"),
+                             adaptive(1e-6));
+  EXPECT_EQ(s.outcome, Outcome::kInconsistentStart);
+  EXPECT_NE(s.detail.find("constraint g = 0.01"), std::string::npos) << s.detail;
+  State<double> moving = pendulumStart<double>();
+  moving.v[0] = 0.1;
+  s = integrate<double>(CartesianPendulum{}, moving, 1, makeTableau<double>("radau_iia_2"),
+                        adaptive(1e-6));
+  EXPECT_EQ(s.outcome, Outcome::kInconsistentStart);
+  EXPECT_NE(s.detail.find("dg/dt = 0.1"), std::string::npos) << s.detail;
+}
+
+TEST(Integrator, TheStartGetsItsAccelerationsAndMultiplier) {
+  State<double> start = pendulumStart<double>();
+  start.v[1] = -2;  // lambda = |v|^2 - g y = 4, a = (-4, -9.81)
+  const auto s = integrate<double>(CartesianPendulum{}, start, 0,
+                                   makeTableau<double>("lobatto_iiia_3"), adaptive(1e-6));
+  EXPECT_EQ(s.outcome, Outcome::kSuccess);
+  EXPECT_NEAR(s.state.z()[0], 4, 1e-13);
+  EXPECT_NEAR(s.state.a()[0], -4, 1e-13);
+}
+
+void expectRefused(const std::function<void()>& build, const std::vector<std::string>& words) {
+  try {
+    build();
+    FAIL() << "accepted";
+  } catch (const Misuse& misuse) {
+    for (const auto& word : words) {
+      EXPECT_NE(std::string(misuse.what()).find(word), std::string::npos) << misuse.what();
+    }
+  }
+}
+
+TEST(Integrator, IllegalCombinationsAreRefused) {
+  const auto build = [](auto problem, const char* method, const IntegratorOptions& o) {
+    return [=] { Integrator<double>(makeSystem<double>(problem), makeTableau<double>(method), o); };
+  };
+  for (const char* method : {"lobatto_iiib_3", "lobatto_iiics_2"}) {
+    expectRefused(build(CartesianPendulum{}, method, adaptive(1e-6)), {method, "algebraic"});
+  }
+  IntegratorOptions o = adaptive(1e-6);
+  o.newton.kind = NewtonKind::kFull;
+  expectRefused(build(Riccati{}, "gauss_2", o), {"full", "schur", "coupled_dense"});
+  o.solver = StageSolverKind::kCoupledDense;
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  expectRefused(build(Riccati{}, "gauss_2", o), {"full", "embedded", "richardson"});
+  o = adaptive(1e-6);
+  o.step.estimate = ErrorEstimate::kNone;
+  expectRefused(build(Riccati{}, "gauss_2", o), {"none", "predictive"});
+  expectRefused(build(Riccati{}, "gauss_2", fixedSteps(-0.1)), {"step", "-0.1", "> 0"});
+  o = adaptive(2);
+  expectRefused(build(Riccati{}, "gauss_2", o), {"rtol", "2", "< 1"});
+  o = adaptive(1e-6);
+  o.solver = StageSolverKind::kEigen;
+  expectRefused(build(Riccati{}, "lobatto_iiics_3", o), {"eigen", "defective"});
+}
+
+}  // namespace
+}  // namespace irk::test

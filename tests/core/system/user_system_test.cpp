@@ -1,0 +1,219 @@
+// What a user's system and start may not be, and what good ones still are.
+#include "irk/system_check.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "irk/multiprecision.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::string misuseOf(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Misuse& misuse) {
+    return misuse.what();
+  }
+  return "no misuse";
+}
+
+/// A problem that says nothing but its sizes.
+struct Sized {
+  Sizes n;
+  Sizes sizes() const { return n; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    for (Index i = 0; i < r.u.size(); ++i) r.u[i] = -p.a[i];
+    for (Index i = 0; i < r.x.size(); ++i) r.x[i] = -p.k[i];
+    for (Index i = 0; i < r.z.size(); ++i) r.z[i] = -p.z[i];
+  }
+};
+
+TEST(UserSystem, SizesThatCannotBeAreRefused) {
+  struct Case {
+    Sizes n;
+    const char* message;
+  };
+  const Case cases[] = {
+      {{}, "at least one unknown"},
+      {{.nu = -1}, "nu = -1"},
+      {{.nu = 1, .nx = -2}, "nx = -2"},
+      {{.nu = 1, .nz = -3}, "nz = -3"},
+      {{.nu = 1, .constraints = -1}, "constraints = -1"},
+      {{.nu = 1, .discrete = -1}, "discrete = -1"},
+      {{.nu = 1, .switches = -1}, "switches = -1"},
+      {{.nu = 1, .nz = 1, .constraints = 2}, "constraints = 2: up to nz = 1"},
+      {{.nu = 1, .nz = 1, .constraints = 1}, "no function constraints"},
+      {{.nu = 1, .discrete = 1, .switches = 1}, "no function switching"},
+      {{.nu = 1, .discrete = 17}, "17 discrete states"}};
+  for (const auto& [n, message] : cases) {
+    for (const auto formulation : {Formulation::kIndex2, Formulation::kGgl, Formulation::kFirstOrder}) {
+      const auto text = misuseOf([&, sizes = n] { (void)makeSystem<double>(Sized{sizes}, {formulation}); });
+      EXPECT_NE(text.find(message), std::string::npos) << message << ": " << text;
+    }
+  }
+  for (const Sizes n : {Sizes{.nu = 1}, Sizes{.nx = 1}, Sizes{.nz = 1}, Sizes{.nu = 1, .nz = 2, .discrete = 16}}) {
+    EXPECT_NO_THROW((void)makeSystem<double>(Sized{n}, {}));
+  }
+}
+
+/// A start of other sizes; which part of it.
+struct Reshaped {
+  const char* part;
+  void (*reshape)(State<double>&);
+};
+constexpr Reshaped kReshaped[] = {{"u", [](State<double>& s) { s.u.conservativeResize(1); }},
+                                  {"u", [](State<double>& s) { s.u.setZero(3); }},
+                                  {"v", [](State<double>& s) { s.v.resize(0); }},
+                                  {"v", [](State<double>& s) { s.v.setZero(5); }},
+                                  {"x", [](State<double>& s) { s.x.setZero(1); }},
+                                  {"w", [](State<double>& s) { s.w.setZero(2); }},
+                                  {"w", [](State<double>& s) { s.w.setZero(4); }},
+                                  {"d", [](State<double>& s) { s.d.setZero(1); }},
+                                  {"carry", [](State<double>& s) { s.carry.resize(0); }},
+                                  {"u", [](State<double>& s) { s = State<double>(); }}};
+
+// Each of them was read beyond its end.
+TEST(UserSystem, StartsOfOtherSizesAreRefused) {
+  for (const auto formulation : {Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl, Formulation::kFirstOrder,
+                                 Formulation::kIndex2Projected}) {
+    Integrator<double> integrator(makeSystem<double>(CartesianPendulum{}, {formulation}),
+                                  makeTableau<double>("radau_iia_3"), adaptive(1e-6));
+    for (const auto& [part, reshape] : kReshaped) {
+      auto start = pendulumStart<double>();
+      reshape(start);
+      const auto text = misuseOf([&] { (void)integrator.integrate(start, 0.1); });
+      EXPECT_NE(text.find(std::string("start: ") + part), std::string::npos) << idOf(formulation) << ": " << text;
+    }
+    EXPECT_EQ(integrator.integrate(pendulumStart<double>(), 0.1).outcome, Outcome::kSuccess) << idOf(formulation);
+  }
+}
+
+// With v infinite 200 000 attempts were made.
+TEST(UserSystem, StartsThatAreNotFiniteEndBeforeTheFirstStep) {
+  struct Damage {
+    const char* place;
+    void (*damage)(State<double>&, double);
+  };
+  const Damage damages[] = {{"u[0]", [](State<double>& s, double x) { s.u[0] = x; }},
+                            {"v[1]", [](State<double>& s, double x) { s.v[1] = x; }},
+                            {"w[2]", [](State<double>& s, double x) { s.w[2] = x; }}};
+  for (const auto formulation : {Formulation::kIndex2, Formulation::kGgl, Formulation::kFirstOrder}) {
+    for (const double number : {kInfinity, -kInfinity, kNan}) {
+      for (const auto& [place, damage] : damages) {
+        auto start = pendulumStart<double>();
+        damage(start, number);
+        const auto s = integrate<double>(CartesianPendulum{}, start, 0.1, makeTableau<double>("radau_iia_3"),
+                                         adaptive(1e-6), formulation);
+        EXPECT_EQ(s.outcome, Outcome::kNotFinite) << place;
+        EXPECT_NE(s.detail.find(std::string("at the start: ") + place), std::string::npos) << s.detail;
+        EXPECT_EQ(s.counters.residuals, 0);
+      }
+    }
+  }
+}
+
+TEST(UserSystem, TimesAreFiniteAndInOrder) {
+  Integrator<double> integrator(makeSystem<double>(Riccati{}), makeTableau<double>("radau_iia_3"), adaptive(1e-6));
+  for (const double end : {kInfinity, kNan, -1.0}) {
+    const auto text = misuseOf([&] { (void)integrator.integrate(riccatiStart<double>(), end); });
+    EXPECT_NE(text.find("t_end = "), std::string::npos) << end << text;
+  }
+  auto start = riccatiStart<double>();
+  start.t = -kInfinity;
+  EXPECT_NE(misuseOf([&] { (void)integrator.integrate(start, 1.0); }).find("start: t = -inf"), std::string::npos);
+  EXPECT_EQ(integrator.integrate(riccatiStart<double>(), 0.0).outcome, Outcome::kSuccess) << "no time at all";
+}
+
+/// sqrt(x) - k: no number for x < 0.
+struct Root {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sqrt;
+    r.x[0] = sqrt(p.x[0]) - p.k[0];
+  }
+};
+
+TEST(UserSystem, AnEvaluationThatIsNoNumberAtTheStartIsNamed) {
+  State<double> start(Root{}.sizes());
+  start.x[0] = -1;
+  const auto s = integrate<double>(Root{}, start, 1, makeTableau<double>("radau_iia_3"), adaptive(1e-6));
+  EXPECT_EQ(s.outcome, Outcome::kNotFinite);
+  EXPECT_NE(s.detail.find("at the start, t = 0: row 0: residual"), std::string::npos) << s.detail;
+  EXPECT_EQ(s.counters.steps_accepted + s.counters.steps_rejected_error + s.counters.steps_rejected_newton, 0);
+}
+
+/// Made by hand, not from a problem.
+class Handmade : public System<double> {
+ public:
+  Sizes n{.nx = 1};
+  std::vector<int> rows{0};
+  ErrorPowers errors{{}, {}, {0}, {}};
+  Sizes sizes() const override { return n; }
+  void evaluate(Level, const Point<double>& p, VecView<double> r) const override { r[0] = -p.x[0] - p.k[0]; }
+  void evaluate(Level, const Point<Dual<double>>& p, VecView<Dual<double>> r) const override {
+    r[0] = -p.x[0] - p.k[0];
+  }
+  const std::vector<int>& rowPowers() const override { return rows; }
+  const ErrorPowers& errorPowers() const override { return errors; }
+  State<double> fromScene(const State<double>& s) const override { return s; }
+  State<double> toScene(const State<double>& s) const override { return s; }
+};
+
+std::string refused(const std::shared_ptr<const System<double>>& system, const Vec<double>& scale = {}) {
+  return misuseOf([&] { Integrator<double>(system, makeTableau<double>("radau_iia_3"), adaptive(1e-6), scale); });
+}
+
+TEST(UserSystem, SystemsMadeByHandAreChecked) {
+  const auto good = std::make_shared<Handmade>();
+  EXPECT_EQ(refused(good), "no misuse");
+  EXPECT_EQ(refused(good, Vec<double>::Constant(1, 2)), "no misuse");
+  State<double> start(good->sizes());
+  start.x[0] = 1;
+  Integrator<double> integrator(good, makeTableau<double>("radau_iia_3"), adaptive(1e-8));
+  const auto s = integrator.integrate(start, 1.0);
+  EXPECT_EQ(s.outcome, Outcome::kSuccess);
+  EXPECT_NEAR(s.state.x[0], std::exp(-1.0), 1e-7);
+
+  EXPECT_NE(refused(nullptr).find("no system"), std::string::npos);
+  const auto with = [](const std::function<void(Handmade&)>& change) {
+    const auto system = std::make_shared<Handmade>();
+    change(*system);
+    return refused(system);
+  };
+  EXPECT_NE(with([](Handmade& h) { h.n.nx = 0; }).find("at least one unknown"), std::string::npos);
+  EXPECT_NE(with([](Handmade& h) { h.n.nz = -1; }).find("nz = -1"), std::string::npos);
+  EXPECT_NE(with([](Handmade& h) { h.rows = {}; }).find("rows: 0 numbers, 1 are expected"), std::string::npos);
+  EXPECT_NE(with([](Handmade& h) { h.errors.x = {0, 0}; }).find("of x: 2 numbers"), std::string::npos);
+  EXPECT_NE(refused(good, Vec<double>::Ones(3)).find("scale: 3 numbers, 1 are expected"), std::string::npos);
+  for (const double scale : {0.0, -1.0, kNan}) {
+    EXPECT_NE(refused(good, Vec<double>::Constant(1, scale)).find("scale[0]"), std::string::npos) << scale;
+  }
+}
+
+TEST(UserSystem, GoodSystemsOfEveryScalarAndFormulationPass) {
+  for (const auto& formulation : named<Formulation>()) {
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 0.1,
+                                     makeTableau<double>("radau_iia_3"), adaptive(1e-6), formulation.value);
+    EXPECT_EQ(s.outcome, Outcome::kSuccess) << formulation.id << s.detail;
+  }
+  EXPECT_EQ((integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 0.1, makeTableau<mp50>("gauss_3"), fixedSteps(0.1)).outcome),
+            Outcome::kSuccess);
+  // Beyond the range of double, but a number.
+  State<mp50> start(Riccati{}.sizes());
+  start.x[0] = mp50("1e400");
+  EXPECT_EQ(notFinite(start), "");
+  start.x[0] = std::numeric_limits<mp50>::quiet_NaN();
+  EXPECT_NE(notFinite(start), "");
+}
+
+}  // namespace
+}  // namespace irk::test

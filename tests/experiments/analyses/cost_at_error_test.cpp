@@ -1,0 +1,48 @@
+#include "experiments/analyses/cost_at_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace irk {
+namespace {
+
+TEST(CostAtError, InterpolatesTheLowerEnvelope) {
+  // cost = error^(-1/2), and one point above the envelope.
+  const std::vector<CostPoint> points{{1e-2, 10}, {1e-4, 100}, {1e-6, 1000}, {1e-3, 500}};
+  EXPECT_NEAR(costAtError(points, 1e-4), 100, 1e-9);
+  EXPECT_NEAR(costAtError(points, 1e-5), std::pow(10, 2.5), 1e-9);
+  EXPECT_NEAR(costAtError(points, 0.5), 10, 1e-9);
+  EXPECT_TRUE(std::isnan(costAtError(points, 1e-7)));
+  EXPECT_TRUE(std::isnan(costAtError({}, 1)));
+}
+
+// Every series has a row for every error, and says why where there is no cost.
+TEST(CostAtError, SaysWhyThereIsNone) {
+  Table runs;
+  runs.columns = {"scene", "outcome", "error", "cpu_s", "residuals", "newton_iterations", "jacobians",
+                  "factorizations"};
+  const auto add = [&](const char* scene, const char* outcome, const char* error) {
+    runs.rows.push_back({scene, outcome, error, "1", "1", "1", "1", "1"});
+  };
+  add("reached", "success", "1e-7");
+  add("coarse", "success", "1e-3");
+  add("unknown", "success", "nan");
+  add("failed", "newton_failed", "nan");
+  add("failed", "timeout", "nan");
+  const Table costs = costTable(runs, {1e-6});
+  std::map<std::string, std::string> causes;
+  for (const auto& row : costs.rows) {
+    causes[textAt(costs, row, "scene")] = textAt(costs, row, "cause");
+    EXPECT_EQ(textAt(costs, row, "reached") == "1", textAt(costs, row, "cause").empty());
+  }
+  EXPECT_EQ(causes, (std::map<std::string, std::string>{{"reached", ""},
+                                                        {"coarse", "not accurate enough"},
+                                                        {"unknown", "no reference"},
+                                                        {"failed", "no success: timeout"}}));
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,58 @@
+#include "experiments/analyses/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
+
+namespace irk {
+namespace {
+
+// Two problems; `variable` takes 1 and 4, `cvode_bdf` 2 and 2 with another formulation 8, `paper`
+// solves only the second, in 6.
+TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
+  Table costs;
+  costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};
+  costs.rows = {{"a", "", "variable", "1e-6", "1", ""},           {"b", "", "variable", "1e-6", "4", ""},
+                {"a", "", "cvode_bdf", "1e-6", "8", ""},          {"a", "", "cvode_bdf", "1e-6", "2", ""},
+                {"b", "", "cvode_bdf", "1e-6", "2", ""},          {"a", "", "paper:radau_iia_5", "1e-6", "nan", "not accurate enough"},
+                {"b", "", "paper:radau_iia_5", "1e-6", "6", ""}};
+  const Table profile = profileTable(costs);
+  std::map<std::string, std::vector<std::pair<double, double>>> curves;
+  for (const auto& row : profile.rows) {
+    if (textAt(profile, row, "target_error") != "all") continue;
+    curves[textAt(profile, row, "integrator")].emplace_back(numberAt(profile, row, "ratio"),
+                                                        numberAt(profile, row, "fraction"));
+  }
+  using Curve = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(curves["variable"], (Curve{{1, 0.5}, {2, 1}, {1e6, 1}}));
+  EXPECT_EQ(curves["cvode_bdf"], (Curve{{1, 0.5}, {2, 1}, {1e6, 1}}));
+  EXPECT_EQ(curves["paper:radau_iia_5"], (Curve{{3, 0.5}, {1e6, 0.5}}));
+  EXPECT_EQ(curves.size(), 3);
+}
+
+// A curve ends at 1 where a solver solves all that it was given; two of three problems were given to
+// `narrow`, and it solves both. No solver solves "d"; nothing is known of "e".
+TEST(Profile, DividesByTheProblemsThatASolverWasGiven) {
+  Table costs;
+  costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};
+  const std::string fails = "not accurate enough", unknown = "no reference";
+  costs.rows = {{"a", "", "wide", "1e-6", "1", ""},      {"b", "", "wide", "1e-6", "1", ""},
+                {"c", "", "wide", "1e-6", "nan", fails}, {"d", "", "wide", "1e-6", "nan", fails},
+                {"e", "", "wide", "1e-6", "nan", unknown},
+                {"b", "", "narrow", "1e-6", "2", ""},    {"c", "", "narrow", "1e-6", "2", ""},
+                {"e", "", "narrow", "1e-6", "nan", unknown}};
+  const Table profile = profileTable(costs);
+  std::map<std::string, TableRow> last;
+  for (const auto& row : profile.rows) last[textAt(profile, row, "integrator")] = row;
+  EXPECT_NEAR(numberAt(profile, last["wide"], "fraction"), 2.0 / 3, 1e-12);
+  EXPECT_EQ(numberAt(profile, last["narrow"], "fraction"), 1);
+  EXPECT_EQ(textAt(profile, last["wide"], "given"), "3");
+  EXPECT_EQ(textAt(profile, last["narrow"], "given"), "2");
+  for (const auto& [solver, row] : last) EXPECT_EQ(textAt(profile, row, "problems"), "3") << solver;
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,242 @@
+#include "experiments/commands/cli.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "experiments/runs/run_spec.h"
+#include "tests/experiments/program.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+std::set<std::string> keysOf(const nlohmann::json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(Cli, SolveJsonHasExactlyTheKeys) {
+  const auto run = program({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10",
+                               "--t-end", "1", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error", "drift",
+                                                 "reference", "steps", "counters", "cpu_s", "spec"}));
+  EXPECT_EQ(json["reference"], "file");
+  EXPECT_EQ(keysOf(json["steps"]),
+            (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
+  EXPECT_EQ(keysOf(json["counters"]),
+            (std::set<std::string>{"residuals", "jacobians", "factorizations", "solves",
+                                   "newton_iterations"}));
+  EXPECT_EQ(json["status"], "success");
+  EXPECT_NEAR(json["u"][0].get<double>(), 14.127892217751, 1e-7);
+  EXPECT_NEAR(json["v"][0].get<double>(), 20.537482851413, 1e-7);
+  EXPECT_EQ(json["spec"]["method"], "radau_iia_5");
+  EXPECT_TRUE(json["error"].is_number());
+}
+
+TEST(Cli, SolveJsonListsSwitches) {
+  const auto run = program({"solve", "stick_slip", "--method", "radau_iia_10", "--tol", "1e-10",
+                               "--discontinuity", "locate", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  const double times[] = {15,
+                          18.536383773289554,
+                          28.536383773289554,
+                          32.07276754657911,
+                          42.07276754657911,
+                          45.609151319868666};
+  ASSERT_EQ(json["switches"].size(), std::size(times));
+  for (std::size_t i = 0; i < std::size(times); ++i) {
+    EXPECT_NEAR(json["switches"][i]["t"].get<double>(), times[i], 1e-10);
+    EXPECT_TRUE(json["switches"][i]["name"].is_string());
+  }
+  EXPECT_EQ(json["counters"]["located_events"], 6);
+}
+
+TEST(Cli, UnknownNumbersAreNull) {
+  const auto run = program({"solve", "slider_crank", "--t-end", "0.123", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_TRUE(json["error"].is_null());
+  EXPECT_EQ(json["reference"], "none");
+  const auto text = program({"solve", "slider_crank", "--t-end", "0.123"});
+  EXPECT_TRUE(containsAll(text.out, {"error unknown: no reference at t = 0.123\n"}));
+}
+
+TEST(Cli, AnExactSolutionIsAReference) {
+  const auto run = program({"solve", "dahlquist", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["reference"], "exact");
+}
+
+// z = h lambda is known for fixed steps only; the names of the components do not depend on it.
+TEST(Cli, ASettingOverTheStepIsSolvedAndPrinted) {
+  const auto run = program({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1",
+                               "--method", "radau_iia_3"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(containsAll(run.out, {"lambda=-1e8/h", "success", "x  y "}));
+}
+
+TEST(Cli, MultiprecisionNumbersAreText) {
+  const auto run = program({"solve", "riccati_tracking", "--scalar", "mp50", "--step", "0.5",
+                               "--method", "gauss_3", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(nlohmann::json::parse(run.out)["x"][0].is_string());
+}
+
+TEST(Cli, StepMeansFixedSteps) {
+  const auto run = program({"solve", "kepler", "--step", "0.1", "--t-end", "1", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["spec"]["control"], "fixed");
+  EXPECT_EQ(json["steps"]["accepted"], 10);
+}
+
+TEST(Cli, AFailedRunIsStatusOneWithItsCause) {
+  const auto run = program({"solve", "kepler", "--tol", "1e-10", "--max-steps", "2", "--json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(nlohmann::json::parse(run.out)["status"], "max_steps");
+}
+
+struct BadInput {
+  std::vector<std::string> arguments;
+  std::vector<std::string> message;
+};
+
+TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
+  const BadInput inputs[] = {
+      {{"solve", "slider_krank"}, {"scene", "slider_krank", "'slider_crank'"}},
+      {{"solve", "kepler", "--method", "radau_ia_"}, {"radau_ia_"}},
+      {{"solve", "kepler", "--scalar", "mp100"}, {"kepler", "mp100", "mp50", "riccati_tracking"}},
+      {{"solve", "kepler", "--method", "gaus_3"}, {"gaus_3", "'gauss_3'"}},
+      {{"solve", "kepler", "--method", "gauss_0"}, {"0"}},
+      {{"solve", "kepler", "--newton", "simple"}, {"newton", "simple", "'simplified'"}},
+      {{"solve", "kepler", "--solver", "schurr"}, {"solver", "schurr", "'schur'"}},
+      {{"solve", "kepler", "--jacobian", "no_mas"}, {"jacobian", "no_mas", "'no_mass'"}},
+      {{"solve", "kepler", "--step", "-0.1"}, {"step", "-0.1", "> 0"}},
+      {{"solve", "kepler", "--step", "0"}, {"step", "0", "> 0"}},
+      {{"solve", "kepler", "--tol", "2"}, {"tol", "2", "0 < tol < 1"}},
+      {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
+      {{"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, {"step", "tol"}},
+      {{"solve", "kepler", "--control", "fixed"}, {"step", "> 0"}},
+      {{"solve", "kepler", "--estimate", "none"}, {"control", "predictive", "none"}},
+      {{"solve", "kepler", "--t-end", "-1"}, {"t_end", "-1"}},
+      {{"solve", "kepler", "--set", "ee=0.5"}, {"'ee'", "'e'", "kepler"}},
+      {{"solve", "kepler", "--set", "k"}, {"'k'", "name=value"}},
+      {{"solve", "pendulum", "--method", "lobatto_iiib_3"}, {"lobatto_iiib_3", "algebraic"}},
+      {{"solve", "kepler", "--newton", "full", "--solver", "schur"}, {"full", "schur"}},
+      {{"solve", "kepler", "--methd", "gauss_2"}, {"--methd"}},
+      {{"solve"}, {"scene"}},
+      {{"slove", "kepler"}, {"slove", "'solve'"}},
+      {{}, {"subcommand"}},
+      {{"run", "ordr"}, {"ordr", "'order'"}},
+      {{"run", "order", "--jobs", "-2"}, {"jobs", "-2", "0"}},
+      {{"run", "order", "--shard", "3/2"}, {"shard", "3", "2"}},
+      {{"list", "scene"}, {"scene", "'scenes'"}},
+      {{"tableau", "check", "no_such_file.txt"}, {"no_such_file.txt"}},
+      {{"merge", "no_such_folder"}, {"no_such_folder"}},
+      {{"compare", "no_such_folder", "neither"}, {"no_such_folder"}},
+  };
+  for (const auto& [arguments, message] : inputs) {
+    std::string line;
+    for (const auto& argument : arguments) line += argument + " ";
+    const auto run = program(arguments);
+    EXPECT_EQ(run.status, 2) << line << run.err;
+    EXPECT_EQ(run.out, "") << line;
+    EXPECT_TRUE(containsAll(run.err, message)) << line;
+  }
+}
+
+TEST(Cli, ADamagedTableauFileIsStatusTwo) {
+  const TemporaryFolder folder;
+  const auto whole = program({"tableau", "export", "radau_iia_3"});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string path = folder.path() / "method.txt";
+  const auto solveWith = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return program({"solve", "riccati_tracking", "--method", path, "--step", "0.1"});
+  };
+  EXPECT_EQ(solveWith(whole.out).status, 0);
+
+  const auto cut = solveWith(whole.out.substr(0, whole.out.size() * 2 / 3));
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_TRUE(containsAll(cut.err, {"method.txt:"}));
+
+  std::string lie = whole.out;
+  lie.replace(lie.find("order: 5"), 8, "order: 6");
+  const auto contradiction = solveWith(lie);
+  EXPECT_EQ(contradiction.status, 2);
+  EXPECT_TRUE(containsAll(contradiction.err, {"method.txt:", "6"}));
+
+  std::string nan = whole.out;
+  const auto number = nan.find("0.", nan.find("\nA"));
+  nan.replace(number, nan.find_first_of(" \n", number) - number, "nan");
+  const auto not_a_number = solveWith(nan);
+  EXPECT_EQ(not_a_number.status, 2);
+  EXPECT_TRUE(containsAll(not_a_number.err, {"method.txt:", "nan"}));
+}
+
+// Alexander's SDIRK of order 3, and the same with the wrong sign at one place.
+TEST(Cli, ATableauCheckSaysWhatIsTrue) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "method.txt";
+  const auto check = [&](const std::string& sign) {
+    std::ofstream(path) << "stages: 3\norder: 3\nstage_order: 1\ndigits: 30\nA\n"
+                           "0.435866521508458999416019451194 0 0\n"
+                           "0.282066739245770500291990274403 0.435866521508458999416019451194 0\n"
+                           "1.208496649176010070336477684063 "
+                        << sign
+                        << "0.644363170684469069752497135257 0.435866521508458999416019451194\nb\n"
+                           "1.208496649176010070336477684063 -0.644363170684469069752497135257 "
+                           "0.435866521508458999416019451194\nc\n"
+                           "0.435866521508458999416019451194 0.717933260754229499708009725597 1\n";
+    return program({"tableau", "check", path});
+  };
+  const auto right = check("-");
+  EXPECT_EQ(right.status, 0);
+  EXPECT_TRUE(containsAll(right.out, {"SDIRK", "degrees (2, 3)", "A-stable: yes, L-stable: yes",
+                                      "0.0258971 z^4", "DEFECTIVE", "keeps what it declares"}));
+  const auto wrong = check("+");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_TRUE(containsAll(wrong.out, {"row 3 of A does not sum up", "L-stable: no"}));
+}
+
+TEST(Cli, ATableauPlotDrawsAndKeepsItsNumbers) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "figure";
+  const auto run = program({"tableau", "plot", "radau_iia_2", "gauss_1", "--out", out});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  for (const auto* ending : {".svg", ".png", ".csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(out + ending)) << ending;
+  }
+  EXPECT_EQ(program({"tableau", "plot", "gauss_41", "--out", out}).status, 2);
+}
+
+TEST(Cli, ListsNameEverything) {
+  const auto all = program({"list"});
+  EXPECT_EQ(all.status, 0);
+  EXPECT_TRUE(containsAll(all.out, {"slider_crank", "radau_iia_S", "cpu_time", "coupled_dense"}));
+  // Of every axis its name and its ids.
+  for (const auto& field : specFields()) {
+    const std::string allowed = field.allowed();
+    if (allowed.find(" | ") == std::string::npos) continue;
+    EXPECT_TRUE(containsAll(all.out, {std::string(field.name) + "\n"})) << field.name;
+    for (std::size_t from = 0; from < allowed.size();) {
+      const std::size_t to = std::min(allowed.find(" | ", from), allowed.size());
+      EXPECT_TRUE(containsAll(all.out, {"    " + allowed.substr(from, to - from) + " "})) << allowed;
+      from = to + 3;
+    }
+  }
+  EXPECT_EQ(program({"--help"}).status, 0);
+}
+
+}  // namespace
+}  // namespace irk

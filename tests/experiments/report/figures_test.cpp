@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "experiments/analyses/estimates.h"
+#include "experiments/analyses/order_fit.h"
+#include "experiments/base/time_left.h"
+#include "experiments/report/report.h"
+#include "experiments/runner/runner.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/study/builtin_studies.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+std::filesystem::path plots() { return std::filesystem::path(IRK_SOURCE_DIR) / "plots"; }
+
+TEST(Figures, BelongToStudiesAndScriptsThatExist) {
+  std::set<std::string> studies{"tableaus"}, names;
+  for (const auto& study : builtinStudies()) studies.emplace(study.id);
+  for (const auto& figure : readFigures(plots() / "figures.txt")) {
+    EXPECT_TRUE(studies.contains(figure.study)) << figure.name << ": " << figure.study;
+    EXPECT_TRUE(std::filesystem::exists(plots() / figure.script)) << figure.name;
+    EXPECT_TRUE(names.insert(figure.name).second) << figure.name << " twice";
+    EXPECT_FALSE(figure.title.empty() || figure.caption.empty()) << figure.name;
+  }
+}
+
+TEST(Figures, FailureMapsShowDigitsAndCauses) {
+  const TemporaryFolder folder;
+  Table runs;
+  runs.columns = {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error"};
+  const auto add = [&](const char* stages, const char* h, const char* outcome, const char* error) {
+    runs.rows.push_back({"pendulum", "", "radau_iia", stages, h, "1e-6", outcome, error});
+  };
+  add("2", "0.1", "success", "1e-3");
+  add("2", "0.01", "success", "0");
+  add("3", "0.1", "newton_failed", "nan");
+  add("3", "0.01", "timeout", "nan");
+  writeTable(folder.path() / "runs.csv", runs);
+  const auto out = folder.path() / "map";
+  std::ostringstream err;
+  ASSERT_TRUE(drawFigure(
+      "failure_map.gp",
+      "data='" + folder.path().string() + "'; out='" + out.string() + "'; scene='pendulum'",
+      IRK_SOURCE_DIR, err))
+      << err.str();
+  std::ifstream in(out.string() + ".svg");
+  const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_TRUE(containsAll(svg, {"Radau IIA", "Newton fails", "too slow", "correct digits"}));
+  EXPECT_EQ(svg.find("singular"), svg.npos) << "only causes that occur";
+  EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
+}
+
+// Every built-in study's runs can be prepared, or are refused for a reason that has a name.
+TEST(Figures, StudiesHaveRunsThatResolve) {
+  for (const auto& entry : builtinStudies()) {
+    const Study study = loadStudy(entry.id, StudyVariant::kQuick);
+    ASSERT_FALSE(study.series.empty()) << entry.id;
+    for (const auto& series : study.series) {
+      EXPECT_NO_THROW((void)specKey(series.runs.front())) << entry.id;
+    }
+  }
+}
+
+TEST(Estimates, OfSmallStepsAreTheTrueErrors) {
+  const Study study = parseStudy(R"(
+estimates = true
+[[block]]
+scene = "riccati_tracking"
+methods = "radau_iia_2"
+tolerances = 1e-6
+)",
+                                 "small.toml", StudyVariant::kFull);
+  const TemporaryFolder folder;
+  RunnerOptions options;
+  options.results = folder.path();
+  std::ostringstream quiet;
+  const Table table = estimateTable(study, runStudy(study, options, quiet));
+  ASSERT_GT(table.rows.size(), 5u);
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(textAt(table, row, "group"), "x");
+    // |V_h - V_{h/2}| / (2^p - 1) is the error of V_{h/2} up to O(h).
+    EXPECT_NEAR(numberAt(table, row, "doubling"), 1, 0.2);
+    EXPECT_EQ(numberAt(table, row, "doubling"), numberAt(table, row, "richardson")) << "p = q";
+  }
+}
+
+// The page says what the fit does.
+TEST(Report, SaysWhatAnOrderNeeds) {
+  const TemporaryFolder folder;
+  const auto path = writeReport({folder.path(), IRK_SOURCE_DIR});
+  std::ifstream in(path);
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const OrderFitOptions options;
+  EXPECT_EQ(options.min_points, 3);
+  EXPECT_EQ(options.min_span, 2);
+  EXPECT_TRUE(containsAll(page, {"at least 3 steps, the largest at least 2 times the smallest"}));
+  EXPECT_EQ(page.find("@ORDER_WINDOW@"), page.npos);
+}
+
+TEST(TimeLeft, CountsEveryKindByItsOwnLength) {
+  TimeLeft time;
+  time.expect("short", 10);
+  time.expect("long", 2);
+  time.expect("unknown", 1);
+  EXPECT_EQ(time.left(), 0) << "nothing is known yet";
+  time.made("short", 1);
+  time.made("long", 100);
+  // 9 short ones, 1 long one, and one of the mean length.
+  EXPECT_NEAR(time.left(), 9 * 1 + 100 + 50.5, 1e-12);
+  time.dropped("long", 1);
+  EXPECT_NEAR(time.left(), 9 * 1 + 50.5, 1e-12);
+  EXPECT_EQ(time.spent(), 101);
+}
+
+}  // namespace
+}  // namespace irk

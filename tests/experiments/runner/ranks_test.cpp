@@ -1,0 +1,143 @@
+// Several processes make one study: ranks of mpirun.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "experiments/runner/ranks.h"
+#include "tests/experiments/stored_runs.h"
+
+namespace irk {
+namespace {
+
+TEST(WorkQueue, GivesEachPieceOnce) {
+  const auto queue = aloneRank()->queue(1000, {});
+  std::mutex mutex;
+  std::multiset<std::size_t> given;
+  const auto take = [&] {
+    while (const auto i = queue->next()) {
+      const std::lock_guard lock(mutex);
+      given.insert(*i);
+    }
+  };
+  std::thread other(take);
+  take();
+  other.join();
+  EXPECT_EQ(given.size(), 1000u);
+  EXPECT_EQ(std::set<std::size_t>(given.begin(), given.end()).size(), 1000u);
+  EXPECT_FALSE(queue->next());
+}
+
+#ifdef IRK_MPIEXEC
+
+constexpr char kStudy[] = R"(
+[[block]]
+scene = ["kepler", "van_der_pol"]
+methods = ["radau_iia_2", "radau_iia_3", "gauss_2", "radau_iia_5", "lobatto_iiic_3", "gauss_5"]
+tolerances = [1e-4, 1e-7, 1e-10]
+)";
+
+class RanksOfMpi : public StoredRuns {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_.path() / "small.toml") << kStudy;
+    // Of Open MPI: also as root, and with more ranks than cores.
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+    setenv("OMP_NUM_THREADS", "1", 1);
+  }
+  std::string command(const std::string& tree, const std::string& before = "") const {
+    const std::string path = folder_.path().string();
+    return before + " " IRK_PROGRAM " run " + path + "/small.toml --results " + path + "/" + tree + " > " + path +
+           "/" + tree + ".out 2>&1";
+  }
+  std::string output(const std::string& tree) const {
+    std::ifstream in(folder_.path() / (tree + ".out"));
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  static int statusOf(const std::string& command) {
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::size_t rowsInParts(const std::string& tree) const {
+    std::size_t rows = 0;
+    for (const auto& part : partsOf(folder(tree))) rows += readTable(part).rows.size();
+    return rows;
+  }
+  std::size_t partsWithRuns(const std::string& tree) const {
+    std::size_t parts = 0;
+    for (const auto& part : partsOf(folder(tree))) parts += readTable(part).rows.empty() ? 0u : 1u;
+    return parts;
+  }
+  Table exported(const std::string& tree) const { return readTable(folder(tree) / "runs.csv"); }
+};
+
+const std::string kFour = IRK_MPIEXEC " -n 4";
+
+TEST_F(RanksOfMpi, FourMakeTheSameTableAsOne) {
+  ASSERT_EQ(statusOf(command("one")), 0) << output("one");
+  ASSERT_EQ(statusOf(command("four", kFour)), 0) << output("four");
+  EXPECT_GE(partsWithRuns("four"), 2u) << output("four");
+  EXPECT_EQ(partsWithRuns("one"), 1u);
+  const Table one = exported("one");
+  EXPECT_EQ(one.rows.size(), 36u);
+  expectSame(exported("four"), one);
+  EXPECT_EQ(rowsInParts("four"), 36u) << "a run was made twice";
+  ASSERT_EQ(statusOf(command("four", kFour)), 0);
+  EXPECT_EQ(rowsInParts("four"), 36u) << "there was nothing left to make";
+}
+
+TEST_F(RanksOfMpi, AKilledRankLosesItsRunOnly) {
+  std::ofstream(folder_.path() / "small.toml") << R"(
+[[block]]
+scene = "slider_crank"
+families = ["radau_iia", "gauss", "lobatto_iiic"]
+stages = ["3..8"]
+tolerances = [1e-6, 1e-9, 1e-11]
+)";
+  const pid_t launcher = fork();
+  if (launcher == 0) {
+    execl("/bin/sh", "sh", "-c", ("exec " + command("killed", kFour)).c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  // A rank is a process that writes a part: its name ends with the process' number.
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::seconds(60);
+  const auto waiting = [&] { return Clock::now() < deadline && waitpid(launcher, nullptr, WNOHANG) == 0; };
+  while (waiting() && (!std::filesystem::exists(folder("killed") / "parts") || rowsInParts("killed") < 4)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const auto parts = partsOf(folder("killed"));
+  ASSERT_FALSE(parts.empty()) << output("killed");
+  const std::string stem = parts.back().stem().string();
+  kill(static_cast<pid_t>(std::stol(stem.substr(stem.rfind('.') + 1))), SIGKILL);
+  waitpid(launcher, nullptr, 0);
+
+  const std::size_t kept = rowsInParts("killed");
+  ASSERT_GE(kept, 4u);
+  ASSERT_LT(kept, 54u) << "killed too late";
+  ASSERT_EQ(statusOf(command("killed") + " --wait"), 0) << output("killed");  // the others may be ending
+  const std::string made = std::to_string(54 - kept) + " runs made";
+  EXPECT_NE(output("killed").find(made), std::string::npos) << made << " in " << output("killed");
+  ASSERT_EQ(statusOf(command("undisturbed")), 0);
+  expectSame(exported("killed"), exported("undisturbed"));
+}
+
+TEST_F(RanksOfMpi, AMisuseEndsAllRanks) {
+  EXPECT_EQ(statusOf(command("misuse", kFour + " ") + " --shard 1/2"), 2) << output("misuse");
+}
+
+#endif
+
+}  // namespace
+}  // namespace irk

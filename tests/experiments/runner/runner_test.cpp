@@ -1,0 +1,288 @@
+#include "experiments/runner/runner.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "experiments/analyses/orders.h"
+#include "experiments/analyses/results.h"
+#include "experiments/compare/folders.h"
+#include "experiments/runner/timing.h"
+#include "experiments/runs/run_table.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk {
+namespace {
+
+constexpr char kToml[] = R"(
+title = "Small"
+orders = true
+[[block]]
+scene = "riccati_tracking"
+families = ["radau_iia", "lobatto_iiib"]
+stages = [2, 3]
+refine_most = 40
+[[block]]
+scene = "pendulum"
+t_end = 1
+methods = ["radau_iia_2", "lobatto_iiib_3"]
+tolerances = [1e-3, 1e-5]
+)";
+
+Study small() { return parseStudy(kToml, "small.toml", StudyVariant::kFull); }
+
+RunnerOptions options(const TemporaryFolder& folder, int jobs) {
+  RunnerOptions options;
+  options.results = folder.path();
+  options.jobs = jobs;
+  return options;
+}
+
+TEST(Runner, OneAndTwoThreadsMakeTheSameRows) {
+  const TemporaryFolder one, two;
+  std::ostringstream quiet;
+  const Table a = runStudy(small(), options(one, 1), quiet);
+  const Table b = runStudy(small(), options(two, 2), quiet);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    for (std::size_t c = 0; c < a.columns.size(); ++c) {
+      if (a.columns[c] == "cpu_s" || a.columns[c] == "date") continue;
+      EXPECT_EQ(a.rows[i][c], b.rows[i][c]) << "row " << i << ", " << a.columns[c];
+    }
+  }
+}
+
+TEST(Runner, MisuseInsideASweepIsARow) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table runs = runStudy(small(), options(folder, 1), quiet);
+  int refused = 0;
+  for (const auto& row : runs.rows) {
+    if (textAt(runs, row, "outcome") != "refused") continue;
+    ++refused;
+    EXPECT_EQ(textAt(runs, row, "method"), "lobatto_iiib_3");
+    EXPECT_EQ(textAt(runs, row, "stages"), "3");
+    EXPECT_TRUE(containsAll(textAt(runs, row, "detail"), {"lobatto_iiib_3", "algebraic"}));
+  }
+  EXPECT_EQ(refused, 2);
+}
+
+TEST(Runner, FinishedRunsAreNotMadeAgain) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table first = runStudy(small(), options(folder, 2), quiet);
+  const auto parts = partsOf(folder.path() / "small");
+  ASSERT_EQ(parts.size(), 1u);
+  // A mark on a row shows whether it was made again; a row that is lost is made again.
+  Table part = readTable(parts.front());
+  const std::size_t cpu = part.column("cpu_s");
+  for (auto& row : part.rows) row[cpu] = "12345";
+  const TableRow lost = part.rows.back();
+  part.rows.pop_back();
+  writeTable(parts.front(), part);
+  std::ofstream(parts.front(), std::ios::app) << csvLine(lost).substr(0, 30);  // killed while writing
+
+  std::ostringstream told;
+  const Table again = runStudy(small(), options(folder, 2), told);
+  EXPECT_TRUE(containsAll(told.str(), {parts.front().filename(), "1 rows cannot be read", ".damaged"}));
+  ASSERT_EQ(again.rows.size(), first.rows.size());
+  for (std::size_t i = 0; i < again.rows.size(); ++i) {
+    EXPECT_EQ(again.rows[i].front(), first.rows[i].front());
+    EXPECT_EQ(again.rows[i][cpu] != "12345", again.rows[i].front() == lost.front());
+  }
+  RunnerOptions fresh = options(folder, 2);
+  fresh.store.finished = store::FinishedRuns::kRunAgain;
+  for (const auto& row : runStudy(small(), fresh, quiet).rows) EXPECT_NE(row[cpu], "12345");
+}
+
+TEST(Runner, ShardsTogetherAreTheWhole) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  std::vector<std::string> parts;
+  for (int i = 1; i <= 3; ++i) {
+    RunnerOptions part = options(folder, 1);
+    part.shard = parseShard(std::to_string(i) + "/3");
+    runStudy(small(), part, quiet);
+    parts.push_back(studyFolder(small(), part));
+  }
+  store::Store joined(folder.path() / "joined", "small", store::Use::kWrite, {}, quiet);
+  for (const auto& part : parts) {
+    joined.takeOver(store::Store(part, "", store::Use::kRead, {}, quiet));
+  }
+  joined.exportTables(inOrder(runKeys(small(), {})));
+  const Table merged = readTable(folder.path() / "joined" / "runs.csv");
+  const Table whole = runStudy(small(), options(folder, 1), quiet);
+  const auto comparison = compare::compareRuns({whole, {}}, {merged, {}}, {.times = 10});
+  EXPECT_TRUE(comparison.differences.empty()) << compare::textOf("", comparison);
+}
+
+TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table orders = orderTable(runStudy(small(), options(folder, 2), quiet));
+  ASSERT_EQ(orders.rows.size(), 4u);
+  for (const auto& row : orders.rows) {
+    EXPECT_EQ(textAt(orders, row, "component"), "x");
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees")
+        << textAt(orders, row, "family") << " " << textAt(orders, row, "stages") << ": "
+        << textAt(orders, row, "order") << " " << textAt(orders, row, "reason");
+  }
+}
+
+// Orders 40 and 39, from t_end / N with N = 18 to 36: errors from 1e-86 to 1e-98. orderTolerance is
+// 0.4 there, so that an order more or less is seen.
+TEST(Runner, OrdersOfTwentyStagesInHundredDigits) {
+  const Table orders = orderTable(runsOf(R"(
+orders = true
+[[block]]
+scene = "riccati_tracking"
+scalar = "mp100"
+methods = ["gauss_20", "radau_iia_20"]
+refine_most = 40
+)").runs);
+  ASSERT_EQ(orders.rows.size(), 2u);
+  for (const auto& row : orders.rows) {
+    const double order = textAt(orders, row, "family") == "gauss" ? 40 : 39;
+    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.5) << textAt(orders, row, "reason");
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees");
+  }
+}
+
+// The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses
+// orders in every component but q, diverges in lambda, and is healed by a projection.
+TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {
+  const Table orders = orderTable(runsOf(R"(
+orders = true
+[[block]]
+scene = "mechanical_dae"
+scalar = "mp50"
+multipliers = "stages"
+formulation = ["index2", "index3", "index2_projected"]
+methods = ["gauss_2", "radau_iia_2"]
+refine_most = 128
+)").runs);
+  const std::map<std::string, std::array<double, 3>> expected = {
+      {"index2 gauss", {4, 2, 0}},
+      {"index2 radau_iia", {3, 3, 2}},
+      {"index3 gauss", {2, 0, -2}},
+      {"index3 radau_iia", {3, 2, 1}},
+      {"index2_projected gauss", {4, 4, NAN}},
+      {"index2_projected radau_iia", {3, 3, 2}}};
+  ASSERT_EQ(orders.rows.size(), 18u);
+  for (const auto& row : orders.rows) {
+    const auto name = textAt(orders, row, "formulation") + " " + textAt(orders, row, "family");
+    const auto place = std::string("uvz").find(textAt(orders, row, "component"));
+    const double order = expected.at(name).at(place);
+    if (std::isnan(order)) continue;
+    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.15) << name << " " << place;
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << name << " " << place;
+  }
+}
+
+// Where z has order 0 it jumps between steps, and simplified Newton fails in 50 digits: the study asks for
+// modified Newton there, and theory's orders are measured.
+TEST(Runner, TheOrderStudyMeasuresIndex2WithFewStages) {
+  Study study = loadStudy("order", StudyVariant::kFull);
+  std::erase_if(study.series, [](const Series& series) {
+    const RunSpec& spec = series.runs.front();
+    return spec.scene != "index2_nonlinear" ||
+           (spec.method != "gauss_1" && spec.method != "lobatto_iiid_2");
+  });
+  ASSERT_EQ(study.series.size(), 2u);
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
+  ASSERT_EQ(orders.rows.size(), 4u);
+  for (const auto& row : orders.rows) {
+    const double order = textAt(orders, row, "component") == "x" ? 2 : 0;
+    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.1) << textAt(orders, row, "reason");
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees");
+  }
+}
+
+// Solved anew at the end lambda has the order of v, and the table's theory says so.
+TEST(Runner, OrdersOfConsistentMultipliers) {
+  const Table orders = orderTable(runsOf(R"(
+orders = true
+[[block]]
+scene = "mechanical_dae"
+scalar = "mp50"
+formulation = ["index2", "index3"]
+multipliers = ["stages", "consistent"]
+methods = "radau_iia_2"
+refine_most = 128
+)").runs);
+  ASSERT_EQ(orders.rows.size(), 12u);
+  for (const auto& row : orders.rows) {
+    if (textAt(orders, row, "component") != "z") continue;
+    const int v = textAt(orders, row, "formulation") == "index2" ? 3 : 2;
+    const int stages = v - 1;
+    const bool consistent = textAt(orders, row, "multipliers") == "consistent";
+    EXPECT_NEAR(numberAt(orders, row, "order"), consistent ? v : stages, 0.15);
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << textAt(orders, row, "reason");
+  }
+}
+
+// z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
+TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
+  const Table orders = orderTable(runsOf(R"(
+orders = true
+[[block]]
+scene = "prothero_robinson"
+scalar = "mp50"
+settings = ["lambda=-1e6/h", "lambda=-1e8/h", "lambda=-1e10/h"]
+methods = "radau_iia_2"
+refine_most = 64
+)").runs);
+  ASSERT_EQ(orders.rows.size(), 4u);
+  for (const auto& row : orders.rows) {
+    const bool of_z = textAt(orders, row, "power_of") == "z";
+    EXPECT_NEAR(numberAt(orders, row, "order"), of_z ? -1 : 3, 0.15);
+  }
+  EXPECT_EQ(textAt(orders, orders.rows.back(), "power_of"), "z");
+}
+
+TEST(Timing, TimesSuccessfulRunsOnce) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  Study study = small();
+  study.timing = {true, 1e-4, 3, 0.5, 3};
+  Table runs = runStudy(study, options(folder, 2), quiet);
+  const auto file = folder.path() / "small" / "runs.csv";
+  store::Store store(file.parent_path(), study.id, store::Use::kWrite, {}, quiet);
+  timeStudy(study, store, runs, quiet);
+  const Table read = readTable(file);
+  for (const auto& row : read.rows) {
+    const double repetitions = numberAt(read, row, "cpu_runs");
+    if (!succeededAt(read, row)) {
+      EXPECT_EQ(repetitions, 0);
+      continue;
+    }
+    EXPECT_EQ(repetitions, 3);
+    EXPECT_GT(numberAt(read, row, "cpu_s"), 0);
+    EXPECT_GE(numberAt(read, row, "cpu_median_s"), numberAt(read, row, "cpu_s"));
+    EXPECT_GE(numberAt(read, row, "cpu_spread"), 0);
+  }
+  // Again: nothing is left to be timed. After an interrupt in the second round the missing rounds are made.
+  Table again = read;
+  timeStudy(study, store, again, quiet);
+  EXPECT_EQ(readTable(file).rows, read.rows);
+  const auto all = again.column("cpu_all");
+  for (auto& row : again.rows) {
+    if (!succeededAt(again, row)) continue;
+    row[again.column("cpu_runs")] = "2";
+    row[all] = "0.25 0.5";
+  }
+  timeStudy(study, store, again, quiet);
+  for (const auto& row : again.rows) {
+    EXPECT_EQ(numberAt(again, row, "cpu_runs"), succeededAt(again, row) ? 3 : 0);
+    EXPECT_EQ(row[all].starts_with("0.25 0.5 "), succeededAt(again, row)) << row[all];
+  }
+}
+
+}  // namespace
+}  // namespace irk

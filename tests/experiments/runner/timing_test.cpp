@@ -1,0 +1,141 @@
+// Times are CPU seconds of one integration, and their statistics are what their names say.
+#include "experiments/runner/timing.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <sstream>
+#include <thread>
+
+#include "experiments/base/clock.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk {
+namespace {
+
+/// Burns CPU time, or sleeps, and knows what it did.
+class MadeUpRun final : public PreparedRun {
+ public:
+  MadeUpRun(double busy_s, double asleep_s) : busy_s_(busy_s), asleep_s_(asleep_s) {}
+  RunRecord execute(const Watch&) override { return {}; }
+  void integrate() override {
+    const double start = threadSeconds();
+    while (threadSeconds() - start < busy_s_) {
+    }
+    if (asleep_s_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(asleep_s_));
+    spent += threadSeconds() - start;
+    ++calls;
+  }
+  std::vector<std::string> columns() const override { return {}; }
+  int calls = 0;
+  double spent = 0;
+
+ private:
+  double busy_s_, asleep_s_;
+};
+
+TEST(TimeRun, IsOfOneIntegration) {
+  MadeUpRun run(2e-4, 0);
+  const double seconds = timeRun(run, 0.02);
+  ASSERT_GT(run.calls, 20);
+  EXPECT_NEAR(seconds, run.spent / run.calls, 0.5 * run.spent / run.calls);
+}
+
+TEST(TimeRun, CountsNoTimeAsleep) {
+  MadeUpRun run(1e-4, 2e-3);
+  const double seconds = timeRun(run, 0.001);
+  ASSERT_GT(run.calls, 0);
+  EXPECT_GE(seconds, 1e-4);
+  EXPECT_LT(seconds, 1e-3) << "2.1e-3 of the clock on the wall";
+}
+
+TEST(TimeRun, LastsAsLongAsAskedFor) {
+  MadeUpRun brief(1e-5, 0), lasting(1e-5, 0);
+  (void)timeRun(brief, 0.002);
+  (void)timeRun(lasting, 0.02);
+  EXPECT_GT(lasting.spent, 0.01);
+  EXPECT_GT(lasting.spent, 2 * brief.spent);
+}
+
+TEST(TimingOf, MinimumMedianSpreadAndNumber) {
+  const Timing odd = timingOf({5, 2, 9, 3, 4});
+  EXPECT_EQ(odd.minimum_s, 2);
+  EXPECT_EQ(odd.median_s, 4);
+  EXPECT_EQ(odd.spread, 3.5);
+  EXPECT_EQ(odd.all_s, (std::vector<double>{5, 2, 9, 3, 4}));
+  const Timing even = timingOf({8, 1, 2, 4});
+  EXPECT_EQ(even.minimum_s, 1);
+  EXPECT_EQ(even.median_s, 4);
+  EXPECT_EQ(even.spread, 7);
+  EXPECT_EQ(even.all_s.size(), 4u);
+  const Timing one = timingOf({0.5});
+  EXPECT_EQ(one.minimum_s, 0.5);
+  EXPECT_EQ(one.median_s, 0.5);
+  EXPECT_EQ(one.spread, 0);
+}
+
+constexpr char kStudy[] = R"(
+[[block]]
+scene = "pendulum"
+t_end = 0.5
+methods = "radau_iia_3"
+tolerances = [1e-4, 1e-7]
+)";
+
+TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  Study study = parseStudy(kStudy, "small.toml", StudyVariant::kFull);
+  RunnerOptions options;
+  options.results = folder.path();
+  options.jobs = 1;
+  Table runs = runStudy(study, options, quiet);
+  study.timing = {true, 1e-3, 5, 10, 20};
+  const auto file = folder.path() / "small" / "runs.csv";
+  store::Store store(file.parent_path(), study.id, store::Use::kWrite, {}, quiet);
+  timeStudy(study, store, runs, quiet);
+  const Table read = readTable(file);
+  ASSERT_EQ(read.rows.size(), 2u);
+  for (const auto& row : read.rows) {
+    const double least = numberAt(read, row, "cpu_s"), median = numberAt(read, row, "cpu_median_s");
+    EXPECT_LT(least, median) << "five measured times are not equal";
+    EXPECT_LE(median, least * (1 + numberAt(read, row, "cpu_spread")) * (1 + 1e-12));
+    EXPECT_EQ(numberAt(read, row, "cpu_runs"), 5);
+    EXPECT_LT(least, 0.1) << "of one integration";
+  }
+}
+
+// Long ones are repeated once; the longest keep the time of the accuracy run; failures have none.
+TEST(TimeStudy, TimesByTheLengthOfTheRun) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  Study study = parseStudy(kStudy, "small.toml", StudyVariant::kFull);
+  RunnerOptions options;
+  options.results = folder.path();
+  options.jobs = 1;
+  const Table runs = runStudy(study, options, quiet);
+  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
+  const auto timed = [&](double once_above, double skip_above, const char* cpu,
+                         const char* outcome) {
+    Table table = runs;
+    for (auto& row : table.rows) {
+      row[table.column("cpu_s")] = cpu;
+      row[table.column("outcome")] = outcome;
+    }
+    study.timing = {true, 1e-4, 3, once_above, skip_above};
+    timeStudy(study, store, table, quiet);
+    return table;
+  };
+  const auto repetitions = [](const Table& table) {
+    return numberAt(table, table.rows.front(), "cpu_runs");
+  };
+  EXPECT_EQ(repetitions(timed(0.5, 3, "0.4", "success")), 3);
+  EXPECT_EQ(repetitions(timed(0.5, 3, "0.6", "success")), 1);
+  const Table skipped = timed(0.5, 3, "3.5", "success");
+  EXPECT_EQ(repetitions(skipped), 0);
+  EXPECT_EQ(numberAt(skipped, skipped.rows.front(), "cpu_s"), 3.5);
+  EXPECT_EQ(repetitions(timed(0.5, 3, "0.4", "max_steps")), 0);
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,251 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/peer_integrator.h"
+#include "experiments/runs/run.h"
+#include "experiments/runs/run_table.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+RunSpec spec(const std::string& method, const std::string& rest, double tol = 1e-8) {
+  RunSpec run = parseSpec("method=" + method + ";" + rest);
+  run.options.tolerances.rtol = run.options.tolerances.atol = tol;
+  return run;
+}
+
+RunRecord success(const RunSpec& run) {
+  RunRecord record = execute(run);
+  EXPECT_TRUE(record.succeeded()) << run.method << ": " << record.outcome << " " << record.detail;
+  return record;
+}
+
+// Control of the local error per step leaves some tolerances in total. From below only this can be
+// asked: the tolerance decides, a hundredth of it is not as inexact. (An extrapolation method is
+// much better than asked where its first step is long enough.)
+TEST(Peers, AllFollowTheToleranceOnAnOde) {
+  for (const auto& peer : peerCatalogue()) {
+    double coarser = 1;
+    for (const double tol : {1e-5, 1e-7, 1e-9}) {
+      const RunRecord run = success(spec(peer.id, "scene=riccati_tracking", tol));
+      EXPECT_LT(run.errors.all, 100 * tol) << peer.id;
+      EXPECT_LE(run.errors.all, coarser) << peer.id;
+      coarser = run.errors.all;
+      EXPECT_EQ(run.family, peer.id);
+      EXPECT_EQ(run.stages, 0);
+      EXPECT_GT(run.counters.steps_accepted, 0);
+      EXPECT_GT(run.counters.residuals, run.counters.steps_accepted);
+    }
+  }
+}
+
+TEST(Peers, StiffProblems) {
+  for (const char* peer : {"arkode_dirk", "cvode_bdf", "ida_bdf", "gsl_msbdf", "gsl_bsimp"}) {
+    // Two transitions of the relaxation oscillation amplify by about 1e3.
+    const RunRecord run = success(spec(peer, "scene=van_der_pol"));
+    EXPECT_LT(run.errors.all, 1e-5) << peer;
+    EXPECT_GT(run.errors.all, 1e-10) << peer;
+    EXPECT_GT(run.counters.jacobians, 0) << peer;
+  }
+}
+
+TEST(Peers, AllSolveTheConstrainedPendulumInIndex1) {
+  for (const auto& peer : peerCatalogue()) {
+    const RunRecord run = success(spec(peer.id, "scene=pendulum;t_end=10;formulation=index1"));
+    EXPECT_LT(run.errors.all, 1e-3) << peer.id;  // the constraint drifts, five turns amplify
+    EXPECT_GT(run.errors.all, 1e-9) << peer.id;
+    EXPECT_FALSE(std::isnan(run.errors.z)) << peer.id;
+  }
+}
+
+TEST(Peers, IdasMultipliersAreSolvedAnewAtTheEnd) {
+  const auto scene = makeScene<double>("pendulum");
+  const auto change = [&](const std::string& multipliers) {
+    const RunSpec run = spec("ida_bdf", "scene=pendulum;t_end=1;multipliers=" + multipliers, 1e-5);
+    PeerIntegrator peer(*findPeer("ida_bdf"), scene, run);
+    const auto solution = peer.integrate(scene.start, 1);
+    EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+    State<double> again = solution.state;
+    const auto system = scene.system({});
+    EXPECT_EQ(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).applyAtEnd(again),
+              "");
+    return std::abs(again.z()[0] - solution.state.z()[0]);
+  };
+  EXPECT_LT(change("consistent"), 1e-13);
+  EXPECT_GT(change("stages"), 1e-9);
+}
+
+TEST(Peers, IdaSolvesIndex2) {
+  for (const char* rest : {"scene=pendulum", "scene=pendulum;formulation=ggl",
+                           "scene=slider_crank;t_end=1", "scene=index2_nonlinear"}) {
+    const RunRecord run = success(spec("ida_bdf", rest));
+    EXPECT_LT(run.errors.all, 2e-4) << rest;
+    EXPECT_GT(run.errors.all, 1e-8) << rest;
+  }
+}
+
+TEST(Peers, APreparedRunLeavesNothingBehind) {
+  for (const auto& peer : peerCatalogue()) {
+    const auto run = prepare(spec(peer.id, "scene=pendulum;t_end=1;formulation=index1"));
+    const RunRecord first = run->execute({}), second = run->execute({});
+    EXPECT_EQ(first.u, second.u) << peer.id;
+    EXPECT_EQ(first.counters.residuals, second.counters.residuals) << peer.id;
+  }
+}
+
+TEST(Peers, TheWatchIsHeard) {
+  for (const auto& peer : peerCatalogue()) {
+    RunSpec run = spec(peer.id, "scene=kepler");
+    std::int64_t heard = 0;
+    const RunRecord all = execute(run, {nullptr, [&heard](const AcceptedStep&) { ++heard; }, {}});
+    EXPECT_EQ(heard, all.counters.steps_accepted + 1) << peer.id;
+    const std::atomic<bool> stop = true;
+    EXPECT_EQ(execute(run, {&stop, {}, {}}).outcome, "interrupted") << peer.id;
+    run.options.step.max_steps = 3;
+    EXPECT_EQ(execute(run).outcome, "max_steps") << peer.id;
+    run.time_limit = 1e-9;
+    EXPECT_EQ(execute(run).outcome, "timeout") << peer.id;
+  }
+}
+
+TEST(Peers, WhatCannotWorkIsRefused) {
+  const auto refusal = [](const std::string& method, const std::string& rest) {
+    return misuseOf([&] { prepare(spec(method, rest)); });
+  };
+  for (const auto& peer : peerCatalogue()) {
+    const auto& id = peer.id;
+    EXPECT_TRUE(containsAll(refusal(id, "scene=kepler;control=fixed;h=0.1"), {id, "fixed"}));
+    EXPECT_TRUE(containsAll(refusal(id, "scene=kepler;scalar=mp50"), {id, "mp50"}));
+    EXPECT_TRUE(containsAll(refusal(id, "scene=kepler;norm=absolute"), {id, "absolute"}));
+    EXPECT_TRUE(containsAll(refusal(id, "scene=kepler;discontinuity=iterate"), {id, "iterate"}));
+    EXPECT_TRUE(containsAll(refusal(id, "scene=pendulum;formulation=index3"), {id, "index3"}));
+    if (!peer.differential_algebraic) {
+      EXPECT_TRUE(containsAll(refusal(id, "scene=pendulum"), {id, "index2", "index1"}));
+      EXPECT_TRUE(containsAll(refusal(id, "scene=index2_nonlinear"), {id, "index2_nonlinear"}));
+    }
+    if (!peer.finds_roots) {
+      EXPECT_TRUE(containsAll(refusal(id, "scene=stick_slip;discontinuity=locate"), {id, "locate"}));
+    }
+  }
+  const RunSpec fixed = spec("cvode_bdf", "scene=kepler;control=fixed;h=0.1");
+  const RunRecord row = orRefused(fixed, [&] { return execute(fixed); });
+  EXPECT_EQ(row.outcome, "refused");
+  EXPECT_EQ(row.family, "cvode_bdf");
+}
+
+/// u'' = d - u; d falls from 1 to 0 when u has risen to 1/2.
+struct Relay {
+  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = p.d[0] - p.u[0] - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(p.u[0] - 0.5) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(0.0);
+  }
+};
+
+constexpr double kRelayTime = std::numbers::pi / 3, kRelayEnd = 2;
+
+Scene<double> relayScene() {
+  Scene<double> scene;
+  scene.id = "relay";
+  scene.system = [](const SystemOptions& options) { return makeSystem<double>(Relay{}, options); };
+  scene.start = State<double>(Relay{}.sizes());
+  scene.start.d[0] = scene.start.w[0] = 1;
+  return scene;
+}
+
+double relayError(double u) {
+  const double later = kRelayEnd - kRelayTime;
+  return std::abs(u - (0.5 * std::cos(later) + std::sin(kRelayTime) * std::sin(later)));
+}
+
+TEST(Peers, LocatedSwitchesRestart) {
+  const auto scene = relayScene();
+  for (const auto& peer : peerCatalogue()) {
+    if (!peer.finds_roots) continue;
+    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=stick_slip;discontinuity=locate"));
+    double at = 0;
+    Monitor<double> monitor;
+    monitor.switched = [&at](const SwitchRecord<double>& record) { at = record.t; };
+    const auto end = integrator.integrate(scene.start, kRelayEnd, monitor);
+    ASSERT_EQ(end.outcome, Outcome::kSuccess) << end.detail;
+    EXPECT_EQ(end.counters.located_events, 1) << peer.id;
+    EXPECT_EQ(end.state.d[0], 0) << peer.id;
+    // As accurate as the interpolant in which the root is searched.
+    EXPECT_NEAR(at, kRelayTime, 1e-5) << peer.id;
+    EXPECT_LT(relayError(end.state.u[0]), 1e-5) << peer.id;
+    const auto again = integrator.integrate(scene.start, kRelayEnd);
+    EXPECT_EQ(again.state.u[0], end.state.u[0]) << peer.id;
+    EXPECT_EQ(again.counters.residuals, end.counters.residuals) << peer.id;
+  }
+}
+
+// Which may not see them: no stage in the part of the step before the switch, or a Newton method
+// that believes a linear problem after one iteration. Large steps then err by their square.
+TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
+  const auto scene = relayScene();
+  for (const auto& peer : peerCatalogue()) {
+    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=kepler;discontinuity=ignore"));
+    const auto end = integrator.integrate(scene.start, kRelayEnd);
+    ASSERT_EQ(end.outcome, Outcome::kSuccess) << peer.id << ": " << end.detail;
+    EXPECT_EQ(end.counters.switches, 1) << peer.id;
+    EXPECT_EQ(end.counters.located_events, 0) << peer.id;
+    EXPECT_LT(relayError(end.state.u[0]), 0.3) << peer.id;
+  }
+}
+
+// --- The form y' = f(t, y) on which ODE codes stand.
+
+TEST(FirstOrderForm, HasTheAccelerationsOfTheResidual) {
+  for (const char* id : {"slider_crank", "pendulum", "van_der_pol", "index1_nonlinear"}) {
+    const auto scene = makeScene<double>(id);
+    const auto system = scene.system({Formulation::kFirstOrder});
+    const auto start = system->fromScene(scene.start);
+    EXPECT_LT((system->toScene(start).w - scene.start.w).norm(), 1e-12) << id;
+    Vec<double> r(system->sizes().n());
+    system->evaluate(Level::kFormulated, pointOf(start), {r.data(), r.size()});
+    EXPECT_LT(r.norm(), 1e-12) << id;
+  }
+}
+
+TEST(FirstOrderForm, ImplicitDerivativesAreThoseOfDifferences) {
+  for (const char* id : {"slider_crank", "pendulum", "hires", "index1_nonlinear"}) {
+    const auto scene = makeScene<double>(id);
+    const auto system = scene.system({Formulation::kFirstOrder});
+    State<double> at = system->fromScene(scene.start);
+    for (Index i = 0; i < at.x.size(); ++i) at.x[i] += 0.01 * static_cast<double>(i + 1);
+    Linearization<double> exact(Pattern::dense(system->sizes().n())), differences = exact;
+    Differentiator<double>(*system, DerivativeSource::kAutomatic)
+        .evaluate(Level::kFormulated, pointOf(at), exact);
+    Differentiator<double>(*system, DerivativeSource::kCentral)
+        .evaluate(Level::kFormulated, pointOf(at), differences);
+    const double size = exact.d1.norm();
+    EXPECT_LT((exact.d1 - differences.d1).norm(), 1e-7 * size) << id;
+    EXPECT_LT((exact.d0 - differences.d0).norm(), 1e-7) << id;
+  }
+}
+
+TEST(FirstOrderForm, AgreesWithTheKForm) {
+  for (const char* id : {"slider_crank", "pendulum"}) {
+    const std::string scene = std::string("scene=") + id + ";t_end=1;formulation=";
+    const RunRecord k = success(spec("radau_iia_5", scene + "index1", 1e-10));
+    const RunRecord first = success(spec("radau_iia_5", scene + "first_order", 1e-10));
+    EXPECT_LT((k.u - first.u).norm(), 1e-8 * k.u.norm()) << id;
+    EXPECT_LT((k.z - first.z).norm(), 1e-7 * k.z.norm()) << id;
+    EXPECT_TRUE(containsAll(first.detail, {"mass factorizations"}));
+  }
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,106 @@
+// Errors per group of components, and the drift: each from its own difference.
+#include "experiments/runs/run_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "experiments/runs/run.h"
+
+namespace irk {
+namespace {
+
+/// Two positions on the unit circle, one x, one multiplier.
+struct OnCircle {
+  Sizes sizes() const { return {.nu = 2, .nx = 1, .nz = 1, .constraints = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.a[0] - p.u[0] * p.z[0];
+    r.u[1] = -p.a[1] - p.u[1] * p.z[0];
+    r.x[0] = -p.k[0];
+  }
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    g[0] = (u[0] * u[0] + u[1] * u[1] - 1.0) * 0.5;
+  }
+};
+
+State<double> exactState() {
+  State<double> s(OnCircle{}.sizes());
+  s.t = 2;
+  s.u << 0.6, 0.8;
+  s.v << -8, 6;
+  s.x << 0.5;
+  s.z() << 100;
+  return s;
+}
+
+Scene<double> scene() {
+  Scene<double> scene;
+  scene.id = "on_circle";
+  scene.system = [](const SystemOptions& o) { return makeSystem<double>(OnCircle{}, o); };
+  scene.start = State<double>(OnCircle{}.sizes());
+  scene.names = {"u1", "u2", "v1", "v2", "x", "lambda"};
+  scene.scale = Vec<double>::Ones(6);
+  scene.scale[4] = 10;
+  scene.outputs = {{"sum", [](const State<double>& s) { return s.u[0] + s.u[1]; }}};
+  return scene;
+}
+
+// Off by 2e-3 in u2, 3e-2 of 8 in v1, 4e-1 of the scale 10 in x, 5 of 100 in z.
+State<double> off() {
+  State<double> s = exactState();
+  s.u[1] += 0.8e-1 * 2.5e-2;
+  s.v[0] += 0.24;
+  s.x[0] += 0.1;
+  s.z()[0] += 5;
+  return s;
+}
+
+void expectGroups(const RunErrors& e) {
+  EXPECT_NEAR(e.u, 2e-3, 1e-12);
+  EXPECT_NEAR(e.v, 0.03, 1e-12);
+  EXPECT_NEAR(e.x, 0.01, 1e-12);
+  EXPECT_NEAR(e.z, 0.05, 1e-12);
+  EXPECT_NEAR(e.all, 0.05, 1e-12);
+  EXPECT_NEAR(e.drift, 0.5 * (0.36 + 0.802 * 0.802 - 1), 1e-12);
+}
+
+TEST(RunErrors, OfAClosedForm) {
+  Scene<double> known = scene();
+  known.exact = [](const double&) { return exactState(); };
+  // relative to max(|u|, 1)
+  State<double> state = off();
+  expectGroups(errorsOf(known, {}, state));
+}
+
+TEST(RunErrors, OfReferencesAtTheTime) {
+  const auto reference = [](const char* component, double t, const char* value, double accuracy) {
+    Reference r;
+    r.component = component;
+    r.t = t;
+    r.value = value;
+    r.accuracy = accuracy;
+    return r;
+  };
+  const std::vector<Reference> references = {
+      reference("u1", 2, "0.6", 1e-9),  reference("u2", 2, "0.8", 1e-9),
+      reference("u2", 2, "0.7", 1e-3),   // a worse one
+      reference("u2", 1, "0.1", 1e-12),  // at another time
+      reference("v1", 2, "-8", 1e-9),   reference("v2", 2, "6", 1e-9),
+      reference("x", 2, "0.5", 1e-9),   reference("lambda", 2, "100", 1e-9)};
+  expectGroups(errorsOf(scene(), references, off()));
+  // An output counts in the error of all only.
+  const RunErrors output = errorsOf(scene(), {reference("sum", 2, "1.0", 1e-9)}, off());
+  EXPECT_NEAR(output.all, 0.402, 1e-12);
+  EXPECT_TRUE(std::isnan(output.u) && std::isnan(output.z));
+}
+
+TEST(RunErrors, OfNothingAreUnknown) {
+  const RunErrors none = errorsOf(scene(), {}, off());
+  EXPECT_TRUE(std::isnan(none.all) && std::isnan(none.u) && std::isnan(none.v));
+  EXPECT_FALSE(std::isnan(none.drift)) << "needs no reference";
+}
+
+}  // namespace
+}  // namespace irk

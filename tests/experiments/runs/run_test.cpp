@@ -1,0 +1,93 @@
+#include "experiments/runs/run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "experiments/runs/run_table.h"
+#include "experiments/runs/trajectory.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+RunSpec spec(const char* text) { return parseSpec(text); }
+
+TEST(Run, IsAPureFunctionOfItsSpec) {
+  const RunSpec run = spec("scene=pendulum;t_end=1;method=radau_iia_3;rtol=1e-8;atol=1e-8");
+  const RunRecord a = execute(run), b = execute(run);
+  ASSERT_TRUE(a.succeeded()) << a.detail;
+  EXPECT_EQ(a.u, b.u);
+  EXPECT_EQ(a.errors.all, b.errors.all);
+  EXPECT_EQ(a.counters.residuals, b.counters.residuals);
+  // The same prepared run twice: nothing is left over from the first time.
+  const auto prepared = prepare(run);
+  (void)prepared->execute({});
+  EXPECT_EQ(prepared->execute({}).u, a.u);
+}
+
+TEST(Run, ErrorsAgainstAClosedForm) {
+  const RunRecord run =
+      execute(spec("scene=riccati_tracking;method=gauss_4;h=0.25;control=fixed;estimate=none"));
+  ASSERT_TRUE(run.succeeded()) << run.detail;
+  EXPECT_GT(run.errors.all, 0);
+  EXPECT_LT(run.errors.all, 1e-6);
+  EXPECT_TRUE(std::isnan(run.errors.u) && std::isnan(run.errors.z));
+  EXPECT_EQ(run.errors.x, run.errors.all);
+}
+
+TEST(Run, ErrorsAgainstReferences) {
+  const RunRecord run =
+      execute(spec("scene=slider_crank;t_end=1;method=radau_iia_5;rtol=1e-10;atol=1e-10"));
+  ASSERT_TRUE(run.succeeded()) << run.detail;
+  EXPECT_NEAR(run.u[0], 14.127892217751, 1e-7);
+  EXPECT_LT(run.errors.u, 1e-7);
+  EXPECT_TRUE(std::isnan(execute(spec("scene=slider_crank;t_end=0.9;rtol=1e-3")).errors.all));
+}
+
+TEST(Run, FailuresAreRecords) {
+  const RunRecord few = execute(spec("scene=kepler;max_steps=2;rtol=1e-10;atol=1e-10"));
+  EXPECT_EQ(few.outcome, "max_steps");
+  EXPECT_FALSE(few.detail.empty());
+  EXPECT_TRUE(std::isnan(few.errors.all));
+  const RunRecord late = execute(spec("scene=kepler;time_limit=1e-9;rtol=1e-10;atol=1e-10"));
+  EXPECT_EQ(late.outcome, "timeout");
+}
+
+TEST(Run, StopsWhenAsked) {
+  const std::atomic<bool> stop = true;
+  const RunRecord run = execute(spec("scene=kepler"), {&stop, {}, {}});
+  EXPECT_EQ(run.outcome, "interrupted");
+}
+
+TEST(Run, FiftyDigits) {
+  const RunRecord run = execute(spec(
+      "scene=riccati_tracking;scalar=mp50;method=gauss_8;h=0.125;control=fixed;estimate=none"));
+  ASSERT_TRUE(run.succeeded()) << run.detail;
+  EXPECT_LT(run.errors.all, 1e-17);  // below what double can show
+  ASSERT_EQ(run.digits.size(), 1u);
+  EXPECT_GE(run.digits[0].size(), 40u);
+}
+
+TEST(Run, TrajectoryHoldsStartAndEnd) {
+  const TemporaryFolder folder;
+  const RunSpec run = spec("scene=slider_crank;t_end=0.3");
+  const auto file = trajectoryPath(folder.path(), run);
+  EXPECT_EQ(file.filename(), "slider_crank.radau_iia_5.csv");
+  const RunRecord record = executeWithTrajectory(run, {}, file);
+  const Table table = readTable(file);
+  ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(record.counters.steps_accepted) + 1);
+  EXPECT_EQ(table.rows.front()[0], "0");
+  EXPECT_EQ(std::stod(table.rows.back()[table.column("theta")]), record.u[0]);
+  EXPECT_TRUE(table.hasColumn("x3"));
+  double time = 0;
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    time += numberAt(table, table.rows[i], "h");
+    EXPECT_LE(numberAt(table, table.rows[i], "error"), 1) << "accepted";
+    EXPECT_GT(numberAt(table, table.rows[i], "newton_iterations"), 0);
+  }
+  EXPECT_NEAR(time, 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace irk

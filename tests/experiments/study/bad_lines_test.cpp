@@ -1,0 +1,339 @@
+// Bad command lines: each ends in its exit status, with one line that names the offence, and prints nothing else. And
+// good ones that must stay accepted.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "experiments/commands/cli.h"
+#include "experiments/runs/run_spec.h"
+#include "experiments/runs/unused_options.h"
+#include "experiments/tables/environment.h"
+#include "tests/experiments/program.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+using Line = std::vector<std::string>;
+struct BadLine {
+  int status;
+  Line arguments;  ///< '@' stands for the test's folder
+  std::string word;
+};
+
+// What the program reads in these tests.
+class Lines : public testing::Test {
+ protected:
+  void SetUp() override {
+    namespace fs = std::filesystem;
+    write("file", "no study\n");
+    write("refused.toml", "[[block]]\nscene = \"pendulum\"\nmethods = \"lobatto_iiib_3\"\nt_end = 0.1\ntolerances = 0.1\n");
+    write("good.toml", "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\nt_end = 0.1\ntolerances = 0.1\n");
+    write("open.toml", "[[block]]\nscene = \"kepler\"\n[\n");
+    write("brace.toml", "[[block]]\nscene = [\"kepler\", }\"pendulum\"]\n");
+    write("both.toml", "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\ntolerances = 0.1\nsteps = 0.1\n");
+    write("method.txt", "stages: 1\norder: 2\nA\n0.5\nb\n1\nc\n");
+    fs::create_directories(folder_.path() / "empty");
+    fs::create_directories(folder_.path() / "study");
+    write("study/runs.csv", "");
+    fs::create_directories(folder_.path() / "endless");
+    fs::create_symlink("/dev/zero", folder_.path() / "endless" / "runs.csv");
+    fs::create_directories(folder_.path() / "waiting");
+    ASSERT_EQ(mkfifo((folder_.path() / "waiting" / "runs.csv").c_str(), 0600), 0);
+    write("large.toml", "");
+    fs::resize_file(folder_.path() / "large.toml", std::uintmax_t{1} << 40U);  // takes no space
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path() / name) << text;
+  }
+  Line withFolder(Line line) const {
+    for (auto& argument : line) {
+      const auto at = argument.find('@');
+      if (at != std::string::npos) argument.replace(at, 1, folder_.path().string());
+    }
+    return line;
+  }
+  void expectOneLine(const std::vector<BadLine>& lines) const {
+    for (const auto& [status, arguments, word] : lines) {
+      std::string text;
+      for (const auto& argument : arguments) text += argument + " ";
+      const Ended ended = program(withFolder(arguments));
+      EXPECT_EQ(ended.status, status) << text << "\n" << ended.err;
+      EXPECT_EQ(ended.out, "") << text;
+      EXPECT_TRUE(ended.err.starts_with("irk: ")) << text << "\n" << ended.err;
+      EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << text << "\n" << ended.err;
+      EXPECT_NE(ended.err.find(word), std::string::npos) << text << "\n" << word << " in " << ended.err;
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Lines, Verbs) {
+  expectOneLine({{2, {}, "subcommand"},
+                 {2, {""}, "verb"},
+                 {2, {"slove", "kepler"}, "slove"},
+                 {2, {"--foo"}, "--foo"},
+                 {2, {"-x", "solve"}, "-x"},
+                 {2, {"tableau"}, "subcommand"},
+                 {2, {"tableau", "shwo", "gauss_2"}, "shwo"},
+                 {2, {"tableau", "show"}, "method"},
+                 {2, {"tableau", ""}, "tableau"},
+                 {2, {"list", "scene"}, "scene"},
+                 {2, {"list", "scenes", "methods"}, "methods"},
+                 {2, {"list", ""}, "list"},
+                 {2, {"paper", "order"}, "order"},
+                 {2, {"merge"}, "folders"},
+                 {2, {"compare", "@/study"}, "second"},
+                 {2, {"solve"}, "scene"},
+                 {2, {"run"}, "study"},
+                 {2, {"plot"}, "study"},
+                 {2, {"solve", "kepler", "pendulum"}, "pendulum"}});
+}
+
+TEST_F(Lines, EmptyValues) {
+  std::vector<BadLine> lines;
+  for (const auto& field : specFields()) {
+    if (field.name == "scene" || field.name == "settings" || field.name == "h") continue;
+    std::string option = "--" + std::string(field.name);
+    std::replace(option.begin(), option.end(), '_', '-');
+    lines.push_back({2, {"solve", "kepler", option, ""}, option});
+    lines.push_back({2, {"solve", "kepler", option + "=", "--json"}, option});
+  }
+  for (const std::string option : {"--tol", "--step", "--set", "--plot"}) {
+    lines.push_back({2, {"solve", "kepler", option, ""}, option});
+    lines.push_back({2, {"solve", "kepler", option + "="}, option});
+  }
+  for (const std::string option : {"--jobs", "--results", "--shard"}) {
+    lines.push_back({2, {"run", "@/good.toml", option, ""}, option});
+    lines.push_back({2, {"run", "@/good.toml", option + "=", "1/1"}, option});
+  }
+  expectOneLine(lines);
+  expectOneLine({{2, {"tableau", "show", "gauss_2", "--digits", ""}, "--digits"},
+                 {2, {"tableau", "plot", "gauss_2", "--out="}, "--out"},
+                 {2, {"reference", "kaps", "--out", ""}, "--out"},
+                 {2, {"merge", "@/study", "--study="}, "--study"},
+                 {2, {"compare", "@/study", "@/study", "--times="}, "--times"},
+                 {2, {"solve", "kepler", "--set", "e="}, "e="},
+                 {2, {"solve", "kepler", "--set", "=0.5"}, "=0.5"},
+                 {2, {"solve", ""}, "solve"},
+                 {2, {"run", ""}, "run"}});
+}
+
+TEST_F(Lines, ValuesOutOfRange) {
+  expectOneLine({{2, {"solve", "slider_krank"}, "slider_krank"},
+                 {2, {"solve", "kepler", "--methd", "gauss_2"}, "--methd"},
+                 {2, {"solve", "kepler", "--method", "gauss_0"}, "gauss_0"},
+                 {2, {"solve", "kepler", "--method", "gauss_101"}, "gauss_101"},
+                 {2, {"solve", "kepler", "--method", "a\nb"}, "a\\nb"},
+                 {2, {"solve", "kepler", "--method", "a\x1b[31mb"}, "\\x1b"},
+                 {2, {"solve", "kepler", "--newton", "simple"}, "simple"},
+                 {2, {"solve", "kepler", "--tol", "2"}, "2"},
+                 {2, {"solve", "kepler", "--tol", "nan"}, "nan"},
+                 {2, {"solve", "kepler", "--tol", " "}, "tol"},
+                 {2, {"solve", "kepler", "--tol", "1e-400"}, "1e-400"},
+                 {2, {"solve", "kepler", "--tol", "1e-6", "--tol", "1e-7"}, "--tol"},
+                 {2, {"solve", "kepler", "--tol"}, "--tol"},
+                 {2, {"solve", "kepler", "--step", "inf"}, "inf"},
+                 {2, {"solve", "kepler", "--step", "0x1p-3"}, "0x1p-3"},
+                 {2, {"solve", "kepler", "--threads", "0"}, "threads"},
+                 {2, {"solve", "kepler", "--threads", "1.5"}, "1.5"},
+                 {2, {"solve", "kepler", "--max-steps", "0"}, "max_steps"},
+                 {2, {"solve", "kepler", "--t-end", "-1"}, "-1"},
+                 {2, {"solve", "kepler", "--set", "ee=0.5"}, "ee"},
+                 {2, {"solve", "kepler", "--set", "e"}, "'e'"},
+                 {2, {"solve", "kepler", "--set", "e=0.1", "--set", "e=0.2"}, "twice"},
+                 {2, {"solve", "kepler", "--scalar", "mp100"}, "mp100"},
+                 {2, {"run", "@/good.toml", "--jobs", "-1"}, "-1"},
+                 {2, {"run", "@/good.toml", "--jobs", "1e99"}, "1e99"},
+                 {2, {"run", "@/good.toml", "--shard", "0/2"}, "shard"},
+                 {2, {"run", "@/good.toml", "--shard", "3/2"}, "shard"},
+                 {2, {"run", "@/good.toml", "--shard", "1"}, "i/n"},
+                 {2, {"tableau", "show", "gauss_2", "--digits", "76"}, "76"},
+                 {2, {"tableau", "check", "gaus_2"}, "gaus_2"},
+                 {2, {"reference", "kap", "--check"}, "kap"},
+                 {2, {"compare", "@/study", "@/study", "--alpha", "1"}, "alpha"}});
+}
+
+TEST_F(Lines, OptionsWithoutEffect) {
+  expectOneLine({{2, {"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, "tol"},
+                 {2, {"solve", "kepler", "--step", "0.1", "--rtol", "1e-6"}, "--rtol"},
+                 {2, {"solve", "kepler", "--step", "0.1", "--atol", "1e-6"}, "--atol"},
+                 {2, {"solve", "kepler", "--step", "0.1", "--norm", "absolute"}, "--norm"},
+                 {2, {"solve", "kepler", "--step", "0.1", "--kappa", "0.1"}, "--kappa"},
+                 {2, {"solve", "kepler", "--step", "0.1", "--h-max", "0.1"}, "--h-max"},
+                 {2, {"solve", "kepler", "--step", "0.1", "--estimate", "doubling"}, "--estimate"},
+                 {2, {"solve", "kepler", "--tol", "0.1", "--rtol", "0.1", "--atol", "0.1"}, "--tol"},
+                 {2, {"solve", "kepler", "--max-stages", "5"}, "--max-stages"},
+                 {2, {"solve", "kepler", "--residual-tolerance", "0.1"}, "--residual-tolerance"},
+                 {2, {"solve", "kepler", "--contractivity-limit", "0.1"}, "--contractivity-limit"},
+                 {2, {"solve", "kepler", "--contractivity-after", "1"}, "--contractivity-after"},
+                 {2, {"solve", "kepler", "--newton", "modified", "--kappa", "0.1"}, "--kappa"},
+                 {2, {"solve", "kepler", "--newton", "modified", "--keep-jacobian-below", "0.1"}, "--keep-jacobian-below"},
+                 {2, {"reference", "kaps"}, "--into-sources"},
+                 {2, {"reference", "kaps", "--out", "@", "--into-sources"}, "--into-sources"},
+                 {2, {"reference", "kaps", "--check", "--into-sources"}, "--check"}});
+}
+
+// Every field of a run is either taken by the other libraries' integrators or refused with them.
+TEST_F(Lines, PeersRefuseWhatTheyDoNotTake) {
+  const auto& taken = peerFields();
+  std::size_t refused = 0;
+  for (const auto& field : specFields()) {
+    const bool listed = std::find(taken.begin(), taken.end(), field.name) != taken.end();
+    if (listed || field.name == "scene" || field.name == "settings" || field.name == "h") continue;
+    std::string option = "--" + std::string(field.name);
+    std::replace(option.begin(), option.end(), '_', '-');
+    const std::string value = field.get(RunSpec{});
+    for (const std::string peer : {"cvode_bdf", "ida_bdf", "gsl_msbdf"}) {
+      expectOneLine({{2, {"solve", "kepler", "--method", peer, option, value}, option + " has no effect"}});
+    }
+    ++refused;
+  }
+  EXPECT_EQ(refused, 19u) << "a new field: does a peer take it?";
+}
+
+TEST_F(Lines, Files) {
+  expectOneLine({{2, {"run", "/dev/zero"}, "/dev/zero"},
+                 {2, {"run", "@/waiting/runs.csv"}, "pipe"},
+                 {2, {"run", "@/empty"}, "folder"},
+                 {2, {"run", "@/large.toml"}, "too long"},
+                 {2, {"run", "@/no.toml"}, "no.toml"},
+                 {2, {"run", "@/file"}, "file:1"},
+                 {2, {"run", "@/file/below"}, "below"},
+                 {2, {"run", "@/open.toml"}, "open.toml:3"},
+                 {2, {"run", "@/brace.toml"}, "brace.toml:2"},
+                 {2, {"run", "@/both.toml"}, "both.toml:5"},
+                 {2, {"run", std::string(5000, 'x')}, "xxx"},
+                 {2, {"run", "@/good.toml", "--results", "@/file"}, "file"},
+                 {2, {"run", "@/good.toml", "--results", "/dev/full"}, "/dev/full"},
+                 {2, {"tableau", "check", "/dev/zero"}, "/dev/zero"},
+                 {2, {"tableau", "check", "@/waiting/runs.csv"}, "pipe"},
+                 {2, {"tableau", "show", "@/empty"}, "folder"},
+                 {2, {"tableau", "check", "@/large.toml"}, "too long"},
+                 {2, {"tableau", "check", "@/no.txt"}, "no.txt"},
+                 {2, {"tableau", "check", "@/method.txt"}, "method.txt:7"},
+                 {2, {"tableau", "export", "@/method.txt"}, "method.txt:7"},
+                 {2, {"solve", "kepler", "--method", "/dev/zero"}, "/dev/zero"},
+                 {2, {"solve", "kepler", "--method", "@/waiting/runs.csv"}, "pipe"},
+                 {2, {"merge", "@/empty"}, "runs.csv"},
+                 {2, {"merge", "@/endless"}, "device"},
+                 {2, {"merge", "@/waiting"}, "pipe"},
+                 {2, {"merge", "@/study"}, "runs.csv"},
+                 {2, {"compare", "@/empty", "@/study"}, "empty"},
+                 {2, {"compare", "@/file", "@/study"}, "file"},
+                 {2, {"compare", "@/study", "@/nowhere"}, "nowhere"}});
+}
+
+TEST_F(Lines, FiguresAndReports) {
+  expectOneLine({{2, {"plot", "nosuch"}, "nosuch"},
+                 {2, {"plot", "drift", "--results", "@/nowhere"}, "nowhere"},
+                 {2, {"plot", "drift", "--results", "@/file"}, "file"},
+                 {1, {"plot", "drift", "--results", "@/empty"}, "irk run drift"},
+                 {1, {"plot", "tableaus", "--results", "@/empty"}, "irk tableau table"},
+                 {2, {"report", "--results", "@/nowhere"}, "nowhere"},
+                 {2, {"report", "--results", "@/file"}, "file"},
+                 {1, {"report", "--results", "@/empty"}, "no tables"},
+                 {2, {"claims", "--results", "@/nowhere"}, "nowhere"},
+                 {2, {"claims", "--results", "@/file"}, "file"},
+                 {2, {"solve", "kepler", "--plot", "@/nowhere/figure"}, "nowhere"},
+                 {2, {"solve", "kepler", "--plot", "@/file/figure"}, "file"},
+                 {2, {"solve", "kepler", "--plot", "@/empty/"}, "--plot"},
+                 {2, {"solve", "kepler", "--plot", "@/a'.'b"}, "--plot"},
+                 {2, {"solve", "kepler", "--plot", "@/$(touch x)"}, "--plot"},
+                 {2, {"tableau", "plot", "gauss_2", "--out", "@/nowhere/figure"}, "nowhere"},
+                 {2, {"tableau", "plot", "gauss_2", "--out", "@/a\"b"}, "--out"}});
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "empty")) << "nothing is left behind";
+}
+
+TEST_F(Lines, AStudyOfRefusedRunsFails) {
+  const Ended ended = program(withFolder({"run", "@/refused.toml", "--results", "@/results"}));
+  EXPECT_EQ(ended.status, 1) << ended.out << ended.err;
+  EXPECT_TRUE(containsAll(ended.err, {"irk: refused: all 1 runs were refused", "lobatto_iiib_3"}));
+}
+
+TEST_F(Lines, OutputThatCannotBeWrittenIsAFailure) {
+  for (const Line& line : {Line{"list", "scenes"}, Line{"--help"}, Line{"--version"}, Line{"tableau", "show", "gauss_2"},
+                           Line{"solve", "kepler", "--t-end", "0.1"}}) {
+    std::ofstream full("/dev/full");
+    std::ostringstream err;
+    EXPECT_EQ(runProgram(line, {full, err}), 1) << line[0];
+    EXPECT_EQ(err.str(), "irk: the output cannot be written: is the disk full?\n") << line[0];
+  }
+}
+
+/// Another working folder, and IRK_HOME, until the end of the test.
+class Elsewhere {
+ public:
+  explicit Elsewhere(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  ~Elsewhere() {
+    std::filesystem::current_path(before_);
+    unsetenv("IRK_HOME");
+  }
+  Elsewhere(const Elsewhere&) = delete;
+  Elsewhere& operator=(const Elsewhere&) = delete;
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST_F(Lines, AFolderPlotsOfTheWorkingFolderIsNotUsed) {
+  const auto plots = folder_.path() / "plots";
+  std::filesystem::create_directories(plots);
+  write("plots/figures.txt", "mine|mine.gp|mine|Mine|Mine|\n");
+  write("plots/stability.gp", "system 'touch " + (folder_.path() / "executed").string() + "'\n");
+  const Elsewhere here(folder_.path());
+  const Ended plotted = program({"tableau", "plot", "gauss_2", "--out", "figure"});
+  EXPECT_EQ(plotted.status, 0) << plotted.err;
+  EXPECT_TRUE(std::filesystem::exists("figure.svg"));
+  EXPECT_FALSE(std::filesystem::exists("executed"));
+  EXPECT_EQ(homeFolder(), std::filesystem::path(IRK_SOURCE_DIR));
+  // A folder that the user names is his own.
+  setenv("IRK_HOME", folder_.path().c_str(), 1);
+  EXPECT_EQ(homeFolder(), folder_.path());
+  setenv("IRK_HOME", (folder_.path() / "empty").c_str(), 1);
+  expectOneLine({{2, {"plot", "drift"}, "IRK_HOME"}, {2, {"tableau", "plot", "gauss_2"}, "IRK_HOME"}});
+}
+
+TEST_F(Lines, GoodLinesStayGood) {
+  const std::vector<Line> lines = {
+      {"--help"},
+      {"--version"},
+      {"solve", "--help"},
+      {"tableau", "show", "--help"},
+      {"list", "studies"},
+      {"solve", "kepler", "--t-end=0.1", "--tol=1e-3"},
+      {"solve", "kepler", "--t-end", "0.1", "--set", "e=0.5", "--json"},
+      {"solve", "kepler", "--t-end", "0.1", "--rtol", "1e-3", "--atol", "1e-4"},
+      {"solve", "kepler", "--t-end", "0.1", "--tol", "1e-3", "--atol", "1e-4"},
+      {"solve", "kepler", "--t-end", "0.1", "--step", "0.05", "--estimate", "none"},
+      {"solve", "kepler", "--t-end", "0.1", "--step", "0.05", "--control", "paper", "--tol", "1e-3"},
+      {"solve", "kepler", "--t-end", "0.1", "--newton", "modified", "--residual-tolerance", "1e-8"},
+      {"solve", "kepler", "--t-end", "0.1", "--configuration", "variable", "--max-stages", "5"},
+      {"solve", "kepler", "--t-end", "0.1", "--configuration", "paper", "--contractivity-limit", "0.5"},
+      {"solve", "kepler", "--t-end", "0.1", "--method", "cvode_bdf", "--tol", "1e-4", "--h-max", "0.1"},
+      {"solve", "kepler", "--t-end", "0.1", "--method", "cvode_bdf", "--step", "0.001", "--tol", "1e-4"},
+      {"solve", "pendulum", "--t-end", "0.1", "--method", "ida_bdf", "--formulation", "ggl", "--multipliers", "stages"},
+      {"run", "@/good.toml", "--quick", "--jobs=1", "--results=@/results"},
+      {"run", "@/good.toml", "--shard", "1/2", "--results", "@/results"},
+      {"compare", "@/results/good", "@/results/good", "--times=10%"},
+      {"claims", "--results", "@/results"},
+      {"tableau", "table", "--help"},
+      {"reference", "kaps", "--check"}};
+  for (const auto& line : lines) {
+    std::string text;
+    for (const auto& argument : line) text += argument + " ";
+    const Ended ended = program(withFolder(line));
+    EXPECT_EQ(ended.status, 0) << text << ended.err << ended.out;
+  }
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,142 @@
+// What the reader of studies refuses, with file, line and key; and that no text ends the program.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/study/study.h"
+#include "tests/experiments/support.h"
+#include "tests/mutate.h"
+
+namespace irk {
+namespace {
+
+Study parse(const std::string& toml, StudyVariant variant = StudyVariant::kFull) {
+  return parseStudy(toml, "mine.toml", variant);
+}
+
+std::size_t runsOf(const Study& study) {
+  std::size_t runs = 0;
+  for (const auto& series : study.series) runs += series.runs.size();
+  return runs;
+}
+
+// Lines 1 to 3 of every study here.
+const std::string kStart = "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\n";
+
+std::string misuse(const std::string& lines) {
+  return misuseOf([&] { parse(kStart + lines); });
+}
+
+TEST(StudyReader, RefusesKeysThatExcludeEachOther) {
+  EXPECT_TRUE(containsAll(misuse("tolerances = 0.1\nsteps = 0.1"), {"mine.toml:5", "steps and tolerances"}));
+  EXPECT_TRUE(containsAll(misuse("refine_most = 8\nsteps = 0.1"), {"mine.toml:4", "refine_most and steps"}));
+  EXPECT_TRUE(containsAll(misuse("tolerances = 0.1\nrtol = 0.1"), {"mine.toml:5", "rtol beside tolerances"}));
+  EXPECT_TRUE(containsAll(misuse("steps = 0.1\nh = 0.1"), {"mine.toml:5", "h beside steps"}));
+  EXPECT_TRUE(containsAll(misuse("steps = 0.1\ncontrol = \"paper\""), {"mine.toml:5", "control", "'fixed'"}));
+  EXPECT_TRUE(containsAll(misuse("refine_most = 8\nestimate = \"doubling\""), {"mine.toml:5", "estimate", "'none'"}));
+  EXPECT_TRUE(containsAll(misuse("method = \"gauss_3\""), {"mine.toml:4", "'methods'"}));
+  EXPECT_TRUE(containsAll(misuse("stages = 3"), {"mine.toml:4", "stages without families"}));
+  EXPECT_NO_THROW(parse(kStart + "steps = 0.1\ncontrol = \"fixed\"\nestimate = \"none\"\n"));
+  EXPECT_NO_THROW(parse(kStart + "tolerances = 0.1\nh = 0.1\n"));
+}
+
+TEST(StudyReader, RefusesEmptyRangesAndTwins) {
+  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = \"3..1\""), {"mine.toml:5", "'3..1'"}));
+  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = [\"3..5\", 4]"), {"mine.toml:5", "4 twice"}));
+  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = 2"), {"mine.toml:4", "gauss_2", "twice"}));
+  EXPECT_TRUE(containsAll(misuse("tolerances = [1e-3, 1e-4,\n 0.001]"), {"mine.toml:5", "tolerances", "twice"}));
+  EXPECT_TRUE(containsAll(misuse("newton = [\"full\", \"full\"]"), {"mine.toml:4", "newton", "'full' twice"}));
+  EXPECT_TRUE(containsAll(misuse("newton = []"), {"mine.toml:4", "newton", "empty"}));
+  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = \"1..\""), {"mine.toml:5", "stages"}));
+  EXPECT_NO_THROW(parse(kStart + "families = \"gauss\"\nstages = [1, \"3..5\", \"7..7\"]\n"));
+}
+
+TEST(StudyReader, WantsIntegersWhereIntegersAreMeant) {
+  const std::string block = "\n" + kStart;
+  const auto head = [&](const std::string& lines) { return misuseOf([&] { parse(lines + block); }); };
+  EXPECT_TRUE(containsAll(head("[timing]\nrepetitions = 3.7"), {"mine.toml:2", "repetitions", "3.7", "1 to 1000"}));
+  EXPECT_TRUE(containsAll(head("[timing]\nrepetitions = true"), {"mine.toml:2", "repetitions"}));
+  EXPECT_TRUE(containsAll(misuse("refine_most = 6.5"), {"mine.toml:4", "refine_most", "6.5"}));
+  EXPECT_TRUE(containsAll(misuse("max_steps = 1.5"), {"mine.toml:4", "max_steps", "1.5"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 1.5\n"); }), {"mine.toml:2", "runs", "1.5"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\nseed = 0.5\n"); }), {"mine.toml:3", "seed"}));
+  EXPECT_EQ(parse("[timing]\nrepetitions = 3.0\n" + block).timing.repetitions, 3);
+}
+
+TEST(StudyReader, RefusesMoreRunsThanABlockMayHave) {
+  const std::string sweep =
+      "newton = [\"simplified\", \"modified\", \"full\", \"broyden\"]\nfamilies = \"radau_iia\"\nstages = \"1..100\"\n"
+      "tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]\n"
+      "predictor = [\"extrapolated\", \"previous\"]\nsolver = [\"schur\", \"eigen\", \"coupled_dense\"]\n"
+      "max_iterations = [5, 6, 7, 8, 9, 10, 11]\n";
+  EXPECT_TRUE(containsAll(misuse(sweep), {"mine.toml:2", "203616 runs", "200000", "most_runs", "newton 4"}));
+  EXPECT_TRUE(containsAll(misuse("tolerances = [0.1, 0.2, 0.3]\nmost_runs = 2"), {"mine.toml:2", "3 runs", "up to 2"}));
+  EXPECT_TRUE(containsAll(misuse("most_runs = 0"), {"mine.toml:4", "most_runs"}));
+  EXPECT_EQ(runsOf(parse(kStart + "tolerances = [0.1, 0.2, 0.3]\nmost_runs = 3\n")), 3u);
+}
+
+TEST(StudyReader, RefusesTablesWithoutEffect) {
+  EXPECT_TRUE(containsAll(misuse("[defaults.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
+  EXPECT_TRUE(containsAll(misuse("[block.quick.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\n[defaults]\nscene = \"kepler\"\n"); }),
+                          {"mine.toml:3", "defaults", "[audit]"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\n" + kStart); }), {"mine.toml:3", "block", "[audit]"}));
+}
+
+TEST(StudyReader, RefusesListsThatPeersDoNotTake) {
+  const std::string peer = "[[block]]\nscene = \"kepler\"\nmethods = [\"gauss_2\", \"cvode_bdf\"]\n";
+  EXPECT_TRUE(containsAll(misuseOf([&] { parse(peer + "newton = [\"full\", \"modified\"]\n"); }),
+                          {"mine.toml:4", "newton", "'cvode_bdf'"}));
+  EXPECT_NO_THROW(parse(peer + "newton = \"modified\"\ntolerances = [0.1, 0.2]\nderivatives = [\"automatic\", "
+                               "\"difference_forward\"]\n"));
+}
+
+// These ended the program inside toml++.
+TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
+  EXPECT_TRUE(containsAll(misuse("[\n[[block]]\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuse("[[\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuse("[.a]\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuse("[\rtiming]\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuse("newton = [\"full\", }\"modified\"]\n"), {"mine.toml:4", "brace"}));
+  EXPECT_TRUE(containsAll(misuse("steps = [2,\n \xe2\x80\xa8 3]\n"), {"mine.toml:5", "ASCII"}));
+  EXPECT_TRUE(containsAll(misuse("t_end = 1979-05-27T\\u000007:32:00Z\n"), {"mine.toml:4", "colon"}));
+  // Inside quotes and comments everything may stand.
+  EXPECT_EQ(parse("title = \"[ } \\\" \xe2\x80\xa8\"  # [ }\n" + kStart).title, "[ } \" \xe2\x80\xa8");
+  EXPECT_EQ(parse("title = '''\n[\n}'''\n" + kStart).title, "[\n}");
+  EXPECT_NO_THROW(parse("\xef\xbb\xbf" + kStart));
+  EXPECT_NO_THROW(parse(kStart + "steps = [\n  1,\n  2]\r\n"));
+}
+
+// 10 000 texts made from two good ones by a few random changes each: a study or a misuse of one line.
+TEST(StudyReader, SurvivesMutatedTexts) {
+  const std::string seeds[] = {
+      "title = \"A sweep\"\ntargets = [1e-4, 1e-6]\n[defaults]\nnewton = \"modified\"\n[timing]\nrepetitions = 2\n"
+      "[[block]]\nscene = [\"kepler\", \"pendulum\"]\nfamilies = [\"gauss\"]\nstages = [\"1..3\", 5]\n"
+      "tolerances = [1e-2, 1e-4]\n[block.quick]\nscene = \"kepler\"\nstages = 2\n",
+      "orders = true  # a comment\n[quick]\nrefine_most = 4\n[[block]]\nscene = 'kaps'\nsettings = [\"\", \"eps=0.5\"]\n"
+      "t_end = 1\nmethods = [\"gauss_2\",\n  \"radau_iia_3\"]\nrefine_most = 8\n"};
+  const std::string pieces[] = {"[",     "]",   "[[",  "]]",       "{",        "}",       "=",        ".",      "\"",
+                                "'",     "#",   "\n",  "\r",       ",",        "nan",     "-inf",     "\"\"\"", "'''",
+                                "0x",    "1_0", "1__", "99999999", "\\u0000",  "\\",      "true",     "block",  "quick",
+                                "\xff",  "\v",  " ",   "\t",       "a.b",      "\xc2\xa0", "\xe2\x80\xa8", "[block.quick]",
+                                "1979-05-27T07:32:00Z", std::string(1, '\0')};
+  test::Mutations mutations(seeds, pieces, 20041);
+  int studies = 0, refused = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    const std::string text = mutations.next();
+    try {
+      parse(text);
+      ++studies;
+    } catch (const Misuse& line) {
+      ++refused;
+      ASSERT_NE(std::string(line.what()).find("mine.toml"), std::string::npos) << line.what() << "\n" << text;
+    } catch (const std::exception& other) {
+      FAIL() << other.what() << "\n" << text;
+    }
+  }
+  EXPECT_GT(studies, 100) << "of " << studies + refused;
+  EXPECT_GT(refused, 500);
+}
+
+}  // namespace
+}  // namespace irk

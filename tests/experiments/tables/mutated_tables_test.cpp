@@ -1,0 +1,68 @@
+// Tables that are almost right.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "experiments/store/part.h"
+#include "experiments/tables/table.h"
+#include "tests/experiments/support.h"
+#include "tests/mutate.h"
+
+namespace irk {
+namespace {
+
+const std::string kSeeds[] = {"# study: small\n# version: 1\nkey,a,b\n0123456789abcdef,1,2\n00000000000000aa,\"x,y\",3\nff,,nan\n",
+                              "key,a,b\r\n01,\"say \"\"no\"\"\",1e-3\r\n02,\"two\nlines\",4\r\n"};
+const std::string kPieces[] = {"\"", "\"\"", ",", "\n", "\r\n", "#", "# a", "key,a,b\n", "nan", std::string(1, '\0'), "\xff", "ff,1,2\n"};
+
+class MutatedTables : public testing::Test {
+ protected:
+  std::filesystem::path written(const std::string& text) const {
+    const auto file = folder_.path() / "table.csv";
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+  TemporaryFolder folder_;
+};
+
+// A table whose rows are whole, or a misuse that names the file.
+TEST_F(MutatedTables, AreReadOrRefused) {
+  test::Mutations mutations(kSeeds, kPieces, 20043);
+  int read = 0, refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const std::string text = mutations.next();
+    try {
+      const Table table = readTable(written(text));
+      for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.columns.size()) << text;
+      ++read;
+    } catch (const Misuse& line) {
+      ++refused;
+      ASSERT_NE(std::string(line.what()).find("table.csv"), std::string::npos) << line.what();
+    } catch (const std::exception& other) {
+      FAIL() << other.what() << "\n" << text;
+    }
+  }
+  EXPECT_GT(read, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+// Of a part no row with another number of cells counts, and every line is a row, damaged, or of the head.
+TEST_F(MutatedTables, PartsGiveWholeRowsOnly) {
+  const std::vector<std::string> columns{"key", "a", "b"};
+  test::Mutations mutations(kSeeds, kPieces, 20044);
+  int rows = 0, damaged = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto file = written(mutations.next());
+    const auto reading = store::readPart(file, columns, [&](const std::vector<std::string_view>& cells, std::uint64_t) {
+      EXPECT_EQ(cells.size(), columns.size());
+      ++rows;
+      return true;
+    });
+    damaged += static_cast<int>(reading.damaged.size());
+  }
+  EXPECT_GT(rows, 10'000);
+  EXPECT_GT(damaged, 1000);
+}
+
+}  // namespace
+}  // namespace irk

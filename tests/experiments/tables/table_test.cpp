@@ -1,0 +1,91 @@
+#include "experiments/tables/table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "experiments/base/numbers.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+Table sample() {
+  return {{{"study", "order"}, {"flags", "-O3: all"}},
+          {"key", "value", "detail"},
+          {{"a", "1", "plain"},
+           {"b", "nan", "a \"quoted\", comma"},
+           {"c", "3", "two\nlines"},
+           {"d", "", "empty"}}};
+}
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST(Table, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "deep" / "runs.csv";
+  writeTable(path, sample());
+  const Table back = readTable(path);
+  EXPECT_EQ(back.head, sample().head);
+  EXPECT_EQ(back.columns, sample().columns);
+  EXPECT_EQ(back.rows, sample().rows);
+}
+
+TEST(Table, QuotesAsRfc4180Says) {
+  EXPECT_EQ(csvLine({"a", "b,c", "say \"x\"", ""}), "a,\"b,c\",\"say \"\"x\"\"\",");
+}
+
+TEST(Table, DropsAHalfWrittenLastRow) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "runs.csv";
+  writeTable(path, sample());
+  const std::string whole = contents(path);
+  // Every way to be cut short inside the last row, its line end included.
+  const std::size_t last_row = whole.rfind("d,");
+  for (std::size_t length = last_row; length < whole.size(); ++length) {
+    std::ofstream(path, std::ios::binary) << whole.substr(0, length);
+    EXPECT_EQ(readTable(path).rows.size(), 3u) << length;
+  }
+}
+
+TEST(Table, AppendedRowsAreThereAtOnce) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "runs.csv";
+  RowWriter writer(path, sample());
+  writer.append({"e", "5", "more"});
+  const Table back = readTable(path);
+  ASSERT_EQ(back.rows.size(), 5u);
+  EXPECT_EQ(back.rows.back(), (TableRow{"e", "5", "more"}));
+}
+
+TEST(Table, RefusesDamageInTheMiddle) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "runs.csv";
+  std::ofstream(path) << "# study: x\na,b\n1,2\n3\n4,5\n";
+  EXPECT_TRUE(containsAll(misuseOf([&] { readTable(path); }), {"runs.csv:4", "1 cells", "2"}));
+  EXPECT_TRUE(containsAll(misuseOf([&] { readTable(folder.path() / "no.csv"); }), {"no.csv"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { (void)sample().column("valu"); }), {"valu", "'value'"}));
+}
+
+TEST(Numbers, TextKeepsAllBits) {
+  for (const double x : {0.1, 1.0 / 3, -2.5e-308, 1e300, 0.0}) {
+    EXPECT_EQ(cellNumber(numberText(x)), x);
+  }
+  EXPECT_EQ(numberText(std::nan("")), "nan");
+  EXPECT_TRUE(std::isnan(cellNumber("nan")));
+  EXPECT_TRUE(std::isnan(cellNumber("1.5 m")));
+}
+
+TEST(Numbers, HashIsFnv1a) {
+  // Test vectors of the FNV specification.
+  EXPECT_EQ(fnv1a(""), 0xcbf29ce484222325u);
+  EXPECT_EQ(fnv1a("foobar"), 0x85944171f73967e8u);
+}
+
+}  // namespace
+}  // namespace irk

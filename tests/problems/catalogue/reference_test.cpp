@@ -1,0 +1,132 @@
+// problems/reference/*.csv: readable, attached to components, in agreement with exact solutions.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "irk/integrator.h"
+#include "irk/misuse.h"
+#include "irk/tableaus.h"
+#include "tests/problems/scene_cases.h"
+
+namespace irk::test {
+namespace {
+
+// In the order of the components, then of the outputs.
+template <class Real>
+Real valueOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
+  Vec<Real> y(scene.sizes().components());
+  y << s.u, s.v, s.x, s.z();
+  for (std::size_t i = 0; i < scene.names.size(); ++i) {
+    if (scene.names[i] == name) return y[static_cast<Index>(i)];
+  }
+  for (const auto& output : scene.outputs) {
+    if (output.name == name) return output.value(s);
+  }
+  return std::numeric_limits<Real>::quiet_NaN();
+}
+
+TEST(Reference, BelongsToAComponentOrOutput) {
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    const auto scene = makeScene<double>(entry.id);
+    for (const Reference& r : references(entry.id)) {
+      SCOPED_TRACE(entry.id + " " + r.component);
+      EXPECT_TRUE(std::isfinite(valueOf(scene, r.component, scene.start)));
+      EXPECT_TRUE(std::isfinite(std::strtod(r.value.c_str(), nullptr)));
+      EXPECT_GT(r.accuracy, 0);
+      EXPECT_FALSE(r.source.empty());
+    }
+  }
+}
+
+TEST(Reference, IsSortedByTimeWithOneValuePerComponent) {
+  for (const SceneCase& c : sceneCases()) {
+    const auto all = references(c.id, c.settings);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      EXPECT_LE(all[i - 1].t, all[i].t) << c.name();
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_FALSE(all[i].t == all[j].t && all[i].component == all[j].component) << c.name();
+      }
+    }
+  }
+}
+
+TEST(Reference, ExactSolutionsAgree) {
+  int compared = 0;
+  for (const SceneCase& c : sceneCases()) {
+    const auto scene = makeScene<mp50>(c.id, c.settings);
+    if (!scene.exact) continue;
+    for (const Reference& r : references(c.id, c.settings)) {
+      const mp50 value = valueOf(scene, r.component, scene.exact(mp50(fmt::format("{}", r.t))));
+      if (!isfinite(value)) continue;  // the closed form does not know it
+      // The guard digit of a value is rounded.
+      EXPECT_LE(abs(value - mp50(r.value)), mp50(1.1 * r.accuracy))
+          << c.name() << " " << r.component << " at " << r.t;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 100);
+}
+
+// Every component of every scene at its end, with its default settings.
+TEST(Reference, EverySceneHasItsEnd) {
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    const auto scene = makeScene<double>(entry.id);
+    const auto all = references(entry.id);
+    for (const std::string& name : scene.names) {
+      EXPECT_TRUE(std::any_of(
+          all.begin(), all.end(),
+          [&](const Reference& r) { return r.component == name && r.t == scene.t_end; }))
+          << entry.id << " " << name;
+    }
+  }
+}
+
+// What makes a digit: closed form and integration, which share nothing but the equation.
+TEST(Reference, EllipticFunctionsAndIntegrationAgreeToTwentyFiveDigits) {
+  for (const auto& [id, t_end] : {std::pair{"pendulum", "0.5"}, std::pair{"elastica", "2"}}) {
+    SCOPED_TRACE(id);
+    const auto scene = makeScene<mp50>(id);
+    IntegratorOptions options;
+    options.tolerances.rtol = options.tolerances.atol = 1e-28;
+    options.newton.max_iterations = 100;
+    options.newton.kappa = 1e-4;
+    Integrator<mp50> integrator(scene.system({}), makeTableau<mp50>("radau_iia_16"), options,
+                                scene.scale);
+    const auto solution = integrator.integrate(scene.start, mp50(t_end));
+    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+    const State<mp50> exact = scene.exact(mp50(t_end));
+    for (const std::string& name : scene.names) {
+      const mp50 error = valueOf(scene, name, solution.state) - valueOf(scene, name, exact);
+      EXPECT_LT(abs(error), mp50("1e-25")) << name;
+    }
+  }
+}
+
+// theta'(L) = 0 is what the elliptic integrals were solved for; the tip is the known one.
+TEST(Reference, TheElasticaEndsWithoutMoment) {
+  const auto scene = makeScene<mp50>("elastica");
+  const State<mp50> tip = scene.exact(mp50(2));
+  EXPECT_LT(abs(tip.v[0]), mp50("1e-45"));
+  // From elsewhere, twelve decimals of which the last one of u_y is 0 and not 1.
+  EXPECT_NEAR(static_cast<double>(valueOf(scene, "u_x", tip)), -0.508840369128, 0.6e-12);
+  EXPECT_NEAR(static_cast<double>(valueOf(scene, "u_y", tip)), -1.206506882261, 1.1e-12);
+}
+
+TEST(Reference, FollowsTheSettings) {
+  const auto count = [](const char* id, const Settings& s) { return references(id, s).size(); };
+  const std::size_t all = count("slider_crank", {});
+  EXPECT_GT(all, 9U);
+  EXPECT_EQ(count("slider_crank", {{"coordinates", "absolute"}}), all) << "the same solution";
+  EXPECT_EQ(count("slider_crank", {{"L1", "0.10"}}), all) << "the default, written differently";
+  EXPECT_EQ(count("slider_crank", {{"L1", "0.11"}}), 0U);
+  EXPECT_GT(count("slider_crank", {{"torque_off_at", "0.5"}}), 0U);
+  EXPECT_LT(count("slider_crank", {{"torque_off_at", "0.5"}}), all);
+  EXPECT_GT(count("ancf_pendulum", {{"elements", "4"}}), 0U);
+  EXPECT_EQ(count("ancf_pendulum", {{"elements", "3"}}), 0U);
+  EXPECT_THROW(references("ancf_pendulum", {{"element", "4"}}), Misuse);
+}
+
+}  // namespace
+}  // namespace irk::test

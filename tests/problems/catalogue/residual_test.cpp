@@ -1,0 +1,180 @@
+// The residual of every scene against itself: derivatives, multipliers, precision.
+#include <gtest/gtest.h>
+
+#include "core/system/counting.h"
+#include "tests/problems/scene_cases.h"
+
+namespace irk::test {
+namespace {
+
+// Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off
+// both stay below 1e-25, relative to the terms of the row.
+Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t,
+                               const Vec<double>& y, const Vec<double>& d,
+                               const Vec<double>& scale) {
+  const Vec<mp50> at = y.cast<mp50>(), modes = d.cast<mp50>();
+  Mat<double> J(system.sizes().n(), y.size());
+  for (Index j = 0; j < y.size(); ++j) {
+    const mp50 delta = mp50(1e-15) * scale[j];
+    Vec<mp50> above = at, below = at;
+    above[j] += delta;
+    below[j] -= delta;
+    const Vec<mp50> difference = residualAt<mp50, mp50>(system, level, t, above, modes) -
+                                 residualAt<mp50, mp50>(system, level, t, below, modes);
+    J.col(j) = (difference / mp50(2 * delta)).cast<double>();
+  }
+  return J;
+}
+
+// The automatic derivative sums the same terms as the residual, each with a few operations.
+constexpr double kDerivativeTolerance = 1e4 * kEps;
+
+void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& d,
+                            const SystemOptions& options, Level level) {
+  const auto scene = makeScene<double>(c.id, c.settings);
+  const auto precise = makeScene<mp50>(c.id, c.settings);
+  const auto system = scene.system(options);
+  const auto precise_system = precise.system(options);
+  const Vec<double> scale = pointScale(scene, system->sizes());
+  const Mat<double> J = automaticJacobian<double>(*system, level, 0.0, y, d);
+  const Mat<double> D = differenceJacobian(*precise_system, level, 0, y, d, scale);
+  const Vec<double> magnitude = y.cwiseAbs().cwiseMax(scale);
+  const Vec<double> rows = J.cwiseAbs() * magnitude;
+  for (Index i = 0; i < J.rows(); ++i) {
+    for (Index j = 0; j < J.cols(); ++j) {
+      EXPECT_NEAR(J(i, j) * magnitude[j], D(i, j) * magnitude[j], kDerivativeTolerance * rows[i])
+          << "row " << i << " column " << j;
+    }
+  }
+}
+
+TEST(Residual, AutomaticDerivativeIsTheDifferenceQuotient) {
+  for (const SceneCase& c : sceneCases()) {
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    for (const Mode& mode : modesToTest(scene)) {
+      for (const Formulation formulation : kFormulations) {
+        for (const Level level : {Level::kFormulated, Level::kAcceleration}) {
+          SCOPED_TRACE(c.name());
+          const SystemOptions options{formulation, ConstraintScaling::kOn, mode.discontinuity};
+          // The start may lie on a switch.
+          if (mode.discontinuity != Discontinuity::kIgnore) {
+            expectDerivativesAgree(c, pointVector(scene.start), mode.d, options, level);
+          }
+          expectDerivativesAgree(c, perturbedPoint(scene, n), mode.d, options, level);
+        }
+      }
+    }
+  }
+}
+
+// All stages in one call are the residuals one by one, to the last bit, and counted as many.
+TEST(Residual, StagesAtOnceAreTheirResidualsOneByOne) {
+  constexpr Index kStages = 3;
+  for (const SceneCase& c : sceneCases()) {
+    const auto scene = makeScene<double>(c.id, c.settings);
+    for (const Mode& mode : modesToTest(scene)) {
+      for (const Formulation formulation : kFormulations) {
+        SCOPED_TRACE(c.name());
+        const auto system = scene.system({formulation, ConstraintScaling::kOn, mode.discontinuity});
+        Counters counters;
+        const CountingSystem<double> counted(*system, counters);
+        const Sizes n = system->sizes();
+        const Vec<double> y = perturbedPoint(scene, n);
+        std::vector<Vec<double>> at;
+        Mat<double> u(n.nu, kStages), v(n.nu, kStages), x(n.nx, kStages), w(n.n(), kStages);
+        Vec<double> t(kStages);
+        for (Index i = 0; i < kStages; ++i) {
+          t[i] = 0.1 * static_cast<double>(i);
+          at.push_back((1 + t[i]) * y);
+          u.col(i) = at.back().head(n.nu);
+          v.col(i) = at.back().segment(n.nu, n.nu);
+          x.col(i) = at.back().segment(2 * n.nu, n.nx);
+          w.col(i) = at.back().tail(n.n());
+        }
+        Mat<double> r = Mat<double>::Constant(n.n(), kStages, -77);
+        counted.evaluateStages({n, t.data(), u.data(), v.data(), x.data(), w.data(), mode.d.data()},
+                               1, kStages, r.data());
+        EXPECT_EQ(counters.residuals, kStages - 1);
+        for (Index i = 1; i < kStages; ++i) {
+          const Vec<double> one = residualAt(*system, Level::kFormulated, t[i],
+                                             at[static_cast<std::size_t>(i)], mode.d);
+          EXPECT_TRUE((r.col(i).array() == one.array()).all()) << "stage " << i;
+        }
+        EXPECT_TRUE((r.col(0).array() == -77).all()) << "was not asked for";
+      }
+    }
+  }
+}
+
+// The struct writes G^T lambda by hand: dr_u/dlambda = -(dg/du)^T.
+TEST(Residual, MultipliersActThroughTheConstraintJacobian) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const auto system = scene.system({Formulation::kIndex3});
+    const Mat<double> J = automaticJacobian<double>(*system, Level::kPosition, 0.0,
+                                                    perturbedPoint(scene, n), scene.start.d);
+    const Index first = n.nu + n.nx;
+    const Index lambda = 2 * n.nu + n.nx + first;  // column in (u, v, x, a, k, z)
+    const Mat<double> by_lambda = J.block(0, lambda, n.nu, n.constraints);
+    const Mat<double> G = J.block(first, 0, n.constraints, n.nu);
+    const double size = 1 + (G.size() > 0 ? G.cwiseAbs().maxCoeff() : 0);
+    for (Index i = 0; i < n.nu; ++i) {
+      for (Index j = 0; j < n.constraints; ++j) {
+        EXPECT_NEAR(by_lambda(i, j), -G(j, i), 10 * kEps * size) << i << " " << j;
+      }
+    }
+  }
+}
+
+TEST(Residual, FiftyDigitsAgreeWithDouble) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const auto precise = makeScene<mp50>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const Vec<double> y = perturbedPoint(scene, n);
+    for (const Mode& mode : modesToTest(scene)) {
+      for (const Formulation formulation : kFormulations) {
+        const SystemOptions options{formulation, ConstraintScaling::kOn, mode.discontinuity};
+        const auto system = scene.system(options);
+        const auto precise_system = precise.system(options);
+        const double t = 0.25;
+        const Level level = Level::kFormulated;
+        const Vec<double> r = residualAt<double, double>(*system, level, t, y, mode.d);
+        const Vec<mp50> exact =
+            residualAt<mp50, mp50>(*precise_system, level, t, y.cast<mp50>(), mode.d.cast<mp50>());
+        const Mat<double> J = automaticJacobian<double>(*system, level, t, y, mode.d);
+        const Vec<double> rows = rowSizes(J, y, pointScale(scene, n));
+        for (Index i = 0; i < r.size(); ++i) {
+          EXPECT_NEAR(r[i], static_cast<double>(exact[i]), 1e-13 * (rows[i] + std::abs(r[i])))
+              << "row " << i;
+        }
+      }
+    }
+  }
+}
+
+// Formulations describe one system: all rows but those of the constraints agree.
+TEST(Residual, FormulationsDifferInConstraintRowsOnly) {
+  for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
+    const auto scene = makeScene<double>(c.id, c.settings);
+    const Sizes n = scene.sizes();
+    const Vec<double> y = perturbedPoint(scene, n);
+    const auto index3 = scene.system({Formulation::kIndex3});
+    const auto index2 = scene.system({Formulation::kIndex2, ConstraintScaling::kOff});
+    const Vec<double> r3 =
+        residualAt<double, double>(*index3, Level::kFormulated, 0, y, scene.start.d);
+    const Vec<double> r2 =
+        residualAt<double, double>(*index2, Level::kFormulated, 0, y, scene.start.d);
+    EXPECT_EQ(r3.head(n.nu + n.nx), r2.head(n.nu + n.nx));
+    const Index rest = n.nz - n.constraints;
+    EXPECT_EQ(r3.tail(rest), r2.tail(rest));
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

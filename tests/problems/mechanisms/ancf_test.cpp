@@ -1,0 +1,145 @@
+// ANCF beams: static limit, energy, and the solver for equilibria.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "problems/support/equilibrium.h"
+#include "tests/problems/scene_cases.h"
+
+namespace irk::test {
+namespace {
+
+template <class Real>
+Real outputOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
+  for (const auto& output : scene.outputs) {
+    if (output.name == name) return output.value(s);
+  }
+  return std::numeric_limits<Real>::quiet_NaN();
+}
+
+// The load in ten steps: from the straight beam Newton does not reach its whole.
+template <class Real>
+Equilibrium<Real> bentCantilever(const std::string& elements) {
+  const auto scene = makeScene<Real>("ancf_cantilever", {{"elements", elements}});
+  const LoadedSystem<Real> loaded = [&](const Real& load) {
+    const double f = 3 * 2.07e11 * 1e-4 / 12 / 4 * static_cast<double>(load);
+    return makeScene<Real>("ancf_cantilever", {{"elements", elements},
+                                               {"f", load == 1 ? "3EI/L^2" : std::to_string(f)}})
+        .system({Formulation::kIndex3});
+  };
+  return findEquilibrium<Real>(loaded, scene.start, 10);
+}
+
+struct TipDeflection {
+  double u_x, u_y, accuracy;
+};
+
+TEST(Ancf, StaticCantileverHasTheCheckedDeflection) {
+  const std::map<std::string, TipDeflection> table = {
+      {"1", {-0.36224472989050, -0.99414475872497, 1e-12}},
+      {"2", {-0.48892630834, -1.17522286506, 1e-11}},
+      {"4", {-0.50742871512, -1.20553370223, 1e-11}},
+      {"8", {-0.50850923650, -1.20719775602, 1e-11}}};
+  for (const auto& [elements, tip] : table) {
+    SCOPED_TRACE(elements);
+    const auto bent = bentCantilever<double>(elements);
+    ASSERT_EQ(bent.outcome, Outcome::kSuccess);
+    const auto scene = makeScene<double>("ancf_cantilever", {{"elements", elements}});
+    // Round-off: eps times the ratio of axial and bending stiffness, EA L^2 / EI = 5e3, per node.
+    const double tolerance = tip.accuracy + 1e-11;
+    EXPECT_NEAR(outputOf(scene, "u_x", bent.state), tip.u_x, tolerance);
+    EXPECT_NEAR(outputOf(scene, "u_y", bent.state), tip.u_y, tolerance);
+  }
+}
+
+// The element converges to the extensible elastica: each halving of the elements takes at least a
+// factor of 8 from the error (measured: 12 to 17).
+TEST(Ancf, StaticCantileverConvergesToTheElastica) {
+  const double exact = -1.207239854550;
+  double last = 0;
+  for (const char* elements : {"2", "4", "8", "16"}) {
+    const auto bent = bentCantilever<double>(elements);
+    ASSERT_EQ(bent.outcome, Outcome::kSuccess);
+    const auto scene = makeScene<double>("ancf_cantilever", {{"elements", elements}});
+    const double error = std::abs(outputOf(scene, "u_y", bent.state) - exact);
+    if (last > 0) {
+      EXPECT_LT(error, last / 8) << elements;
+    }
+    last = error;
+  }
+}
+
+TEST(Ancf, FiftyDigitEquilibriumLeavesNoResidual) {
+  const auto bent = bentCantilever<mp50>("2");
+  ASSERT_EQ(bent.outcome, Outcome::kSuccess);
+  const auto scene = makeScene<mp50>("ancf_cantilever");
+  const auto system = scene.system({Formulation::kIndex3});
+  const auto r = residualAt<mp50, mp50>(*system, Level::kPosition, 0, pointVector(bent.state));
+  EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-40) * 2.07e9);  // of EA
+}
+
+// Forces derive from the energy: at a = 0 and rest r_u = -dE/du.
+TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
+  for (const char* id : {"ancf_cantilever", "ancf_pendulum"}) {
+    const auto scene = makeScene<mp50>(id);
+    const auto nominal = makeScene<double>(id);
+    const Sizes n = scene.sizes();
+    State<mp50> s = scene.start;
+    s.v.setZero();
+    s.w.setZero();
+    s.u = perturbedPoint(nominal, n).head(n.nu).cast<mp50>();
+    const auto system = scene.system({Formulation::kIndex3});
+    const auto r = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(s));
+    const mp50 size = r.lpNorm<Eigen::Infinity>();
+    for (Index i = 0; i < n.nu; ++i) {
+      const mp50 delta = 1e-15;
+      State<mp50> above = s, below = s;
+      above.u[i] += delta;
+      below.u[i] -= delta;
+      const mp50 slope =
+          (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
+      // Central differences: delta^2 times the third derivative over the first, below 1e5 here.
+      EXPECT_LT(abs(r[i] + slope), size * 1e-25) << id << " " << i;
+    }
+  }
+}
+
+// Kinetic energy v M v / 2 against the residual's M: d/dt of it is v.M a.
+TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
+  const auto scene = makeScene<mp50>("ancf_pendulum");
+  const Sizes n = scene.sizes();
+  const auto system = scene.system({Formulation::kIndex3});
+  State<mp50> s = scene.start, rest = scene.start;
+  for (Index i = 0; i < n.nu; ++i) s.v[i] = mp50(static_cast<double>(i % 5) - 1.5);
+  rest.v.setZero();
+  rest.w.setZero();
+  s.w = s.v;  // a = v
+  const auto zero = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(rest));
+  const auto r = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(s));
+  const mp50 kinetic = s.v.dot(zero - r) / 2;
+  const mp50 energy = outputOf(scene, "energy", s) - outputOf(scene, "energy", rest);
+  EXPECT_LT(abs(kinetic - energy), abs(energy) * 1e-45);
+}
+
+TEST(Equilibrium, SaysThatThereIsNone) {
+  // The constant torque of the slider-crank has no equilibrium but where the crank cannot turn.
+  const auto scene = makeScene<double>("slider_crank", {{"coordinates", "minimal"}});
+  const auto system = scene.system({});
+  EXPECT_NE(findEquilibrium(*system, scene.start).outcome, Outcome::kSuccess);
+}
+
+TEST(Equilibrium, FindsMultipliers) {
+  const auto scene = makeScene<double>("pendulum");
+  const auto system = scene.system({});
+  State<double> guess = scene.start;
+  guess.u << 0.3, -0.9;
+  guess.w[2] = 5;  // without a force in the rod every direction is neutral: singular
+  const auto hanging = findEquilibrium(*system, guess);
+  ASSERT_EQ(hanging.outcome, Outcome::kSuccess);
+  EXPECT_NEAR(hanging.state.u[0], 0, 10 * kEps);
+  EXPECT_NEAR(hanging.state.u[1], -1, 10 * kEps);
+  EXPECT_NEAR(hanging.state.z()[0], 9.81, 100 * kEps);
+}
+
+}  // namespace
+}  // namespace irk::test

@@ -1,0 +1,60 @@
+// The exact solution of piecewise linear scenes where several switches fall into one of its steps,
+// and jump.
+#include "problems/support/piecewise_linear.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "irk/problem.h"
+
+namespace irk {
+namespace {
+
+/// A ball that falls with g = 2 from height 1, past a mark at 0.1, to a floor that returns half of
+/// its speed.
+struct Ball {
+  Sizes sizes() const {
+    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -2.0 - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.v[0] < T(0.0) ? T(-p.u[0]) : T(-1.0);
+    g[1] = p.d[1] < T(0.5) ? T(0.1 - p.u[0]) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>& p, T* d) const {
+    d[i] = d[i] + 1.0;
+    if (i == 1) d[1] = 1.0 + p.t;  // when the mark was passed
+  }
+  template <class T>
+  void jump(Index i, const Point<T>& p, T*, T* v, T*) const {
+    if (i == 0) v[0] = -0.5 * p.v[0];
+  }
+};
+
+TEST(PiecewiseLinearSolution, TakesTheEarliestSwitchAndJumps) {
+  const Ball problem;
+  PiecewiseLinear<double> exact{makeSystem<double>(problem), State<double>(problem.sizes()),
+                                [](const Vec<double>&) {
+                                  Mat<double> rows(1, 3);  // v' of (u, v, 1)
+                                  rows << 0, 0, -2;
+                                  return rows;
+                                },
+                                0};
+  exact.start.u[0] = 1;
+  // Down at t = 1 with -2, up with 1, down at t = 2 with -1, up with 0.5.
+  const auto at = exact(2.25);
+  EXPECT_NEAR(at.u[0], 0.25 * 0.5 - 0.25 * 0.25, 1e-12);
+  EXPECT_NEAR(at.v[0], 0, 1e-12);
+  EXPECT_EQ(at.d[0], 2);
+  EXPECT_NEAR(at.d[1], 1 + std::sqrt(0.9), 1e-12);
+  EXPECT_NEAR(exact(1.5).u[0], 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,80 @@
+#include "irk/tableaus.h"
+
+#include "irk/multiprecision.h"
+#include "tableaus/catalogue/report.h"
+#include "tests/tableaus/support.h"
+
+namespace irk {
+namespace {
+
+std::string refusedId(const std::string& id) {
+  return refusal([&] { makeTableau<double>(id); });
+}
+
+TEST(Catalogue, EveryFamilyMakesItsMembers) {
+  ASSERT_EQ(familyCatalogue().size(), 8u);
+  for (const FamilyEntry& family : familyCatalogue()) {
+    for (Index s = family.min_stages; s <= 8; ++s) {
+      const auto tableau = makeTableau<double>(memberId(family.id, s));
+      EXPECT_EQ(tableau.id, memberId(family.id, s));
+      EXPECT_EQ(tableau.family, family.id);
+      EXPECT_EQ(tableau.stages(), s);
+      EXPECT_EQ(tableau.order, classicalOrder(family.id, s));
+      EXPECT_EQ(tableau.stage_order, stageOrder(family.id, s));
+    }
+  }
+}
+
+TEST(Catalogue, OrderTextsAgreeWithOrders) {
+  for (const FamilyEntry& family : familyCatalogue()) {
+    const int gap = 2 * 7 - classicalOrder(family.id, 7);
+    EXPECT_EQ(family.order, gap == 0 ? "2s" : "2s-" + std::to_string(gap)) << family.id;
+  }
+}
+
+TEST(Catalogue, UnknownIdsNameTheNearest) {
+  EXPECT_TRUE(contains(refusedId("raudau_iia_5"), "did you mean 'radau_iia_5'"));
+  EXPECT_TRUE(contains(refusedId("gaus_12"), "did you mean 'gauss_12'"));
+  EXPECT_TRUE(contains(refusedId("lobato_iiib"), "did you mean 'lobatto_iiib_S'"));
+  EXPECT_TRUE(contains(refusedId(""), "unknown tableau"));
+  EXPECT_TRUE(contains(refusedId("gauss"), "gauss_1 to gauss_100"));
+  EXPECT_TRUE(contains(refusal([] { classicalOrder("gaus", 3); }), "did you mean 'gauss'"));
+}
+
+TEST(Catalogue, StagesOutOfRangeNameTheRange) {
+  for (const auto id : {"radau_iia_0", "radau_iia_101", "radau_iia_-3", "radau_iia_2.5",
+                        "radau_iia_99999999999999", "radau_iia_05", "radau_iia_"}) {
+    EXPECT_TRUE(contains(refusedId(id), id));
+    EXPECT_TRUE(contains(refusedId(id), "1 to 100")) << id;
+  }
+  EXPECT_TRUE(contains(refusedId("lobatto_iiia_1"), "2 to 100"));
+}
+
+TEST(Catalogue, FilesAreRecognizedByTheirName) {
+  EXPECT_TRUE(contains(refusedId("missing.txt"), "'missing.txt' cannot be read"));
+  EXPECT_TRUE(contains(refusedId("missing/gauss_3"), "'missing/gauss_3' cannot be read"));
+  EXPECT_TRUE(contains(refusedId("/"), "is a folder"));
+  const std::string path = IRK_SOURCE_DIR "/tableaus/data/radau_iia_4.txt";
+  EXPECT_EQ(makeTableau<double>(path).A, makeTableau<double>("radau_iia_4").A);
+  EXPECT_EQ(makeTableau<double>(path).id, path);
+}
+
+TEST(Report, ShowsTheTableau) {
+  EXPECT_EQ(showTableau("lobatto_iiia_2", 5),
+            "lobatto_iiia_2: family lobatto_iiia, 2 stages, order 2, stage order 2\n"
+            "0 |    0    0\n"
+            "1 |  0.5  0.5\n"
+            "--+----------\n"
+            "  |  0.5  0.5\n");
+  EXPECT_TRUE(contains(refusal([] { showTableau("gauss_2", 0); }), "1 to 75"));
+}
+
+TEST(Report, ChecksAnId) {
+  const auto report = checkTableau("radau_iia_3");
+  EXPECT_TRUE(report.ok);
+  EXPECT_TRUE(contains(report.text, "order 5 is proven by B, C, D"));
+  EXPECT_TRUE(contains(report.text, "keeps what it declares"));
+}
+
+}  // namespace
+}  // namespace irk
