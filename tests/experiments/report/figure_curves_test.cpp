@@ -883,7 +883,7 @@ TEST(FigureCurves, AuditErrors) {
 // No script is left out above.
 TEST(FigureCurves, EveryScriptIsDrawnByATest) {
   const std::filesystem::path source(IRK_SOURCE_DIR);
-  std::ifstream in(source / "tests" / "experiments" / "figure_curves_test.cpp");
+  std::ifstream in(source / "tests/experiments/report/figure_curves_test.cpp");
   const std::string tests{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   for (const auto& entry : std::filesystem::directory_iterator(source / "plots")) {
     const auto script = entry.path().filename().string();
