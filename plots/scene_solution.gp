@@ -1,26 +1,17 @@
 # A scene's solution over time, one panel per kind of quantity.
-#   gnuplot -e "data='results/scenes'; out='slider_crank'; scene='slider_crank'" scene_solution.gp
+#   gnuplot -e "data='results/scenes'; out='solution'; scene='SCENE'" scene_solution.gp
 # Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels.
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'slider_crank'
 if (!exists("method")) method = 'radau_iia_5'
 if (!exists("file_name")) file_name = scene.'.'.method
 file = data.'/'.file_name.'.csv'
 
-# A panel is "label|columns", or "label|columns|factor" for values in another unit; a column a:b is b over
-# a at equal scales (an orbit). Columns that a table does not have are left out, panels without any too.
-known_scenes = "slider_crank slider_crank_flexible hydraulic_arm stick_slip ancf_pendulum ancf_cantilever " \
-  ."van_der_pol kepler pendulum"
-array Layout[9]
-Layout[1] = '"angles in rad|theta phi" "angular velocities in rad/s|theta'' phi''" "slider in m|x3" "multiplier|lambda"'
-Layout[2] = '"angles in rad|phi1 phi2" "bending modes in mm|q1 q2|1e3" "longitudinal modes in µm|q3 q4|1e6" "multipliers|lambda1 lambda2 lambda3"'
-Layout[3] = '"angle in rad|angle" "angular velocity in rad/s|angle''" "pressures in MPa|p0 p1|1e-6"'
-Layout[4] = '"position|x" "velocity|x''"'
-Layout[5] = '"tip in m|tip_x tip_y" "path of the tip in m|tip_x:tip_y"'
-Layout[6] = '"tip displacement in m|u_x u_y" "path of the tip in m|tip_x:tip_y"'
-Layout[7] = '"y1|y1" "y2 in 1e6|y2|1e-6"'
-Layout[8] = '"orbit|q1:q2" "positions|q1 q2" "velocities|q1'' q2''"'
-Layout[9] = '"positions in m|x y" "velocities in m/s|x'' y''" "multiplier|lambda"'
+# A panel is "label|columns|factor", the factor for values in another unit; a column a:b is b over a at equal
+# scales (an orbit). The program writes the scene's panels and the label of its time into the table's head.
+fromHead(key) = system("sed -n 's/^# ".key.": //p' '".file."' 2>/dev/null")
+if (!exists("panels")) panels = fromHead('panels')
+time_label = fromHead('time')
+if (time_label eq '') time_label = 't'
 
 # The table's own column names.
 unset datafile columnheaders
@@ -31,11 +22,8 @@ if (exists("W_columns")) {
 }
 set datafile columnheaders
 
-if (!exists("panels")) {
-  if (position(known_scenes, scene)) { panels = Layout[position(known_scenes, scene)] } else {
-    panels = ""
-    do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
-  }
+if (panels eq '') {  # a table of an older program
+  do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
 }
 over(c) = strstrt(c, ':') ? c[1 : strstrt(c, ':') - 1] : 't'
 of(c) = strstrt(c, ':') ? c[strstrt(c, ':') + 1 : strlen(c)] : c
@@ -73,7 +61,7 @@ do for [format in formats] {
     eval panel(i, columns, lines)
     set ylabel label(p) offset 1,0 noenhanced
     orbit = strstrt(list, ':') > 0
-    set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : 't in s') offset 0,0.3 noenhanced
+    set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : time_label) offset 0,0.3 noenhanced
     unset key
     if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.2 maxrows 1 font ',10' }
     set xrange [*:*] noextend

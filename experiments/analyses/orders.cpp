@@ -27,20 +27,36 @@ struct Theory {
 // From |h lambda| of this size on a stiff component is at its limit to several digits.
 constexpr double kStiffLimit = 1e3;
 
-// lambda of `lambda=-1e8` and `lambda=-1e8/h`; NaN for other settings, without any the default.
-double stiffness(const std::string& settings) {
-  constexpr std::string_view kName = "lambda=";
-  const auto at = settings.find(kName);
-  return at == settings.npos ? kUnknown
-                             : std::strtod(settings.c_str() + at + kName.size(), nullptr);
+Sizes sizesOf(const Table& runs, const TableRow& row) {
+  RunSpec spec;
+  findField("scene").set(spec, textAt(runs, row, "scene"));
+  findField("settings").set(spec, textAt(runs, row, "settings"));
+  return makeScene<double>(spec.scene, settingsAtStep(spec)).sizes();
 }
 
-std::optional<SystemKind> stiffKind(const Table& runs, const TableRow& row) {
-  const auto& settings = textAt(runs, row, "settings");
-  if (settings.ends_with("/h")) return SystemKind::kStiffFixedZ;
-  const double lambda = std::abs(settings.empty() ? -1e8 : stiffness(settings));
-  if (lambda * numberAt(runs, row, "h") >= kStiffLimit) return SystemKind::kStiffFixedLambda;
-  return lambda <= 1 ? std::optional(SystemKind::kOde) : std::nullopt;
+// The setting by which the scene becomes stiff: `-1e8`, or `-1e8/h` where it grows as the step shrinks.
+std::string stiffnessText(const SceneEntry& scene, const std::string& settings) {
+  const std::string& name = scene.stiffness.parameter;
+  const std::string start = ' ' + name + '=', all = ' ' + settings;
+  if (const auto at = all.find(start); at != all.npos) {
+    const auto value = at + start.size();
+    return all.substr(value, all.find(' ', value) - value);
+  }
+  for (const Parameter& parameter : scene.parameters) {
+    if (parameter.name == name) return parameter.default_value;
+  }
+  return {};
+}
+
+// What is known of a scene that settings make stiff.
+std::optional<SystemKind> stiffKind(const SceneEntry& scene, const std::string& settings, double h) {
+  const std::string text = stiffnessText(scene, settings);
+  const bool test = scene.kind == SceneKind::kStiffTest;
+  if (text.ends_with("/h")) return test ? std::optional(SystemKind::kStiffFixedZ) : std::nullopt;
+  const double value = std::abs(std::strtod(text.c_str(), nullptr));
+  const double stiffness = scene.stiffness.reciprocal ? 1 / value : value;
+  if (test && stiffness * h >= kStiffLimit) return SystemKind::kStiffFixedLambda;
+  return stiffness <= 1 ? std::optional(SystemKind::kOde) : std::nullopt;
 }
 
 std::optional<SystemKind> mechanicalKind(const std::string& formulation) {
@@ -52,17 +68,23 @@ std::optional<SystemKind> mechanicalKind(const std::string& formulation) {
 }
 
 std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row) {
-  const auto& scene = textAt(runs, row, "scene");
-  const auto& formulation = textAt(runs, row, "formulation");
-  if (scene == "prothero_robinson") return stiffKind(runs, row);
-  if (scene == "index1_nonlinear") return SystemKind::kIndex1;
-  if (scene == "index2_nonlinear") return SystemKind::kIndex2;
-  if (scene == "index3_nonlinear") return SystemKind::kIndex3;
-  if (scene == "kaps") {  // singularly perturbed: no theory but at its limits
-    const auto& settings = textAt(runs, row, "settings");
-    return settings == "eps=1" ? std::optional(SystemKind::kOde) : std::nullopt;
+  const SceneEntry& scene = findScene(textAt(runs, row, "scene"));
+  switch (scene.kind) {
+    case SceneKind::kStiffTest:
+    case SceneKind::kSingularlyPerturbed:
+      return stiffKind(scene, textAt(runs, row, "settings"), numberAt(runs, row, "h"));
+    case SceneKind::kIndex1:
+      return SystemKind::kIndex1;
+    case SceneKind::kIndex2:
+      return SystemKind::kIndex2;
+    case SceneKind::kIndex3:
+      return SystemKind::kIndex3;
+    case SceneKind::kOde:
+    case SceneKind::kConstrained:
+      break;
   }
-  const Sizes n = makeScene<double>(scene).sizes();
+  const auto& formulation = textAt(runs, row, "formulation");
+  const Sizes n = sizesOf(runs, row);
   if (n.nz == 0 || formulation == "first_order") return SystemKind::kOde;
   return n.constraints < n.nz ? std::nullopt : mechanicalKind(formulation);
 }
@@ -74,7 +96,7 @@ Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKin
   const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
   // Solved anew from u, v and x, z has the order of what determines it.
   const bool consistent = component == 'z' && textAt(runs, row, "multipliers") == "consistent" &&
-                          makeScene<double>(textAt(runs, row, "scene")).sizes().constraints > 0;
+                          sizesOf(runs, row).constraints > 0;
   const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind,
                                       consistent ? 'v' : component);
   if (order) return {order->order, std::string(order->source)};
@@ -181,7 +203,7 @@ void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
 // A method of which no run succeeded has rows, too: in the components that the system has.
 void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
   const auto kind = kindOf(runs, run);
-  const Sizes n = makeScene<double>(textAt(runs, run, "scene")).sizes();
+  const Sizes n = sizesOf(runs, run);
   OrderFit fit;
   fit.reason = "no run succeeded: " + textAt(runs, run, "outcome");
   const std::string components =
@@ -218,11 +240,12 @@ Table orderTable(const Table& runs) {
       continue;
     }
     appendOrders(runs, rows, orders);
-    const auto& settings = textAt(runs, *rows.front(), "settings");
-    if (!settings.ends_with("/h")) continue;
+    const SceneEntry& scene = findScene(textAt(runs, *rows.front(), "scene"));
+    const std::string z = stiffnessText(scene, textAt(runs, *rows.front(), "settings"));
+    if (scene.kind != SceneKind::kStiffTest || !z.ends_with("/h")) continue;
     for (const auto* row : rows) {
       over_z[textAt(runs, *row, "method")][numberAt(runs, *row, "h")].emplace_back(
-          stiffness(settings), row);
+          std::strtod(z.c_str(), nullptr), row);
     }
   }
   for (const auto& [method, errors] : over_z) appendPowerOfZ(runs, errors, orders);

@@ -18,7 +18,7 @@ std::string rangeText(const Parameter& p) {
 
 void listScenes(std::ostream& out) {
   for (const auto& scene : sceneCatalogue()) {
-    fmt::print(out, "{}\n    {}\n    shows: {}\n", scene.id, scene.title, scene.shows);
+    fmt::print(out, "{}\n    {}\n    kind: {}\n    shows: {}\n", scene.id, scene.title, meaningOf(scene.kind), scene.shows);
     for (const auto& p : scene.parameters) {
       fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit,
                  rangeText(p));

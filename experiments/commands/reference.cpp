@@ -37,7 +37,7 @@ std::vector<std::string> scenesWanted(const std::vector<std::string>& given) {
 std::vector<std::string> timesOf(const ReferenceTask& task,
                                  const std::vector<ReferenceValue>& independent) {
   const RunSpec spec = referenceSpec(task, "", Fineness::kFine);
-  std::istringstream words{std::string(task.times)};
+  std::istringstream words{task.of.times};
   std::vector<std::string> times{std::istream_iterator<std::string>(words), {}};
   times.push_back(fmt::format("{}", spec.t_end));
   const auto settings = settingsText(spec.settings);

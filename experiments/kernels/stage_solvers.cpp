@@ -13,22 +13,14 @@
 namespace irk {
 namespace {
 
-struct Chain {
-  const char* scene;
-  const char* size;  // its parameter
-  int unknowns;      // for each of it
-  double h;          // s: about what an accurate run takes
-};
-constexpr Chain kChains[] = {{"beam_chain", "m", 1, 1e-3}, {"ancf_pendulum", "elements", 4, 1e-4}};
-
 // Above, one dense factorization takes seconds.
 constexpr int kMostDense = 400, kMostCoupledDense = 1500;
 
-RunSpec specOf(const Chain& chain, StageSolverKind solver, Storage storage,
+RunSpec specOf(const SceneEntry& chain, StageSolverKind solver, Storage storage,
                const benchmark::State& state) {
   RunSpec spec;
-  spec.scene = chain.scene;
-  spec.settings = {{chain.size, std::to_string(state.range(1) / chain.unknowns)}};
+  spec.scene = chain.id;
+  spec.settings = {{chain.size.parameter, std::to_string(state.range(1) / chain.size.unknowns)}};
   spec.method = "radau_iia_" + std::to_string(state.range(0));
   spec.options.solver = solver;
   spec.options.storage = storage;
@@ -47,9 +39,9 @@ constexpr Part kSolverParts[] = {{"factorize", &NewtonKernel::factorize},
                                  {"solve", &NewtonKernel::solve},
                                  {"iteration", &NewtonKernel::iteration}};
 
-void measurePart(benchmark::State& state, const Chain& chain, StageSolverKind solver,
+void measurePart(benchmark::State& state, const SceneEntry& chain, StageSolverKind solver,
                  Storage storage, const Part& part) {
-  NewtonKernel kernel(specOf(chain, solver, storage, state), chain.h);
+  NewtonKernel kernel(specOf(chain, solver, storage, state), chain.size.step);
   kernel.factorize();
   for ([[maybe_unused]] auto _ : state) (kernel.*part.call)();
   state.counters["n"] = static_cast<double>(kernel.unknowns());
@@ -58,7 +50,7 @@ void measurePart(benchmark::State& state, const Chain& chain, StageSolverKind so
 }
 
 /// One step from the scene's start, with a new Jacobian.
-void measureStep(benchmark::State& state, const Chain& chain, StageSolverKind solver,
+void measureStep(benchmark::State& state, const SceneEntry& chain, StageSolverKind solver,
                  Storage storage) {
   const RunSpec spec = specOf(chain, solver, storage, state);
   const auto setup = makeSetup<double>(spec);
@@ -74,7 +66,7 @@ void measureStep(benchmark::State& state, const Chain& chain, StageSolverKind so
   const auto step = [&] {
     stepper.forget();
     jacobian.markStale();
-    return stepper.attempt(stepper.stages(), scene.start, chain.h, end).outcome;
+    return stepper.attempt(stepper.stages(), scene.start, chain.size.step, end).outcome;
   };
   if (step() != Outcome::kSuccess) return state.SkipWithError("the step is not solved");
   const std::int64_t before = counters.newton_iterations;
@@ -109,8 +101,9 @@ void addAll() {
                   {StageSolverKind::kSchur, Storage::kDense},
                   {StageSolverKind::kEigen, Storage::kDense},
                   {StageSolverKind::kCoupledDense, Storage::kDense}};
-  for (const Chain& chain : kChains) {
-    const std::string scene = std::string(chain.scene) + '/';
+  for (const SceneEntry& chain : sceneCatalogue()) {
+    if (chain.size.parameter.empty()) continue;
+    const std::string scene = chain.id + '/';
     for (const Part& part : kSystemParts) {
       add(scene + part.name, false, false, {1}, measurePart, chain, StageSolverKind::kSchur,
           Storage::kSparse, part);

@@ -33,7 +33,7 @@ struct Integrated {
 };
 
 std::string nameOf(const ReferenceTask& task) {
-  return fmt::format("{}{}{}", task.scene, task.settings.empty() ? "" : " ", task.settings);
+  return fmt::format("{}{}{}", task.scene, task.of.settings.empty() ? "" : " ", task.of.settings);
 }
 
 RunSpec specOf(const ReferenceTask& task, std::size_t run) {
@@ -89,8 +89,8 @@ Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) 
 }
 
 std::string howText(const ReferenceTask& task) {
-  const bool fixed = task.step > 0;
-  const double coarse = fixed ? task.step : task.tolerance;
+  const bool fixed = task.of.step > 0;
+  const double coarse = fixed ? task.of.step : task.of.tolerance;
   return fmt::format("mp50: {} and {}; {} {:g} and {:g}; locate; {}", kFirstMethod, task.second,
                      fixed ? "step" : "tol", coarse, coarse * (fixed ? 0.5 : kFiner),
                      idOf(task.formulation));
@@ -131,7 +131,7 @@ class Assembly {
     const auto at = static_cast<Index>(j);
     const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
     const double size = std::max(std::abs(static_cast<double>(values.back())), scale);
-    const AgreedValue found = agreed(values, task_.tolerance * kFiner * size);
+    const AgreedValue found = agreed(values, task_.of.tolerance * kFiner * size);
     ReferenceValue value{spec_.scene,   settingsText(spec_.settings),
                          times_[i],     component(j),
                          found.value,   found.accuracy,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/base/numbers.h"
+#include "experiments/runs/panels.h"
 #include "experiments/tables/environment.h"
 #include "experiments/tables/table.h"
 
@@ -87,6 +88,9 @@ RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch,
   Table table{environmentHead("trajectory of " + spec.scene, 1),
               {std::begin(kStepColumns), std::end(kStepColumns)},
               {}};
+  for (auto& line : panelHead(findScene(spec.scene), makeScene<double>(spec.scene, settingsAtStep(spec)))) {
+    table.head.push_back(std::move(line));
+  }
   for (const auto& name : run->columns()) table.columns.push_back(name);
   for (const auto& row : thinned(rows)) table.rows.push_back(cells(row));
   writeTable(file, table);

@@ -19,7 +19,6 @@ namespace irk::audit {
 namespace {
 
 constexpr double kWidth = 4;  // settings are multiplied by 1/kWidth .. kWidth
-constexpr Index kMostElements = 4, kMostUnknowns = 100;
 constexpr int kMostAttempts = 1000;
 
 constexpr Index kStages[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 15, 20};
@@ -43,8 +42,6 @@ std::string chosen(Dice& dice, const Choice (&choices)[N]) {
   return choices[dice.weighted(weights)].id;
 }
 
-bool isSmoothing(const Parameter& p) { return p.name.starts_with("smoothing"); }
-
 // Nothing for a default that is a word ("inf", "vb").
 std::optional<double> defaultNumber(const Parameter& p) {
   char* end = nullptr;
@@ -61,10 +58,10 @@ std::string drawnValue(Dice& dice, const Parameter& p, double t_end) {
     return p.choices[static_cast<std::size_t>(dice.below(static_cast<Index>(p.choices.size())))];
   }
   if (p.whole) {
-    const Index most = p.name == "elements" ? kMostElements : kMostUnknowns;
-    return std::to_string(dice.between(static_cast<Index>(p.min), most));
+    const double most = p.audit_max > 0 ? p.audit_max : p.max;
+    return std::to_string(dice.between(static_cast<Index>(p.min), static_cast<Index>(most)));
   }
-  if (p.name == "torque_off_at") {
+  if (p.is_time) {
     const bool off = dice.chance(0.5);
     const double at = dice.uniform() * t_end;
     return off ? threeDigits(at) : "";
@@ -78,7 +75,7 @@ std::string drawnValue(Dice& dice, const Parameter& p, double t_end) {
 Settings drawnOnce(Dice& dice, const SceneEntry& scene, Discontinuity treatment, double t_end) {
   Settings settings;
   for (const Parameter& p : scene.parameters) {
-    if (isSmoothing(p) && treatment != Discontinuity::kSmooth) continue;
+    if (p.only_smooth && treatment != Discontinuity::kSmooth) continue;
     const std::string value = drawnValue(dice, p, t_end);
     if (!value.empty() && value != p.default_value) settings[p.name] = value;
   }
@@ -98,6 +95,12 @@ std::optional<Scene<double>> sceneOf(const std::string& id, const Settings& sett
   } catch (const std::logic_error&) {  // no consistent start
     return std::nullopt;
   }
+}
+
+// The first one of the catalogue.
+const std::string& sceneOfKind(SceneKind kind) {
+  const auto& scenes = sceneCatalogue();
+  return std::find_if(scenes.begin(), scenes.end(), [kind](const auto& scene) { return scene.kind == kind; })->id;
 }
 
 bool canBePrepared(const RunSpec& spec) {
@@ -229,7 +232,7 @@ class Drawer {
 
   bool allowsMethod(const std::string& configuration, const MethodChoice& method, bool algebraic) {
     RunSpec spec;
-    spec.scene = algebraic ? "index1_nonlinear" : "riccati_tracking";
+    spec.scene = sceneOfKind(algebraic ? SceneKind::kIndex1 : SceneKind::kStiffTest);
     set(spec, "configuration", configuration);
     spec.method = method.smallId();
     return remembered(fmt::format("{} {} {}", spec.scene, configuration, spec.method), spec);

@@ -50,6 +50,26 @@ const SceneEntry& findScene(std::string_view id) {
   throw Misuse(unknownName("scene", id, known));
 }
 
+std::string_view meaningOf(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::kOde:
+      return "differential equations";
+    case SceneKind::kStiffTest:
+      return "stiff test equation: y' = lambda (y - phi) + phi'";
+    case SceneKind::kSingularlyPerturbed:
+      return "singularly perturbed differential equations";
+    case SceneKind::kIndex1:
+      return "index 1: x' = f(x, z), 0 = g(x, z)";
+    case SceneKind::kIndex2:
+      return "index 2: x' = f(x, z), 0 = g(x)";
+    case SceneKind::kIndex3:
+      return "index 3: y' = f(y, w), w' = k(y, w, z), 0 = g(y)";
+    case SceneKind::kConstrained:
+      return "constrained mechanical system: M u'' = f - G^T z, 0 = g(u)";
+  }
+  return "?";
+}
+
 namespace {
 
 template <class Real>
@@ -97,6 +117,7 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
   if (!make) refuseScalar<Real>(entry);
   Scene<Real> scene = make(completed);
   if (!scene.system) throw Misuse("scene " + entry.id + " makes no system");
+  scene.id = entry.id;
   return scene;
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "irk/problem.h"
+#include "problems/support/build.h"
 
 namespace irk {
 
@@ -129,17 +130,19 @@ class AncfBeam {
     return s;
   }
 
-  /// r2_x, s2_x (slope): node and direction; the last node's position is tip_x, tip_y.
-  std::vector<std::string> coordinateNames() const {
+  /// r2_x, s2_x (slope): node and direction; the last node's position is tip_x, tip_y. Positions and slopes are about
+  /// 1, their time derivatives `speed`.
+  std::vector<Component> coordinates(double speed) const {
     const char* const axes[] = {"_x", "_y"};
-    std::vector<std::string> names;
+    std::vector<Component> all;
     for (std::size_t i = 0; i < unknown_.size(); ++i) {
       if (unknown_[i] == kFixed) continue;
       const bool position = i % 4 < 2, tip = i / 4 + 1 == unknown_.size() / 4;
       const std::string node = std::to_string(i / 4);
-      names.push_back((position ? (tip ? "tip" : "r" + node) : "s" + node) + axes[i % 2]);
+      const std::string name = (position ? (tip ? "tip" : "r" + node) : "s" + node) + axes[i % 2];
+      all.push_back({name, position ? "m" : "", 1, speed});
     }
-    return names;
+    return all;
   }
 
   Index tipX() const { return nu_ - 4; }

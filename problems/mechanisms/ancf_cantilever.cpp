@@ -28,22 +28,18 @@ Scene<Real> make(const Settings& settings) {
                             .support = AncfSupport::kClamped};
   const AncfBeam<Real> beam(data);
   Scene<Real> scene;
-  scene.id = "ancf_cantilever";
   setProblem(scene, beam);
   scene.start = beam.straightStart();
   scene.t_end = 0.1;
-  scene.names = componentNames(beam.coordinateNames(), {}, {});
   // Positions over the length, slopes over 1; velocities as of the first bending mode,
   // omega = 3.5 sqrt(EI / (rhoA L^4)).
   using std::sqrt;
   const Real omega = 3.5 * sqrt(EI / (data.rhoA * L * L)) / L;
-  const Index nu = beam.sizes().nu;
-  scene.scale.resize(2 * nu);
-  scene.scale << Vec<double>::Ones(nu), Vec<double>::Constant(nu, static_cast<double>(omega));
+  setComponents(scene, beam.coordinates(static_cast<double>(omega)));
   const Index x = beam.tipX(), y = beam.tipY();
-  scene.outputs = {{"u_x", [x, L](const State<Real>& s) { return Real(s.u[x] - L); }},
-                   {"u_y", [y](const State<Real>& s) { return s.u[y]; }},
-                   {"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }}};
+  scene.outputs = {{"u_x", [x, L](const State<Real>& s) { return Real(s.u[x] - L); }, "m"},
+                   {"u_y", [y](const State<Real>& s) { return s.u[y]; }, "m"},
+                   {"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }, "J"}};
   return scene;
 }
 
@@ -60,6 +56,9 @@ SceneEntry ancfCantileverEntry() {
                      positiveParameter("I", "m^4", "second moment of area", kSquare),
                      positiveParameter("rho", "kg/m^3", "density", "7800"),
                      numberParameter("f", "N", "dead tip load, down", kStandardLoad, -1e15, 1e15)},
+      .panels = {{"tip displacement", {"u_x", "u_y"}},
+                 {"path of the tip", {"tip_x:tip_y"}}},
+      .reference_cases = {{.times = "0.02 0.05", .tolerance = kFewDigits}},
       .make = make<double>,
       .make_mp50 = make<mp50>};
 }

@@ -22,17 +22,13 @@ Scene<Real> make(const Settings& settings) {
                             .support = AncfSupport::kHinged};
   const AncfBeam<Real> beam(data);
   Scene<Real> scene;
-  scene.id = "ancf_pendulum";
   setProblem(scene, beam);
   scene.start = beam.straightStart();
   scene.t_end = 1;
-  scene.names = componentNames(beam.coordinateNames(), {}, {});
   // Positions over the length, slopes over 1; velocities as of a rigid rod, sqrt(3 g L) at its tip.
   const double speed = std::sqrt(static_cast<double>(Real(3 * data.g * L)));
-  const Index nu = beam.sizes().nu;
-  scene.scale.resize(2 * nu);
-  scene.scale << Vec<double>::Ones(nu), Vec<double>::Constant(nu, std::max(speed, 1.0));
-  scene.outputs = {{"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }}};
+  setComponents(scene, beam.coordinates(std::max(speed, 1.0)));
+  scene.outputs = {{"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }, "J"}};
   return scene;
 }
 
@@ -42,12 +38,17 @@ SceneEntry ancfPendulumEntry() {
   return {.id = "ancf_pendulum",
           .title = "soft pendulum of ANCF cable elements",
           .shows = "large deformations with constant M; conserves its energy",
+          .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "1.2"),
                          positiveParameter("A", "m^2", "area of the section", "0.0018"),
                          positiveParameter("I", "m^4", "second moment of area", "1.215e-8"),
                          positiveParameter("E", "Pa", "Young's modulus", "0.7e6"),
                          positiveParameter("rho", "kg/m^3", "density", "5540"),
                          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6)},
+          .panels = {{"tip", {"tip_x", "tip_y"}},
+                     {"path of the tip", {"tip_x:tip_y"}}},
+          .reference_cases = {{.times = "0.25 0.5"},
+                              {.settings = "elements=4"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

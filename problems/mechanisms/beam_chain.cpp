@@ -151,15 +151,12 @@ Scene<Real> make(const Settings& settings) {
                                 number<Real>(settings, "damping")};
   const ExactBeamChain<Real> exact(problem);
   Scene<Real> scene;
-  scene.id = "beam_chain";
   setProblem(scene, problem);
   scene.t_end = 2;
-  std::vector<std::string> names;
-  for (Index i = 1; i <= problem.m; ++i) names.push_back("u" + std::to_string(i));
-  scene.names = componentNames(names, {}, {});
   // Amplitude 1 at the first mode's rate pi^2.
-  scene.scale.resize(2 * problem.m);
-  scene.scale << Vec<double>::Ones(problem.m), Vec<double>::Constant(problem.m, 10);
+  std::vector<Component> deflections;
+  for (Index i = 1; i <= problem.m; ++i) deflections.push_back({"u" + std::to_string(i), "", 1, 10});
+  setComponents(scene, deflections);
   scene.exact = [exact](const Real& t) { return exact.at(t); };
   scene.start = exact.start();
   return scene;
@@ -170,11 +167,14 @@ Scene<Real> make(const Settings& settings) {
 SceneEntry beamChainEntry() {
   Parameter points = numberParameter("m", "", "interior points = unknowns", "25", 3, 40000);
   points.whole = true;
+  points.audit_max = 100;
   return {.id = "beam_chain",
           .title = "simply supported beam in finite differences, damped and driven",
           .shows = "cost against the number of unknowns; linear, sparse, exactly solvable",
+          .size = {.parameter = "m", .unknowns = 1, .step = 1e-3},
           .parameters = {points, numberParameter("damping", "s", "stiffness-proportional damping",
                                                  "1e-3", 0, 1e3)},
+          .reference_cases = {{.times = "0.5 1"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

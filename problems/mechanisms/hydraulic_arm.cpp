@@ -150,16 +150,14 @@ Scene<Real> make(const Settings& settings) {
                                                 : ArmReference::kKinked,
                                .smoothing = value("smoothing")};
   Scene<Real> scene;
-  scene.id = "hydraulic_arm";
   setProblem(scene, arm);
   scene.start.x << value("p0"), value("p1");
   scene.start.d[kSupply0] = 1;  // closed; the arm falls first
   completeStart(scene);
   scene.t_end = 2;
-  scene.names = componentNames({"angle"}, {"p0", "p1"}, {});
-  scene.scale = scales({1, 1, 1e7, 1e7});
+  setComponents(scene, {{"angle", "rad"}}, {{"p0", "Pa", 1e7}, {"p1", "Pa", 1e7}});
   scene.outputs = {
-      {"s", [arm](const State<Real>& s) { return arm.template length<Real>(s.u[0]); }}};
+      {"s", [arm](const State<Real>& s) { return arm.template length<Real>(s.u[0]); }, "m"}};
   return scene;
 }
 
@@ -191,6 +189,11 @@ SceneEntry hydraulicArmEntry() {
                "m",
                "opening of the valve until it has changed sides, and how far the kinks are rounded",
                "1e-4")},
+      .panels = {{"angle", {"angle"}},
+                 {"angular velocity", {"angle'"}},
+                 {"pressures", {"p0", "p1"}, "MPa", 1e-6}},
+      .reference_cases = {{.times = "0.4 1", .tolerance = kManyDigits},
+                          {.settings = "reference=smooth", .times = "0.5 1", .tolerance = kManyDigits}},
       .make = make<double>,
       .make_mp50 = make<mp50>};
 }

@@ -83,17 +83,15 @@ Scene<Real> make(const Settings& settings) {
                                        .Ki = value("Ki"),
                                        .D = value("D")};
   Scene<Real> scene;
-  scene.id = "mechatronic_crank";
   setProblem(scene, problem);
   scene.start.d << 1, -1;
   completeStart(scene);
   scene.t_end = 1;
-  scene.names = componentNames({"theta", "phi"}, {"i", "e"}, {"lambda"});
-  scene.scale = scales({1, 1, 10, 10, 5, 1, 1});
+  setComponents(scene, {{"theta", "rad", 1, 10}, {"phi", "rad", 1, 10}}, {{"i", "A", 5}, {"e", "rad"}}, {{"lambda", "N"}});
   scene.outputs = {{"x3", [problem](const State<Real>& s) {
                       using std::cos;
                       return Real(problem.crank.L1 * cos(s.u[0]) + problem.crank.L2 * cos(s.u[1]));
-                    }}};
+                    }, "m"}};
   return scene;
 }
 
@@ -118,7 +116,15 @@ SceneEntry mechatronicCrankEntry() {
   return {.id = "mechatronic_crank",
           .title = "slider-crank with motor, chopper, speed controller and friction",
           .shows = "a whole mechatronic system: u, x, z and two kinds of switches",
+          .kind = SceneKind::kConstrained,
           .parameters = parameters(),
+          .panels = {{"angles", {"theta", "phi"}},
+                     {"angular velocities", {"theta'", "phi'"}},
+                     {"current", {"i"}},
+                     {"integral of the speed error", {"e"}},
+                     {"slider", {"x3"}},
+                     {"multiplier", {"lambda"}}},
+          .reference_cases = {{.times = "0.5"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -49,20 +49,18 @@ Scene<Real> make(const Settings& settings) {
   const Pendulum<Real> problem{number<Real>(settings, "m"), number<Real>(settings, "l"),
                                number<Real>(settings, "g")};
   Scene<Real> scene;
-  scene.id = "pendulum";
   setProblem(scene, problem);
   scene.t_end = 10;
-  scene.names = componentNames({"x", "y"}, {}, {"lambda"});
   const double m = static_cast<double>(problem.m), l = static_cast<double>(problem.l);
   const double g = static_cast<double>(problem.g);
   const double speed = std::sqrt(2 * g * l);
-  scene.scale = scales({l, l, speed, speed, m * g / l});
+  setComponents(scene, {{"x", "m", l, speed}, {"y", "m", l, speed}}, {}, {{"lambda", "N/m", m * g / l}});
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
   scene.start.u[0] = problem.l;  // exact(0) is this up to rounding
   scene.start.w[1] = -problem.g;
   scene.outputs = {{"energy", [problem](const State<Real>& s) {
                       return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1]));
-                    }}};
+                    }, "J"}};
   return scene;
 }
 
@@ -72,9 +70,14 @@ SceneEntry pendulumEntry() {
   return {.id = "pendulum",
           .title = "pendulum in Cartesian coordinates, one multiplier",
           .shows = "index 3, index 2 and GGL against an exact solution, multiplier included",
+          .kind = SceneKind::kConstrained,
           .parameters = {positiveParameter("m", "kg", "mass", "1"),
                          positiveParameter("l", "m", "length", "1"),
                          positiveParameter("g", "m/s^2", "gravity", "9.81")},
+          .panels = {{"positions", {"x", "y"}},
+                     {"velocities", {"x'", "y'"}},
+                     {"multiplier", {"lambda"}}},
+          .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -18,51 +18,50 @@ using slider_crank::SwitchedTorque;
 constexpr double kAngle = 1, kAngleRate = 10, kForce = 1;
 constexpr const char* kNever = "inf";
 
+Component angle(const char* name) { return {name, "rad", kAngle, kAngleRate}; }
+
 template <class Real>
 void makeRedundant(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
   setProblem(scene, Redundant<Real>{torque, d});
-  scene.names = componentNames({"theta", "phi"}, {}, {"lambda"});
-  scene.scale = scales({kAngle, kAngle, kAngleRate, kAngleRate, kForce});
+  setComponents(scene, {angle("theta"), angle("phi")}, {}, {{"lambda", "N", kForce}});
   scene.outputs = {{"x3", [d](const State<Real>& s) {
                       using std::cos;
                       return Real(d.L1 * cos(s.u[0]) + d.L2 * cos(s.u[1]));
-                    }}};
+                    }, "m"}};
 }
 
 template <class Real>
 void makeMinimal(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
   setProblem(scene, Minimal<Real>{torque, d});
-  scene.names = componentNames({"theta"}, {}, {});
-  scene.scale = scales({kAngle, kAngleRate});
+  setComponents(scene, {angle("theta")});
   const auto phi = [d](const State<Real>& s) {
     using std::asin;
     using std::sin;
     return Real(-asin(d.L1 / d.L2 * sin(s.u[0])));
   };
-  scene.outputs = {{"phi", phi},
+  scene.outputs = {{"phi", phi, "rad"},
                    {"phi'",
                     [d, phi](const State<Real>& s) {
                       using std::cos;
                       return Real(-d.L1 * cos(s.u[0]) * s.v[0] / (d.L2 * cos(phi(s))));
-                    }},
+                    }, "rad/s"},
                    {"x3", [d, phi](const State<Real>& s) {
                       using std::cos;
                       return Real(d.L1 * cos(s.u[0]) + d.L2 * cos(phi(s)));
-                    }}};
+                    }, "m"}};
 }
 
 template <class Real>
 void makeAbsolute(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
   setProblem(scene, Absolute<Real>{torque, d});
-  scene.names =
-      componentNames({"x1", "y1", "theta", "x2", "y2", "phi", "x3", "y3"}, {},
-                     {"lambda1", "lambda2", "lambda3", "lambda4", "lambda5", "lambda6", "lambda7"});
   const double length = static_cast<double>(d.L1);
-  const double speed = length * kAngleRate;
-  scene.scale = Vec<double>(23);
-  scene.scale << length, length, kAngle, length, length, kAngle, length, length,  //
-      speed, speed, kAngleRate, speed, speed, kAngleRate, speed, speed,           //
-      Vec<double>::Constant(7, kForce);
+  const auto position = [&](const char* name) { return Component{name, "m", length, length * kAngleRate}; };
+  std::vector<Component> multipliers;
+  for (int i = 1; i <= 7; ++i) multipliers.push_back({"lambda" + std::to_string(i), "N", kForce});
+  setComponents(scene,
+                {position("x1"), position("y1"), angle("theta"), position("x2"), position("y2"), angle("phi"),
+                 position("x3"), position("y3")},
+                {}, multipliers);
   scene.start.u[0] = d.L1 / 2;
   scene.start.u[3] = d.L1 + d.L2 / 2;
   scene.start.u[6] = d.L1 + d.L2;
@@ -79,7 +78,6 @@ Scene<Real> make(const Settings& settings) {
                                     .off_at = switched ? value("torque_off_at") : Real(0),
                                     .smoothing = value("smoothing")};
   Scene<Real> scene;
-  scene.id = "slider_crank";
   const std::string& coordinates = settings.at("coordinates");
   if (coordinates == "minimal") {
     makeMinimal(torque, d, scene);
@@ -98,12 +96,14 @@ std::vector<Parameter> parameters() {
   Parameter coordinates = wordParameter("coordinates", "description of the same mechanism",
                                         {"redundant", "absolute", "minimal"});
   coordinates.changes_solution = false;
+  Parameter off = numberParameter("torque_off_at", "s", "time when the torque is switched off; inf = never", kNever, 0,
+                                  1e15);
+  off.is_time = true;
   std::vector<Parameter> all = slider_crank::bodyParameters();
   all.insert(all.begin(), coordinates);
   all.insert(all.end(),
              {numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6),
-              numberParameter("torque_off_at", "s",
-                              "time when the torque is switched off; inf = never", kNever, 0, 1e15),
+              off,
               smoothingParameter("s", "half of the time in which the torque goes", "1e-3")});
   return all;
 }
@@ -114,7 +114,13 @@ SceneEntry sliderCrankEntry() {
   return {.id = "slider_crank",
           .title = "rigid slider-crank driven by a constant torque",
           .shows = "M(u) with a constraint: every term of the Jacobian is alive",
+          .kind = SceneKind::kConstrained,
           .parameters = parameters(),
+          .panels = {{"angles", {"theta", "phi"}},
+                     {"angular velocities", {"theta'", "phi'"}},
+                     {"slider", {"x3"}},
+                     {"multiplier", {"lambda"}}},
+          .reference_cases = {{.times = "0.3 1"}, {.settings = "torque_off_at=0.5", .times = "1"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -143,16 +143,18 @@ Scene<Real> make(const Settings& settings) {
                            .rho = value("rho"),
                            .omega = value("omega")};
   Scene<Real> scene;
-  scene.id = "slider_crank_flexible";
   setProblem(scene, FlexibleSliderCrank<Real>(data));
   setStart(data, scene.start);
   completeStart(scene);
   scene.t_end = 0.1;
-  scene.names = componentNames({"phi1", "phi2", "x3", "q1", "q2", "q3", "q4"}, {},
-                               {"lambda1", "lambda2", "lambda3"});
-  scene.scale = scales({1, 1, 0.1, 1e-4, 1e-5, 1e-5, 1e-5,    //
-                        100, 100, 10, 0.1, 1e-2, 1e-2, 1e-2,  //
-                        100, 100, 100});
+  setComponents(scene, {{"phi1", "rad", 1, 100},
+                 {"phi2", "rad", 1, 100},
+                 {"x3", "m", 0.1, 10},
+                 {"q1", "m", 1e-4, 0.1},
+                 {"q2", "m", 1e-5, 1e-2},
+                 {"q3", "m", 1e-5, 1e-2},
+                 {"q4", "m", 1e-5, 1e-2}},
+                {}, {{"lambda1", "N", 100}, {"lambda2", "N", 100}, {"lambda3", "N m", 100}});
   return scene;
 }
 
@@ -162,6 +164,7 @@ SceneEntry sliderCrankFlexibleEntry() {
   return {.id = "slider_crank_flexible",
           .title = "slider-crank with an elastic rod (Simeon; IVP test set 'crank')",
           .shows = "M(u), three multipliers and stiff elastic modes, against a published solution",
+          .kind = SceneKind::kConstrained,
           .parameters = {positiveParameter("m2", "kg", "mass of the rod", "0.151104"),
                          positiveParameter("m3", "kg", "mass of the slider", "0.075552"),
                          positiveParameter("J1", "kg m^2", "inertia of the crank", "0.002727"),
@@ -173,6 +176,12 @@ SceneEntry sliderCrankFlexibleEntry() {
                          positiveParameter("E", "Pa", "Young's modulus", "2e11"),
                          positiveParameter("rho", "kg/m^3", "density of the rod", "7870"),
                          positiveParameter("omega", "rad/s", "rate of the crank", "150")},
+          .panels = {{"angles", {"phi1", "phi2"}},
+                     {"bending modes", {"q1", "q2"}, "mm", 1e3},
+                     {"longitudinal modes", {"q3", "q4"}, "µm", 1e6},
+                     {"multipliers", {"lambda1", "lambda2"}},
+                     {"multiplier of the crank", {"lambda3"}}},
+          .reference_cases = {{.times = "0.025 0.05", .tolerance = kFewDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -34,11 +34,9 @@ Scene<Real> make(const Settings& settings) {
   const Dahlquist<Real> problem{number<Real>(settings, "lambda_re"),
                                 number<Real>(settings, "lambda_im")};
   Scene<Real> scene;
-  scene.id = "dahlquist";
   setProblem(scene, problem);
   scene.t_end = 1;
-  scene.names = componentNames({}, {"y1", "y2"}, {});
-  scene.scale = scales({1, 1});
+  setComponents(scene, {}, {{"y1"}, {"y2"}});
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
   scene.start = problem.exact(Real(0));
   return scene;
@@ -54,6 +52,7 @@ SceneEntry dahlquistEntry() {
       .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
                      numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15,
                                      1e15)},
+      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
       .make = make<double>,
       .make_mp50 = make<mp50>};
 }

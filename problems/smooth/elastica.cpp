@@ -95,18 +95,17 @@ Scene<Real> make(const Settings& settings) {
   const Elastica<Real> problem{number<Real>(settings, "L"), number<Real>(settings, "load")};
   const ExactElastica<Real> exact(problem);
   Scene<Real> scene;
-  scene.id = "elastica";
   setProblem(scene, problem);
   const Real L = problem.L;
   const double length = static_cast<double>(L);
   scene.t_end = length;
-  scene.names = componentNames({"theta"}, {"x", "y"}, {});
-  scene.scale = scales({1, 1 / length, length, length});
+  scene.time_unit = "m";  // t is the arc length
+  setComponents(scene, {{"theta", "rad", 1, 1 / length}}, {{"x", "m", length}, {"y", "m", length}});
   scene.exact = [exact](const Real& s) { return exact.at(s); };
   scene.start = scene.exact(Real(0));
   scene.start.u[0] = scene.start.x[0] = scene.start.x[1] = Real(0);  // exact up to rounding
-  scene.outputs = {{"u_x", [](const State<Real>& s) { return Real(s.x[0] - s.t); }},
-                   {"u_y", [](const State<Real>& s) { return s.x[1]; }}};
+  scene.outputs = {{"u_x", [](const State<Real>& s) { return Real(s.x[0] - s.t); }, "m"},
+                   {"u_y", [](const State<Real>& s) { return s.x[1]; }, "m"}};
   return scene;
 }
 
@@ -118,6 +117,9 @@ SceneEntry elasticaEntry() {
           .shows = "large bending against elliptic integrals: the limit of ancf_cantilever at rest",
           .parameters = {positiveParameter("L", "m", "length", "2"),
                          numberParameter("load", "", "f L^2 / EI, down", "3", 1e-2, 100)},
+          .panels = {{"angle", {"theta"}},
+                     {"shape", {"x:y"}}},
+          .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

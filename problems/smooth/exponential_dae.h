@@ -11,10 +11,16 @@ namespace irk {
 
 /// What a problem P has to have besides sizes and residual: int kAlgebraicIndex, arrays of int
 /// kRates (lambda) and of names kNames, one per x, int kAlgebraicRate (mu), the name
-/// kAlgebraicName.
+/// kAlgebraicName, a function referenceCase.
 template <class P>
 struct ExponentialDae {
   static std::string id() { return "index" + std::to_string(P::kAlgebraicIndex) + "_nonlinear"; }
+
+  static SceneKind kind() {
+    return P::kAlgebraicIndex == 1   ? SceneKind::kIndex1
+           : P::kAlgebraicIndex == 2 ? SceneKind::kIndex2
+                                     : SceneKind::kIndex3;
+  }
 
   template <class Real>
   static State<Real> exact(const Real& t) {
@@ -33,11 +39,12 @@ struct ExponentialDae {
   template <class Real>
   static Scene<Real> make(const Settings&) {
     Scene<Real> scene;
-    scene.id = id();
     setProblem(scene, P{});
     scene.t_end = 1;
-    scene.names = componentNames({}, {P::kNames.begin(), P::kNames.end()}, {P::kAlgebraicName});
-    scene.scale = Vec<double>::Ones(P{}.sizes().components());
+    scene.time_unit = "";
+    std::vector<Component> x;
+    for (const char* name : P::kNames) x.push_back({name});
+    setComponents(scene, {}, x, {{P::kAlgebraicName}});
     scene.exact = exact<Real>;
     scene.start = scene.exact(Real(0));
     return scene;
@@ -48,7 +55,9 @@ struct ExponentialDae {
     return {.id = id(),
             .title = "nonlinear DAE of index " + index + ", exactly solvable",
             .shows = "orders of differential and algebraic unknowns, index " + index,
+            .kind = kind(),
             .parameters = {},
+            .reference_cases = {P::referenceCase()},
             .make = make<double>,
             .make_mp50 = make<mp50>};
   }

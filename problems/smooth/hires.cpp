@@ -31,15 +31,15 @@ struct Hires {
 template <class Real>
 Scene<Real> make(const Settings&) {
   Scene<Real> scene;
-  scene.id = "hires";
   setProblem(scene, Hires<Real>{});
   scene.start.x[0] = Real(1);
   scene.start.x[7] = decimal<Real>("0.0057");
   completeStart(scene);
   scene.t_end = 321.8122;
-  scene.names = componentNames({}, {"y1", "y2", "y3", "y4", "y5", "y6", "y7", "y8"}, {});
   // HW II (IV.10): Atol = 1e-4 Rtol.
-  scene.scale = Vec<double>::Constant(8, 1e-4);
+  std::vector<Component> concentrations;
+  for (int i = 1; i <= 8; ++i) concentrations.push_back({"y" + std::to_string(i), "", 1e-4});
+  setComponents(scene, {}, concentrations);
   return scene;
 }
 
@@ -50,6 +50,7 @@ SceneEntry hiresEntry() {
           .title = "HIRES, eight chemical reactions of plant physiology",
           .shows = "a moderately stiff ODE of the standard test sets",
           .parameters = {},
+          .reference_cases = {{.times = "5 80", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -15,6 +15,7 @@ struct Index1Nonlinear {
   static constexpr int kAlgebraicRate = 2;
   static constexpr const char* kAlgebraicName = "z";
 
+  static ReferenceCase referenceCase() { return {.times = "0.25 0.5", .tolerance = kManyDigits}; }
   Sizes sizes() const { return {.nu = 0, .nx = 2, .nz = 1, .constraints = 0}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {

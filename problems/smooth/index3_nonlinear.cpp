@@ -16,6 +16,7 @@ struct Index3Nonlinear {
   static constexpr int kAlgebraicRate = 1;
   static constexpr const char* kAlgebraicName = "w";
 
+  static ReferenceCase referenceCase() { return {.times = "0.25 0.5", .step = 0.1}; }
   Sizes sizes() const { return {.nu = 0, .nx = 4, .nz = 1, .constraints = 0}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {

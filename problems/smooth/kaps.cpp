@@ -25,11 +25,10 @@ template <class Real>
 Scene<Real> make(const Settings& settings) {
   const Kaps<Real> problem{number<Real>(settings, "eps")};
   Scene<Real> scene;
-  scene.id = "kaps";
   setProblem(scene, problem);
   scene.t_end = 1;
-  scene.names = componentNames({}, {"y1", "y2"}, {});
-  scene.scale = scales({1, 1});
+  scene.time_unit = "";
+  setComponents(scene, {}, {{"y1"}, {"y2"}});
   scene.exact = [problem](const Real& t) {
     using std::exp;
     State<Real> s(problem.sizes());
@@ -48,7 +47,10 @@ SceneEntry kapsEntry() {
   return {.id = "kaps",
           .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
           .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
+          .kind = SceneKind::kSingularlyPerturbed,
+          .stiffness = {.parameter = "eps", .reciprocal = true},
           .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -60,11 +60,10 @@ template <class Real>
 Scene<Real> make(const Settings& settings) {
   const Kepler<Real> problem{number<Real>(settings, "e")};
   Scene<Real> scene;
-  scene.id = "kepler";
   setProblem(scene, problem);
   scene.t_end = 62.83185307179586;  // ten revolutions
-  scene.names = componentNames({"q1", "q2"}, {}, {});
-  scene.scale = Vec<double>::Ones(4);
+  scene.time_unit = "";
+  setComponents(scene, {{"q1"}, {"q2"}});
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
   scene.start = problem.exact(Real(0));
   scene.outputs = {
@@ -81,6 +80,10 @@ SceneEntry keplerEntry() {
           .title = "Kepler's two-body problem",
           .shows = "invariants: energy and angular momentum over many revolutions",
           .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
+          .panels = {{"orbit", {"q1:q2"}},
+                     {"positions", {"q1", "q2"}},
+                     {"velocities", {"q1'", "q2'"}}},
+          .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

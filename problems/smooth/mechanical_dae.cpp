@@ -27,14 +27,13 @@ struct MechanicalDae {
 template <class Real>
 Scene<Real> make(const Settings&) {
   Scene<Real> scene;
-  scene.id = "mechanical_dae";
   setProblem(scene, MechanicalDae<Real>{});
   scene.start.u[0] = Real(1);
   scene.start.v[1] = Real(0.5);
   completeStart(scene);
   scene.t_end = 1;
-  scene.names = componentNames({"x", "y"}, {}, {"lambda"});
-  scene.scale = scales({1, 1, 1, 1, 1});
+  scene.time_unit = "";
+  setComponents(scene, {{"x"}, {"y"}}, {}, {{"lambda"}});
   return scene;
 }
 
@@ -44,7 +43,9 @@ SceneEntry mechanicalDaeEntry() {
   return {.id = "mechanical_dae",
           .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
           .shows = "orders of q, v and lambda in every formulation",
+          .kind = SceneKind::kConstrained,
           .parameters = {},
+          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

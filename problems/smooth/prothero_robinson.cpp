@@ -24,11 +24,9 @@ template <class Real>
 Scene<Real> make(const Settings& settings) {
   const ProtheroRobinson<Real> problem{number<Real>(settings, "lambda")};
   Scene<Real> scene;
-  scene.id = "prothero_robinson";
   setProblem(scene, problem);
   scene.t_end = 1;
-  scene.names = componentNames({}, {"y"}, {});
-  scene.scale = scales({1});
+  setComponents(scene, {}, {{"y"}});
   scene.exact = [problem](const Real& t) {
     using std::cos;
     using std::sin;
@@ -48,7 +46,10 @@ SceneEntry protheroRobinsonEntry() {
   return {.id = "prothero_robinson",
           .title = "y' = lambda (y - cos t) - sin t",
           .shows = "order reduction of stiff systems, one component, one parameter",
+          .kind = SceneKind::kStiffTest,
+          .stiffness = {.parameter = "lambda"},
           .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
+          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -22,11 +22,10 @@ struct RiccatiTracking {
 template <class Real>
 Scene<Real> make(const Settings&) {
   Scene<Real> scene;
-  scene.id = "riccati_tracking";
   setProblem(scene, RiccatiTracking{});
   scene.t_end = 2;
-  scene.names = componentNames({}, {"y"}, {});
-  scene.scale = scales({1});
+  scene.time_unit = "";
+  setComponents(scene, {}, {{"y"}});
   scene.exact = [](const Real& t) {
     using std::cos;
     using std::sin;
@@ -47,6 +46,7 @@ SceneEntry riccatiTrackingEntry() {
           .title = "y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t",
           .shows = "the order of a scheme: no damaged tableau passes it",
           .parameters = {},
+          .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>,
           .make_mp100 = make<mp100>};

@@ -24,14 +24,12 @@ struct Robertson {
 template <class Real>
 Scene<Real> make(const Settings&) {
   Scene<Real> scene;
-  scene.id = "robertson";
   setProblem(scene, Robertson<Real>{});
   scene.start.x << Real(1), Real(0), Real(0);
   completeStart(scene);
   scene.t_end = 1e11;
-  scene.names = componentNames({}, {"y1", "y2", "y3"}, {});
   // HW II (IV.10): Atol = 1e-6 Rtol.
-  scene.scale = scales({1e-6, 1e-6, 1e-6});
+  setComponents(scene, {}, {{"y1", "", 1e-6}, {"y2", "", 1e-6}, {"y3", "", 1e-6}});
   return scene;
 }
 
@@ -42,6 +40,7 @@ SceneEntry robertsonEntry() {
           .title = "Robertson's chemical kinetics to t = 1e11",
           .shows = "eleven decades of time, a component that falls to 1e-13",
           .parameters = {},
+          .reference_cases = {{.times = "0.4 4e3 1e7", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

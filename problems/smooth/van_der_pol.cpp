@@ -21,13 +21,12 @@ struct VanDerPol {
 template <class Real>
 Scene<Real> make(const Settings& settings) {
   Scene<Real> scene;
-  scene.id = "van_der_pol";
   setProblem(scene, VanDerPol<Real>{number<Real>(settings, "eps")});
   scene.start.x << Real(2), decimal<Real>("-0.66");
   completeStart(scene);
   scene.t_end = 2;
-  scene.names = componentNames({}, {"y1", "y2"}, {});
-  scene.scale = scales({1, 1});
+  scene.time_unit = "";
+  setComponents(scene, {}, {{"y1"}, {"y2"}});
   return scene;
 }
 
@@ -37,7 +36,12 @@ SceneEntry vanDerPolEntry() {
   return {.id = "van_der_pol",
           .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
           .shows = "stiffness with fast transitions: step control and Newton",
+          .kind = SceneKind::kSingularlyPerturbed,
+          .stiffness = {.parameter = "eps", .reciprocal = true},
           .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+          .panels = {{"y1", {"y1"}},
+                     {"y2", {"y2"}, "1e6", 1e-6}},
+          .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

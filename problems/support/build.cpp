@@ -61,6 +61,7 @@ Parameter smoothingParameter(std::string unit, std::string meaning, std::string 
   Parameter p = positiveParameter("smoothing", std::move(unit),
                                   "mode smooth: " + std::move(meaning), std::move(default_value));
   p.changes_solution = false;
+  p.only_smooth = true;
   return p;
 }
 
@@ -68,6 +69,7 @@ Parameter elementsParameter(std::string default_value) {
   Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1,
                                 kMostElements);
   p.whole = true;
+  p.audit_max = 4;
   return p;
 }
 
@@ -119,20 +121,32 @@ Real piOf() {
   return boost::math::constants::pi<Real>();
 }
 
-std::vector<std::string> componentNames(const std::vector<std::string>& u,
-                                        const std::vector<std::string>& x,
-                                        const std::vector<std::string>& z) {
-  std::vector<std::string> names = u;
-  for (const std::string& name : u) names.push_back(name + "'");
-  names.insert(names.end(), x.begin(), x.end());
-  names.insert(names.end(), z.begin(), z.end());
-  return names;
+namespace {
+
+// rad/s, m/s, 1/s; nothing in a scene without units.
+std::string rateUnit(const std::string& unit, const std::string& time_unit) {
+  if (time_unit.empty()) return unit;
+  return (unit.empty() ? "1" : unit) + "/" + time_unit;
 }
 
-Vec<double> scales(std::initializer_list<double> values) {
-  Vec<double> v(static_cast<Index>(values.size()));
-  std::copy(values.begin(), values.end(), v.begin());
-  return v;
+}  // namespace
+
+template <class Real>
+void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const std::vector<Component>& x,
+                   const std::vector<Component>& z) {
+  scene.names.clear();
+  scene.units.clear();
+  std::vector<double> scale;
+  const auto append = [&](std::string name, std::string unit, double size) {
+    scene.names.push_back(std::move(name));
+    scene.units.push_back(std::move(unit));
+    scale.push_back(size);
+  };
+  for (const Component& c : u) append(c.name, c.unit, c.scale);
+  for (const Component& c : u) append(c.name + "'", rateUnit(c.unit, scene.time_unit), c.rate_scale);
+  for (const Component& c : x) append(c.name, c.unit, c.scale);
+  for (const Component& c : z) append(c.name, c.unit, c.scale);
+  scene.scale = Eigen::Map<const Vec<double>>(scale.data(), static_cast<Index>(scale.size()));
 }
 
 template <class Real>
@@ -141,7 +155,7 @@ void completeStart(Scene<Real>& scene) {
   const StartReport report =
       ConsistentStart<Real>(*system, DerivativeSource::kAutomatic, true).apply(scene.start);
   if (report.outcome != Outcome::kSuccess) {
-    throw std::logic_error("scene " + scene.id + " " + report.detail);
+    throw std::logic_error("a scene's start: " + report.detail);
   }
 }
 
@@ -149,6 +163,12 @@ template double number<double>(const Settings&, const std::string&);
 template mp50 number<mp50>(const Settings&, const std::string&);
 template double piOf<double>();
 template mp50 piOf<mp50>();
+template void setComponents<double>(Scene<double>&, const std::vector<Component>&, const std::vector<Component>&,
+                                    const std::vector<Component>&);
+template void setComponents<mp50>(Scene<mp50>&, const std::vector<Component>&, const std::vector<Component>&,
+                                  const std::vector<Component>&);
+template void setComponents<mp100>(Scene<mp100>&, const std::vector<Component>&, const std::vector<Component>&,
+                                   const std::vector<Component>&);
 template void completeStart<double>(Scene<double>&);
 template void completeStart<mp50>(Scene<mp50>&);
 

@@ -1,7 +1,6 @@
 // What scene files share: parameters from settings, names, systems, consistent starts. Internal.
 #pragma once
 
-#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -45,12 +44,21 @@ Real decimal(const char* text);
 template <class Real>
 Real piOf();
 
-/// Names of (u, v, x, z) from those of u, x and z: v is u with a prime.
-std::vector<std::string> componentNames(const std::vector<std::string>& u,
-                                        const std::vector<std::string>& x,
-                                        const std::vector<std::string>& z);
+/// A component of u, x or z. The time derivative of one of u is named with a prime.
+struct Component {
+  std::string name;
+  std::string unit = {};  ///< empty: none
+  double scale = 1;       ///< typical magnitude
+  double rate_scale = 1;  ///< of the time derivative, for u
+};
 
-Vec<double> scales(std::initializer_list<double> values);
+/// Sets scene.names, units and scale. scene.time_unit is set before, where it is not s.
+template <class Real>
+void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const std::vector<Component>& x = {},
+                   const std::vector<Component>& z = {});
+
+/// Tolerances of ReferenceCase: what is cheap gets many digits; thousands of elastic oscillations get few.
+inline constexpr double kManyDigits = 1e-28, kFewDigits = 1e-19;
 
 /// scene.system from a problem struct; scene.start with its sizes, all zero.
 template <class Real, class P>

@@ -48,7 +48,6 @@ Scene<Real> make(const Settings& settings) {
   const BouncingMass<Real> problem{
       .m = value("m"), .k = value("k"), .g = value("g"), .smoothing = value("smoothing")};
   Scene<Real> scene;
-  scene.id = "bouncing_mass";
   setProblem(scene, problem);
   scene.start.u[0] = value("gap0");
   scene.start.v[0] = value("v0");
@@ -57,8 +56,7 @@ Scene<Real> make(const Settings& settings) {
   scene.t_end = 0.5;
   scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
                                       [problem](const Vec<Real>& d) { return problem.rates(d); }};
-  scene.names = componentNames({"gap"}, {}, {});
-  scene.scale = scales({0.01, 1});
+  setComponents(scene, {{"gap", "m", 0.01, 1}});
   return scene;
 }
 
@@ -75,6 +73,9 @@ SceneEntry bouncingMassEntry() {
                          numberParameter("v0", "m/s", "velocity at the start", "-1", -1e6, 1e6),
                          smoothingParameter(
                              "m", "penetration until the floor has its whole stiffness", "1e-5")},
+          .panels = {{"gap", {"gap"}},
+                     {"velocity", {"gap'"}}},
+          .reference_cases = {{.times = "0.1 0.3"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -56,15 +56,13 @@ Scene<Real> make(const Settings& settings) {
                                      .iref = value("iref"),
                                      .D = value("D")};
   Scene<Real> scene;
-  scene.id = "dc_motor_chopper";
   setProblem(scene, problem);
   scene.start.d[0] = 1;
   completeStart(scene);
   scene.t_end = 0.02;
   scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
                                       [problem](const Vec<Real>& d) { return problem.rates(d); }};
-  scene.names = componentNames({"phi"}, {"i"}, {});
-  scene.scale = scales({0.1, 10, 5});
+  setComponents(scene, {{"phi", "rad", 0.1, 10}}, {{"i", "A", 5}});
   return scene;
 }
 
@@ -83,6 +81,10 @@ SceneEntry dcMotorChopperEntry() {
                          numberParameter("TL", "N m", "load torque", "0.05", -1e15, 1e15),
                          numberParameter("iref", "A", "wanted current", "4", -1e15, 1e15),
                          positiveParameter("D", "A", "half width of the current's band", "1")},
+          .panels = {{"angle", {"phi"}},
+                     {"angular velocity", {"phi'"}},
+                     {"current", {"i"}}},
+          .reference_cases = {{.times = "0.005 0.01"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

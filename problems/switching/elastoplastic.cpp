@@ -91,16 +91,14 @@ Scene<Real> make(const Settings& settings) {
                                     .Omega = value("Omega"),
                                     .smoothing = value("smoothing")};
   Scene<Real> scene;
-  scene.id = "elastoplastic";
   setProblem(scene, problem);
   completeStart(scene);
   scene.t_end = 1.8;
   scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
                                       [problem](const Vec<Real>& d) { return problem.rates(d); },
                                       problem.Omega};
-  scene.names = componentNames({"u"}, {"x"}, {});
   const double yield = static_cast<double>(Real(problem.Fy / problem.k));
-  scene.scale = scales({yield, 10 * yield, yield});
+  setComponents(scene, {{"u", "m", yield, 10 * yield}}, {{"x", "m", yield}});
   return scene;
 }
 
@@ -117,6 +115,9 @@ SceneEntry elastoplasticEntry() {
                          positiveParameter("Omega", "rad/s", "frequency of the load", "5"),
                          smoothingParameter("", "part of Fy over which the slider starts to move",
                                             "1e-3")},
+          .panels = {{"displacements", {"u", "x"}},
+                     {"velocity", {"u'"}}},
+          .reference_cases = {{.times = "0.5 1"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -236,7 +236,6 @@ Scene<Real> make(const Settings& settings) {
                                      .pi = piOf<Real>(),
                                      .base = value("L") * sqrt(Real(3)) / 2};
   Scene<Real> scene;
-  scene.id = "hydraulic_manipulator";
   State<Real> start(problem.sizes());
   setEquilibrium(problem, start);
   problem.passCorners(problem.polyline.t[0] > 0 ? 0 : 1, start.d.data());
@@ -245,10 +244,9 @@ Scene<Real> make(const Settings& settings) {
   scene.start = start;
   completeStart(scene);
   scene.t_end = 10;
-  scene.names = componentNames({"theta1", "theta2"}, {"p1", "p2"}, {});
-  scene.scale = scales({1, 1, 1, 1, 1e6, 1e6});
+  setComponents(scene, {{"theta1", "rad"}, {"theta2", "rad"}}, {{"p1", "Pa", 1e6}, {"p2", "Pa", 1e6}});
   scene.outputs = {
-      {"s", [problem](const State<Real>& s) { return problem.template length<Real>(s.u[0]); }}};
+      {"s", [problem](const State<Real>& s) { return problem.template length<Real>(s.u[0]); }, "m"}};
   return scene;
 }
 
@@ -287,6 +285,12 @@ SceneEntry hydraulicManipulatorEntry() {
               "M(u) with stiff pressures, a bulk modulus that depends on them, and ramps of "
               "a millisecond",
           .parameters = parameters(),
+          .panels = {{"angles", {"theta1", "theta2"}},
+                     {"angular velocities", {"theta1'", "theta2'"}},
+                     {"pressures", {"p1", "p2"}, "MPa", 1e-6},
+                     {"cylinder", {"s"}}},
+          .reference_cases = {{.times = "2 4 6"},
+                              {.settings = "manoeuvre=sine", .times = "2 5"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

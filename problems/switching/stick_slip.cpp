@@ -181,18 +181,16 @@ Scene<Real> make(const Settings& settings) {
                                 .v0 = value(settings.at("v0") == "vb" ? "vb" : "v0"),
                                 .smoothing = value("smoothing")};
   Scene<Real> scene;
-  scene.id = "stick_slip";
   setProblem(scene, problem);
   scene.start.u[0] = problem.x0;
   scene.start.v[0] = problem.v0;
   problem.startMode(scene.start.d.data());
   completeStart(scene);
   scene.t_end = 50;
-  scene.names = componentNames({"x"}, {}, {});
   // Velocities matter as far as they compare with the belt's: an error e of x delays a slip by e /
   // vb.
   const double belt = std::abs(static_cast<double>(problem.vb));
-  scene.scale = scales({static_cast<double>(Real(problem.Fs / problem.k)), belt > 0 ? belt : 1});
+  setComponents(scene, {{"x", "m", static_cast<double>(Real(problem.Fs / problem.k)), belt > 0 ? belt : 1}});
   if (problem.Fd <= problem.Fs) {
     scene.exact = [exact = ExactStickSlip<Real>(problem)](const Real& t) { return exact.at(t); };
   }
@@ -217,6 +215,10 @@ SceneEntry stickSlipEntry() {
            numberParameter("v0", "m/s", "velocity at the start; vb = on the belt", "vb", -1e6, 1e6),
            smoothingParameter(
                "m/s", "relative velocity at which friction is Fs; Fd from twice that on", "1e-4")},
+      .panels = {{"position", {"x"}},
+                 {"velocity", {"x'"}}},
+      .reference_cases = {{.times = "20 30"},
+                          {.settings = "Fs=1 k=100 v0=0 vb=0 x0=0.105"}},
       .make = make<double>,
       .make_mp50 = make<mp50>};
 }

@@ -48,13 +48,11 @@ Scene<Real> make(const Settings& settings) {
       .Fs = value("Fs"),
       .Vs = value("Vs")};
   Scene<Real> scene;
-  scene.id = "stick_slip_lugre";
   setProblem(scene, problem);
   completeStart(scene);
   scene.t_end = 25;
-  scene.names = componentNames({"X"}, {"Z"}, {});
   const double bristle = static_cast<double>(Real(problem.Fs / sigma0));
-  scene.scale = scales({1, 0.1, bristle});
+  setComponents(scene, {{"X", "m", 1, 0.1}}, {{"Z", "m", bristle}});
   return scene;
 }
 
@@ -75,6 +73,10 @@ SceneEntry stickSlipLugreEntry() {
            positiveParameter("Fs", "N", "largest sticking force", "1.5"),
            positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc",
                              "0.001")},
+      .panels = {{"position", {"X"}},
+                 {"velocity", {"X'"}},
+                 {"deflection of the bristles", {"Z"}, "µm", 1e6}},
+      .reference_cases = {{.times = "5 15"}},
       .make = make<double>,
       .make_mp50 = make<mp50>};
 }

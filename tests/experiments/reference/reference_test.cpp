@@ -121,7 +121,7 @@ TEST(ReferenceTasks, CoverEveryIndependentValue) {
 
 TEST(Compute, AStoppedRunIsNoValue) {
   const std::atomic<bool> stop = true;
-  const ReferenceTask task{"kaps", "", ""};
+  const ReferenceTask task{"kaps"};
   const auto computed = compute({task}, {{"1"}}, {.jobs = 2, .stop = &stop, .progress = nullptr});
   ASSERT_EQ(computed.size(), 1U);
   EXPECT_TRUE(computed[0].values.empty());
@@ -133,9 +133,9 @@ TEST(Compute, AStoppedRunIsNoValue) {
 // found at 1e-28 within the accuracy that it states, and to state about as many digits as asked
 // for.
 TEST(Compute, StatesWhatTheRunsAgreeOn) {
-  ReferenceTask coarse{"mechanical_dae", "", ""}, fine = coarse;
-  coarse.tolerance = 1e-12;
-  fine.tolerance = 1e-28;
+  ReferenceTask coarse{"mechanical_dae"}, fine = coarse;
+  coarse.of.tolerance = 1e-12;
+  fine.of.tolerance = 1e-28;
   const auto computed = compute({coarse, fine}, {{"0.25", "1"}, {"0.25", "1"}}, {.jobs = 2});
   ASSERT_TRUE(computed[0].problems.empty() && computed[1].problems.empty());
   ASSERT_EQ(computed[0].values.size(), 10U);

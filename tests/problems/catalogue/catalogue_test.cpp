@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "irk/misuse.h"
@@ -38,6 +39,7 @@ TEST(Catalogue, ScenesAreComplete) {
     const auto components = static_cast<std::size_t>(n.components());
     EXPECT_EQ(scene.id, c.id);
     EXPECT_EQ(scene.names.size(), components);
+    EXPECT_EQ(scene.units.size(), components);
     EXPECT_EQ(scene.scale.size(), n.components());
     EXPECT_GT(scene.scale.minCoeff(), 0);
     EXPECT_GT(scene.t_end, 0);
@@ -55,6 +57,78 @@ TEST(Catalogue, ScenesAreComplete) {
       EXPECT_EQ(scene.names[v], scene.names[u] + "'");
     }
   }
+}
+
+// What theory is told of a scene is what its system says.
+TEST(Catalogue, KindsAreThoseOfTheSystems) {
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    SCOPED_TRACE(entry.id);
+    const Sizes n = makeScene<double>(entry.id).sizes();
+    const bool algebraic = n.nz > 0, constrained = algebraic && n.constraints == n.nz;
+    const bool index = entry.kind == SceneKind::kIndex1 || entry.kind == SceneKind::kIndex2 ||
+                       entry.kind == SceneKind::kIndex3;
+    EXPECT_EQ(entry.kind == SceneKind::kConstrained, constrained);
+    EXPECT_EQ(index, algebraic && !constrained);
+    const bool stiff = entry.kind == SceneKind::kStiffTest || entry.kind == SceneKind::kSingularlyPerturbed;
+    EXPECT_EQ(stiff, !entry.stiffness.parameter.empty());
+    EXPECT_NE(meaningOf(entry.kind), "?");
+    for (const std::string& name : {entry.stiffness.parameter, entry.size.parameter}) {
+      const bool known = std::any_of(entry.parameters.begin(), entry.parameters.end(),
+                                     [&](const Parameter& p) { return p.name == name && p.choices.empty(); });
+      EXPECT_TRUE(known || name.empty()) << name;
+    }
+  }
+}
+
+TEST(Catalogue, ASizeParameterMakesItsUnknowns) {
+  int found = 0;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    if (entry.size.parameter.empty()) continue;
+    ++found;
+    EXPECT_GT(entry.size.step, 0) << entry.id;
+    const auto unknowns = [&](int size) {
+      return makeScene<double>(entry.id, {{entry.size.parameter, std::to_string(size)}}).sizes().n();
+    };
+    EXPECT_EQ(unknowns(7) - unknowns(4), 3 * entry.size.unknowns) << entry.id;
+  }
+  EXPECT_GE(found, 2);
+}
+
+// Every column of a diagram is a component or an output, all of one unit.
+TEST(Catalogue, PanelsShowWhatTheSceneHas) {
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    SCOPED_TRACE(entry.id);
+    const auto scene = makeScene<double>(entry.id);
+    std::map<std::string, std::string> units;
+    for (std::size_t i = 0; i < scene.names.size(); ++i) units[scene.names[i]] = scene.units[i];
+    for (const auto& output : scene.outputs) units[output.name] = output.unit;
+    for (const Panel& panel : entry.panels) {
+      std::set<std::string> of_panel;
+      for (const std::string& column : panel.columns) {
+        const auto colon = column.find(':');
+        for (const auto& name : {column.substr(0, colon), column.substr(colon == column.npos ? 0 : colon + 1)}) {
+          EXPECT_TRUE(units.contains(name)) << panel.title << ": " << name;
+          of_panel.insert(units[name]);
+        }
+      }
+      EXPECT_EQ(of_panel.size(), 1U) << panel.title;
+      EXPECT_EQ(panel.unit.empty(), panel.factor == 1) << panel.title;
+    }
+  }
+}
+
+TEST(Catalogue, RatesHaveUnits) {
+  const auto unitOf = [](const char* id, const char* name) {
+    const auto scene = makeScene<double>(id);
+    const auto at = std::find(scene.names.begin(), scene.names.end(), name) - scene.names.begin();
+    return scene.units.at(static_cast<std::size_t>(at));
+  };
+  EXPECT_EQ(unitOf("pendulum", "x"), "m");
+  EXPECT_EQ(unitOf("pendulum", "x'"), "m/s");
+  EXPECT_EQ(unitOf("pendulum", "lambda"), "N/m");
+  EXPECT_EQ(unitOf("ancf_pendulum", "s0_x'"), "1/s");
+  EXPECT_EQ(unitOf("elastica", "theta'"), "rad/m");
+  EXPECT_EQ(unitOf("kepler", "q1'"), "");
 }
 
 TEST(Catalogue, NamesTheNearestScene) {
