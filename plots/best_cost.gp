@@ -1,21 +1,18 @@
 # What an error costs at best: the least cost over all numbers of stages, one curve per family (or per value of
 # another column), one panel per scene.
-#   gnuplot -e "data='results/families'; out='families'; cases='pendulum slider_crank'" best_cost.gp
-# Reads cpu_at_error.csv. Options: cases (scene or scene:settings, quoted if with blanks), by (a column), values
+#   gnuplot -e "data='results/families'; out='families'; cases='block=pendulum block=crank'" best_cost.gp
+# Reads cpu_at_error.csv. Options: cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, quoted if with blanks), by (a column), values
 # (those shown), cost (cpu_s, residuals, ...), titles (quoted words, one per case).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("cases")) cases = 'pendulum slider_crank slider_crank_flexible'
+if (!exists("cases")) cases = ''
 if (!exists("by")) by = 'family'
 if (!exists("values")) values = ''
 if (!exists("cost")) cost = 'cpu_s'
 if (!exists("titles")) titles = ''
 file = data.'/cpu_at_error.csv'
 n = words(cases)
-colon(case) = strstrt(case, ':')
-sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
-settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
-caseTitle(i) = words(titles) >= i ? word(titles, i) : sceneTitle(sceneOf(word(cases, i)), settingsOf(word(cases, i)))
-inCase(i) = is("scene", sceneOf(word(cases, i))) && is("settings", settingsOf(word(cases, i)))
+caseTitle(i) = words(titles) >= i ? word(titles, i) : nameOf(word(cases, i))
+inCase(i) = isCase(word(cases, i))
 
 tried = 0
 do for [i = 1 : n] {

@@ -1,24 +1,20 @@
 # CPU time at a fixed error against the number of stages: one line per error, one panel per case.
 # A number of stages that did not reach an error stands above the lines.
-#   gnuplot -e "data='results/cpu_time'; out='cpu'; cases='slider_crank slider_crank:torque_off_at=0.5'" cpu_vs_stages.gp
-# Reads cpu_at_error.csv. Options: cases (scene or scene:settings, quoted if with blanks,
+#   gnuplot -e "data='results/cpu_time'; out='cpu'; cases='block=crank block=crank_torque_off'" cpu_vs_stages.gp
+# Reads cpu_at_error.csv. Options: cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, quoted if with blanks,
 # one panel each), family,
 # cost (a column: cpu_s, residuals, newton_iterations), titles (quoted words, one per case).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("cases")) cases = 'slider_crank'
+if (!exists("cases")) cases = ''
 if (!exists("family")) family = 'radau_iia'
 if (!exists("cost")) cost = 'cpu_s'
 if (!exists("titles")) titles = ''
 file = data.'/cpu_at_error.csv'
 n = words(cases)
-colon(case) = strstrt(case, ':')
-sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
-settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
-shortSettings(case) = strlen(settingsOf(case)) > 24 ? '' : settingsOf(case)
 caseTitle(i) = (words(titles) >= i ? word(titles, i).': ' : '') \
-  .sceneTitle(sceneOf(word(cases, i)), shortSettings(word(cases, i)))
+  .nameOf(word(cases, i))
 
-row(case) = is("scene", sceneOf(case)) && is("settings", settingsOf(case)) && is("family", family)
+row(case) = isCase(case) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
 reached(case, error) = at(case, error) && !absent(cost) ? column(cost) : outside
 # A line joins neighbours that both reach the error: a vector from the row before to this one.

@@ -1,22 +1,22 @@
 # The error of a conserved energy over time: one panel per scene and method, one line per summation.
-#   gnuplot -e "data='results/round_off'; out='energy'; cases='kepler:gauss_8 ancf_pendulum:gauss_4'" energy.gp
+#   gnuplot -e "data='results/round_off'; out='energy'; cases='SCENE:METHOD SCENE:METHOD'" energy.gp
 # Reads energy.csv. Options: cases (scene:method), titles, unit (what the axes count: 1e-16 as it is).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("cases")) cases = 'kepler:gauss_8 ancf_pendulum:gauss_4'
+if (!exists("cases")) cases = ''
 if (!exists("titles")) titles = ""
 if (!exists("unit")) unit = 1e-16
 file = data.'/energy.csv'
 summations = "plain compensated"
 summation_titles = "'plain summation' 'compensated summation'"
 summation_colours = "0xE69F00 0x0072B2"
-sceneOf(i) = substr(word(cases, i), 1, strstrt(word(cases, i), ':') - 1)
-methodOf(i) = substr(word(cases, i), strstrt(word(cases, i), ':') + 1, strlen(word(cases, i)))
-at(i, k) = is("scene", sceneOf(i)) && is("method", methodOf(i)) && is("summation", word(summations, k))
+panelScene(i) = before(word(cases, i))
+methodOf(i) = behindColon(word(cases, i))
+at(i, k) = is("scene", panelScene(i)) && is("method", methodOf(i)) && is("summation", word(summations, k))
 undefine N_*
-stats file using (is("scene", sceneOf(1)) ? 1 : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(sceneOf(1)." in ".file) }
+stats file using (is("scene", panelScene(1)) ? 1 : 0) name "N" nooutput
+if (!exists("N_sum") || N_sum == 0) { eval absence(panelScene(1)." in ".file) }
 columns = words(cases)
-caseTitle(i) = words(titles) >= i ? word(titles, i) : sceneOf(i).', '.methodOf(i)
+caseTitle(i) = words(titles) >= i ? word(titles, i) : panelScene(i).', '.methodOf(i)
 scatter = ""
 do for [i = 1 : columns] { do for [k = 1 : 2] {
   found = 0

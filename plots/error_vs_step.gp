@@ -1,10 +1,8 @@
 # Error against step size at fixed steps, one panel per family, with the slopes that theory predicts.
-#   gnuplot -e "data='results/order'; out='error'; scene='riccati_tracking'; families='radau_iia gauss'" error_vs_step.gp
-# Reads runs.csv, and orders.csv for the window of the fit. Options: scene, settings, formulation, scalar,
+#   gnuplot -e "data='results/order'; out='error'; block='nonlinear'; families='radau_iia gauss'" error_vs_step.gp
+# Reads runs.csv, and orders.csv for the window of the fit. Options: block or scene and settings, formulation, scalar,
 # component ('x': column error_x; '': column error), families (one panel each), stages_shown.
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'riccati_tracking'
-if (!exists("settings")) settings = ''
 if (!exists("formulation")) formulation = ''
 if (!exists("scalar")) scalar = ''
 if (!exists("component")) component = 'x'
@@ -15,7 +13,7 @@ fits = data.'/orders.csv'
 quantity = component eq '' ? 'error' : 'error_'.component
 n = words(families)
 
-chosen(d) = is("scene", scene) && is("settings", settings) && has("formulation", formulation) \
+chosen(d) = ofCase(0) && has("formulation", formulation) \
             && has("scalar", scalar) && position(families, strcol("family")) \
             && position(stages_shown, sprintf("%d", column("stages")))
 row(family, s) = chosen(0) && is("family", family) && column("stages") == s
@@ -23,7 +21,7 @@ failed(family) = chosen(0) && is("family", family) && !succeeded(0) ? column("h"
 error(d) = succeeded(0) ? positive(column(quantity)) : NaN
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), column("h")) : NaN) name "H" nooutput
 stats file using (chosen(0) && succeeded(0) && !absent(quantity) ? 1 : 0) name "N" nooutput
 rows = N_sum
@@ -33,7 +31,7 @@ stage(k) = int(word(stages, k))
 if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
 
 # The predicted slope through the middle of the points that the fit used.
-fit_row(family, s) = is("scene", scene) && is("power_of", 'h') && is("settings", settings) && has("formulation", formulation) \
+fit_row(family, s) = ofCase(0) && is("power_of", 'h') && has("formulation", formulation) \
                      && has("component", component) && is("family", family) && column("stages") == s
 slots = n * words(stages) + 1
 array Lower[slots]; array Upper[slots]; array Level[slots]; array Slope[slots]; array Fitted[slots]; array Count[slots]
@@ -64,7 +62,7 @@ seriesTitle(i, k) = sprintf("%s%s", word(stages, k), \
 margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.2 : 0.125; margin_bottom = 0.14; gap_x = n == 1 ? 0 : 0.17
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 540 * n, 420)
-  if (rows == 0) { eval nothing(scene) } else {
+  if (rows == 0) { eval nothing(caseName) } else {
     set multiplot
     eval decades("x"); eval decades("y")
     set xrange [H_min / 1.4 : H_max * 1.4]; set yrange [y_min : y_max]

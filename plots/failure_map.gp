@@ -1,11 +1,10 @@
 # Where a method works: digits of accuracy over stages and step (or tolerance, or stiffness), one panel per
 # family. A run that failed has no colour and a mark that says why; a grey column is a method that there is not.
-#   gnuplot -e "data='results/failure_constraints'; out='map'; scene='pendulum'; only='formulation=index3'" failure_map.gp
-# Reads runs.csv. Options: scene, only (quoted words column=value, which all rows must have), y (h, rtol, or a
+#   gnuplot -e "data='results/failure_constraints'; out='map'; block='usual_steps'; only='formulation=index3'" failure_map.gp
+# Reads runs.csv. Options: block or scene, only (quoted words column=value, which all rows must have), y (h, rtol, or a
 # parameter of the scene: the magnitude of its number in the column settings, y_default where there is none), y_label, panel_by (a column), panels (its values
 # shown, in this order), quantity (error, error_u, ...), quantity_label, y_min, y_max.
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'pendulum'
 if (!exists("only")) only = ''
 if (!exists("y")) y = 'h'
 if (!exists("y_label")) y_label = y eq 'h' ? 'step h' : y eq 'rtol' ? 'tolerance' : y
@@ -33,14 +32,14 @@ scientific(x) = (exponent = strstrt(x, 'e'), exponent == 0 ? real(x) : real(x[1 
 behind(name) = (found = strstrt(' '.strcol("settings"), ' '.name.'='), found == 0 ? y_default : \
   scientific(word(strcol("settings")[found + strlen(name) + 1 : strlen(strcol("settings"))], 1)))
 level(d) = y eq 'h' || y eq 'rtol' ? column(y) : abs(behind(y))
-row(d) = is("scene", scene) && allowed(0) && level(0) >= y_min && level(0) <= y_max
+row(d) = ofScene(0) && allowed(0) && level(0) >= y_min && level(0) <= y_max
 good(d) = row(0) && succeeded(0) && !absent(quantity)
 # An error of 100 % and more is no digit; below round-off there are 16.
 digits(d) = column(quantity) <= 1e-16 ? 16 : column(quantity) >= 1 ? 0 : -log10(column(quantity))
 
 undefine N_*
 stats file using (row(0) ? 1 : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (row(0) ? (collect(sprintf("%.6f", log10(level(0)))), 1) : NaN) name "L" nooutput
 levels = sorted(collected)
 collected = ""

@@ -1,9 +1,7 @@
 # Observed order of convergence against the number of stages, one panel per family.
-#   gnuplot -e "data='results/order'; out='order_ode'; scene='riccati_tracking'; components='x'" order_vs_stages.gp
-# Reads orders.csv. Options: scene, settings, formulation, components ('u v z': several in one panel).
+#   gnuplot -e "data='results/order'; out='order_ode'; block='nonlinear'; components='x'" order_vs_stages.gp
+# Reads orders.csv. Options: block or scene and settings, formulation, components ('u v z': several in one panel).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'riccati_tracking'
-if (!exists("settings")) settings = ''
 if (!exists("formulation")) formulation = ''
 if (!exists("components")) components = 'x'
 file = data.'/orders.csv'
@@ -13,7 +11,7 @@ partPoint(k) = word("7 5 9 13", k) + 0
 partDash(k) = k == 1 ? 1 : k + 1
 partTitle(c) = c eq 'u' ? 'position u' : c eq 'v' ? 'velocity v' : c eq 'z' ? 'multiplier z' : 'state x'
 
-chosen(d) = is("scene", scene) && is("power_of", 'h') && is("settings", settings) && has("formulation", formulation) \
+chosen(d) = ofCase(0) && is("power_of", 'h') && has("formulation", formulation) \
             && position(components, strcol("component"))
 row(family, k) = chosen(0) && is("family", family) && is("component", part(k))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
@@ -26,7 +24,7 @@ unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outsid
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, not on top of each other
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (chosen(0) ? (collect(strcol("family")), column("stages")) : NaN) name "S" nooutput
 found = collected
 collected = ""

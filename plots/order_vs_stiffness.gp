@@ -1,17 +1,16 @@
 # Order reduction: observed order against the stiffness, one panel per family, one line per number of stages.
 # Grey bars: what theory predicts, where it does. A line is broken where the order is not measurable: there a
 # triangle stands on the axis.
-#   gnuplot -e "data='results/order'; out='order_reduction'; scene='prothero_robinson'" order_vs_stiffness.gp
-# Reads orders.csv. Options: scene, parameter (the setting that is the stiffness), parameter_default, stages_shown.
+#   gnuplot -e "data='results/order'; out='order_reduction'; parameter='lambda'" order_vs_stiffness.gp
+# Reads orders.csv. Options: block or scene, parameter (the setting that is the stiffness), parameter_default, stages_shown.
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'prothero_robinson'
 if (!exists("parameter")) parameter = 'lambda'
 if (!exists("parameter_default")) parameter_default = '-1e8'
 if (!exists("stages_shown")) stages_shown = '1 2 3 4 5'
 file = data.'/orders.csv'
 
 wide(settings) = strstrt(settings, '/h') > 0   # stiffness over step: no single stiffness
-chosen(d) = is("scene", scene) && is("component", 'x') && !wide(strcol("settings")) \
+chosen(d) = ofScene(0) && is("component", 'x') && !wide(strcol("settings")) \
             && position(stages_shown, sprintf("%d", column("stages")))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
 # gnuplot reads no exponents in text: mantissa and exponent apart.
@@ -23,7 +22,7 @@ stiffness(d) = valueOf(magnitude(textOf(strcol("settings"))))
 row(family, s) = chosen(0) && is("family", family) && column("stages") == s
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (chosen(0) ? (collect(strcol("family")), stiffness(0)) : NaN) name "X" nooutput
 found = collected
 collected = ""

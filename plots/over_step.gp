@@ -1,9 +1,8 @@
 # Quantities over the step size at fixed steps, one curve per formulation and scaling of the constraints.
-#   gnuplot -e "data='results/small_steps'; out='small'; scene='pendulum'; quantities='error_z error_v'" over_step.gp
-# Reads runs.csv. Options: scene, method, newton, quantities (columns, or iterations = Newton iterations per step;
+#   gnuplot -e "data='results/small_steps'; out='small'; block='known_multiplier'; quantities='error_z error_v'" over_step.gp
+# Reads runs.csv. Options: block or scene, method, newton, quantities (columns, or iterations = Newton iterations per step;
 # one panel each), by (two columns, whose pairs are the curves).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'pendulum'
 if (!exists("method")) method = 'radau_iia_3'
 if (!exists("newton")) newton = ''
 if (!exists("quantities")) quantities = 'error_z error_v iterations'
@@ -12,12 +11,12 @@ file = data.'/runs.csv'
 title_of(q) = q eq 'error_z' ? 'error of the multiplier' : q eq 'error_v' ? 'error of the velocities' : q eq 'error_u' \
   ? 'error of the positions' : q eq 'iterations' ? 'Newton iterations per step' : q eq 'drift' ? 'drift |g|' : q
 
-row(d) = is("scene", scene) && is("method", method) && has("newton", newton)
+row(d) = ofScene(0) && is("method", method) && has("newton", newton)
 curve(d) = strcol(word(by, 1)).':'.strcol(word(by, 2))
 valueOf(q) = q eq 'iterations' ? column("newton_iterations") / column("steps_accepted") : positive(column(q))
 undefine N_*
 stats file using (row(0) ? (collect(curve(0)), 1) : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (row(0) ? column("h") : NaN) name "H" nooutput
 curves = collected
 n = words(quantities)

@@ -1,23 +1,22 @@
 # The time of a step over the number of unknowns: one panel per method, one curve per way to solve.
-#   gnuplot -e "data='results/scaling'; out='scaling'; scene='beam_chain'" scaling.gp
-# Reads scaling.csv. Options: scene, methods (one panel each), ways (solver:storage:threads, quoted words).
+#   gnuplot -e "data='results/scaling'; out='scaling'; scene='SCENE'" scaling.gp
+# Reads scaling.csv. Options: block or scene, methods (one panel each), ways (solver:storage:threads, quoted words).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'beam_chain'
 if (!exists("methods")) methods = 'radau_iia_3 radau_iia_5 radau_iia_10'
 if (!exists("ways")) ways = 'schur:sparse:1 schur:automatic:2 schur:dense:1 coupled_sparse:automatic:1'
 if (!exists("titles")) titles = "'decoupled, sparse' 'decoupled, sparse, 2 threads' 'decoupled, dense' 'coupled, sparse'"
 file = data.'/scaling.csv'
 way_colours = "0x0072B2 0x56B4E9 0xE69F00 0xD55E00"
 way_points = "7 6 5 9"
-at(i, k) = is("scene", scene) && is("method", word(methods, i)) \
+at(i, k) = ofScene(0) && is("method", word(methods, i)) \
   && strcol("solver").':'.strcol("storage").':'.strcol("threads") eq word(ways, k)
 undefine N_*; undefine T_*
-stats file using (is("scene", scene) ? column("step_s") : NaN) name "T" nooutput
-if (!exists("T_records") || T_records == 0) { eval absence(scene." in ".file) }
-stats file using (is("scene", scene) ? column("n") : NaN) name "N" nooutput
+stats file using (ofScene(0) ? column("step_s") : NaN) name "T" nooutput
+if (!exists("T_records") || T_records == 0) { eval absence(caseName." in ".file) }
+stats file using (ofScene(0) ? column("n") : NaN) name "N" nooutput
 kept = ""
 do for [m in methods] { undefine C_*
-  stats file using (is("scene", scene) && is("method", m) ? 1 : 0) name "C" nooutput
+  stats file using (ofScene(0) && is("method", m) ? 1 : 0) name "C" nooutput
   if (exists("C_sum") && C_sum > 0) { kept = kept.' '.m } }
 methods = kept
 columns = words(methods)

@@ -1,9 +1,8 @@
 # What the parts of an integration take of its time, over the number of unknowns: one panel per number of
 # stages, one row per stage solver.
-#   gnuplot -e "data='results/phases'; out='phases'; scene='ancf_pendulum'" shares.gp
-# Reads phases.csv. Options: scene, derivatives, solvers (one row of panels each), methods (one column each).
+#   gnuplot -e "data='results/phases'; out='phases'; scene='SCENE'" shares.gp
+# Reads phases.csv. Options: block or scene, derivatives, solvers (one row of panels each), methods (one column each).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'ancf_pendulum'
 if (!exists("derivatives")) derivatives = 'difference_forward'
 if (!exists("solvers")) solvers = 'coupled_dense schur'
 if (!exists("methods")) methods = 'radau_iia_3 radau_iia_5 radau_iia_10'
@@ -11,10 +10,10 @@ file = data.'/phases.csv'
 parts = "residual jacobian factorization solve update step start"
 part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves' 'rest of iterations' 'rest of steps' 'start'"
 part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B 0x8FBF9F 0x4C8C6B 0xBBBBBB"
-row(d) = is("scene", scene) && is("derivatives", derivatives)
+row(d) = ofScene(0) && is("derivatives", derivatives)
 undefine N_*
 stats file using (row(0) ? (collect(sprintf("%d", column("n"))), 1) : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(scene." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 sizes = sorted(collected)
 collected = ""
 stats file using (row(0) ? (collect(strcol("method")), 1) : 0) name "N" nooutput

@@ -1,9 +1,9 @@
 # The step size over time, one curve per method; lines mark the discontinuities.
-#   gnuplot -e "data='results/steps'; out='steps'; cases='slider_crank slider_crank_torque_off_at_0.5'" step_size.gp
+#   gnuplot -e "data='results/steps'; out='steps'; cases='SCENE SCENE_NAME_VALUE'" step_size.gp
 # Reads <case>.<method>.csv. Options: cases (files without method; one panel each), titles (quoted words),
 # methods, marks (quoted words, one per case: times of discontinuities).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("cases")) cases = 'slider_crank slider_crank_torque_off_at_0.5'
+if (!exists("cases")) cases = ''
 if (!exists("titles")) titles = ''
 if (!exists("methods")) methods = 'radau_iia_2 radau_iia_5 radau_iia_9'
 if (!exists("marks")) marks = ''

@@ -90,8 +90,31 @@ sorted(list) = ascending(list, -1e300, words(list))
 
 number(word) = strlen(word) ? int(word) : 1   # gnuplot reads the body of an empty iteration, too
 
-# Titles for scenes with their settings: "hydraulic_arm (reference=smooth)".
+# --- Which runs: those of a block of the study, whose name is in the column block, of a scene, or of both. Nothing
+# said: all. A scene without a block is meant with exactly these settings.
+if (!exists("block")) block = ''
+if (!exists("scene")) scene = ''
+if (!exists("settings")) settings = ''
+inBlock(name) = position(strcol("block"), name) > 0
+ofScene(d) = (block eq '' || inBlock(block)) && has("scene", scene)
+ofCase(d) = ofScene(0) && (block.scene eq '' || (block ne '' ? has("settings", settings) : is("settings", settings)))
+
+# Titles for scenes with their settings: "SCENE (NAME=VALUE)".
 sceneTitle(scene, settings) = settings eq "" ? scene : scene." (".settings.")"
+caseName = block eq '' ? sceneTitle(scene, settings) : 'block '.block.(scene eq '' ? '' : ', '.scene)
+
+# The same as one word, for several panels: 'block=NAME', 'block=NAME:SCENE', 'SCENE' or 'SCENE:SETTINGS'.
+colon(case) = strstrt(case, ':')
+before(case) = colon(case) ? case[1 : colon(case) - 1] : case
+behindColon(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
+hasBlock(case) = case[1:6] eq 'block='
+sceneOf(case) = hasBlock(case) ? behindColon(case) : before(case)
+settingsOf(case) = hasBlock(case) ? '' : behindColon(case)
+shortSettings(case) = strlen(settingsOf(case)) > 24 ? '' : settingsOf(case)
+isCase(case) = case eq '' || (hasBlock(case) ? inBlock(before(case)[7:*]) && has("scene", sceneOf(case)) \
+                              : is("scene", sceneOf(case)) && is("settings", settingsOf(case)))
+nameOf(case) = !hasBlock(case) ? sceneTitle(sceneOf(case), shortSettings(case)) \
+  : sceneOf(case) eq '' ? before(case)[7:*] : sceneOf(case)
 
 when(condition, text) = condition ? text : ''
 

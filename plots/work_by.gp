@@ -1,15 +1,15 @@
 # Work against accuracy, one curve per value of a column: a switch of the Jacobian, a formulation, a method.
 # The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
-#   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='slider_crank'" work_by.gp
+#   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
 #   variant (a column, whose values are the curves), variants (those shown, in this order),
-#   cases (scene or scene:settings, quoted if with blanks; one panel each), titles (quoted words, one per case),
+#   cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, quoted if with blanks; one panel each), titles (quoted words, one per case),
 #   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...),
 #   only (quoted words column=value, which all rows must have), columns (of panels).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("variant")) variant = 'jacobian'
 if (!exists("variants")) variants = ''
-if (!exists("cases")) cases = 'slider_crank'
+if (!exists("cases")) cases = ''
 if (!exists("titles")) titles = ''
 if (!exists("costs")) costs = 'cpu_s'
 if (!exists("quantity")) quantity = 'error'
@@ -20,14 +20,10 @@ what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the pos
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c eq 'drift' ? 'drift |g|' : c
 
-colon(case) = strstrt(case, ':')
-sceneOf(case) = colon(case) ? case[1 : colon(case) - 1] : case
-settingsOf(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
-shortSettings(case) = strlen(settingsOf(case)) > 24 ? '' : settingsOf(case)
 equals(pair) = strstrt(pair, '=')
 holds(pair) = is(pair[1 : equals(pair) - 1], pair[equals(pair) + 1 : strlen(pair)])
 allowed(d) = words(only) == 0 ? 1 : (sum [i = 1 : words(only)] holds(word(only, i))) == words(only)
-inCase(case) = is("scene", sceneOf(case)) && is("settings", settingsOf(case)) && allowed(0)
+inCase(case) = isCase(case) && allowed(0)
 shown(d) = words(variants) == 0 || position(variants, strcol(variant))
 chosen(case) = inCase(case) && shown(0)
 error(d) = succeeded(0) && !absent(quantity) ? positive(column(quantity)) : NaN
@@ -36,7 +32,7 @@ asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol")
 panels = words(cases) > 1 ? words(cases) : words(costs)
 caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
 costOf(i) = words(cases) > 1 ? word(costs, 1) : word(costs, i)
-caseTitle(i) = words(titles) >= i ? word(titles, i) : sceneTitle(sceneOf(caseOf(i)), shortSettings(caseOf(i)))
+caseTitle(i) = words(titles) >= i ? word(titles, i) : nameOf(caseOf(i))
 
 # Ranges, over all panels for the errors and per panel for the costs.
 tried = 0; rows = 0; failures = 0; coarsest = 1e-300; finest = 1e300; top = 1

@@ -1,11 +1,9 @@
 # Work against accuracy: CPU time or counters over the error reached, one line per number of stages.
 # The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
-#   gnuplot -e "data='results/cpu_time'; out='work'; scene='slider_crank'; family='radau_iia'" work_precision.gp
-# Reads runs.csv. Options: scene, settings, family, formulation, stages_shown,
+#   gnuplot -e "data='results/cpu_time'; out='work'; block='crank'; family='radau_iia'" work_precision.gp
+# Reads runs.csv. Options: block or scene and settings, family, formulation, stages_shown,
 # quantity (error, error_u, error_v, error_x, error_z), costs ('cpu_s', or several counters: one panel each).
 load system('dirname "'.ARG0.'"')."/style.gp"
-if (!exists("scene")) scene = 'slider_crank'
-if (!exists("settings")) settings = ''
 if (!exists("family")) family = 'radau_iia'
 if (!exists("formulation")) formulation = ''
 if (!exists("stages_shown")) stages_shown = '1 2 3 5 7 10 15 20'
@@ -18,7 +16,7 @@ n = words(costs)
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c
 
-chosen(d) = is("scene", scene) && is("settings", settings) && is("family", family) \
+chosen(d) = ofCase(0) && is("family", family) \
             && has("formulation", formulation) && position(stages_shown, sprintf("%d", column("stages")))
 row(s) = chosen(0) && column("stages") == s
 error(d) = succeeded(0) ? positive(column(quantity)) : NaN
@@ -27,7 +25,7 @@ asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol")
 failed(s) = row(s) && !succeeded(0) ? asked(0) : outside
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(sceneTitle(scene, settings)." in ".file) }
+if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), asked(0)) : NaN) name "T" nooutput
 drawable(d) = succeeded(0) && !absent(quantity) && !absent(word(costs, 1))
 stats file using (chosen(0) && drawable(0) ? 1 : 0) name "N" nooutput
@@ -50,7 +48,7 @@ margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.17 : 0.1
 margin_bottom = lines == 1 ? 0.14 : 0.09; gap_x = 0.1
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, lines == 1 ? 420 : 640)
-  if (rows == 0) { eval nothing(sceneTitle(scene, settings)) } else {
+  if (rows == 0) { eval nothing(caseName) } else {
     set multiplot
     eval decades("x"); eval decades("y")
     do for [i = 1 : n] {

@@ -6,8 +6,10 @@
 #include <limits>
 #include <tuple>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/blocks.h"
 
 namespace irk {
 namespace {
@@ -68,7 +70,7 @@ Table costTable(const Table& runs, const std::vector<double>& targets) {
   costs.columns = seriesColumns(runs);
   costs.columns.emplace_back("target_error");
   costs.columns.insert(costs.columns.end(), std::begin(kCosts), std::end(kCosts));
-  costs.columns.insert(costs.columns.end(), {"reached", "cause"});
+  costs.columns.insert(costs.columns.end(), {"reached", "cause", std::string(kBlockColumn)});
   for (const auto& series : seriesOf(runs)) {
     for (const double target : targets) {
       TableRow row = series.name;
@@ -81,10 +83,23 @@ Table costTable(const Table& runs, const std::vector<double>& targets) {
       }
       row.emplace_back(reached ? "1" : "0");
       row.push_back(reached ? "" : causeOf(runs, series));
+      row.push_back(series.blocks);
       costs.rows.push_back(row);
     }
   }
   return costs;
+}
+
+Analysis costAnalysis() {
+  return {.id = "cost",
+          .key = "targets",
+          .meaning = "what each method costs at the errors of `targets`",
+          .reads = "runs.csv",
+          .writes = "cpu_at_error.csv",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            writeTable(in.folder / "cpu_at_error.csv", costTable(in.runs, in.study.targets));
+            return {};
+          }};
 }
 
 }  // namespace irk

@@ -26,7 +26,7 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
 
 /// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians,
 /// factorizations, reached (0 with nan where a series does not get there), cause (why not: `no
-/// reference`, `not accurate enough`, or `no success: ` with the outcome of the last run).
+/// reference`, `not accurate enough`, or `no success: ` with the outcome of the last run), block.
 Table costTable(const Table& runs, const std::vector<double>& targets);
 
 }  // namespace irk

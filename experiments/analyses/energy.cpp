@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -103,6 +104,18 @@ Table energyTable(const Study& study, const Table& runs) {
     }
   }
   return table;
+}
+
+Analysis energyAnalysis() {
+  return {.id = "energy",
+          .key = "energy",
+          .meaning = "what round-off does to an energy over many steps",
+          .reads = "runs.csv",
+          .writes = "energy.csv",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            writeTable(in.folder / "energy.csv", energyTable(in.study, in.runs));
+            return {};
+          }};
 }
 
 }  // namespace irk

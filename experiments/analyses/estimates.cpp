@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/estimates/step_attempt.h"
+#include "experiments/analyses/analyses.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -144,6 +145,19 @@ Table estimateTable(const Study& study, const Table& runs) {
     }
   }
   return table;
+}
+
+Analysis estimatesAnalysis() {
+  return {.id = "estimates",
+          .key = "estimates",
+          .meaning = "true errors of single steps over their estimates",
+          .reads = "runs.csv",
+          .writes = "estimates.csv",
+          .one_method = "the error of a step is compared with one method's estimate",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            writeTable(in.folder / "estimates.csv", estimateTable(in.study, in.runs));
+            return {};
+          }};
 }
 
 }  // namespace irk

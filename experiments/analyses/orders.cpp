@@ -6,11 +6,13 @@
 #include <map>
 #include <optional>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/analyses/order_fit.h"
 #include "experiments/analyses/theory.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_spec.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/blocks.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
 
@@ -155,6 +157,7 @@ TableRow orderRow(const Table& runs, const TableRow& run, char component, std::s
   row.push_back(theory.source);
   row.push_back(verdictText(fit, theory.order));
   row.push_back(reason);
+  row.push_back(runs.hasColumn(kBlockColumn) ? textAt(runs, run, kBlockColumn) : "");
   return row;
 }
 
@@ -229,7 +232,8 @@ Table orderTable(const Table& runs) {
   orders.head = runs.head;
   orders.columns = {"scene",     "settings", "formulation", "multipliers", "scalar", "family",
                     "stages",    "component", "power_of", "order",       "confidence", "h_min",  "h_max",
-                    "points",    "theory",   "source",      "verdict",    "reason"};
+                    "points",    "theory",   "source",      "verdict",    "reason",
+                    std::string(kBlockColumn)};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {
     const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";
@@ -250,6 +254,18 @@ Table orderTable(const Table& runs) {
   }
   for (const auto& [method, errors] : over_z) appendPowerOfZ(runs, errors, orders);
   return orders;
+}
+
+Analysis ordersAnalysis() {
+  return {.id = "orders",
+          .key = "orders",
+          .meaning = "observed orders of convergence, with what theory says",
+          .reads = "runs.csv",
+          .writes = "orders.csv",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            writeTable(in.folder / "orders.csv", orderTable(in.runs));
+            return {};
+          }};
 }
 
 }  // namespace irk

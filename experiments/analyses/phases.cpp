@@ -9,6 +9,7 @@
 #include <memory>
 #include <numeric>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/analyses/newton_kernel.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
@@ -214,6 +215,20 @@ Table phaseTable(const Study& study, const Table& runs, std::ostream& out) {
     }
   }
   return table;
+}
+
+Analysis phasesAnalysis() {
+  return {.id = "phases",
+          .key = "phases",
+          .meaning = "shares of residuals, Jacobians, factorizations and solves in a run's time",
+          .reads = "runs.csv",
+          .writes = "phases.csv",
+          .one_method = "the parts of a run are timed with one method's matrices",
+          .run = [](const AnalysisInput& in) {
+            const Table phases = phaseTable(in.study, in.runs, in.progress);
+            writeTable(in.folder / "phases.csv", phases);
+            return uncoveredRuns(phases);
+          }};
 }
 
 }  // namespace irk

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/results.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
 
@@ -76,6 +79,24 @@ Table profileTable(const Table& costs) {
   }
   for (const auto& [target, solvers] : by_target) appendProfile(target, solvers, table);
   return table;
+}
+
+Analysis profileAnalysis() {
+  return {.id = "profile",
+          .key = "profile",
+          .meaning = "performance profiles of integrators at the errors of `targets`",
+          .reads = "cpu_at_error.csv",
+          .writes = "profile.csv",
+          .needs = "targets",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            // Without times there is nothing to compare, and an older table would not be of these runs.
+            if (refusedTimes(in.runs.head).empty()) {
+              writeTable(in.folder / "profile.csv", profileTable(readTable(in.folder / "cpu_at_error.csv")));
+            } else {
+              std::filesystem::remove(in.folder / "profile.csv");
+            }
+            return {};
+          }};
 }
 
 }  // namespace irk

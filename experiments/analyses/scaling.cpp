@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/median.h"
@@ -131,6 +132,21 @@ Table scalingSlopes(const Table& scaling) {
     slopes.rows.push_back(slopeRow(name, points));
   }
   return slopes;
+}
+
+Analysis scalingAnalysis() {
+  return {.id = "scaling",
+          .key = "scaling",
+          .meaning = "the time of a step over unknowns, stages and threads, with slopes",
+          .reads = "runs.csv",
+          .writes = "scaling.csv scaling_slopes.csv",
+          .one_method = "the time of a step is compared between methods of fixed stages",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            const Table scaling = scalingTable(in.study, in.runs, in.progress);
+            writeTable(in.folder / "scaling.csv", scaling);
+            writeTable(in.folder / "scaling_slopes.csv", scalingSlopes(scaling));
+            return {};
+          }};
 }
 
 }  // namespace irk

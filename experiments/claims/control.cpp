@@ -6,18 +6,14 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
+#include "experiments/runs/trajectory.h"
 
 namespace irk::claims {
 namespace {
-
-struct CasePair {
-  const char *scene, *smooth, *discontinuous;  // settings
-};
 
 double leastCost(const Table& costs, const Cells& cells, double least_stages, double most_stages) {
   const Table rows = where(costs, cells);
@@ -28,13 +24,12 @@ double leastCost(const Table& costs, const Cells& cells, double least_stages, do
 }
 
 // How much five and more stages save against two, at the smallest error that two stages reach.
-std::optional<double> gainOfOrder(const Table& costs, std::string_view scene,
-                                  std::string_view settings) {
+std::optional<double> gainOfOrder(const Table& all, std::string_view block) {
+  const Table costs = inBlocks(all, "cpu_time", {block});
   std::optional<double> gain;
   double least_error = kInfinity;
   for (const auto& error : distinct(costs, "target_error")) {
-    const Cells cells{
-        {"scene", scene}, {"settings", settings}, {"family", "radau_iia"}, {"target_error", error}};
+    const Cells cells{{"family", "radau_iia"}, {"target_error", error}};
     const double few = leastCost(costs, cells, 2, 2), many = leastCost(costs, cells, 5, 100);
     if (std::isinf(few) || std::isinf(many) || std::stod(error) >= least_error) continue;
     least_error = std::stod(error);
@@ -45,78 +40,76 @@ std::optional<double> gainOfOrder(const Table& costs, std::string_view scene,
 
 // Residuals per accepted length of time of doubled steps 2 h over those of plain steps h.
 std::vector<double> doublingCosts(const Table& runs) {
+  const auto keyOf = [&](const TableRow& row) {
+    return TableRow{textAt(runs, row, "scene"), textAt(runs, row, "method")};
+  };
   std::map<TableRow, double> plain;
+  for (const auto& row : inBlocks(runs, "control", {"plain_steps"}).rows) {
+    if (succeededAt(runs, row)) plain[keyOf(row)] = numberAt(runs, row, "residuals");
+  }
   std::vector<double> ratios;
-  for (const auto* control : {"fixed", "paper"}) {
-    for (const auto& row : runs.rows) {
-      const bool pair = numberAt(runs, row, "rtol") == 0.5 && succeededAt(runs, row) &&
-                        textAt(runs, row, "control") == control;
-      if (!pair) continue;
-      const TableRow key{textAt(runs, row, "scene"), textAt(runs, row, "method")};
-      const double residuals = numberAt(runs, row, "residuals");
-      if (std::string_view(control) == "fixed") {
-        plain[key] = residuals;
-      } else if (plain.contains(key)) {
-        ratios.push_back(residuals / plain[key]);
-      }
-    }
+  for (const auto& row : inBlocks(runs, "control", {"doubled_steps"}).rows) {
+    const auto same = plain.find(keyOf(row));
+    if (!succeededAt(runs, row) || same == plain.end()) continue;
+    ratios.push_back(numberAt(runs, row, "residuals") / same->second);
   }
   return ratios;
 }
 
-// Scenes with their settings.
-const Cells kSmooth[] = {{{"scene", "van_der_pol"}, {"settings", ""}},
-                         {{"scene", "robertson"}, {"settings", ""}},
-                         {{"scene", "hires"}, {"settings", ""}},
-                         {{"scene", "pendulum"}, {"settings", ""}},
-                         {{"scene", "slider_crank"}, {"settings", ""}}};
-const Cells kWithJumps[] = {{{"scene", "bouncing_mass"}, {"settings", ""}},
-                            {{"scene", "elastoplastic"}, {"settings", ""}},
-                            {{"scene", "stick_slip"}, {"settings", ""}},
-                            {{"scene", "slider_crank"}, {"settings", "torque_off_at=0.5"}}};
+// Blocks of the study peers.
+const Blocks kSmooth = {"stiff", "pendulum", "pendulum_index1", "crank", "crank_index1"};
+const Blocks kWithJumps = {"contact", "yielding", "stick_slip", "crank_torque_off", "crank_torque_off_index1"};
+const Blocks kLocated = {"contact_located", "yielding_located", "stick_slip_located"};
 
 // The least cost of the BDF codes over that of Radau IIA, per scene and error that both reach.
-std::vector<double> multistepOverRadau(const Table& costs, std::span<const Cells> scenes,
-                                       std::string_view discontinuity) {
-  std::vector<double> ratios;
-  for (Cells cells : scenes) {
-    cells.push_back({"discontinuity", discontinuity});
-    cells.push_back({"reached", "1"});
-    const Table rows = where(costs, cells);
-    for (const auto& error : distinct(rows, "target_error")) {
-      double bdf = kInfinity, radau = kInfinity;
-      for (const auto& row : where(rows, {{"target_error", error}}).rows) {
-        const auto& method = textAt(rows, row, "method");
-        double& least = method.find("bdf") != method.npos ? bdf : radau;
-        const bool counts = &least == &bdf || method.starts_with("radau");
-        if (counts) least = std::min(least, numberAt(rows, row, "cpu_s"));
-      }
-      if (!std::isinf(bdf) && !std::isinf(radau)) ratios.push_back(bdf / radau);
+std::vector<double> multistepOverRadau(const Table& costs, const Blocks& blocks) {
+  struct Least {
+    double bdf = kInfinity, radau = kInfinity;
+  };
+  std::map<TableRow, Least> cases;  // by scene, settings and error
+  const Table rows = where(inBlocks(costs, "peers", blocks), {{"reached", "1"}});
+  for (const auto& row : rows.rows) {
+    Least& least = cases[{textAt(rows, row, "scene"), textAt(rows, row, "settings"), textAt(rows, row, "target_error")}];
+    const auto& method = textAt(rows, row, "method");
+    const double seconds = numberAt(rows, row, "cpu_s");
+    if (method.find("bdf") != method.npos) {
+      least.bdf = std::min(least.bdf, seconds);
+    } else if (method.starts_with("radau")) {
+      least.radau = std::min(least.radau, seconds);
     }
+  }
+  std::vector<double> ratios;
+  for (const auto& [where, least] : cases) {
+    if (!std::isinf(least.bdf) && !std::isinf(least.radau)) ratios.push_back(least.bdf / least.radau);
   }
   return ratios;
 }
 
-// What a method does where the torque of the slider-crank is switched off.
+// What a method does where the torque of the crank is switched off.
 struct Jump {
   std::string method;
   double step_factor;   // median step over the smallest one around the jump
   double error_factor;  // error over that of the run without a jump
 };
 
-double errorOf(const Table& runs, const std::string& method, std::string_view settings) {
-  return median(numbersOf(
-      where(runs, {{"scene", "slider_crank"}, {"method", method}, {"settings", settings}}),
-      "error"));
+double errorOf(const Table& runs, const std::string& method) {
+  return median(numbersOf(where(runs, {{"method", method}}), "error"));
+}
+
+// The solution of a run over time.
+const Table& stepsOf(const ResultTables& tables, const Table& runs, const TableRow& run) {
+  RunSpec spec;
+  for (const char* field : {"scene", "settings", "method"}) findField(field).set(spec, textAt(runs, run, field));
+  return tables.table("steps", trajectoryPath({}, spec).stem().string());
 }
 
 std::vector<Jump> jumpsOf(const ResultTables& tables) {
-  constexpr std::string_view kJump = "torque_off_at=0.5";
-  const Table& runs = tables.runs("steps");
+  const Table& all = tables.runs("steps");
+  const Table smooth = inBlocks(all, "steps", {"crank"}),
+              switched = inBlocks(all, "steps", {"crank_torque_off"});
   std::vector<Jump> jumps;
-  for (const auto& method :
-       distinct(where(runs, {{"scene", "slider_crank"}, {"settings", kJump}}), "method")) {
-    const Table& steps = tables.table("steps", "slider_crank_torque_off_at_0.5." + method);
+  for (const auto& method : distinct(switched, "method")) {
+    const Table& steps = stepsOf(tables, switched, where(switched, {{"method", method}}).rows.front());
     const Table near = where(steps, [&](const TableRow& row) {
       const double t = numberAt(steps, row, "t");
       return t > 0.45 && t < 0.55;
@@ -125,7 +118,7 @@ std::vector<Jump> jumpsOf(const ResultTables& tables) {
     if (at_jump.empty()) continue;
     jumps.push_back(
         {method, median(numbersOf(steps, "h")) / *std::min_element(at_jump.begin(), at_jump.end()),
-         errorOf(runs, method, kJump) / errorOf(runs, method, "")});
+         errorOf(switched, method) / errorOf(smooth, method)});
   }
   return jumps;
 }
@@ -178,9 +171,9 @@ Finding stepDoubling(const ResultTables& tables) {
 Finding multistepRestart(const ResultTables& tables) {
   constexpr double kMuch = 1.5, kSome = 1.1;
   const Table& costs = tables.table("peers", "cpu_at_error");
-  const auto smooth = multistepOverRadau(costs, kSmooth, "ignore");
-  const auto jumps = multistepOverRadau(costs, kWithJumps, "ignore");
-  const auto located = multistepOverRadau(costs, kWithJumps, "locate");
+  const auto smooth = multistepOverRadau(costs, kSmooth);
+  const auto jumps = multistepOverRadau(costs, kWithJumps);
+  const auto located = multistepOverRadau(costs, kLocated);
   if (smooth.empty() || jumps.empty()) {
     return notMeasurable("no error is reached by BDF and by Radau IIA on both kinds of scenes");
   }
@@ -203,20 +196,17 @@ Finding multistepRestart(const ResultTables& tables) {
 Finding smallStepsAtJumps(const ResultTables& tables) {
   constexpr double kPays = 1.5, kSmall = 3, kLoss = 10;
   const Table& costs = tables.table("cpu_time", "cpu_at_error");
-  constexpr CasePair kPairs[] = {{"slider_crank", "", "torque_off_at=0.5"},
-                                 {"hydraulic_arm", "reference=smooth", ""}};
   std::vector<double> smooth, discontinuous;
-  for (const auto& pair : kPairs) {
-    const auto a = gainOfOrder(costs, pair.scene, pair.smooth);
-    const auto b = gainOfOrder(costs, pair.scene, pair.discontinuous);
-    if (a) smooth.push_back(*a);
-    if (b) discontinuous.push_back(*b);
-  }
+  const auto append = [&](std::vector<double>& gains, std::string_view block) {
+    if (const auto gain = gainOfOrder(costs, block)) gains.push_back(*gain);
+  };
+  for (const auto* block : {"crank", "arm_smooth"}) append(smooth, block);
+  for (const auto* block : {"crank_torque_off", "arm_kinked"}) append(discontinuous, block);
   if (smooth.empty() || discontinuous.empty()) {
     return notMeasurable("two stages and five or more do not reach a common error");
   }
   const auto jumps = jumpsOf(tables);
-  if (jumps.empty()) return notMeasurable("no run of slider_crank came past 0.5 s");
+  if (jumps.empty()) return notMeasurable("no run of the crank came past the jump");
   std::string details;
   bool necessary = true;  // who does not make its steps small pays with its accuracy
   for (const auto& jump : jumps) {

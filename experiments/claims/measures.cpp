@@ -7,15 +7,29 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
+#include <stdexcept>
 
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/base/numbers.h"
+#include "experiments/study/blocks.h"
+#include "experiments/study/study.h"
 
 namespace irk::claims {
 namespace {
 
 constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+void requireBlock(std::string_view study, std::string_view name) {
+  static std::map<std::string, std::set<std::string>, std::less<>> known;  // blocks of studies
+  const auto [at, added] = known.try_emplace(std::string(study));
+  if (added) {
+    for (const auto& series : loadStudy(study, StudyVariant::kQuick).series) at->second.insert(series.block);
+  }
+  if (at->second.contains(std::string(name))) return;
+  throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
+}
 
 void compareSeries(const Table& runs, const RunSeries& base, const RunSeries& other,
                    std::string_view cost, CostRatios& ratios) {
@@ -46,6 +60,14 @@ Table where(const Table& table, const Cells& cells) {
     return std::all_of(cells.begin(), cells.end(), [&](const auto& cell) {
       return textAt(table, row, cell.first) == cell.second;
     });
+  });
+}
+
+Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks) {
+  for (const auto name : blocks) requireBlock(study, name);
+  const auto column = table.column(kBlockColumn);
+  return where(table, [&](const TableRow& row) {
+    return std::any_of(blocks.begin(), blocks.end(), [&](auto name) { return hasBlock(row[column], name); });
   });
 }
 

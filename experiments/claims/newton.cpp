@@ -28,6 +28,14 @@ double failedPart(const Table& runs) {
   return part(failed, [](double x) { return x > 0; });
 }
 
+// How a table writes a number; empty where it does not have it.
+std::string cellOf(const Table& table, std::string_view column, double number) {
+  for (const auto& cell : distinct(table, column)) {
+    if (std::stod(cell) == number) return cell;
+  }
+  return {};
+}
+
 int countedTwice(const CostRatios& ratios) {
   return static_cast<int>(
       std::count_if(ratios.all.begin(), ratios.all.end(), [](double x) { return x != 1; }));
@@ -116,13 +124,13 @@ Finding massDerivatives(const ResultTables& tables) {
   constexpr double kSame = 1.1, kLittle = 1.5;
   const Table& all = tables.runs("jacobian");
   const auto flexible = [&](std::string_view cost) {
-    return compareCosts(where(all, {{"scene", "slider_crank_flexible"}, {"newton", "simplified"}}),
-                        "jacobian", "full", "no_mass", cost);
+    return compareCosts(where(inBlocks(all, "jacobian", {"terms_elastic_rod"}), {{"newton", "simplified"}}), "jacobian", "full",
+                        "no_mass", cost);
   };
   const CostRatios iterations = flexible("newton_iterations"), time = flexible("cpu_s");
   if (iterations.all.empty()) return notMeasurable("no error is reached with and without them");
-  const auto control = compareCosts(where(all, {{"scene", "ancf_pendulum"}}), "jacobian", "full",
-                                    "no_mass", "newton_iterations");
+  const auto control = compareCosts(inBlocks(all, "jacobian", {"terms_constant_mass"}), "jacobian", "full", "no_mass",
+                                    "newton_iterations");
   const double more = median(iterations.all), slower = median(time.all);
   Finding finding{
       graded(more, kSame, kLittle),
@@ -139,7 +147,7 @@ Finding massDerivatives(const ResultTables& tables) {
 
 Finding smallSteps(const ResultTables& tables) {
   constexpr double kTiny = 1.1e-7, kUseless = 1e-3, kFine = 1e-6, kHelps = 0.9;
-  const Table runs = where(tables.runs("small_steps"), {{"scene", "pendulum"}});
+  const Table runs = inBlocks(tables.runs("small_steps"), "small_steps", {"known_multiplier"});
   const auto tiny = [&](std::string_view formulation, std::string_view scaling) {
     const Table chosen = where(runs, {{"formulation", formulation}, {"scaling", scaling}});
     return where(chosen, [&](auto& row) { return numberAt(chosen, row, "h") <= kTiny; });
@@ -221,9 +229,12 @@ Finding newtonRule(const ResultTables& tables) {
 
 Finding jacobianReuse(const ResultTables& tables) {
   constexpr double kSameTime = 1.05, kFew = 0.05, kCheap = 1.0 / 3;
-  const Table simplified = where(tables.runs("jacobian"), {{"newton", "simplified"}});
+  constexpr double kNever = 0, kContracting = 0.1;
+  const Table reuse = inBlocks(tables.runs("jacobian"), "jacobian", {"reuse"});
+  const std::string never = cellOf(reuse, "keep_jacobian_below", kNever);
+  const std::string kept = cellOf(reuse, "keep_jacobian_below", kContracting);
   const auto ratio = [&](std::string_view cost) {
-    return compareCosts(simplified, "keep_jacobian_below", "0", "0.10000000000000001", cost);
+    return compareCosts(reuse, "keep_jacobian_below", never, kept, cost);
   };
   const CostRatios time = ratio("cpu_s"), jacobians = ratio("jacobians");
   if (time.all.empty()) return notMeasurable("no error is reached with and without reuse");

@@ -12,10 +12,8 @@
 namespace irk::claims {
 namespace {
 
-// The smooth scenes of the study cpu_time.
-const Cells kSmoothCases[] = {{{"scene", "slider_crank"}, {"settings", ""}},
-                              {{"scene", "hydraulic_arm"}, {"settings", "reference=smooth"}},
-                              {{"scene", "ancf_pendulum"}, {"settings", ""}}};
+// The smooth blocks of the study cpu_time, one scene each.
+constexpr std::string_view kSmoothCases[] = {"crank", "arm_smooth", "elastic_pendulum"};
 
 // The smallest error that any method reaches, among those asked for.
 Table atSmallestError(const Table& costs) {
@@ -59,7 +57,7 @@ Finding highOrders(const ResultTables& tables) {
   int cases = 0, efficient = 0, fairly = 0;
   std::string cheapest;
   for (const auto& one : kSmoothCases) {
-    const Table best = atSmallestError(where(costs, one));
+    const Table best = atSmallestError(inBlocks(costs, "cpu_time", {one}));
     if (best.rows.empty()) continue;
     ++cases;
     const double all = leastCost(best, [](auto&) { return true; });
@@ -87,11 +85,11 @@ Finding manyStages(const ResultTables& tables) {
   const Table& costs = tables.table("cpu_time", "cpu_at_error");
   std::vector<double> fastest;
   for (const auto& one : kSmoothCases) {
-    const Table best = atSmallestError(where(where(costs, one), {{"family", "radau_iia"}}));
+    const Table best = atSmallestError(where(inBlocks(costs, "cpu_time", {one}), {{"family", "radau_iia"}}));
     if (!best.rows.empty()) fastest.push_back((cheapestOrder(best) + 1) / 2);
   }
   if (fastest.empty()) return notMeasurable("no smooth scene reaches any of the errors asked for");
-  const Table runs = where(tables.runs("failure_newton"), {{"scene", "slider_crank"}});
+  const Table runs = inBlocks(tables.runs("failure_newton"), "failure_newton", {"tight_tolerances"});
   std::vector<double> few, many;  // 1: failed
   for (const auto& row : runs.rows) {
     if (numberAt(runs, row, "rtol") > 1e-11) continue;

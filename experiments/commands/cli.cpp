@@ -205,7 +205,7 @@ class Program {
   void addList() {
     auto* sub =
         verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
-    sub->add_option("what", what_, "scenes, methods, studies or strategies");
+    sub->add_option("what", what_, "scenes, methods, studies, analyses or strategies");
   }
 
   void addTableau() {

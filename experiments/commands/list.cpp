@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include "core/base/text.h"
+#include "experiments/analyses/analyses.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/builtin_studies.h"
@@ -41,6 +42,13 @@ void listStudies(std::ostream& out) {
     std::size_t runs = 0;
     for (const auto& series : full.series) runs += series.runs.size();
     fmt::print(out, "{:<12} {} (at most {} runs)\n", study.id, full.title, runs);
+  }
+}
+
+void listAnalyses(std::ostream& out) {
+  for (const auto& analysis : analyses()) {
+    fmt::print(out, "{:<12} {}: {} from {}; a study asks by its key '{}'\n", analysis.id, analysis.meaning, analysis.writes,
+               analysis.reads, analysis.key);
   }
 }
 
@@ -88,6 +96,7 @@ struct List {
 constexpr List kLists[] = {{"scenes", listScenes},
                            {"methods", listMethods},
                            {"studies", listStudies},
+                           {"analyses", listAnalyses},
                            {"strategies", listStrategies}};
 
 }  // namespace

@@ -112,6 +112,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
     return 1;
   }
   for (const auto& store : stores) merged.takeOver(*store);
+  merged.nameBlocks(blocksOf(study, keys));
   merged.exportTables(inOrder(keys));
   const Table runs = readTable(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);

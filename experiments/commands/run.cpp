@@ -80,8 +80,7 @@ std::string allRefused(const std::string& study, const store::Store& store, cons
 
 // A table of all runs takes some kilobytes of memory for each.
 bool needsTable(const Study& study) {
-  return study.orders || study.estimates || study.scaling || study.energy || study.phases || study.audit ||
-         study.timing.wanted || !study.targets.empty();
+  return !study.analyses.empty() || study.audit || study.timing.wanted;
 }
 
 // A rank other than the first: its part of the runs, without a word; the first one joins and tells.
@@ -105,6 +104,7 @@ std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& 
   const auto keys = makeRuns(study, options, *store, ranks, err);
   ranks.meet();
   if (ranks.count() > 1) open();  // with what the others have added
+  store->nameBlocks(blocksOf(study, runKeys(study, options)));
   store->exportTables(keys);
   return keys;
 }

@@ -230,7 +230,9 @@ std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& opt
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
   store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
   const auto alone = aloneRank();
-  store.exportTables(makeRuns(study, options, store, *alone, progress));
+  const auto keys = makeRuns(study, options, store, *alone, progress);
+  store.nameBlocks(blocksOf(study, runKeys(study, options)));
+  store.exportTables(keys);
   return readTable(store.folder() / "runs.csv");
 }
 

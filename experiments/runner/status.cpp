@@ -35,7 +35,8 @@ class Counting {
     for (const std::size_t run : state.found) countFinished(series, run, *runs.find(keys[run]), counts);
     for (const std::size_t run : state.missing) expect(kindOf(series.runs[run], series.end), 1);
     expect(kindOf(series.runs.front(), series.end), state.unplanned);
-    scene(series.runs.front().scene).add(counts);
+    part(series.block.empty() ? series.runs.front().scene : series.block).add(counts);
+    if (series.block.empty()) status_.part = "scene";
     status_.all.add(counts);
   }
 
@@ -83,10 +84,10 @@ class Counting {
     return at->second;
   }
 
-  RunCounts& scene(const std::string& id) {
-    const auto at = std::find_if(status_.scenes.begin(), status_.scenes.end(), [&](const auto& s) { return s.first == id; });
-    if (at != status_.scenes.end()) return at->second;
-    return status_.scenes.emplace_back(id, RunCounts()).second;
+  RunCounts& part(const std::string& id) {
+    const auto at = std::find_if(status_.parts.begin(), status_.parts.end(), [&](const auto& s) { return s.first == id; });
+    if (at != status_.parts.end()) return at->second;
+    return status_.parts.emplace_back(id, RunCounts()).second;
   }
 
   const Study& study_;
@@ -120,14 +121,14 @@ StudyStatus statusOf(const Study& study, const RunnerOptions& options, const sto
 
 std::string textOf(const StudyStatus& status) {
   std::size_t width = 5;
-  for (const auto& [scene, counts] : status.scenes) width = std::max(width, scene.size());
-  std::string text = fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "scene", width, "planned", "finished",
+  for (const auto& [part, counts] : status.parts) width = std::max(width, part.size());
+  std::string text = fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", status.part, width, "planned", "finished",
                                  "failed", "stale", "foreign");
-  const auto line = [&](const std::string& scene, const RunCounts& c) {
-    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", scene, width, c.planned, c.finished, c.failed, c.stale,
+  const auto line = [&](const std::string& part, const RunCounts& c) {
+    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", part, width, c.planned, c.finished, c.failed, c.stale,
                         c.foreign);
   };
-  for (const auto& [scene, counts] : status.scenes) line(scene, counts);
+  for (const auto& [part, counts] : status.parts) line(part, counts);
   line("all", status.all);
   const std::size_t missing = status.all.planned - status.all.finished;
   if (missing == 0) {

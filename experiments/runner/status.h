@@ -24,7 +24,9 @@ struct RunCounts {
 };
 
 struct StudyStatus {
-  std::vector<std::pair<std::string, RunCounts>> scenes;  ///< in the study's order
+  /// By block, of an audit by scene; in the study's order. A run of two blocks counts in both.
+  std::vector<std::pair<std::string, RunCounts>> parts;
+  std::string part = "block";  ///< or `scene`
   RunCounts all;
   double seconds_left = 0;          ///< of the missing accuracy runs, on one thread, from the times of finished ones
   std::size_t guessed = 0;          ///< missing runs without a finished one alike: counted as the mean of all finished ones
@@ -35,7 +37,7 @@ struct StudyStatus {
 /// Of the runs of this shard of the study. Reads only.
 StudyStatus statusOf(const Study& study, const RunnerOptions& options, const store::Store& store);
 
-/// A table by scene, and the time still needed.
+/// A table by block, and the time still needed.
 std::string textOf(const StudyStatus& status);
 
 }  // namespace irk

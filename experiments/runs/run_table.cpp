@@ -4,6 +4,7 @@
 #include <map>
 
 #include "experiments/base/numbers.h"
+#include "experiments/study/blocks.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 
@@ -92,6 +93,7 @@ std::vector<RunSeries> seriesOf(const Table& runs) {
     const auto [at, added] = place.try_emplace(name, all.size());
     if (added) all.push_back({name, {}});
     all[at->second].rows.push_back(&row);
+    if (runs.hasColumn(kBlockColumn)) addBlocks(all[at->second].blocks, textAt(runs, row, kBlockColumn));
   }
   return all;
 }

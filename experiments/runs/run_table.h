@@ -22,6 +22,7 @@ std::vector<std::string> seriesColumns(const Table& table);
 struct RunSeries {
   TableRow name;  ///< the cells of seriesColumns
   std::vector<const TableRow*> rows;
+  std::string blocks = {};  ///< of all of its rows (experiments/study/blocks.h)
 };
 /// In the order in which they first appear. Points into the table.
 std::vector<RunSeries> seriesOf(const Table& runs);

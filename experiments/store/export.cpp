@@ -112,18 +112,20 @@ TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& re
 void Store::exportRuns(std::span<const std::uint64_t> keys, const std::string& refusal) const {
   const Table names{{}, runs_.columns(), {}};
   writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
-    out << startOf(head(keys, refusal), runs_.columns());
+    auto columns = runs_.columns();
+    if (!blocks_.empty()) columns.emplace_back(kBlockColumn);
+    out << startOf(head(keys, refusal), columns);
     for (const auto key : keys) {
       const Entry* entry = runs_.find(key);
       if (!entry) continue;
       const bool times_count = refusal.empty() && (options_.times == Times::kAll || timedHere(*entry));
-      if (times_count) {
-        out << runs_.line(*entry) << '\n';
-      } else {
-        TableRow row = runs_.row(*entry);
-        forgetTiming(names, row);
-        out << csvLine(row) << '\n';
+      TableRow row = runs_.row(*entry);
+      if (!times_count) forgetTiming(names, row);
+      if (!blocks_.empty()) {
+        const auto block = blocks_.find(key);
+        row.push_back(block == blocks_.end() ? std::string() : block->second);
       }
+      out << csvLine(row) << '\n';
     }
   });
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "experiments/base/failure.h"
+#include "experiments/study/blocks.h"
 
 namespace irk::store {
 namespace {
@@ -74,6 +75,7 @@ PartReading readPart(const std::filesystem::path& file, const std::vector<std::s
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Failure(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
   PartReading reading;
+  std::size_t width = 0;
   std::vector<std::string_view> cells;
   std::string line;
   std::uint64_t offset = 0;
@@ -86,9 +88,12 @@ PartReading readPart(const std::filesystem::path& file, const std::vector<std::s
     const bool whole = splitLine(text, cells) && !cut;
     if (!reading.columns_match) {
       if (text.starts_with('#')) continue;
-      if (!whole || plainRow(cells) != columns) return reading;
+      TableRow header = plainRow(cells);
+      width = header.size();
+      if (header.back() == kBlockColumn) header.pop_back();  // a table that was exported
+      if (!whole || header != columns) return reading;
       reading.columns_match = true;
-    } else if (!whole || cells.size() != columns.size() || !take(cells, start)) {
+    } else if (!whole || cells.size() != width || !take(cells, start)) {
       reading.damaged.push_back({number, line});
     }
   }

@@ -98,8 +98,9 @@ void Store::addEnvironment() {
   if (!environments_.find(keyNumber(environment.front()))) environments_.append(environment);
 }
 
-void Store::addTimes(const TableRow& row) {
+void Store::addTimes(TableRow row) {
   addEnvironment();
+  row.resize(runs_.columns().size());
   runs_.append(row);
 }
 

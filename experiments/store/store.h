@@ -12,9 +12,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "experiments/store/lock.h"
 #include "experiments/store/rows.h"
+#include "experiments/study/blocks.h"
 #include "experiments/tables/table.h"
 
 namespace irk::store {
@@ -55,8 +57,8 @@ class Store {
 
   /// A run that was made now; the column `remade` is filled in.
   void addRun(TableRow row);
-  /// The row of a run with other times.
-  void addTimes(const TableRow& row);
+  /// The row of a run with other times; a cell of blocks is left out.
+  void addTimes(TableRow row);
   void addState(const std::string& key, const std::string& state);
   /// Takes over what another store has and this one has not. Returns the number of rows of runs.
   std::size_t takeOver(const Store& other);
@@ -65,6 +67,9 @@ class Store {
   std::string processor(std::string_view environment) const;
   /// Of the counting row's times: measured on this processor.
   bool timedHere(const Entry& entry) const;
+
+  /// What exported tables say of blocks; without any names they have no such column.
+  void nameBlocks(BlockNames names) { blocks_ = std::move(names); }
 
   /// Writes runs.csv, environments.csv, and states.csv where there are states: the rows of these keys in this order.
   /// Each is written beside its target and renamed. Returns the refusal of times of several processors, or nothing.
@@ -85,6 +90,7 @@ class Store {
   std::string started_;
   std::optional<Lock> lock_;
   Rows runs_, states_, environments_;
+  BlockNames blocks_;
 };
 
 /// `0123456789abcdef` as a number.

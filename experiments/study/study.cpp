@@ -11,6 +11,7 @@
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "experiments/analyses/analyses.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
@@ -205,6 +206,7 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
         atPlace(*listed, [&] { refuseFamilyOfFixedOrder(spec); });
       }
       all.push_back(makeSeries(spec, keys));
+      all.back().block = find(keys, "name")->items.front();
     }
   }
 }
@@ -250,6 +252,19 @@ std::vector<Series> auditSeries(const AuditOptions& options) {
   std::vector<Series> series;
   for (const auto& run : audit::drawnRuns(options)) series.push_back({run.spec});
   return series;
+}
+
+std::vector<const Analysis*> wantedAnalyses(const StudyKeys& keys) {
+  std::vector<const Analysis*> wanted;
+  for (const Analysis& analysis : analyses()) {
+    const auto* asked = find(keys, analysis.key);
+    if (!asked || (analysis.key != "targets" && !flag(keys, analysis.key))) continue;
+    if (!analysis.needs.empty() && !find(keys, analysis.needs)) {
+      throw Misuse(fmt::format("{}: {} without {} has no effect", asked->place, analysis.key, analysis.needs));
+    }
+    wanted.push_back(&analysis);
+  }
+  return wanted;
 }
 
 // A file's results are in the folder of its name.
@@ -300,16 +315,11 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   Study study;
   study.id = std::filesystem::path(file).stem();
   if (const auto* title = find(text.study, "title")) study.title = single("title", *title);
-  study.orders = flag(text.study, "orders");
   study.trajectories = flag(text.study, "trajectories");
-  study.estimates = flag(text.study, "estimates");
-  study.scaling = flag(text.study, "scaling");
-  study.energy = flag(text.study, "energy");
-  study.phases = flag(text.study, "phases");
   if (const auto* targets = find(text.study, "targets")) {
     study.targets = numbers(*targets, "targets", kPositive);
   }
-  study.profile = flag(text.study, "profile");
+  study.analyses = wantedAnalyses(text.study);
   study.timing = timingOptions(text.study);
   if (find(text.study, "audit")) {
     study.audit = auditOptions(text.study);

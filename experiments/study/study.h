@@ -15,6 +15,8 @@
 
 namespace irk {
 
+struct Analysis;  // experiments/analyses/analyses.h
+
 /// When the runs of a series that come later need not be made.
 enum class SeriesEnd {
   kAll,         ///< every run is made
@@ -26,6 +28,7 @@ enum class SeriesEnd {
 struct Series {
   SeriesRuns runs;
   SeriesEnd end = SeriesEnd::kAll;
+  std::string block = {};  ///< the name of its block; empty for the runs of an audit
 };
 
 /// The serial timing pass.
@@ -49,15 +52,10 @@ struct Study {
   std::string id;
   std::string title;
   std::vector<Series> series;
-  bool orders = false;          ///< fit orders: orders.csv
-  bool trajectories = false;    ///< write the solution over time of every run: <scene>.<method>.csv
-  bool estimates = false;       ///< compare estimated with true errors of steps: estimates.csv
-  bool scaling = false;         ///< time of a step over n, stages, threads: scaling.csv
-  bool energy = false;          ///< what round-off does to an energy: energy.csv
-  bool phases = false;          ///< shares of the parts of Newton's method: phases.csv
-  std::vector<double> targets;  ///< errors at which costs are compared: cpu_at_error.csv
-  bool profile = false;         ///< performance profiles at the targets: profile.csv
-  bool states = false;          ///< keep the final states of all runs: states.csv
+  std::vector<const Analysis*> analyses;  ///< what is computed from the runs, in the catalogue's order
+  std::vector<double> targets;            ///< errors at which costs are compared
+  bool trajectories = false;              ///< write the solution over time of every run: <scene>.<method>.csv
+  bool states = false;                    ///< keep the final states of all runs: states.csv
   /// Judge every success: audit.csv. The series are the drawn runs, one each.
   std::optional<AuditOptions> audit;
   TimingOptions timing;

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "core/base/text.h"
+#include "experiments/analyses/analyses.h"
 #include "experiments/base/numbers.h"
 
 namespace irk {
@@ -76,10 +77,11 @@ class FileReader {
   std::string file_;
 };
 
-constexpr std::string_view kStudyKeys[] = {"title",  "orders", "trajectories", "estimates",
-                                           "energy", "phases", "timing",       "targets",
-                                           "profile", "scaling", "audit", "defaults",
-                                           "quick", "block"};
+std::vector<std::string> studyKeys() {
+  std::vector<std::string> keys{"title", "trajectories", "timing", "audit", "defaults", "quick", "block"};
+  for (const Analysis& analysis : analyses()) keys.emplace_back(analysis.key);
+  return keys;
+}
 
 // A table of the study itself: `timing.repetitions`. Its table `quick` holds for --quick only.
 void readStudyTable(const FileReader& reader, const std::string& key, const toml::node& node,
@@ -95,13 +97,43 @@ void readStudyTable(const FileReader& reader, const std::string& key, const toml
 void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
                   bool quick, StudyKeys& study) {
   if (key == "defaults" || key == "quick" || key == "block") return;
-  if (std::find(std::begin(kStudyKeys), std::end(kStudyKeys), key) == std::end(kStudyKeys)) {
-    reader.refuse(node, unknownName("key", key, {std::begin(kStudyKeys), std::end(kStudyKeys)}));
-  }
+  const auto known = studyKeys();
+  if (std::find(known.begin(), known.end(), key) == known.end()) reader.refuse(node, unknownName("key", key, known));
   if (key == "timing" || key == "audit") {
     return readStudyTable(reader, std::string(key), node, quick, study);
   }
   study[std::string(key)] = reader.value(key, node);
+}
+
+// Blocks are named by themselves: a name in [defaults] or in a table of --quick would be that of several.
+void refuseName(const FileReader& reader, const toml::table* from, std::string_view where) {
+  const auto* name = from ? from->get("name") : nullptr;
+  if (name) reader.refuse(*name, fmt::format("name: a [[block]] is named in itself, not in {}", where));
+}
+
+void refuseNames(const FileReader& reader, const toml::table& root, const toml::array& blocks) {
+  refuseName(reader, root.get_as<toml::table>("defaults"), "[defaults]");
+  refuseName(reader, root.get_as<toml::table>("quick"), "[quick]");
+  for (const auto& node : blocks) {
+    const auto* block = node.as_table();
+    if (block) refuseName(reader, block->get_as<toml::table>("quick"), "[block.quick]");
+  }
+}
+
+// The block's name, by default its number; figures, claims and the column `block` are told it.
+void nameBlock(StudyKeys& keys, std::size_t number, const std::string& place, std::vector<std::string>& names) {
+  const auto& name = keys.try_emplace("name", StudyValue{{fmt::format("block_{}", number)}, place}).first->second;
+  const auto refuse = [&](std::string_view reason) { throw Misuse(fmt::format("{}: name: {}", name.place, reason)); };
+  if (name.items.size() != 1) refuse("one word is expected, not a list");
+  const std::string& text = name.items.front();
+  const auto isPlain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  if (text.empty() || !std::all_of(text.begin(), text.end(), isPlain)) {
+    refuse(fmt::format("'{}': letters, digits and _ are expected", text));
+  }
+  if (std::find(names.begin(), names.end(), text) != names.end()) {
+    refuse(fmt::format("'{}' is another block's name", text));
+  }
+  names.push_back(text);
 }
 
 // The text with strings and comments blanked out, line by line the same.
@@ -200,6 +232,8 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
     return result;
   }
   if (!blocks || blocks->empty()) throw Misuse(file + ": no [[block]]: a study needs at least one");
+  refuseNames(reader, root, *blocks);
+  std::vector<std::string> names;
   for (const auto& node : *blocks) {
     const toml::table& block = reader.table("block", node);
     StudyKeys keys = defaults;
@@ -207,6 +241,7 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
     if (quick) reader.mergeQuick(root, keys);
     if (quick) reader.mergeQuick(block, keys);
     keys.try_emplace("scene", StudyValue{{}, reader.place(node.source())});
+    nameBlock(keys, names.size() + 1, reader.place(node.source()), names);
     result.blocks.push_back(std::move(keys));
   }
   return result;

@@ -6,7 +6,7 @@
 //   [defaults]                     keys of every block   [quick]        the same, --quick only
 //   [[block]]                      one sweep             [block.quick]  the same, --quick only
 //
-// In a block: scene, methods or families and stages; one of tolerances, steps, refine_most; fields of a spec. A block
+// In a block: name (letters, digits and _; block_1, block_2, ... if not given), scene, methods or families and stages; one of tolerances, steps, refine_most; fields of a spec. A block
 // has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
 #pragma once
 
@@ -31,7 +31,7 @@ struct StudyFile {
   std::vector<StudyKeys> blocks;  ///< defaults and quick variants merged in; empty for an audit only
 };
 
-/// Throws Misuse `file:line: reason`.
+/// Every block has a key `name`, and no two the same one. Throws Misuse `file:line: reason`.
 StudyFile parseStudyFile(std::string_view toml, const std::string& file, StudyVariant variant);
 
 }  // namespace irk

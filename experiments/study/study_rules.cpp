@@ -6,22 +6,12 @@
 #include <iterator>
 #include <span>
 
+#include "experiments/analyses/analyses.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/unused_options.h"
 
 namespace irk {
 namespace {
-
-// Analyses that take one method's tableau: with variable order every step can have another one.
-struct OneMethodAnalysis {
-  const char* key;
-  bool Study::*wanted;
-  const char* reason;
-};
-constexpr OneMethodAnalysis kOneMethod[] = {
-    {"scaling", &Study::scaling, "the time of a step is compared between methods of fixed stages"},
-    {"estimates", &Study::estimates, "the error of a step is compared with one method's estimate"},
-    {"phases", &Study::phases, "the parts of a run are timed with one method's matrices"}};
 
 const StudyValue* keyOf(const StudyKeys& keys, std::string_view key) {
   const auto at = keys.find(key);
@@ -32,7 +22,7 @@ const StudyValue* keyOf(const StudyKeys& keys, std::string_view key) {
 constexpr std::string_view kSeriesKeys[] = {"tolerances", "steps", "refine_most"};
 // Keys of a block that are no fields of a spec.
 constexpr std::string_view kSweepKeys[] = {"families", "stages",      "methods",  "tolerances",
-                                           "steps",    "refine_most", "most_runs"};
+                                           "steps",    "refine_most", "most_runs", "name"};
 
 // Keys that another key of the block overrides; `fitting`: the one value that says the same.
 struct Overridden {
@@ -105,16 +95,16 @@ void refuseTooMany(const StudyKeys& block, std::size_t methods, std::size_t runs
 
 void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t first) {
   const auto& series = study.series;
-  for (const auto& analysis : kOneMethod) {
-    if (!(study.*analysis.wanted)) continue;
+  for (const Analysis* analysis : study.analyses) {
+    if (analysis->one_method.empty()) continue;
     for (std::size_t i = first; i < series.size(); ++i) {
       const RunSpec& spec = series[i].runs.front();
       if (spec.options.order != OrderControl::kVariable || findPeer(spec.method)) continue;
       const auto* key = keyOf(block, "order");
       if (!key) key = keyOf(block, "configuration");
       throw Misuse(fmt::format("{}: order 'variable' with {} = true: {}; use order 'fixed'",
-                               (key ? key : keyOf(block, "scene"))->place, analysis.key,
-                               analysis.reason));
+                               (key ? key : keyOf(block, "scene"))->place, analysis->key,
+                               analysis->one_method));
     }
   }
 }

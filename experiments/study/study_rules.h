@@ -12,7 +12,7 @@
 namespace irk {
 
 /// Throws Misuse `file:line: reason` where a series of the block, those of the study from `first` on, has
-/// variable order and the study wants an analysis of one method: `scaling`, `estimates`, `phases`.
+/// variable order, with which every step can have another method, and the study wants an analysis of one method.
 void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t first);
 
 /// Runs of a block unless its key `most_runs` allows more, up to kMostRunsAsked.

@@ -26,18 +26,14 @@ Table columns(std::vector<std::string> names) {
 }
 
 Table costTable() {
-  return columns({"scene", "settings", "family", "stages", "target_error", "reached", "cpu_s"});
+  return columns({"block", "family", "stages", "target_error", "reached", "cpu_s"});
 }
 
-struct Place {
-  const char *scene, *settings;
-};
-constexpr Place kSmoothPlaces[] = {
-    {"slider_crank", ""}, {"hydraulic_arm", "reference=smooth"}, {"ancf_pendulum", ""}};
+constexpr const char* kSmoothBlocks[] = {"crank", "arm_smooth", "elastic_pendulum"};
 
-void addCost(Table& table, const Place& place, const char* family, int stages, const char* error,
+void addCost(Table& table, const char* block, const char* family, int stages, const char* error,
              double cost, bool reached = true) {
-  table.rows.push_back({place.scene, place.settings, family, std::to_string(stages), error,
+  table.rows.push_back({block, family, std::to_string(stages), error,
                         reached ? "1" : "0", reached ? text(cost) : "nan"});
 }
 
@@ -57,7 +53,7 @@ ResultTables highOrderTables(double order, const std::vector<Costs>& costs,
                  {"gauss", "18", "not_measurable", "36"}};
   Table table = costTable();
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    const Place& place = kSmoothPlaces[i];
+    const char* place = kSmoothBlocks[i];
     // Where more is asked for than the smallest common error, nothing else counts.
     addCost(table, place, "radau_iia", 2, "1e-2", 1e-3);
     addCost(table, place, "gauss", high_stages, "1e-2", 1e3);
@@ -99,21 +95,21 @@ ResultTables manyStageTables(const std::vector<int>& fastest, int few_failed, in
   Table table = costTable();
   for (std::size_t i = 0; i < fastest.size(); ++i) {
     for (int s = 2; s <= 20; ++s) {
-      addCost(table, kSmoothPlaces[i], "radau_iia", s, "1e-10", 1 + std::abs(s - fastest[i]));
-      addCost(table, kSmoothPlaces[i], "radau_iia", s, "1e-4", s);
+      addCost(table, kSmoothBlocks[i], "radau_iia", s, "1e-10", 1 + std::abs(s - fastest[i]));
+      addCost(table, kSmoothBlocks[i], "radau_iia", s, "1e-4", s);
     }
-    addCost(table, kSmoothPlaces[i], "gauss", 2, "1e-10", 0.1);
+    addCost(table, kSmoothBlocks[i], "gauss", 2, "1e-10", 0.1);
   }
-  Table runs = columns({"scene", "rtol", "stages", "outcome"});
-  const auto add = [&](const char* scene, const char* rtol, int stages, bool failed) {
+  Table runs = columns({"block", "rtol", "stages", "outcome"});
+  const auto add = [&](const char* block, const char* rtol, int stages, bool failed) {
     runs.rows.push_back(
-        {scene, rtol, std::to_string(stages), failed ? "newton_failed" : "success"});
+        {block, rtol, std::to_string(stages), failed ? "newton_failed" : "success"});
   };
   for (int i = 0; i < 4; ++i) {
-    add("slider_crank", "1e-11", 10, i < few_failed);
-    add("slider_crank", "1e-12", 11, i < many_failed);
-    add("slider_crank", "1e-10", 20, true);  // not tight
-    add("stick_slip", "1e-12", 5, true);     // another scene
+    add("tight_tolerances", "1e-11", 10, i < few_failed);
+    add("tight_tolerances", "1e-12", 11, i < many_failed);
+    add("tight_tolerances", "1e-10", 20, true);  // not tight
+    add("jumps_of_friction", "1e-12", 5, true);  // another block
   }
   ResultTables results;
   results.put("cpu_time", "cpu_at_error", table);
@@ -141,12 +137,12 @@ struct JumpRun {
 };
 
 void putSteps(ResultTables& results, const std::vector<JumpRun>& jumps) {
-  Table runs = columns({"scene", "method", "settings", "error"});
+  Table runs = columns({"block", "scene", "method", "settings", "error"});
   int number = 2;
   for (const auto& jump : jumps) {
     const std::string method = "radau_iia_" + std::to_string(number++);
-    runs.rows.push_back({"slider_crank", method, "", "1e-8"});
-    runs.rows.push_back({"slider_crank", method, "torque_off_at=0.5",
+    runs.rows.push_back({"crank", "slider_crank", method, "", "1e-8"});
+    runs.rows.push_back({"crank_torque_off", "slider_crank", method, "torque_off_at=0.5",
                          text(1e-8 * jump.error_factor * 1e6) + "e-6"});
     Table steps = columns({"t", "h"});
     for (const double t : {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8})
@@ -173,14 +169,14 @@ ResultTables doublingTables(double reliable_v, double reliable_z, double cost, d
   add("v", reliable_v);
   add("z", reliable_z);
   results.put("estimate", "estimates", estimates);
-  Table control = columns({"scene", "method", "control", "rtol", "outcome", "residuals"});
+  Table control = columns({"block", "scene", "method", "outcome", "residuals"});
   for (const double spread : {0.5, 1.0, 3.0}) {  // the median counts
     const auto scene = text(spread);
-    control.rows.push_back({scene, "radau_iia_3", "fixed", "0.5", "success", "1000"});
+    control.rows.push_back({"plain_steps", scene, "radau_iia_3", "success", "1000"});
     control.rows.push_back(
-        {scene, "radau_iia_3", "paper", "0.5", "success", text(1000 * cost * spread)});
-    control.rows.push_back({scene, "radau_iia_3", "paper", "1e-6", "success", "77"});
-    control.rows.push_back({scene, "radau_iia_4", "paper", "0.5", "newton_failed", "1"});
+        {"doubled_steps", scene, "radau_iia_3", "success", text(1000 * cost * spread)});
+    control.rows.push_back({"controllers_pendulums", scene, "radau_iia_3", "success", "77"});
+    control.rows.push_back({"doubled_steps", scene, "radau_iia_4", "newton_failed", "1"});
   }
   results.put("control", "runs", control);
   putSteps(results, {{5, 1}, {5, blind}});
@@ -204,15 +200,14 @@ TEST(ClaimThresholds, StepDoubling) {
   nothing.put("estimate", "estimates", columns({"group", "doubling"}));
   EXPECT_EQ(said("C3", nothing), kUnknown);
   ResultTables no_jump = doublingTables(1, 1, 1.5, 1);
-  no_jump.put("steps", "runs", columns({"scene", "method", "settings", "error"}));
+  no_jump.put("steps", "runs", columns({"block", "scene", "method", "settings", "error"}));
   EXPECT_EQ(said("C3", no_jump), kUnknown);
 }
 
 // gain: cost of two stages over that of five and more.
 ResultTables jumpTables(double smooth, double discontinuous, const std::vector<JumpRun>& jumps) {
   Table table = costTable();
-  const auto add = [&](const char* scene, const char* settings, double gain) {
-    const Place place{scene, settings};
+  const auto add = [&](const char* place, double gain) {
     addCost(table, place, "radau_iia", 2, "1e-4", gain);
     addCost(table, place, "radau_iia", 4, "1e-4", 1e-3);  // neither two nor five
     addCost(table, place, "radau_iia", 5, "1e-4", 3);
@@ -223,10 +218,10 @@ ResultTables jumpTables(double smooth, double discontinuous, const std::vector<J
     addCost(table, place, "radau_iia", 5, "1e-6", 1e-3);
     addCost(table, place, "gauss", 5, "1e-4", 1e-3);
   };
-  add("slider_crank", "", smooth);
-  add("hydraulic_arm", "reference=smooth", smooth);
-  add("slider_crank", "torque_off_at=0.5", discontinuous);
-  add("hydraulic_arm", "", discontinuous);
+  add("crank", smooth);
+  add("arm_smooth", smooth);
+  add("crank_torque_off", discontinuous);
+  add("arm_kinked", discontinuous);
   ResultTables results;
   results.put("cpu_time", "cpu_at_error", table);
   putSteps(results, jumps);

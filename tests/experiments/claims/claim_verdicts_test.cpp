@@ -10,19 +10,19 @@ namespace {
 TEST(Claims, DroppedMassDerivatives) {
   const auto tables = [](double factor) {
     ResultTables results;
-    Table runs = costColumns({"scene", "method", "newton", "jacobian"});
-    const auto add = [&](const char* scene, const char* terms, double scale) {
+    Table runs = costColumns({"block", "method", "newton", "jacobian"});
+    const auto add = [&](const char* block, const char* terms, double scale) {
       addSeries(runs,
-                {{"scene", scene},
+                {{"block", block},
                  {"method", "radau_iia_3"},
                  {"newton", "simplified"},
                  {"jacobian", terms}},
                 scale);
     };
-    add("slider_crank_flexible", "full", 1);
-    add("slider_crank_flexible", "no_mass", factor);
-    add("ancf_pendulum", "full", 1);
-    add("ancf_pendulum", "no_mass", 1);
+    add("terms_elastic_rod", "full", 1);
+    add("terms_elastic_rod", "no_mass", factor);
+    add("terms_constant_mass", "full", 1);
+    add("terms_constant_mass", "no_mass", 1);
     results.put("jacobian", "runs", runs);
     return results;
   };
@@ -141,13 +141,13 @@ TEST(Claims, RelativeTolerancesAndTheKForm) {
 TEST(Claims, TinySteps) {
   const auto tables = [](const char* error3, const char* error2, const char* outcome_unscaled) {
     Table runs;
-    runs.columns = {"scene",   "formulation", "scaling",           "h",
+    runs.columns = {"block",   "formulation", "scaling",           "h",
                     "outcome", "error_z",     "newton_iterations", "steps_accepted"};
     const auto add = [&](const char* formulation, const char* scaling, const char* outcome,
                          const char* error) {
-      runs.rows.push_back({"pendulum", formulation, scaling, "1e-8", outcome, error, "20", "10"});
+      runs.rows.push_back({"known_multiplier", formulation, scaling, "1e-8", outcome, error, "20", "10"});
       runs.rows.push_back(
-          {"pendulum", formulation, scaling, "1e-3", "success", "1e-9", "20", "10"});
+          {"known_multiplier", formulation, scaling, "1e-3", "success", "1e-9", "20", "10"});
     };
     add("index3", "on", "success", error3);
     add("index3", "off", outcome_unscaled, "nan");
@@ -165,16 +165,15 @@ TEST(Claims, TinySteps) {
 TEST(Claims, MultistepMethodsAtJumps) {
   const auto tables = [](double with_jumps) {
     Table costs;
-    costs.columns = {"scene",        "settings", "method", "discontinuity",
-                     "target_error", "reached",  "cpu_s"};
-    const auto add = [&](const char* scene, const char* method, double cost) {
-      costs.rows.push_back({scene, "", method, "ignore", "1e-4", "1", text(cost)});
+    costs.columns = {"block", "scene", "settings", "method", "target_error", "reached", "cpu_s"};
+    const auto add = [&](const char* block, const char* method, double cost) {
+      costs.rows.push_back({block, block, "", method, "1e-4", "1", text(cost)});
     };
-    add("hires", "cvode_bdf", 2);
-    add("hires", "radau_iia_5", 1);
-    add("hires", "arkode_dirk", 0.01);  // of neither kind
-    add("bouncing_mass", "cvode_bdf", 2 * with_jumps);
-    add("bouncing_mass", "radau_iia_5", 1);
+    add("stiff", "cvode_bdf", 2);
+    add("stiff", "radau_iia_5", 1);
+    add("stiff", "arkode_dirk", 0.01);  // of neither kind
+    add("contact", "cvode_bdf", 2 * with_jumps);
+    add("contact", "radau_iia_5", 1);
     ResultTables results;
     results.put("peers", "cpu_at_error", costs);
     return results;
@@ -187,12 +186,11 @@ TEST(Claims, MultistepMethodsAtJumps) {
 TEST(Claims, ReuseOfJacobiansAndFactorizations) {
   const auto tables = [](double time, const char* decoupled) {
     ResultTables results;
-    Table runs = costColumns({"scene", "method", "newton", "keep_jacobian_below"});
+    Table runs = costColumns({"block", "method", "keep_jacobian_below"});
     const auto add = [&](const char* below, double scale) {
       addSeries(runs,
-                {{"scene", "pendulum"},
+                {{"block", "reuse"},
                  {"method", "radau_iia_3"},
-                 {"newton", "simplified"},
                  {"keep_jacobian_below", below}},
                 scale);
     };

@@ -146,9 +146,10 @@ TEST(Key, HoldsDefaultsAndCoefficients) {
 
 // --- Status and merge.
 
-TEST_F(Origin, StatusCountsByScene) {
+TEST_F(Origin, StatusCountsByBlock) {
   const std::string two = std::string(kToml) + R"(
 [[block]]
+name = "constrained"
 scene = "pendulum"
 t_end = 0.1
 methods = ["lobatto_iiib_3", "radau_iia_2"]
@@ -168,11 +169,12 @@ tolerances = [1e-3, 1e-4]
 
   run("results", {}, two);
   const StudyStatus all = statusOf(study(two), options(), reader());
-  ASSERT_EQ(all.scenes.size(), 2u);
-  EXPECT_EQ(all.scenes[0].first, "kepler");
-  EXPECT_EQ(all.scenes[0].second.failed, 0u);
-  EXPECT_EQ(all.scenes[1].second.finished, 4u);
-  EXPECT_EQ(all.scenes[1].second.failed, 2u) << "Lobatto IIIB refuses algebraic unknowns";
+  ASSERT_EQ(all.parts.size(), 2u);
+  EXPECT_EQ(all.parts[0].first, "block_1");
+  EXPECT_EQ(all.parts[0].second.failed, 0u);
+  EXPECT_EQ(all.parts[1].first, "constrained");
+  EXPECT_EQ(all.parts[1].second.finished, 4u);
+  EXPECT_EQ(all.parts[1].second.failed, 2u) << "Lobatto IIIB refuses algebraic unknowns";
   EXPECT_EQ(all.seconds_left, 0);
   EXPECT_TRUE(containsAll(textOf(all), {"all runs are finished"}));
 }

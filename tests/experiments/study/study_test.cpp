@@ -1,3 +1,4 @@
+#include "experiments/analyses/analyses.h"
 #include "experiments/study/study.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,8 @@ TEST(Study, IsACartesianProduct) {
   EXPECT_EQ(study.targets, (std::vector<double>{1e-4, 1e-6}));
   EXPECT_TRUE(study.timing.wanted);
   EXPECT_EQ(study.timing.repetitions, 2);
-  EXPECT_FALSE(study.orders);
+  ASSERT_EQ(study.analyses.size(), 1u);
+  EXPECT_EQ(study.analyses[0]->id, "cost");
   // 2 scenes, 2 formulations, gauss_1, 2, 3, 5 and lobatto_iiia_2, 3, 5 (there is no
   // lobatto_iiia_1).
   ASSERT_EQ(study.series.size(), 2u * 2 * 7);

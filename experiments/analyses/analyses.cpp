@@ -1,0 +1,20 @@
+#include "experiments/analyses/analyses.h"
+
+namespace irk {
+
+// Each in the file of its name.
+Analysis ordersAnalysis();
+Analysis costAnalysis();
+Analysis profileAnalysis();
+Analysis estimatesAnalysis();
+Analysis scalingAnalysis();
+Analysis energyAnalysis();
+Analysis phasesAnalysis();
+
+std::span<const Analysis> analyses() {
+  static const Analysis all[] = {ordersAnalysis(),  costAnalysis(),   profileAnalysis(), estimatesAnalysis(),
+                                 scalingAnalysis(), energyAnalysis(), phasesAnalysis()};
+  return all;
+}
+
+}  // namespace irk
