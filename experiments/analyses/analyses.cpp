@@ -1,4 +1,4 @@
-#include "experiments/analyses/analyses.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 

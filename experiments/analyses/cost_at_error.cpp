@@ -6,10 +6,10 @@
 #include <limits>
 #include <tuple>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/blocks.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

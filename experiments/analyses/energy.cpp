@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

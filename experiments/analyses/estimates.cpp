@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "core/estimates/step_attempt.h"
-#include "experiments/analyses/analyses.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
-#include "experiments/runs/run_table.h"
 #include "experiments/runs/run_errors.h"
+#include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
+#include "experiments/study/analysis.h"
 #include "irk/tableaus.h"
 
 namespace irk {

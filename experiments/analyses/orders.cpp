@@ -6,13 +6,13 @@
 #include <map>
 #include <optional>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/analyses/order_fit.h"
 #include "experiments/analyses/theory.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/block_names.h"
 #include "experiments/runs/run_spec.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/blocks.h"
+#include "experiments/study/analysis.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
 

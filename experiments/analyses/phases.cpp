@@ -9,7 +9,6 @@
 #include <memory>
 #include <numeric>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/analyses/newton_kernel.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
@@ -19,6 +18,7 @@
 #include "experiments/runs/run.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

@@ -7,11 +7,11 @@
 #include <map>
 #include <string>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

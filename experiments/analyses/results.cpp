@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/store/store.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 

@@ -16,7 +16,7 @@ std::string refusedTimes(const TableHead& head);
 /// The same of a file, of which only the head is read.
 std::string refusedTimes(const std::filesystem::path& runs);
 
-/// The files of the study's analyses (experiments/analyses/analyses.h).
+/// The files of the study's analyses (experiments/study/analysis.h).
 /// Where the times are of several processors (store::kTimesRefused) there is no profile, and costs have no times.
 /// Returns one line for every number that must not be believed; all tables are written all the same.
 [[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const Table& runs,

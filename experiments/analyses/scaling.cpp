@@ -8,7 +8,6 @@
 #include <limits>
 #include <map>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/median.h"
@@ -17,6 +16,7 @@
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/base/numbers.h"
-#include "experiments/study/blocks.h"
+#include "experiments/runs/block_names.h"
 #include "experiments/study/study.h"
 
 namespace irk::claims {

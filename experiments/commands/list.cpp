@@ -2,9 +2,9 @@
 #include <fmt/ostream.h>
 
 #include "core/base/text.h"
-#include "experiments/analyses/analyses.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
 #include "irk/tableaus.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "experiments/base/numbers.h"
-#include "experiments/study/blocks.h"
+#include "experiments/runs/block_names.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "experiments/base/failure.h"
-#include "experiments/study/blocks.h"
+#include "experiments/runs/block_names.h"
 
 namespace irk::store {
 namespace {

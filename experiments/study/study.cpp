@@ -11,10 +11,10 @@
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "experiments/analyses/analyses.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
+#include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/draw.h"
 #include "experiments/study/study_file.h"

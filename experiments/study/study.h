@@ -15,7 +15,7 @@
 
 namespace irk {
 
-struct Analysis;  // experiments/analyses/analyses.h
+struct Analysis;  // experiments/study/analysis.h
 
 /// When the runs of a series that come later need not be made.
 enum class SeriesEnd {

@@ -7,8 +7,8 @@
 #include <cctype>
 
 #include "core/base/text.h"
-#include "experiments/analyses/analyses.h"
 #include "experiments/base/numbers.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

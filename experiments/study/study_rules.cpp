@@ -6,9 +6,9 @@
 #include <iterator>
 #include <span>
 
-#include "experiments/analyses/analyses.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/unused_options.h"
+#include "experiments/study/analysis.h"
 
 namespace irk {
 namespace {

@@ -1,5 +1,5 @@
 // The catalogue of analyses, and how a study asks for them.
-#include "experiments/analyses/analyses.h"
+#include "experiments/study/analysis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
+#include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/blocks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The names of a study's blocks: how they are read, where they stand, and that they decide nothing about a run.
-#include "experiments/study/blocks.h"
+#include "experiments/runs/block_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/analyses/analyses.h"
+#include "experiments/study/analysis.h"
 #include "experiments/study/study.h"
 
 #include <gtest/gtest.h>

@@ -9,10 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/study/study.h"
 #include "experiments/tables/table.h"
 
 namespace irk {
+
+struct Study;
 
 /// What an analysis works with. The references are valid while it runs.
 struct AnalysisInput {
