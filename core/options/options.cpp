@@ -1,11 +1,10 @@
 #include "irk/options.h"
 
-#include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/options/option_fields.h"
 
 namespace irk {
 namespace {
@@ -84,21 +83,6 @@ constexpr Named<NormKind> kNorms[] = {
     {NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
     {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
 
-constexpr int kMostThreads = 1024;
-
-std::string text(double x) {
-  std::ostringstream s;
-  s << x;
-  return s.str();
-}
-
-void require(bool legal, std::string_view field, double value, std::string_view range) {
-  if (!legal) {
-    throw Misuse(std::string(field) + " = " + text(value) +
-                 " is out of range: " + std::string(range));
-  }
-}
-
 }  // namespace
 
 #define IRK_AXIS(E, table, axis)                \
@@ -152,42 +136,19 @@ Storage storageOf(const IntegratorOptions& options) {
 }
 
 void validate(const IntegratorOptions& o) {
-  const auto& tol = o.tolerances;
-  require(tol.rtol >= 0 && tol.rtol < 1, "rtol", tol.rtol, "0 <= rtol < 1");
-  require(tol.atol > 0 && std::isfinite(tol.atol), "atol", tol.atol, "atol > 0");
-  const auto& newton = o.newton;
-  require(newton.residual_tolerance > 0 && newton.residual_tolerance < 1,
-          "newton.residual_tolerance", newton.residual_tolerance, "0 < tol < 1");
-  require(newton.contractivity_limit > 0 && newton.contractivity_limit <= 1,
-          "newton.contractivity_limit", newton.contractivity_limit, "0 < limit <= 1");
-  require(newton.contractivity_after >= 0, "newton.contractivity_after", newton.contractivity_after,
-          "an integer >= 0");
-  require(newton.max_iterations >= 1, "newton.max_iterations", newton.max_iterations,
-          "an integer >= 1");
-  require(newton.kappa >= 0 && std::isfinite(newton.kappa), "newton.kappa", newton.kappa,
-          "kappa >= 0");
-  require(newton.keep_jacobian_below >= 0 && newton.keep_jacobian_below < 1,
-          "newton.keep_jacobian_below", newton.keep_jacobian_below, "0 <= theta < 1");
-  const auto& step = o.step;
-  const bool fixed = step.control == StepControl::kFixed;
-  require(fixed ? step.h > 0 && std::isfinite(step.h) : step.h >= 0 && std::isfinite(step.h),
-          "step", step.h, fixed ? "step > 0" : "step >= 0 (0 = automatic)");
-  require(step.h_min >= 0 && std::isfinite(step.h_min), "h_min", step.h_min, "h_min >= 0");
-  require(step.h_max > 0, "h_max", step.h_max, "h_max > 0");
-  require(step.max_steps > 0, "max_steps", static_cast<double>(step.max_steps), "an integer > 0");
-  require(step.s_min > 1, "s_min", step.s_min, "s_min > 1");
-  require(step.change_at_least > 1, "change_at_least", step.change_at_least, "> 1");
-  require(step.growth_at_most > 1, "growth_at_most", step.growth_at_most, "> 1");
-  require(o.threads >= 1 && o.threads <= kMostThreads, "threads", o.threads,
-          "an integer in [1, 1024]");
+  for (const auto& field : optionFields()) {
+    if (field.isNumeric()) requireInRange(field.name, field.number(o), field.range);
+  }
+  const bool fixed = o.step.control == StepControl::kFixed;
+  if (fixed && o.step.h == 0) throw Misuse("illegal combination: control 'fixed' with h = 0: h > 0");
   const bool own = o.solver == StageSolverKind::kCoupledDense ||
                    o.solver == StageSolverKind::kCoupledSparse;
   if (own && o.storage != Storage::kAutomatic && o.storage != storageOf(o)) {
     throw Misuse("illegal combination: solver '" + std::string(idOf(o.solver)) +
                  "' with storage '" + std::string(idOf(o.storage)) + "'");
   }
-  if (!fixed && step.estimate == ErrorEstimate::kNone) {
-    throw Misuse("illegal combination: control '" + std::string(idOf(step.control)) +
+  if (!fixed && o.step.estimate == ErrorEstimate::kNone) {
+    throw Misuse("illegal combination: control '" + std::string(idOf(o.step.control)) +
                  "' with estimate 'none': a step controller needs an error estimate");
   }
 }

@@ -10,6 +10,7 @@
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/fields.h"
 #include "experiments/study/dice.h"
 #include "irk/misuse.h"
 

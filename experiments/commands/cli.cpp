@@ -9,18 +9,13 @@
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
 #include "experiments/commands/commands.h"
+#include "experiments/runs/fields.h"
 #include "experiments/tables/build_info.h"
 
 namespace irk {
 namespace {
 
 using Action = std::function<int(Streams)>;
-
-std::string optionName(std::string_view field) {
-  std::string name = "--" + std::string(field);
-  std::replace(name.begin() + 2, name.end(), '_', '-');
-  return name;
-}
 
 // No option and no argument has an empty value; CLI11 would take `--method= x` as `--method x`.
 void refuseEmpty(const std::vector<std::string>& arguments) {
@@ -34,6 +29,17 @@ void refuseEmpty(const std::vector<std::string>& arguments) {
       throw Misuse("an empty value in '" + argument + "': a value is expected");
     }
   }
+}
+
+constexpr Range kJobs = Range::integers(0, 1024), kDigits = Range::integers(1, 75);
+
+std::string numberHelp(std::string_view meaning, const Range& range, std::string_view value) {
+  return std::string(meaning) + " [" + range.text() + "; default " + std::string(value) + "]";
+}
+
+int integer(std::string_view name, std::string_view text, const Range& range) {
+  return static_cast<int>(parseInteger(name, text, static_cast<std::int64_t>(range.least),
+                                       static_cast<std::int64_t>(range.most)));
 }
 
 /// The verbs, their options and what each one does when it is chosen.
@@ -104,26 +110,29 @@ class Program {
   }
 
   void addRunnerOptions(CLI::App& sub) {
-    sub.add_flag("--fresh", fresh_, "make finished runs again");
-    sub.add_flag("--wait", wait_, "wait where another process writes to the same study");
-    sub.add_option("--stale", stale_, "runs that other code has made: keep | remake")
+    sub.add_flag("--fresh", fresh_, "Make finished runs again.");
+    sub.add_flag("--wait", wait_, "Wait where another process writes to the same study.");
+    sub.add_option("--stale", stale_, "What is done with runs that other code has made: keep | remake.")
         ->check(CLI::IsMember({"keep", "remake"}))
         ->capture_default_str();
-    sub.add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    addJobs(sub, "Threads; 0 = one per processor.");
     addTimes(sub);
     addQuick(sub);
     addResults(sub);
   }
+  void addJobs(CLI::App& sub, std::string_view meaning) {
+    sub.add_option("--jobs", jobs_, numberHelp(meaning, kJobs, "0"))->type_name("INTEGER");
+  }
   void addTimes(CLI::App& sub) {
-    sub.add_option("--times", times_, "all | here: only those measured on this processor count")
+    sub.add_option("--times", times_, "Which times count: all | here, those measured on this processor.")
         ->check(CLI::IsMember({"all", "here"}))
         ->capture_default_str();
   }
   void addResults(CLI::App& sub) {
-    sub.add_option("--results", results_, "folder of the results")->capture_default_str();
+    sub.add_option("--results", results_, "The folder of the results.")->capture_default_str();
   }
   void addQuick(CLI::App& sub) {
-    sub.add_flag("--quick", quick_, "the small variant of each study, in RESULTS/quick");
+    sub.add_flag("--quick", quick_, "The small variant of each study, in RESULTS/quick.");
   }
   // Full and quick results are trees of their own.
   std::string results() const { return quick_ ? results_ + "/quick" : results_; }
@@ -159,40 +168,58 @@ class Program {
     auto* sub =
         verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
     sub->add_option("study", study_, "id or TOML file")->required();
-    sub->add_option("--shard", shard_, "i/n, or in an array job auto/n: this part of n; see merge");
+    sub->add_option("--shard", shard_, "Make part i of n only: i/n, or in an array job auto/n; see merge. [default: all]");
     addRunnerOptions(*sub);
     auto* slurm = verb(app_, "slurm", "print a job script of Slurm: a study in n parts", [this](Streams s) {
       return slurmCommand({study_, shard_, variant(), results_, std::max(1, parseJobs())}, s);
     });
     slurm->add_option("study", study_, "id or TOML file")->required();
-    slurm->add_option("-n", shard_, "number of parts, at most one per series")->required();
-    slurm->add_option("--jobs", jobs_, "threads of each part; 0 = 1");
+    slurm->add_option("-n", shard_, "The number of parts, at most one per series.")->required();
+    addJobs(*slurm, "Threads of each part; 0 = 1.");
     addQuick(*slurm);
     addResults(*slurm);
     auto* status = verb(app_, "status", "how far a study is: planned, finished, failed, stale, foreign, time needed",
                         [this](Streams s) { return statusCommand(runOptions(), s); });
     status->add_option("study", study_, "id or TOML file")->required();
-    status->add_option("--shard", shard_, "i/n or auto/n: this part of n only");
+    status->add_option("--shard", shard_, "Count part i of n only: i/n or auto/n. [default: all]");
     addQuick(*status);
     addResults(*status);
   }
 
   void addSolve() {
     auto* sub = verb(app_, "solve", "one integration", [this](Streams s) { return solve(s); });
-    sub->add_option("scene", solve_.scene, "see: irk list scenes")->required();
-    sub->add_option("--set", solve_.settings, "name=value, a parameter of the scene")
-        ->take_all()
-        ->expected(1);
-    sub->add_option("--step", solve_.step, "fixed steps (first step with --control paper, and of a peer)");
-    sub->add_option("--tol", solve_.tol, "rtol and atol");
-    sub->add_flag("--json", solve_.json, "print one JSON object");
-    sub->add_option("--plot", solve_.plot,
-                    "draw the solution to FILE.svg and FILE.png, in a folder that exists");
-    for (const auto& field : specFields()) {
-      const bool special = field.name == "scene" || field.name == "settings" || field.name == "h";
-      if (special) continue;
-      sub->add_option(optionName(field.name), fields_[std::string(field.name)], field.allowed());
+    sub->add_option("--tol", solve_.tol, "Sets both rtol and atol. [0 < x < 1]")->type_name("NUMBER");
+    sub->add_flag("--json", solve_.json, "Print one JSON object.");
+    sub->add_option("--plot", solve_.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
+        ->type_name("FILE");
+    for (const auto& field : specFields()) addField(*sub, field);
+  }
+
+  void addField(CLI::App& sub, const SpecField& field) {
+    const std::string option = optionName(field.name);
+    const auto describe = [&](CLI::Option* added, const std::string& remark = "") {
+      added->description(remark + helpText(field))->type_name(kindName(field.kind));
+      return added;
+    };
+    if (field.name == "scene") {
+      describe(sub.add_option(option, solve_.scene))->required();
+    } else if (field.name == "settings") {
+      describe(sub.add_option(option, solve_.settings))->take_all()->expected(1);
+    } else if (field.name == "h") {
+      describe(sub.add_option(option, solve_.step),
+               "Sets h, and control fixed with estimate none unless they are given. ");
+    } else {
+      describe(sub.add_option(option, fields_[field.name]));
     }
+  }
+  static const char* kindName(FieldKind kind) {
+    switch (kind) {
+      case FieldKind::kAxis: return "ID";
+      case FieldKind::kNumber: return "NUMBER";
+      case FieldKind::kInteger: return "INTEGER";
+      case FieldKind::kText: break;
+    }
+    return "TEXT";
   }
 
   int solve(Streams streams) {
@@ -205,18 +232,16 @@ class Program {
   void addList() {
     auto* sub =
         verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
-    sub->add_option("what", what_, "scenes, methods, studies, analyses or strategies");
+    sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies or numbers");
   }
 
   void addTableau() {
     auto* tableau = app_.add_subcommand("tableau", "coefficients of a method");
     tableau->require_subcommand(1);
     auto* show = verb(*tableau, "show", "print it", [this](Streams s) {
-      constexpr int kMostDigits = 75;
-      const auto digits = parseInteger("digits", digits_, 1, kMostDigits);
-      return tableauShow(method_, static_cast<int>(digits), s);
+      return tableauShow(method_, integer("digits", digits_, kDigits), s);
     });
-    show->add_option("--digits", digits_, "significant digits")->capture_default_str();
+    show->add_option("--digits", digits_, numberHelp("Significant digits.", kDigits, "17"))->type_name("INTEGER");
     auto* check = verb(*tableau, "check", "does it keep what it declares, and what is it?",
                        [this](Streams s) { return tableauCheck(method_, s); });
     auto* write = verb(*tableau, "export", "as a tableau file",
@@ -227,7 +252,7 @@ class Program {
     auto* plot = verb(*tableau, "plot", "regions of stability and order stars",
                       [this](Streams s) { return tableauPlot(methods_, out_, s); });
     plot->add_option("methods", methods_, "ids or files")->required();
-    plot->add_option("--out", out_, "draw to FILE.svg and FILE.png, with the numbers in FILE.csv")
+    plot->add_option("--out", out_, "Draw to FILE.svg and FILE.png, with the numbers in FILE.csv.")
         ->capture_default_str();
     auto* table = verb(*tableau, "table", "properties of all families, 1 to 20 stages",
                        [this](Streams s) { return tableauTable(results_, s); });
@@ -255,23 +280,23 @@ class Program {
       return mergeCommand({folders_, study_, results(), variant(), partial_, storeOptions()}, s);
     });
     merge->add_option("folders", folders_, "folders of one study, or of its shards")->required();
-    merge->add_flag("--partial", partial_, "merge although runs are missing, or disagree");
-    merge->add_flag("--wait", wait_, "wait where another process writes to the same study");
+    merge->add_flag("--partial", partial_, "Merge although runs are missing, or disagree.");
+    merge->add_flag("--wait", wait_, "Wait where another process writes to the same study.");
     addTimes(*merge);
     addQuick(*merge);
-    merge->add_option("--study", study_, "id or TOML file, if the tables' own is not built in");
+    merge->add_option("--study", study_, "The study's id or TOML file, if the tables' own is not built in.");
     addResults(*merge);
     auto* compare = verb(app_, "compare", "what differs between two studies or trees of results",
                          [this](Streams s) { return compareCommand(compare_, s); });
     compare->add_option("first", compare_.first, "folder of a study or of results")->required();
     compare->add_option("second", compare_.second, "another one")->required();
-    compare->add_option("--errors", compare_.errors, "a factor: errors differ from it on")
+    compare->add_option("--errors", compare_.errors, "Errors differ from this factor on.")
         ->capture_default_str();
-    compare->add_option("--times", compare_.times, "a percentage: ratios of times up to it are noise")
+    compare->add_option("--times", compare_.times, "Ratios of times up to this percentage are noise.")
         ->capture_default_str();
-    compare->add_option("--alpha", compare_.alpha, "how probably noise alone makes a time differ")
+    compare->add_option("--alpha", compare_.alpha, "How probably noise alone makes a time differ.")
         ->capture_default_str();
-    compare->add_option("--counters", compare_.counters, "a percentage: counters differ from it on")
+    compare->add_option("--counters", compare_.counters, "Counters differ from this percentage on.")
         ->capture_default_str();
   }
 
@@ -283,17 +308,16 @@ class Program {
                        return referenceCommand(reference_, s);
                      });
     sub->add_option("scenes", reference_.scenes, "see: irk list scenes; all if left out");
-    sub->add_option("--jobs", jobs_, "threads; 0 = one per processor");
+    addJobs(*sub, "Threads; 0 = one per processor.");
     sub->add_flag("--check", reference_.check,
-                  "write nothing; status 1 if a file disagrees with what is computed");
-    sub->add_option("--out", reference_.out, "folder of the files");
+                  "Write nothing; status 1 if a file disagrees with what is computed.");
+    sub->add_option("--out", reference_.out, "The folder of the files.");
     sub->add_flag("--into-sources", reference_.into_sources,
-                  "write to problems/reference of the sources instead of --out");
+                  "Write to problems/reference of the sources instead of --out.");
   }
 
   int parseJobs() const {
-    constexpr int kMostJobs = 1024;
-    return static_cast<int>(parseInteger("jobs", jobs_, 0, kMostJobs));
+    return integer("jobs", jobs_, kJobs);
   }
 
   CLI::App app_;

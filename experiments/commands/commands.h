@@ -40,7 +40,7 @@ int runCommand(const RunOptions& options, Streams streams);
 /// `run` for every study of the paper, then figures and report. `options.study` is not used.
 int paperCommand(const RunOptions& options, Streams streams);
 
-/// `what`: scenes, methods, studies, strategies, or empty for all. Throws Misuse.
+/// `what`: scenes, methods, studies, strategies, numbers, or empty for all. Throws Misuse.
 int listCommand(const std::string& what, Streams streams);
 
 struct ReferenceOptions {

@@ -10,16 +10,16 @@ namespace {
 
 // `5%` as 0.05.
 double percentage(std::string_view name, const std::string& text) {
-  constexpr NumberRange kRange{[](double x) { return x >= 0 && x <= 1000; }, "0% to 1000%"};
+  constexpr Range kPercent = Range::from(0).to(1000);
   if (!text.ends_with('%')) {
     throw Misuse(fmt::format("{} = '{}': a percentage is expected, 0% to 1000%", name, text));
   }
-  return parseNumber(name, text.substr(0, text.size() - 1), kRange) / 100;
+  return parseNumber(fmt::format("{} in %", name), text.substr(0, text.size() - 1), kPercent) / 100;
 }
 
 compare::Limits limitsOf(const CompareOptions& options) {
-  constexpr NumberRange kFactor{[](double x) { return x >= 1 && x <= 1e15; }, "a factor, 1 to 1e15"};
-  constexpr NumberRange kAlpha{[](double x) { return x > 0 && x < 1; }, "0 < alpha < 1"};
+  constexpr Range kFactor = Range::from(1).to(1e15);
+  constexpr Range kAlpha = Range::above(0).below(1);
   return {.errors = parseNumber("errors", options.errors, kFactor),
           .times = percentage("times", options.times),
           .alpha = parseNumber("alpha", options.alpha, kAlpha),

@@ -3,6 +3,7 @@
 
 #include "core/base/text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
@@ -52,41 +53,18 @@ void listAnalyses(std::ostream& out) {
   }
 }
 
-template <class E>
-void listAxis(std::ostream& out) {
-  fmt::print(out, "{}\n", axisName<E>());
-  for (const auto& entry : named<E>()) {
-    fmt::print(out, "    {:<20} {}\n", entry.id, entry.meaning);
-  }
-}
-
-void listConfigurations(std::ostream& out) {
-  out << "configuration\n";
-  for (const auto& configuration : configurations()) {
-    fmt::print(out, "    {:<20} {}{}{}\n", configuration.id, configuration.meaning,
-               configuration.fields.empty() ? "" : ": ", configuration.fields);
-  }
-}
-
 void listStrategies(std::ostream& out) {
-  listConfigurations(out);
-  listAxis<Formulation>(out);
-  listAxis<ConstraintScaling>(out);
-  listAxis<ScalarKind>(out);
-  listAxis<DerivativeSource>(out);
-  listAxis<NewtonKind>(out);
-  listAxis<StageSolverKind>(out);
-  listAxis<Storage>(out);
-  listAxis<Predictor>(out);
-  listAxis<ErrorEstimate>(out);
-  listAxis<StepControl>(out);
-  listAxis<OrderControl>(out);
-  listAxis<Summation>(out);
-  listAxis<Multipliers>(out);
-  listAxis<NormKind>(out);
-  listAxis<JacobianTerms>(out);
-  listAxis<JacobianPoint>(out);
-  listAxis<Discontinuity>(out);
+  for (const auto& field : specFields()) {
+    if (field.kind != FieldKind::kAxis) continue;
+    fmt::print(out, "{}  {}\n", field.name, field.meaning);
+    for (const auto& choice : field.choices) fmt::print(out, "    {:<20} {}\n", choice.id, choice.meaning);
+  }
+}
+
+void listNumbers(std::ostream& out) {
+  for (const auto& field : specFields()) {
+    if (field.isNumeric()) fmt::print(out, "{:<20} {}\n", field.name, helpText(field));
+  }
 }
 
 struct List {
@@ -97,7 +75,8 @@ constexpr List kLists[] = {{"scenes", listScenes},
                            {"methods", listMethods},
                            {"studies", listStudies},
                            {"analyses", listAnalyses},
-                           {"strategies", listStrategies}};
+                           {"strategies", listStrategies},
+                           {"numbers", listNumbers}};
 
 }  // namespace
 

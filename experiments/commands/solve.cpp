@@ -11,6 +11,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/report.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/trajectory.h"
@@ -28,8 +29,7 @@ bool given(const SolveOptions& options, std::string_view field) {
 void applyStep(const SolveOptions& options, RunSpec& spec) {
   if (options.step.empty()) return;
   auto& step = spec.options.step;
-  constexpr NumberRange kStep{[](double h) { return h > 0; }, "step > 0"};
-  step.h = parseNumber("step", options.step, kStep);
+  step.h = parseNumber("step", options.step, kPositive);
   if (findPeer(spec.method)) return;  // its first step
   if (!given(options, "control")) step.control = StepControl::kFixed;
   if (step.control != StepControl::kFixed) return;
@@ -43,9 +43,7 @@ void applyStep(const SolveOptions& options, RunSpec& spec) {
 
 void applyTolerance(const SolveOptions& options, RunSpec& spec) {
   if (options.tol.empty()) return;
-  constexpr NumberRange kTol{[](double x) { return x > 0 && x < 1; }, "0 < tol < 1"};
-  auto& tolerances = spec.options.tolerances;
-  tolerances.rtol = tolerances.atol = parseNumber("tol", options.tol, kTol);
+  for (const auto* field : {"rtol", "atol"}) findField(field).set(spec, options.tol);
 }
 
 void printComponents(std::ostream& out, const RunRecord& record,

@@ -1,8 +1,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
-#include "experiments/base/numbers.h"
 #include "experiments/commands/commands.h"
+#include "experiments/runs/fields.h"
 
 namespace irk {
 namespace {
@@ -23,24 +23,27 @@ Json numbers(const RunRecord& record, const Vec<double>& values, std::size_t& pl
   return list;
 }
 
+Json settingsObject(const Settings& settings) {
+  Json object = Json::object();
+  for (const auto& [name, value] : settings) object[name] = value;
+  return object;
+}
+
+// Numbers as numbers, axes and texts as text.
 Json specObject(const RunSpec& spec) {
   Json object = Json::object();
-  for (const auto& field : specFields()) object[std::string(field.name)] = field.get(spec);
-  object["settings"] = Json::object();
-  for (const auto& [name, value] : spec.settings) object["settings"][name] = value;
-  object["residual_tolerance"] = spec.options.newton.residual_tolerance;
-  object["contractivity_limit"] = spec.options.newton.contractivity_limit;
-  object["contractivity_after"] = spec.options.newton.contractivity_after;
-  object["max_iterations"] = spec.options.newton.max_iterations;
-  object["keep_jacobian_below"] = spec.options.newton.keep_jacobian_below;
-  object["kappa"] = spec.options.newton.kappa;
-  object["h"] = spec.options.step.h;
-  object["h_max"] = spec.options.step.h_max;
-  object["rtol"] = spec.options.tolerances.rtol;
-  object["atol"] = spec.options.tolerances.atol;
-  object["t_end"] = spec.t_end;
-  object["max_steps"] = spec.options.step.max_steps;
-  object["time_limit"] = spec.time_limit;
+  for (const auto& field : specFields()) {
+    Json& value = object[field.name];
+    if (field.name == "settings") {
+      value = settingsObject(spec.settings);
+    } else if (field.kind == FieldKind::kInteger) {
+      value = static_cast<std::int64_t>(field.number(spec));
+    } else if (field.kind == FieldKind::kNumber) {
+      value = field.number(spec);
+    } else {
+      value = field.get(spec);
+    }
+  }
   return object;
 }
 

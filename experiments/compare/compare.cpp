@@ -10,6 +10,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/compare/matching.h"
 #include "experiments/compare/ratio.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "irk/misuse.h"
 #include "irk/statistics.h"

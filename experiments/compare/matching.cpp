@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/base/numbers.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/run_spec.h"
 
 namespace irk::compare {
@@ -23,7 +24,7 @@ bool isAlwaysNamed(std::string_view field) {
 // Text that is the same for equal numbers, however many digits they are written with.
 std::string plain(const std::string& cell) {
   const double number = cellNumber(cell);
-  return std::isnan(number) ? cell : fmt::format("{}", number);
+  return std::isnan(number) ? cell : numberText(number);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "experiments/base/decimal.h"
 #include "experiments/base/numbers.h"
 #include "experiments/reference/agreement.h"
+#include "experiments/runs/fields.h"
 
 namespace irk {
 namespace {

@@ -1,4 +1,5 @@
 #include "experiments/reference/tasks.h"
+#include "experiments/runs/fields.h"
 
 namespace irk {
 std::vector<ReferenceTask> referenceTasks() {

@@ -5,6 +5,7 @@
 #include "core/system/first_order.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/setup.h"
 #include "irk/integrator.h"
@@ -189,6 +190,7 @@ void requireKnownStep(const RunSpec& spec) {
 }  // namespace
 
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
+  validate(spec);
   requireKnownStep(spec);
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
   switch (spec.scalar) {

@@ -6,6 +6,7 @@
 
 #include "core/base/input_file.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_spec.h"
 #include "irk/tableaus.h"

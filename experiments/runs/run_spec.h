@@ -20,15 +20,6 @@ ScalarKind parseId<ScalarKind>(std::string_view id);
 template <>
 std::string_view axisName<ScalarKind>();
 
-/// A named choice of strategies. Setting it sets all of its fields; fields set later override them.
-struct Configuration {
-  std::string_view id;
-  std::string_view meaning;
-  std::string_view fields;  ///< `field=value;field=value`
-};
-/// `default`, `paper`, `embedded`, `variable`: the first is what a spec starts with.
-std::span<const Configuration> configurations();
-
 /// Round-off of a number of this kind.
 double epsilonOf(ScalarKind scalar);
 
@@ -52,21 +43,6 @@ struct RunSpec {
   double time_limit = 0;
 };
 
-/// One field as text. The same names in canonical forms, study files, options and tables.
-struct SpecField {
-  std::string_view name;
-  std::string (*get)(const RunSpec&);
-  /// Throws Misuse naming field, value and range or nearest id.
-  void (*set)(RunSpec&, std::string_view value);
-  /// For help texts: the ids or the range, the default.
-  std::string (*allowed)();
-};
-
-/// All fields in the order of the canonical form.
-std::span<const SpecField> specFields();
-/// Throws Misuse naming the nearest field.
-const SpecField& findField(std::string_view name);
-
 /// The scene's t_end filled in, settings at their defaults left out, so that equal runs are equal
 /// specs. Throws Misuse for an unknown scene or setting.
 RunSpec resolved(RunSpec spec);
@@ -74,10 +50,6 @@ RunSpec resolved(RunSpec spec);
 /// The settings with every value `X/h` replaced by X / h: stiffness that grows as the step shrinks,
 /// `lambda=-1e8/h` for z = h lambda = -1e8. Where no step is known, h = 1.
 Settings settingsAtStep(const RunSpec& spec);
-
-/// `field=value;field=value;...`, all fields. parseSpec(canonicalText(s)) equals s.
-std::string canonicalText(const RunSpec& spec);
-RunSpec parseSpec(std::string_view text);
 
 /// All that decides a run but code: the canonical text of the resolved spec, the scene's parameters at their defaults, a
 /// hash of the method's A, b and c, or of a method file's contents.
@@ -98,6 +70,8 @@ void refuseFamilyOfFixedOrder(const RunSpec& spec);
 
 /// `name=value name=value`.
 std::string settingsText(const Settings& settings);
+/// Throws Misuse for text with one of the characters that would break a run's text apart.
+void requirePlain(std::string_view field, std::string_view value, std::string_view forbidden);
 /// `name=value`. Throws Misuse for text without name or '='.
 void addSetting(Settings& settings, std::string_view text);
 

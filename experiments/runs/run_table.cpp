@@ -5,18 +5,16 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
+#include "experiments/runs/fields.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 
 namespace irk {
 namespace {
 
-// These fields stand before the derived columns, all others of specFields() after them: a field that is
-// added to a spec has its column.
+// These fields stand before the derived columns, all others of specFields() after them.
 constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
-// What a series runs through.
-constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
                                         "error_x", "error_z", "drift"};
 constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all",
@@ -78,8 +76,10 @@ std::vector<std::string> seriesColumns(const Table& table) {
   append(columns, kFirst);
   append(columns, kDerived);
   append(columns, laterFields());
-  std::erase_if(columns,
-                [&](const auto& name) { return isIn(kSwept, name) || !table.hasColumn(name); });
+  for (const auto& field : specFields()) {
+    if (field.swept) std::erase(columns, field.name);
+  }
+  std::erase_if(columns, [&](const auto& name) { return !table.hasColumn(name); });
   return columns;
 }
 

@@ -14,11 +14,11 @@ std::vector<std::string> runColumns();
 /// run itself. The row is of this program, of this machine and of now.
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record);
 
-/// The columns that tell series apart: every field of a spec but h, rtol and atol, and what is derived from
+/// The columns that tell series apart: every field of a spec that is not swept (fields.h), and what is derived from
 /// them. Of an older table, those that it has.
 std::vector<std::string> seriesColumns(const Table& table);
 
-/// Runs that differ in h, rtol and atol only.
+/// Runs that differ in swept fields only: h, rtol, atol.
 struct RunSeries {
   TableRow name;  ///< the cells of seriesColumns
   std::vector<const TableRow*> rows;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "experiments/base/numbers.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/run.h"
 #include "experiments/study/dice.h"
 #include "irk/misuse.h"
@@ -276,11 +277,11 @@ std::string commandOf(const DrawnRun& run) {
   if (run.treatment != kDefaultTreatment && run.treatment != kNoSwitches) {
     command += " --discontinuity " + run.treatment;
   }
-  command += fmt::format(" --tol {:g}", spec.options.tolerances.rtol);
+  command += " --tol " + numberText(spec.options.tolerances.rtol);
   if (spec.t_end != makeScene<double>(spec.scene, spec.settings).t_end) {
-    command += fmt::format(" --t-end {}", spec.t_end);
+    command += " --t-end " + numberText(spec.t_end);
   }
-  if (spec.time_limit > 0) command += fmt::format(" --time-limit {}", spec.time_limit);
+  if (spec.time_limit > 0) command += " --time-limit " + numberText(spec.time_limit);
   return command;
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
@@ -46,7 +47,7 @@ const std::string& single(std::string_view key, const StudyValue& value) {
 }
 
 double number(const StudyKeys& keys, std::string_view key, double fallback,
-              const NumberRange& range) {
+              const Range& range) {
   const auto* value = find(keys, key);
   if (!value) return fallback;
   return atPlace(*value, [&] { return parseNumber(key, single(key, *value), range); });
@@ -60,12 +61,21 @@ std::int64_t integer(const StudyKeys& keys, std::string_view key, std::int64_t f
 }
 
 std::vector<double> numbers(const StudyValue& value, std::string_view key,
-                            const NumberRange& range) {
+                            const Range& range) {
   std::vector<double> all;
   for (const auto& item : value.items) {
     all.push_back(atPlace(value, [&] { return parseNumber(key, item, range); }));
   }
   return all;
+}
+
+// Each one is both rtol and atol.
+std::vector<double> toleranceList(const StudyValue& value) {
+  RunSpec spec;
+  for (const auto& item : value.items) {
+    for (const auto* field : {"rtol", "atol"}) atPlace(value, [&] { findField(field).set(spec, item); });
+  }
+  return numbers(value, "tolerances", kPositive);
 }
 
 bool flag(const StudyKeys& keys, std::string_view key) {
@@ -172,7 +182,7 @@ int refineMost(const StudyKeys& keys) {
 
 Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
   if (const auto* tolerances = find(keys, "tolerances")) {
-    return {{spec, Swept::kTolerances, numbers(*tolerances, "tolerances", kPositive)}, SeriesEnd::kTooLong};
+    return {{spec, Swept::kTolerances, toleranceList(*tolerances)}, SeriesEnd::kTooLong};
   }
   if (const auto* steps = find(keys, "steps")) return {{spec, Swept::kStep, numbers(*steps, "steps", kPositive)}};
   if (!find(keys, "refine_most")) return {spec};

@@ -13,6 +13,8 @@
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/runner.h"
+#include "experiments/runs/configurations.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"

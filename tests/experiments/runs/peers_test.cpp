@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"

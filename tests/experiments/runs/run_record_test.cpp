@@ -8,83 +8,19 @@
 #include <vector>
 
 #include "experiments/runs/run_table.h"
+#include "tests/experiments/other_spec.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
 namespace {
 
-// Another value of a field than the one it has; empty if the field takes none of these.
-std::string otherValue(const SpecField& field, const RunSpec& spec) {
-  const std::map<std::string_view, std::vector<std::string>> known = {
-      {"scene", {"pendulum", "slider_crank"}},
-      {"settings", {"torque_off_at=0.25"}},
-      {"method", {"gauss_4"}}};
-  std::vector<std::string> candidates;
-  if (const auto own = known.find(field.name); own != known.end()) candidates = own->second;
-  // The ids of an axis; then numbers that some range allows.
-  const std::string allowed = field.allowed();
-  for (std::size_t from = 0; allowed.find(" | ") != allowed.npos;) {
-    const auto to = allowed.find(" | ", from);
-    candidates.push_back(allowed.substr(from, to == allowed.npos ? to : to - from));
-    if (to == allowed.npos) break;
-    from = to + 3;
-  }
-  candidates.insert(candidates.end(), {"0.0625", "7", "3"});
-  const std::string before = field.get(spec);
-  for (const auto& value : candidates) {
-    RunSpec changed = spec;
-    try {
-      field.set(changed, value);
-    } catch (const Misuse&) {
-      continue;
-    }
-    if (field.get(changed) != before) return value;
-  }
-  return {};
-}
-
-RunSpec base() {
-  RunSpec spec;
-  spec.scene = "slider_crank";
-  return spec;
-}
-
-TEST(SpecFields, EachOneChangesTheKeyAndTheText) {
-  const RunSpec spec = base();
-  std::set<std::string> keys{specKey(spec)}, texts{canonicalText(spec)};
-  for (const auto& field : specFields()) {
-    const std::string value = otherValue(field, spec);
-    ASSERT_FALSE(value.empty()) << field.name << ": no other value found";
-    RunSpec changed = spec;
-    field.set(changed, value);
-    EXPECT_TRUE(keys.insert(specKey(changed)).second) << field.name << " = " << value;
-    EXPECT_TRUE(texts.insert(canonicalText(changed)).second) << field.name << " = " << value;
-  }
-}
-
-TEST(SpecFields, EachOneReadsBackAndLeavesTheOthersAlone) {
-  const RunSpec spec = base();
-  for (const auto& field : specFields()) {
-    RunSpec changed = spec;
-    field.set(changed, otherValue(field, spec));
-    const RunSpec back = parseSpec(canonicalText(changed));
-    EXPECT_EQ(canonicalText(back), canonicalText(changed)) << field.name;
-    EXPECT_EQ(field.get(back), field.get(changed)) << field.name;
-    if (field.name == "configuration") continue;  // sets several
-    for (const auto& other : specFields()) {
-      if (other.name == field.name) continue;
-      EXPECT_EQ(other.get(changed), other.get(spec)) << field.name << " changes " << other.name;
-    }
-  }
-}
-
 // A record in which no two numbers are equal.
 RunRecord distinct() {
   RunRecord record;
-  record.spec = base();
+  record.spec = sliderCrank();
   for (const auto& field : specFields()) {
     if (field.name == "configuration" || field.name == "scene") continue;
-    field.set(record.spec, otherValue(field, record.spec));
+    field.set(record.spec, otherValues(field, record.spec).front());
   }
   record.family = "the_family";
   record.stages = 17;
@@ -178,39 +114,6 @@ TEST(RunRow, TimesGoToTheirColumns) {
   EXPECT_EQ(numberAt(table, row, "cpu_spread"), 2.5);
   EXPECT_EQ(numberAt(table, row, "cpu_runs"), 3);
   EXPECT_EQ(textAt(table, row, "cpu_all"), "0.75 0.25 0.5");
-}
-
-// What a series runs through, and all else tells series apart.
-TEST(RunSeries, DifferInAllThatHasAColumnButStepAndTolerances) {
-  const RunSpec spec = base();
-  std::vector<std::string> names;
-  std::vector<TableRow> rows;
-  const auto add = [&](const std::string& name, const RunSpec& s) {
-    RunRecord record;
-    record.spec = s;
-    record.outcome = "success";
-    names.push_back(name);
-    rows.push_back(runRow(name, "study", record));
-  };
-  add("", spec);
-  Table table{{}, runColumns(), {}};
-  std::set<std::string> swept;
-  for (const auto& field : specFields()) {
-    if (!table.hasColumn(field.name) || field.name == "t_end") continue;
-    RunSpec changed = spec;
-    field.set(changed, otherValue(field, spec));
-    if (field.name == "h" || field.name == "rtol" || field.name == "atol")
-      swept.insert(std::string(field.name));
-    add(std::string(field.name), changed);
-  }
-  table.rows = rows;
-  ASSERT_EQ(swept.size(), 3u);
-  const auto series = seriesOf(table);
-  EXPECT_EQ(series.size(), rows.size() - 3);
-  EXPECT_EQ(series.front().rows.size(), 4u);
-  for (const auto* row : series.front().rows) {
-    EXPECT_TRUE(row->front().empty() || swept.contains(row->front())) << row->front();
-  }
 }
 
 }  // namespace

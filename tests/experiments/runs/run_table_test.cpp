@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <map>
-#include <set>
 #include <sstream>
 
 #include "experiments/runner/runner.h"
@@ -13,79 +11,6 @@
 
 namespace irk {
 namespace {
-
-RunSpec plain() {
-  RunSpec spec;
-  spec.scene = "slider_crank";
-  return resolved(spec);
-}
-
-// Another value of every field. A field that is new has to be added here.
-const std::map<std::string, std::string> kOthers = {{"scene", "pendulum"},
-                                                    {"settings", "torque_off_at=0.25"},
-                                                    {"configuration", "embedded"},
-                                                    {"method", "gauss_8"},
-                                                    {"formulation", "index3"},
-                                                    {"scaling", "off"},
-                                                    {"discontinuity", "ignore"},
-                                                    {"scalar", "mp50"},
-                                                    {"derivatives", "difference_central"},
-                                                    {"newton", "full"},
-                                                    {"solver", "eigen"},
-                                                    {"storage", "dense"},
-                                                    {"predictor", "previous"},
-                                                    {"estimate", "none"},
-                                                    {"control", "paper"},
-                                                    {"order", "variable"},
-                                                    {"max_stages", "7"},
-                                                    {"summation", "plain"},
-                                                    {"multipliers", "stages"},
-                                                    {"norm", "absolute"},
-                                                    {"jacobian", "no_mass"},
-                                                    {"jacobian_point", "middle"},
-                                                    {"residual_tolerance", "1e-7"},
-                                                    {"contractivity_limit", "0.25"},
-                                                    {"contractivity_after", "7"},
-                                                    {"max_iterations", "8"},
-                                                    {"keep_jacobian_below", "0.5"},
-                                                    {"kappa", "0.125"},
-                                                    {"h", "0.25"},
-                                                    {"h_max", "0.5"},
-                                                    {"rtol", "1e-9"},
-                                                    {"atol", "1e-9"},
-                                                    {"t_end", "0.75"},
-                                                    {"max_steps", "17"},
-                                                    {"threads", "2"},
-                                                    {"time_limit", "1.5"}};
-
-TableRow rowOf(const RunSpec& spec) {
-  RunRecord record;
-  record.spec = spec;
-  record.outcome = "success";
-  return runRow(specKey(spec), "study", record);
-}
-
-// Two runs that differ in one field differ in their key, in that field's column, and lie in two series
-// unless a series runs through the field.
-TEST(RunTable, EveryFieldHasAColumnAndTellsSeriesApart) {
-  const std::set<std::string> swept{"h", "rtol", "atol"};
-  ASSERT_EQ(runColumns().size(), rowOf(plain()).size());
-  for (const auto& field : specFields()) {
-    const std::string name(field.name);
-    ASSERT_TRUE(kOthers.contains(name)) << name << " is a new field: give it another value";
-    RunSpec other = plain();
-    field.set(other, kOthers.at(name));
-    other = resolved(other);
-    const Table runs{{}, runColumns(), {rowOf(plain()), rowOf(other)}};
-    EXPECT_NE(runs.rows[0][0], runs.rows[1][0]) << name << ": the same key";
-    ASSERT_TRUE(runs.hasColumn(name)) << name;
-    EXPECT_EQ(textAt(runs, runs.rows[0], name), field.get(plain()));
-    EXPECT_EQ(textAt(runs, runs.rows[1], name), field.get(other));
-    EXPECT_NE(field.get(other), field.get(plain())) << name;
-    EXPECT_EQ(seriesOf(runs).size(), swept.contains(name) ? 1u : 2u) << name;
-  }
-  EXPECT_EQ(kOthers.size(), specFields().size());
-}
 
 // A table of a version that had fewer columns is read by those that it has.
 TEST(RunTable, OldTablesHaveTheirSeries) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/trajectory.h"
 #include "tests/experiments/support.h"

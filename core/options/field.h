@@ -1,0 +1,140 @@
+// A setting as data: what it is called, what it means, which values are legal, how it is read and set. Options of the
+// command line, keys of studies, columns, messages and validation are made from tables of these.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/base/number_text.h"
+#include "irk/options.h"
+
+namespace irk {
+
+enum class FieldKind {
+  kAxis,     ///< one of `choices`
+  kNumber,   ///< a double of `range`
+  kInteger,  ///< an integer of `range`
+  kText,
+};
+
+/// One id of an axis.
+struct Choice {
+  std::string id;
+  std::string meaning;
+};
+
+/// One setting of a `Spec`.
+template <class Spec>
+struct Field {
+  std::string name;     ///< `max_steps`: in options, files, tables and messages
+  std::string meaning;  ///< one sentence
+  FieldKind kind = FieldKind::kText;
+  std::vector<Choice> choices{};  ///< axes only; the default first
+  Range range{};                  ///< numbers and integers only
+  std::string form{};             ///< texts only: what is expected, in words
+
+  /// As text that `set` reads back to the same value.
+  std::function<std::string(const Spec&)> get{};
+  /// Throws Misuse naming field, value and range or nearest id.
+  std::function<void(Spec&, std::string_view)> set{};
+  /// Numbers and integers only: the value, and the value to be set, which is not checked here.
+  std::function<double(const Spec&)> number{};
+  std::function<void(Spec&, double)> assign{};
+  /// Why the field changes nothing in a spec; empty if it may. Null: it always may.
+  std::function<std::string_view(const Spec&)> unused{};
+
+  bool isNumeric() const { return kind == FieldKind::kNumber || kind == FieldKind::kInteger; }
+  /// The legal values in words: `simplified | broyden`, `> 0`.
+  std::string allowed() const {
+    if (isNumeric()) return range.text();
+    std::string ids;
+    for (const auto& choice : choices) ids += (ids.empty() ? "" : " | ") + choice.id;
+    return kind == FieldKind::kAxis ? ids : form;
+  }
+  /// The value in a Spec that nobody has changed.
+  std::string defaultText() const { return get(Spec{}); }
+};
+
+/// `member(spec)` is a reference to an enum that has ids. The field is called as the axis is.
+template <class Spec, class Member>
+Field<Spec> axisField(std::string meaning, Member member) {
+  using Axis = std::remove_cvref_t<decltype(member(std::declval<Spec&>()))>;
+  Field<Spec> field{.name = std::string(axisName<Axis>()),
+                    .meaning = std::move(meaning),
+                    .kind = FieldKind::kAxis,
+                    .get = [member](const Spec& spec) { return std::string(idOf(member(spec))); },
+                    .set = [member](Spec& spec, std::string_view id) { member(spec) = parseId<Axis>(id); }};
+  for (const auto& entry : named<Axis>()) {
+    field.choices.push_back({std::string(entry.id), std::string(entry.meaning)});
+  }
+  return field;
+}
+
+/// `member(spec)` is a reference to a double, or to an integer where the range has integers only.
+template <class Spec, class Member>
+Field<Spec> numberField(std::string name, std::string meaning, const Range& range, Member member) {
+  using Number = std::remove_cvref_t<decltype(member(std::declval<Spec&>()))>;
+  Field<Spec> field{.name = name,
+                    .meaning = std::move(meaning),
+                    .range = range,
+                    .number = [member](const Spec& spec) { return static_cast<double>(member(spec)); },
+                    .assign = [member](Spec& spec, double x) { member(spec) = static_cast<Number>(x); }};
+  if constexpr (std::is_integral_v<Number>) {
+    field.kind = FieldKind::kInteger;
+    field.get = [member](const Spec& spec) { return std::to_string(member(spec)); };
+    field.set = [member, name, range](Spec& spec, std::string_view text) {
+      const auto x = parseInteger(name, text, static_cast<std::int64_t>(range.least),
+                                  static_cast<std::int64_t>(range.most));
+      member(spec) = static_cast<Number>(x);
+    };
+  } else {
+    field.kind = FieldKind::kNumber;
+    field.get = [member](const Spec& spec) { return numberText(member(spec)); };
+    field.set = [member, name, range](Spec& spec, std::string_view text) {
+      member(spec) = parseNumber(name, text, range);
+    };
+  }
+  return field;
+}
+
+/// The field of a struct as a field of another one that holds it as `member`.
+template <class Outer, class Inner>
+Field<Outer> fieldOfMember(const Field<Inner>& inner, Inner Outer::*member) {
+  Field<Outer> field{
+      .name = inner.name,
+      .meaning = inner.meaning,
+      .kind = inner.kind,
+      .choices = inner.choices,
+      .range = inner.range,
+      .form = inner.form,
+      .get = [get = inner.get, member](const Outer& s) { return get(s.*member); },
+      .set = [set = inner.set, member](Outer& s, std::string_view text) { set(s.*member, text); }};
+  if (inner.number) {
+    field.number = [number = inner.number, member](const Outer& s) { return number(s.*member); };
+    field.assign = [assign = inner.assign, member](Outer& s, double x) { assign(s.*member, x); };
+  }
+  if (inner.unused) {
+    field.unused = [unused = inner.unused, member](const Outer& s) { return unused(s.*member); };
+  }
+  return field;
+}
+
+/// How many members an aggregate has: a table of its fields must have as many.
+struct AnyMember {
+  template <class T>
+  operator T() const;
+};
+template <class Aggregate, class... Members>
+consteval std::size_t memberCount() {
+  if constexpr (requires { Aggregate{Members{}..., AnyMember{}}; }) {
+    return memberCount<Aggregate, Members..., AnyMember>();
+  } else {
+    return sizeof...(Members);
+  }
+}
+
+}  // namespace irk

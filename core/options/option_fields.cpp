@@ -1,0 +1,121 @@
+#include "core/options/option_fields.h"
+
+#include <array>
+#include <tuple>
+
+namespace irk {
+namespace {
+
+constexpr std::int64_t kMostSteps = 1'000'000'000'000;
+constexpr std::int64_t kMostIterations = 1000, kMostThreads = 1024;
+
+using Options = IntegratorOptions;
+
+// Why an option has no effect beside others, or nothing.
+using Unused = std::string_view (*)(const Options&);
+
+OptionField axis(auto member, std::string meaning, Unused unused = nullptr) {
+  auto field = axisField<Options>(std::move(meaning), member);
+  if (unused) field.unused = unused;
+  return field;
+}
+
+OptionField number(std::string name, auto member, const Range& range, std::string meaning, Unused unused = nullptr) {
+  auto field = numberField<Options>(std::move(name), std::move(meaning), range, member);
+  if (unused) field.unused = unused;
+  return field;
+}
+
+bool fixedSteps(const Options& o) { return o.step.control == StepControl::kFixed; }
+bool stopsByResidual(const Options& o) {
+  return o.newton.kind == NewtonKind::kModified || o.newton.kind == NewtonKind::kFull;
+}
+std::string_view noTolerance(const Options& o) { return fixedSteps(o) ? "fixed steps have no tolerance" : ""; }
+std::string_view noEstimate(const Options& o) {
+  const bool asked = o.step.estimate != ErrorEstimate::kNone;
+  return fixedSteps(o) && asked ? "fixed steps have no error estimate" : "";
+}
+std::string_view noChosenStep(const Options& o) { return fixedSteps(o) ? "fixed steps all have one size" : ""; }
+std::string_view ofIncrementTest(const Options& o) {
+  return stopsByResidual(o) ? "it belongs to newton 'simplified' and 'broyden'" : "";
+}
+std::string_view ofKappa(const Options& o) {
+  return fixedSteps(o) ? "with fixed steps Newton's method iterates to round-off" : ofIncrementTest(o);
+}
+std::string_view ofResidualTest(const Options& o) {
+  return stopsByResidual(o) ? "" : "it belongs to newton 'modified' and 'full'";
+}
+std::string_view ofModifiedNewton(const Options& o) {
+  return o.newton.kind == NewtonKind::kModified ? "" : "it belongs to newton 'modified'";
+}
+std::string_view ofPaperControl(const Options& o) {
+  return o.step.control == StepControl::kPaper ? "" : "it belongs to control 'paper'";
+}
+std::string_view ofPaperControls(const Options& o) {
+  const bool used = o.step.control == StepControl::kPaper || o.step.control == StepControl::kHotint;
+  return used ? "" : "it belongs to control 'paper' and 'hotint'";
+}
+
+}  // namespace
+
+#define IRK_MEMBER(path) [](auto& o) -> auto& { return o.path; }
+
+std::span<const OptionField> optionFields() {
+  static const auto fields = std::to_array<OptionField>({
+      axis(IRK_MEMBER(derivatives), "How the derivatives in Jacobians are computed."),
+      axis(IRK_MEMBER(newton.kind), "Newton's method: when it stops and when its matrix is renewed."),
+      axis(IRK_MEMBER(solver), "How the linear systems of all stages are solved."),
+      axis(IRK_MEMBER(storage), "Matrices of the solvers schur and eigen."),
+      axis(IRK_MEMBER(predictor), "Start values of the stages."),
+      axis(IRK_MEMBER(step.estimate), "How the error of a step is estimated.", noEstimate),
+      axis(IRK_MEMBER(step.control), "How the step size is chosen."),
+      axis(IRK_MEMBER(order), "One method, or the members of its family by their cost."),
+      axis(IRK_MEMBER(summation), "How the increments of steps are added up."),
+      axis(IRK_MEMBER(multipliers), "Accelerations and multipliers at the end of the integration."),
+      axis(IRK_MEMBER(tolerances.norm), "The norm of errors and of Newton's increments.", noTolerance),
+      axis(IRK_MEMBER(jacobian), "Which terms of the Jacobian are left out."),
+      axis(IRK_MEMBER(jacobian_point), "Where in a step the Jacobian is evaluated."),
+      number("residual_tolerance", IRK_MEMBER(newton.residual_tolerance), Range::above(0).below(1),
+             "Newton's method stops when the residual has fallen to this part of its first value.", ofResidualTest),
+      number("contractivity_limit", IRK_MEMBER(newton.contractivity_limit), Range::above(0).to(1),
+             "The Jacobian is computed anew when the residual falls by less than this factor.", ofModifiedNewton),
+      number("contractivity_after", IRK_MEMBER(newton.contractivity_after), Range::integers(0, kMostIterations),
+             "Iterations before contractivity_limit is looked at.", ofModifiedNewton),
+      number("max_iterations", IRK_MEMBER(newton.max_iterations), Range::integers(1, kMostIterations),
+             "Newton's method fails after this many iterations."),
+      number("keep_jacobian_below", IRK_MEMBER(newton.keep_jacobian_below), Range::from(0).below(1),
+             "The Jacobian is kept for the next step while Newton's method contracts by less than this factor.",
+             ofIncrementTest),
+      number("kappa", IRK_MEMBER(newton.kappa), Range::from(0),
+             "Newton's method stops when its error falls below this part of the tolerance; 0 = by order and rtol.",
+             ofKappa),
+      number("h", IRK_MEMBER(step.h), Range::from(0),
+             "The constant step of control fixed, else the first step; 0 = by the scale of the solution."),
+      number("h_min", IRK_MEMBER(step.h_min), Range::from(0),
+             "The integration fails below this step size; 0 = at round-off.", noChosenStep),
+      number("h_max", IRK_MEMBER(step.h_max), Range::above(0), "The largest step size.", noChosenStep),
+      number("s_min", IRK_MEMBER(step.s_min), Range::above(1),
+             "Safety factor of the paper's step control, equation (6.1).", ofPaperControl),
+      number("change_at_least", IRK_MEMBER(step.change_at_least), Range::above(1),
+             "The step size is kept unless it would change by this factor.", ofPaperControls),
+      number("growth_at_most", IRK_MEMBER(step.growth_at_most), Range::above(1),
+             "The step size grows at most by this factor.", ofPaperControls),
+      number("rtol", IRK_MEMBER(tolerances.rtol), Range::from(0).below(1),
+             "Tolerance of a step's error relative to the solution.", noTolerance),
+      number("atol", IRK_MEMBER(tolerances.atol), Range::above(0),
+             "Tolerance of a step's error relative to the scale of the component.", noTolerance),
+      number("max_steps", IRK_MEMBER(step.max_steps), Range::integers(1, kMostSteps),
+             "The integration fails after this many attempted steps."),
+      number("threads", IRK_MEMBER(threads), Range::integers(1, kMostThreads),
+             "Threads inside one integration; the numbers do not depend on it."),
+  });
+  constexpr std::size_t kNested = 3;  // tolerances, newton, step
+  static_assert(std::tuple_size_v<decltype(fields)> ==
+                    memberCount<IntegratorOptions>() - kNested + memberCount<Tolerances>() +
+                        memberCount<NewtonOptions>() + memberCount<StepOptions>(),
+                "an option has no line in the table above");
+  return fields;
+}
+#undef IRK_MEMBER
+
+}  // namespace irk

@@ -1,0 +1,21 @@
+// Named choices of strategies.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace irk {
+
+/// Setting one sets all of its fields; fields set later override them.
+struct Configuration {
+  std::string_view id;
+  std::string_view meaning;
+  std::string_view fields;  ///< `field=value;field=value`
+};
+/// `default`, `paper`, `embedded`, `variable`: the first is what a spec starts with.
+std::span<const Configuration> configurations();
+
+/// Throws Misuse naming the nearest id.
+const Configuration& findConfiguration(std::string_view id);
+
+}  // namespace irk

@@ -1,0 +1,195 @@
+#include "experiments/runs/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/options/option_fields.h"
+#include "experiments/runs/configurations.h"
+#include "irk/scene.h"
+#include "irk/tableaus.h"
+
+namespace irk {
+namespace {
+
+// Each `field=value` of a text, items separated by ';'.
+void setFields(RunSpec& spec, std::string_view text) {
+  while (!text.empty()) {
+    const auto item = text.substr(0, text.find(';'));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    const auto equals = item.find('=');
+    if (equals == std::string_view::npos) {
+      throw Misuse(fmt::format("'{}' in a run's text is not of the form field=value", item));
+    }
+    findField(item.substr(0, equals)).set(spec, item.substr(equals + 1));
+  }
+}
+
+Field<RunSpec> sceneField() {
+  return {.name = "scene",
+          .meaning = "The system to integrate.",
+          .form = "irk list scenes",
+          .get = [](const RunSpec& s) { return s.scene; },
+          .set = [](RunSpec& s, std::string_view id) { s.scene = findScene(id).id; }};
+}
+
+Field<RunSpec> settingsField() {
+  return {.name = "settings",
+          .meaning = "Parameters of the scene.",
+          .form = "name=value, see irk list scenes",
+          .get = [](const RunSpec& s) { return settingsText(s.settings); },
+          .set = [](RunSpec& s, std::string_view value) {
+            s.settings.clear();
+            while (!value.empty()) {
+              const auto end = std::min(value.find(' '), value.size());
+              if (end > 0) addSetting(s.settings, value.substr(0, end));
+              value.remove_prefix(std::min(end + 1, value.size()));
+            }
+          }};
+}
+
+// An axis, but its ids set other fields, too.
+Field<RunSpec> configurationField() {
+  Field<RunSpec> field{.name = "configuration",
+                       .meaning = "A named choice of strategies, which other options override.",
+                       .kind = FieldKind::kAxis,
+                       .get = [](const RunSpec& s) { return s.configuration; },
+                       .set = [](RunSpec& s, std::string_view id) {
+                         const auto& configuration = findConfiguration(id);
+                         s.configuration = id;
+                         setFields(s, configuration.fields);
+                       }};
+  for (const auto& [id, meaning, fields] : configurations()) {
+    field.choices.push_back({std::string(id), fmt::format("{}{}{}", meaning, fields.empty() ? "" : ": ", fields)});
+  }
+  return field;
+}
+
+Field<RunSpec> methodField() {
+  return {.name = "method",
+          .meaning = "The integration method.",
+          .form = "family_stages or another library's integrator (irk list methods), a tableau file, or a family "
+                  "with order variable",
+          .get = [](const RunSpec& s) { return s.method; },
+          .set = [](RunSpec& s, std::string_view value) {
+            requirePlain("method", value, ";\n");
+            s.method = value;
+          }};
+}
+
+// A number, or `scene` for NaN.
+Field<RunSpec> endField() {
+  auto field = numberField<RunSpec>("t_end", "The time at which the integration ends; scene = the scene's own.",
+                                    kAnyNumber, [](auto& s) -> auto& { return s.t_end; });
+  field.get = [get = field.get](const RunSpec& s) { return std::isnan(s.t_end) ? "scene" : get(s); };
+  field.set = [set = field.set](RunSpec& s, std::string_view text) {
+    if (text == "scene") {
+      s.t_end = std::numeric_limits<double>::quiet_NaN();
+    } else {
+      set(s, text);
+    }
+  };
+  return field;
+}
+
+Field<RunSpec> maxStagesField() {
+  auto field = numberField<RunSpec>("max_stages", "The most stages of variable order.", Range::integers(1, kMaxStages),
+                                    [](auto& s) -> auto& { return s.max_stages; });
+  field.unused = [](const RunSpec& s) -> std::string_view {
+    return s.options.order == OrderControl::kFixed ? "it belongs to order 'variable'" : "";
+  };
+  return field;
+}
+
+constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
+
+#define IRK_MEMBER(path) [](auto& s) -> auto& { return s.path; }
+
+// The members of RunSpec; `options` stands for all of its own.
+std::vector<SpecField> makeFields() {
+  auto before = std::to_array<Field<RunSpec>>({
+      sceneField(),
+      settingsField(),
+      configurationField(),
+      methodField(),
+      axisField<RunSpec>("The form of the equations, above all of constraints.", IRK_MEMBER(formulation)),
+      axisField<RunSpec>("Whether the rows of constraints are scaled by the step size.", IRK_MEMBER(scaling)),
+      axisField<RunSpec>("How switches of the scene are treated.", IRK_MEMBER(discontinuity)),
+      axisField<RunSpec>("The numbers that are computed with.", IRK_MEMBER(scalar))});
+  auto after = std::to_array<Field<RunSpec>>({
+      maxStagesField(), endField(),
+      numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
+                           kNotNegative, IRK_MEMBER(time_limit))});
+  static_assert(std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)> + 1 == memberCount<RunSpec>(),
+                "a member of RunSpec has no field");
+  std::vector<SpecField> fields;
+  for (auto& field : before) fields.push_back({std::move(field)});
+  for (const auto& option : optionFields()) fields.push_back({fieldOfMember(option, &RunSpec::options)});
+  for (auto& field : after) fields.push_back({std::move(field)});
+  for (auto& field : fields) {
+    field.swept = std::find(std::begin(kSwept), std::end(kSwept), field.name) != std::end(kSwept);
+  }
+  return fields;
+}
+#undef IRK_MEMBER
+
+}  // namespace
+
+std::span<const SpecField> specFields() {
+  static const std::vector<SpecField> fields = makeFields();
+  return fields;
+}
+
+const SpecField& findField(std::string_view name) {
+  std::vector<std::string> known;
+  for (const auto& field : specFields()) {
+    if (field.name == name) return field;
+    known.push_back(field.name);
+  }
+  throw Misuse(unknownName("field", name, known));
+}
+
+std::string optionName(std::string_view field) {
+  if (field == "scene") return "scene";
+  if (field == "settings") return "--set";
+  if (field == "h") return "--step";
+  std::string option = "--" + std::string(field);
+  std::replace(option.begin() + 2, option.end(), '_', '-');
+  return option;
+}
+
+std::string helpText(const SpecField& field) {
+  const std::string value = field.defaultText();
+  return fmt::format("{} [{}{}{}]", field.meaning, field.allowed(), value.empty() ? "" : "; default ", value);
+}
+
+std::string canonicalText(const RunSpec& spec) {
+  std::string text;
+  for (const auto& field : specFields()) {
+    if (!text.empty()) text += ';';
+    text.append(field.name) += '=';
+    text += field.get(spec);
+  }
+  return text;
+}
+
+RunSpec parseSpec(std::string_view text) {
+  RunSpec spec;
+  setFields(spec, text);
+  if (spec.scene.empty()) throw Misuse("a run's text names no scene");
+  return spec;
+}
+
+void validate(const RunSpec& spec) {
+  RunSpec copy;
+  for (const auto& field : specFields()) field.set(copy, field.get(spec));
+}
+
+}  // namespace irk

@@ -1,0 +1,57 @@
+// Values for tests of every field: made from what the field says of itself, so that a new field is tested by itself.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/options/field.h"
+
+namespace irk {
+
+/// At the bounds of a range, inside and outside of it.
+inline std::vector<double> probes(const Range& range) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double middle = std::isfinite(range.most - range.least) ? (range.least + range.most) / 2 : 0.5;
+  std::vector<double> all{range.least, range.most, range.whole ? std::floor(middle) : middle};
+  for (const double step : {0.5, 1.0, 2.0}) {
+    for (const double bound : {range.least, range.most, 0.0}) all.insert(all.end(), {bound - step, bound + step});
+  }
+  all.insert(all.end(), {std::nan(""), kInfinity, -kInfinity});
+  return all;
+}
+inline std::vector<double> legalValues(const Range& range) {
+  auto all = probes(range);
+  std::erase_if(all, [&](double x) { return !range.contains(x); });
+  return all;
+}
+inline std::vector<double> illegalValues(const Range& range) {
+  auto all = probes(range);
+  std::erase_if(all, [&](double x) { return range.contains(x); });
+  return all;
+}
+
+/// Of axes every id but the default, of numbers some that are legal; nothing of texts.
+template <class Spec>
+std::vector<std::string> otherValues(const Field<Spec>& field) {
+  std::vector<std::string> values;
+  for (const auto& choice : field.choices) values.push_back(choice.id);
+  if (field.kind == FieldKind::kInteger) {
+    for (const double x : legalValues(field.range)) values.push_back(std::to_string(static_cast<std::int64_t>(x)));
+  } else if (field.kind == FieldKind::kNumber) {
+    for (const double x : legalValues(field.range)) values.push_back(numberText(x));
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::erase(values, field.defaultText());
+  return values;
+}
+
+/// Does the text hold all of these?
+inline bool containsAllOf(const std::string& text, const std::vector<std::string>& parts) {
+  return std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return text.find(part) != text.npos; });
+}
+
+}  // namespace irk
