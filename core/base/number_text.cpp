@@ -57,12 +57,10 @@ double parseNumber(std::string_view place, std::string_view text, const Range& r
   return x;
 }
 
-std::int64_t parseInteger(std::string_view place, std::string_view text, std::int64_t min,
-                          std::int64_t max) {
+std::int64_t parseInteger(std::string_view place, std::string_view text, const Range& range) {
   std::int64_t x = 0;
-  if (!readWhole(text, x) || x < min || x > max) {
-    refuse(place, quoted(text), "is out of range",
-           "an integer from " + std::to_string(min) + " to " + std::to_string(max));
+  if (!readWhole(text, x) || !range.contains(static_cast<double>(x))) {
+    refuse(place, quoted(text), "is out of range", range.text());
   }
   return x;
 }

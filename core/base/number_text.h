@@ -14,9 +14,8 @@ std::string numberText(double x);
 
 /// Throws Misuse `place = 'text' ...: range` for text that is not a finite number of the range.
 double parseNumber(std::string_view place, std::string_view text, const Range& range);
-/// For text that is not an integer from `min` to `max`; `1e3` is none.
-std::int64_t parseInteger(std::string_view place, std::string_view text, std::int64_t min,
-                          std::int64_t max);
+/// For text that is not an integer of the range; `1e3` is none.
+std::int64_t parseInteger(std::string_view place, std::string_view text, const Range& range);
 
 /// Throws Misuse `place = x is out of range: range`.
 void requireInRange(std::string_view place, double x, const Range& range);

@@ -87,9 +87,7 @@ Field<Spec> numberField(std::string name, std::string meaning, const Range& rang
     field.kind = FieldKind::kInteger;
     field.get = [member](const Spec& spec) { return std::to_string(member(spec)); };
     field.set = [member, name, range](Spec& spec, std::string_view text) {
-      const auto x = parseInteger(name, text, static_cast<std::int64_t>(range.least),
-                                  static_cast<std::int64_t>(range.most));
-      member(spec) = static_cast<Number>(x);
+      member(spec) = static_cast<Number>(parseInteger(name, text, range));
     };
   } else {
     field.kind = FieldKind::kNumber;

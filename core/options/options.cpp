@@ -140,7 +140,7 @@ void validate(const IntegratorOptions& o) {
     if (field.isNumeric()) requireInRange(field.name, field.number(o), field.range);
   }
   const bool fixed = o.step.control == StepControl::kFixed;
-  if (fixed && o.step.h == 0) throw Misuse("illegal combination: control 'fixed' with h = 0: h > 0");
+  if (fixed && o.step.h == 0) throw Misuse("illegal combination: control 'fixed' with h = 0: fixed steps need h > 0");
   const bool own = o.solver == StageSolverKind::kCoupledDense ||
                    o.solver == StageSolverKind::kCoupledSparse;
   if (own && o.storage != Storage::kAutomatic && o.storage != storageOf(o)) {

@@ -38,8 +38,7 @@ std::string numberHelp(std::string_view meaning, const Range& range, std::string
 }
 
 int integer(std::string_view name, std::string_view text, const Range& range) {
-  return static_cast<int>(parseInteger(name, text, static_cast<std::int64_t>(range.least),
-                                       static_cast<std::int64_t>(range.most)));
+  return static_cast<int>(parseInteger(name, text, range));
 }
 
 /// The verbs, their options and what each one does when it is chosen.

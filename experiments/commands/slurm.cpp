@@ -8,7 +8,7 @@ namespace irk {
 
 int slurmCommand(const SlurmOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant);
-  const int shards = static_cast<int>(parseInteger("n", options.shards, 1, 1'000'000));
+  const int shards = static_cast<int>(parseInteger("n", options.shards, Range::integers(1, 1'000'000)));
   if (static_cast<std::size_t>(shards) > study.series.size()) {
     throw Misuse(fmt::format("n = {}: the study has {} series, and a series is not divided; 1 to {}", shards,
                              study.series.size(), study.series.size()));

@@ -15,7 +15,8 @@ struct Pair {
 };
 
 /// The runs of two tables by the fields of a spec that both have. Numbers are compared as numbers: 0.1 is
-/// 0.10000000000000001, as older tables have it. Rows with equal fields are matched in their order. Keeps references to the tables.
+/// 0.10000000000000001, as older tables have it. Rows with equal fields are matched in their order. Keeps references to
+/// the tables.
 class Matching {
  public:
   Matching(const Table& first, const Table& second);

@@ -26,7 +26,7 @@ const char* setting(const char* name) {
 }
 
 int fromEnvironment(const char* name) {
-  return static_cast<int>(parseInteger(name, std::getenv(name), 0, kMostShards));
+  return static_cast<int>(parseInteger(name, std::getenv(name), Range::integers(0, kMostShards)));
 }
 
 // i, and n where the environment knows it: else 0.
@@ -87,9 +87,9 @@ Shard parseShard(std::string_view text) {
     }
     return checked(shard, text);
   }
-  const int count = static_cast<int>(parseInteger("shard", text.substr(slash + 1), 1, kMostShards));
+  const int count = static_cast<int>(parseInteger("shard", text.substr(slash + 1), Range::integers(1, kMostShards)));
   if (index == "auto") return checked({fromArrayJob().index, count}, text);
-  return {static_cast<int>(parseInteger("shard", index, 1, count)), count};
+  return {static_cast<int>(parseInteger("shard", index, Range::integers(1, count))), count};
 }
 
 double expectedCost(const Series& series) {

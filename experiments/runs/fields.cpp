@@ -148,11 +148,11 @@ std::span<const SpecField> specFields() {
 }
 
 const SpecField& findField(std::string_view name) {
+  const auto fields = specFields();
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.name == name; });
+  if (found != fields.end()) return *found;
   std::vector<std::string> known;
-  for (const auto& field : specFields()) {
-    if (field.name == name) return field;
-    known.push_back(field.name);
-  }
+  for (const auto& field : fields) known.push_back(field.name);
   throw Misuse(unknownName("field", name, known));
 }
 

@@ -57,7 +57,7 @@ std::int64_t integer(const StudyKeys& keys, std::string_view key, std::int64_t f
                      std::int64_t min, std::int64_t max) {
   const auto* value = find(keys, key);
   if (!value) return fallback;
-  return atPlace(*value, [&] { return parseInteger(key, single(key, *value), min, max); });
+  return atPlace(*value, [&] { return parseInteger(key, single(key, *value), Range::integers(min, max)); });
 }
 
 std::vector<double> numbers(const StudyValue& value, std::string_view key,
@@ -92,7 +92,7 @@ bool flag(const StudyKeys& keys, std::string_view key) {
 std::vector<Index> stageList(const StudyValue& value) {
   std::vector<Index> stages;
   const auto integer = [&](std::string_view text) {
-    return atPlace(value, [&] { return parseInteger("stages", text, 1, kMaxStages); });
+    return atPlace(value, [&] { return parseInteger("stages", text, Range::integers(1, kMaxStages)); });
   };
   for (const std::string_view item : value.items) {
     const auto dots = item.find("..");

@@ -53,7 +53,7 @@ void checkRowSums(const Subject& subject, Findings& findings) {
   const double error = subject.analysis.row_sum_errors.maxCoeff(&row);
   findings.push_back(
       {Verdict::kContradiction, Place::kRow, row, "row sums",
-       fmt::format("row {} of A does not sum up to c_{} = {:.17g}: it is off by {:.3g}", row + 1,
+       fmt::format("row {} of A does not sum up to c_{} = {}: it is off by {:.3g}", row + 1,
                    row + 1, static_cast<double>(subject.tableau.c[row]), error)});
 }
 

@@ -122,7 +122,7 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
       {{"solve", "kepler", "--jacobian", "no_mas"}, {"jacobian", "no_mas", "'no_mass'"}},
       {{"solve", "kepler", "--step", "-0.1"}, {"step", "-0.1", "> 0"}},
       {{"solve", "kepler", "--step", "0"}, {"step", "0", "> 0"}},
-      {{"solve", "kepler", "--tol", "2"}, {"tol", "2", "0 < tol < 1"}},
+      {{"solve", "kepler", "--tol", "2"}, {"tol", "2", "0 <= x < 1"}},
       {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
       {{"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, {"step", "tol"}},
       {{"solve", "kepler", "--control", "fixed"}, {"step", "> 0"}},

@@ -69,7 +69,8 @@ TEST(Fields, EachOneReadsBackAndLeavesTheOthersAlone) {
     EXPECT_NO_THROW(validate(changed));
     if (field.name == "configuration") return;  // sets others
     for (const auto& other : specFields()) {
-      if (other.name != field.name) EXPECT_EQ(other.get(changed), other.get(base)) << other.name;
+      if (other.name == field.name) continue;
+      EXPECT_EQ(other.get(changed), other.get(base)) << other.name;
     }
   });
 }
@@ -124,7 +125,8 @@ TEST(Fields, JsonHoldsEachOneAndNumbersAsNumbers) {
     EXPECT_TRUE(texts.insert(json).second);
     const bool quoted = json.find("\"" + field.name + "\": \"") != json.npos;
     EXPECT_TRUE(containsAll(json, {"\"" + field.name + "\": "}));
-    if (field.name != "settings") EXPECT_EQ(quoted, !field.isNumeric());
+    if (field.name == "settings") return;  // an object
+    EXPECT_EQ(quoted, !field.isNumeric());
   });
 }
 
