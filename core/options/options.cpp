@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/options/option_fields.h"
 
 namespace irk {
 namespace {
@@ -133,24 +132,6 @@ Storage storageOf(const IntegratorOptions& options) {
       break;
   }
   return options.storage;
-}
-
-void validate(const IntegratorOptions& o) {
-  for (const auto& field : optionFields()) {
-    if (field.isNumeric()) requireInRange(field.name, field.number(o), field.range);
-  }
-  const bool fixed = o.step.control == StepControl::kFixed;
-  if (fixed && o.step.h == 0) throw Misuse("illegal combination: control 'fixed' with h = 0: fixed steps need h > 0");
-  const bool own = o.solver == StageSolverKind::kCoupledDense ||
-                   o.solver == StageSolverKind::kCoupledSparse;
-  if (own && o.storage != Storage::kAutomatic && o.storage != storageOf(o)) {
-    throw Misuse("illegal combination: solver '" + std::string(idOf(o.solver)) +
-                 "' with storage '" + std::string(idOf(o.storage)) + "'");
-  }
-  if (!fixed && o.step.estimate == ErrorEstimate::kNone) {
-    throw Misuse("illegal combination: control '" + std::string(idOf(o.step.control)) +
-                 "' with estimate 'none': a step controller needs an error estimate");
-  }
 }
 
 }  // namespace irk

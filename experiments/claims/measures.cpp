@@ -14,6 +14,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 
 namespace irk::claims {
 namespace {

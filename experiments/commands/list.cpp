@@ -7,6 +7,7 @@
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
+#include "experiments/study/study_reader.h"
 #include "irk/tableaus.h"
 
 namespace irk {

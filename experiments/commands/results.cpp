@@ -14,6 +14,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runner/merge.h"
+#include "experiments/study/study_reader.h"
 
 namespace irk {
 namespace {

@@ -15,6 +15,7 @@
 #include "experiments/runner/join_ranks.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
 #include "irk/misuse.h"
 

@@ -2,6 +2,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/runner/shards.h"
+#include "experiments/study/study_reader.h"
 #include "irk/misuse.h"
 
 namespace irk {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "experiments/commands/commands.h"
+#include "experiments/study/study_reader.h"
 
 namespace irk {
 

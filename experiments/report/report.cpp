@@ -25,6 +25,7 @@
 #include "experiments/report/figure_path.h"
 #include "experiments/report/html_tables.h"
 #include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
 #include "experiments/tables/table.h"
 #include "irk/misuse.h"

@@ -75,4 +75,10 @@ std::string specKey(const RunSpec& spec) {
   return hexText(fnv1a(keyText(resolved(spec), findScene(spec.scene).parameters)));
 }
 
+std::string integratorName(const RunSpec& spec) {
+  if (findPeer(spec.method)) return spec.method;
+  if (spec.options.order == OrderControl::kVariable) return spec.configuration;
+  return spec.configuration + ":" + spec.method;
+}
+
 }  // namespace irk

@@ -9,7 +9,6 @@
 
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -81,12 +80,6 @@ Settings settingsAtStep(const RunSpec& spec) {
     value = numberText(parseNumber(name, factor, kAnyNumber) / h);
   }
   return settings;
-}
-
-std::string integratorName(const RunSpec& spec) {
-  if (findPeer(spec.method)) return spec.method;
-  if (spec.options.order == OrderControl::kVariable) return spec.configuration;
-  return spec.configuration + ":" + spec.method;
 }
 
 void refuseFamilyOfFixedOrder(const RunSpec& spec) {

@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,7 +14,7 @@
 
 namespace irk {
 
-struct Analysis;  // experiments/study/analysis.h
+struct Analysis;  // analysis.h
 
 /// When the runs of a series that come later need not be made.
 enum class SeriesEnd {
@@ -63,10 +62,6 @@ struct Study {
 
 enum class StudyVariant { kFull, kQuick };
 
-/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is allowed, and for a
-/// file with another study whose name is a built-in one's, or that of a folder of results: they would share a folder.
-Study loadStudy(std::string_view id_or_file, StudyVariant variant);
-
 /// The specs of all runs by their keys; the study must outlive it.
 class SpecsByKey {
  public:
@@ -78,9 +73,6 @@ class SpecsByKey {
   const Study& study_;
   std::map<std::string, std::pair<std::size_t, std::size_t>> places_;  // number of the series, and in it
 };
-
-/// From TOML text; `file` names it in messages.
-Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);
 
 /// N = 2, 4, ... growing by about a tenth, up to `most`: steps t_end / N. Even, because errors of
 /// methods with R(infinity) = -1 alternate.

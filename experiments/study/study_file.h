@@ -1,4 +1,4 @@
-// TOML text -> lists of texts by key. What the keys mean is the matter of study.cpp.
+// TOML text -> lists of texts by key. What the keys mean is the matter of study_reader.cpp.
 //
 //   title = "..."                  orders, trajectories, estimates, energy, phases, profile, scaling = true
 //   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...

@@ -14,6 +14,7 @@
 #include "experiments/compare/folders.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
+#include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
 #include "tests/experiments/study_runs.h"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/runner/runner.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 #include "irk/misuse.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "experiments/analyses/results.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

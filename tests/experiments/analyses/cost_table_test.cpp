@@ -7,6 +7,7 @@
 
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

@@ -18,6 +18,7 @@
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk::audit {

@@ -15,6 +15,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/study_runs.h"
 

@@ -12,6 +12,7 @@
 #include "experiments/runner/runner.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/builtin_studies.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

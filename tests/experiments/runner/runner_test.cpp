@@ -13,6 +13,7 @@
 #include "experiments/compare/folders.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/stored_runs.h"
 
 namespace irk {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "experiments/base/clock.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

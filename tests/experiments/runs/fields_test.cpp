@@ -13,6 +13,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/other_spec.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/support.h"

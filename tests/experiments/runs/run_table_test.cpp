@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "experiments/runner/runner.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

@@ -9,6 +9,7 @@
 #include "experiments/analyses/orders.h"
 #include "experiments/report/report.h"
 #include "experiments/study/builtin_studies.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/stored_runs.h"
 
 namespace irk {
