@@ -17,7 +17,7 @@
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/orders/order_fit.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/html.h"

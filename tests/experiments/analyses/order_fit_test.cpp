@@ -1,4 +1,4 @@
-#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/orders/order_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The tables of measured orders, typed in as they stand, against the formulas.
-#include "experiments/analyses/theory.h"
+#include "experiments/analyses/orders/theory.h"
 
 #include <gtest/gtest.h>
 

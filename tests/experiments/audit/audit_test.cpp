@@ -1,7 +1,4 @@
-#include "experiments/audit/audit.h"
-
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -9,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "experiments/audit/audit.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
@@ -19,116 +17,15 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk::audit {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-// Bits and choices are part of the study: other ones would be another audit.
-TEST(AuditDice, AreTheSameOnEveryMachine) {
-  Dice dice("1 run 0");
-  EXPECT_EQ(dice.uniform(), 0x1.675a664420499p-1);  // by another implementation of MT19937-64
-  EXPECT_EQ(dice.below(1000), 28);
-  const double weights[] = {0, 1, 0, 3, 0};
-  int counts[5] = {};
-  for (int i = 0; i < 4000; ++i) ++counts[dice.weighted(weights)];
-  EXPECT_EQ(counts[0] + counts[2] + counts[4], 0);
-  EXPECT_NEAR(counts[1], 1000, 100);  // 3.7 standard deviations
-  std::set<Index> seen;
-  for (int i = 0; i < 200; ++i) seen.insert(dice.between(3, 7));
-  EXPECT_EQ(seen, (std::set<Index>{3, 4, 5, 6, 7}));
-}
-
-std::vector<std::string> texts(const std::vector<DrawnRun>& runs) {
-  std::vector<std::string> all;
-  for (const auto& run : runs) all.push_back(run.treatment + " " + canonicalText(run.spec));
-  return all;
-}
-
-TEST(AuditDraw, DependsOnTheSeedAlone) {
-  const auto first = texts(drawnRuns({.runs = 60}));
-  EXPECT_EQ(first, texts(drawnRuns({.runs = 60})));
-  auto longer = texts(drawnRuns({.runs = 80}));
-  longer.resize(60);
-  EXPECT_EQ(first, longer) << "a shorter audit is the beginning of a longer one";
-  const auto other = texts(drawnRuns({.runs = 60, .seed = 2}));
-  int same = 0;
-  for (std::size_t i = 0; i < other.size(); ++i) same += first[i] == other[i];
-  EXPECT_LT(same, 3);
-}
-
-TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
-  std::set<std::string> scenes, configurations, treatments, formulations, families, methods;
-  std::set<double> tolerances;
-  int with_settings = 0;
-  const auto runs = drawnRuns({.runs = 2500});
-  for (const auto& [spec, treatment] : runs) {
-    scenes.insert(spec.scene);
-    configurations.insert(spec.configuration);
-    treatments.insert(treatment);
-    formulations.insert(std::string(idOf(spec.formulation)));
-    methods.insert(spec.method);
-    tolerances.insert(spec.options.tolerances.rtol);
-    EXPECT_EQ(spec.options.tolerances.rtol, spec.options.tolerances.atol);
-    with_settings += !spec.settings.empty();
-    for (const auto& [name, value] : spec.settings) {
-      const bool unknowns = name == "m" && spec.scene == "beam_chain";
-      EXPECT_TRUE(!unknowns || std::stoi(value) <= 100) << value;
-      EXPECT_TRUE(name != "elements" || std::stoi(value) <= 4) << value;
-      EXPECT_TRUE(!name.starts_with("smoothing") || treatment == "smooth" || treatment == kNoSwitches);
-    }
-    // What is left open is the default, whatever that is.
-    if (treatment == kDefaultTreatment || treatment == kNoSwitches) {
-      RunSpec configured;
-      findField("configuration").set(configured, spec.configuration);
-      EXPECT_EQ(spec.discontinuity, configured.discontinuity);
-    } else {
-      EXPECT_EQ(idOf(spec.discontinuity), treatment);
-    }
-  }
-  EXPECT_EQ(scenes.size(), sceneCatalogue().size());
-  EXPECT_EQ(configurations.size(), irk::configurations().size());
-  EXPECT_EQ(treatments, (std::set<std::string>{"default", "ignore", "iterate", "locate", "no switches", "smooth"}));
-  EXPECT_EQ(formulations.size(), named<Formulation>().size());
-  EXPECT_EQ(tolerances.size(), 12u);
-  for (const auto* id : {"gauss_20", "radau_iia_1", "lobatto_iiid_4", "radau_ia"}) {
-    EXPECT_TRUE(methods.contains(id)) << id;
-  }
-  EXPECT_GT(with_settings, 700);  // half of the runs, of the scenes that have parameters
-}
-
-// A word of the command line that starts an option, and what follows it.
-SolveOptions parsed(const std::string& command) {
-  std::istringstream in(command);
-  std::string irk, solve, option, value;
-  SolveOptions options;
-  in >> irk >> solve >> options.scene;
-  EXPECT_EQ(irk + " " + solve, "irk solve");
-  while (in >> option >> value) {
-    std::string field = option.substr(2);
-    std::replace(field.begin(), field.end(), '-', '_');
-    if (field == "set") {
-      options.settings.push_back(value);
-    } else if (field == "tol") {
-      options.tol = value;
-    } else {
-      options.fields.emplace_back(field, value);
-    }
-  }
-  return options;
-}
-
-TEST(AuditDraw, CommandsRepeatTheRuns) {
-  auto runs = drawnRuns({.runs = 300});
-  runs[0].spec.t_end *= 0.3;
-  for (const auto& run : runs) {
-    const std::string command = commandOf(run);
-    EXPECT_EQ(specKey(solveSpec(parsed(command))), specKey(run.spec)) << command;
-  }
-}
 
 Evidence evidence(double error, double tolerance) {
   return {.success = true, .tolerance = tolerance, .error = error, .accuracy = 1e-12, .kappa = 10};
@@ -312,169 +209,6 @@ TEST(FinalStates, AreWrittenAsTextAndReadBack) {
   record.x = vec({kUnknown});
   writeTable(file, {{}, {"key", "state"}, {{"key", vectorText(componentsOf(record))}}});
   EXPECT_EQ(vectorText(readStates(file).at("key")), "1 2 3 0.10000000000000001 nan");
-}
-
-constexpr const char* kSmall = "title = 'small'\n[audit]\nruns = 60\ntime_limit = 0.5\n";
-
-TEST(Audit, StudyDrawsInsteadOfBlocks) {
-  const auto study = [](const std::string& text, StudyVariant variant) {
-    return parseStudy(text, "audit.toml", variant);
-  };
-  const std::string quick = "[audit]\nruns = 30\nseed = 3\n[audit.quick]\nruns = 10\n";
-  EXPECT_EQ(study(quick, StudyVariant::kFull).series.size(), 30u);
-  const auto small = study(quick, StudyVariant::kQuick);
-  ASSERT_EQ(small.series.size(), 10u);
-  EXPECT_EQ(specKey(small.series[9].runs[0]), specKey(drawnRuns({.runs = 10, .seed = 3})[9].spec));
-  EXPECT_TRUE(containsAll(misuseOf([&] { study("[audit]\nrun = 3\n", StudyVariant::kFull); }),
-                          {"audit.toml", "run", "runs"}));
-  EXPECT_TRUE(containsAll(misuseOf([&] { study("[audit]\n[[block]]\nscene='hires'\n", StudyVariant::kFull); }),
-                          {"[[block]]"}));
-}
-
-/// One small audit for all tests of this suite.
-class SmallAudit : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    study_ = new Study(parseStudy(kSmall, "audit.toml", StudyVariant::kFull));
-    runs_ = new Table(run());
-    text_ = new std::string(auditRuns(*study_, *runs_, folder(), 2, quiet_));
-  }
-  static void TearDownTestSuite() {
-    delete folder_;
-    delete study_;
-    delete runs_;
-    delete text_;
-  }
-  static Table run() {
-    RunnerOptions options;
-    options.results = folder_->path();
-    options.jobs = 2;
-    return runStudy(*study_, options, quiet_);
-  }
-  static std::filesystem::path folder() { return folder_->path() / "audit"; }
-
-  static inline TemporaryFolder* folder_;
-  static inline Study* study_;
-  static inline Table* runs_;
-  static inline std::string* text_;
-  static inline std::ostringstream quiet_;
-};
-
-TEST_F(SmallAudit, JudgesEveryRun) {
-  const Table table = readTable(folder() / "audit.csv");
-  ASSERT_EQ(table.rows.size(), 60u);
-  std::map<std::string, int> counts;
-  for (const auto& row : table.rows) {
-    ++counts[textAt(table, row, "judgement")];
-    if (textAt(table, row, "judgement") == "right") {
-      EXPECT_LE(numberAt(table, row, "error"), bar(numberAt(table, row, "tolerance")));
-      EXPECT_EQ(numberAt(table, row, "error") / numberAt(table, row, "tolerance"),
-                numberAt(table, row, "error_over_tolerance"));
-    }
-    EXPECT_EQ(specKey(solveSpec(parsed(textAt(table, row, "command")))), textAt(table, row, "key"));
-  }
-  EXPECT_GT(counts["right"], 30);
-  const Table summary = readTable(folder() / "audit_summary.csv");
-  for (const char* by : {"all", "configuration", "treatment", "scene", "family", "formulation",
-                         "configuration_treatment"}) {
-    int runs = 0, right = 0;
-    for (const auto& row : summary.rows) {
-      if (textAt(summary, row, "by") != by) continue;
-      runs += static_cast<int>(numberAt(summary, row, "runs"));
-      right += static_cast<int>(numberAt(summary, row, "right"));
-    }
-    EXPECT_EQ(runs, 60) << by;
-    EXPECT_EQ(right, counts["right"]) << by;
-  }
-  EXPECT_TRUE(containsAll(*text_, {"by configuration", "default", "embedded", "paper", "variable"}));
-}
-
-TEST_F(SmallAudit, FindsADamagedResult) {
-  const auto drawn = drawnRuns(*study_->audit);
-  auto states = readStates(folder() / "states.csv");
-  std::set<Question> questions;
-  for (const auto& run : drawn) questions.insert(questionOf(run.spec));
-  std::ostringstream quiet;
-  const Answers answers = answersTo(questions, folder() / "references.csv", 2, quiet);
-  EXPECT_EQ(quiet.str().find("runs made"), std::string::npos) << "all of them are known";
-  const Table table = auditTable(drawn, *runs_, states, answers);
-  // The first component of the right runs is moved by `bars` times what is allowed.
-  const auto moved = [&](double bars) {
-    auto other = states;
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-      const auto& spec = drawn[i].spec;
-      if (textAt(table, table.rows[i], "judgement") != "right") continue;
-      const auto scale = makeScene<double>(spec.scene, spec.settings).scale;
-      const Vec<double>& state = states.at(table.rows[i][1]);
-      const double size = std::max(std::abs(state[0]), scale.size() > 0 ? scale[0] : 1);
-      other.at(table.rows[i][1])[0] = state[0] + bars * bar(spec.options.tolerances.atol) * size;
-    }
-    return auditTable(drawn, *runs_, other, answers);
-  };
-  const Table same = moved(0), damaged = moved(3);
-  int checked = 0;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    EXPECT_EQ(same.rows[i], table.rows[i]);
-    // A magnitude is known to less than the bar where the bar is less than 1.
-    const bool sharp = numberAt(table, table.rows[i], "tolerance") <= 1e-4;
-    if (!sharp || textAt(table, table.rows[i], "judgement") != "right") continue;
-    EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << commandOf(drawn[i]);
-    ++checked;
-  }
-  EXPECT_GT(checked, 20);
-  EXPECT_TRUE(containsAll(summaryText(damaged, summaryTable(damaged), 3),
-                          {"the worst successes that are wrong", "irk solve "}));
-}
-
-TEST_F(SmallAudit, GoesOnWhereItWas) {
-  const Table again = run();
-  EXPECT_EQ(again.rows, runs_->rows) << "nothing is made again: times are the same";
-  // A run whose state is lost is made again.
-  const auto parts = partsOf(folder(), "states");
-  ASSERT_EQ(parts.size(), 1u);
-  Table states = readTable(parts.front());
-  const auto lost = states.rows.front();
-  states.rows.erase(states.rows.begin());
-  writeTable(parts.front(), states);
-  run();
-  const auto found = readStates(folder() / "states.csv");
-  ASSERT_TRUE(found.contains(lost[0]));
-  EXPECT_EQ(vectorText(found.at(lost[0])), lost[1]);
-}
-
-// Without their references, wrong runs would count as unjudged ones.
-TEST_F(SmallAudit, InterruptedLeavesNoCounts) {
-  TemporaryFolder copy;
-  std::filesystem::copy(folder(), copy.path(), std::filesystem::copy_options::recursive);
-  const auto references = readTable(copy.path() / "references.csv");
-  std::string text;
-  {
-    const InterruptScope interrupts;
-    std::raise(SIGINT);
-    text = auditRuns(*study_, *runs_, copy.path(), 2, quiet_);
-  }
-  EXPECT_TRUE(containsAll(text, {"interrupted"}));
-  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit.csv"));
-  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit_summary.csv"));
-  EXPECT_EQ(readTable(copy.path() / "references.csv").rows, references.rows);
-  const InterruptScope uninterrupted;  // the flag is false again
-  EXPECT_EQ(auditRuns(*study_, *runs_, copy.path(), 2, quiet_), *text_);
-}
-
-TEST_F(SmallAudit, IsDrawn) {
-  for (const std::string script : {"audit", "audit_errors"}) {
-    const auto out = folder() / script;
-    std::ostringstream err;
-    ASSERT_TRUE(drawFigure(script + ".gp",
-                           "data='" + folder().string() + "'; out='" + out.string() + "'",
-                           IRK_SOURCE_DIR, err))
-        << err.str();
-    std::ifstream in(out.string() + ".svg");
-    const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    EXPECT_TRUE(containsAll(svg, {"default", "paper", "embedded", "variable"}));
-    EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
-  }
 }
 
 }  // namespace

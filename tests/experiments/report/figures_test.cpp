@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "experiments/analyses/estimates.h"
-#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/orders/order_fit.h"
 #include "experiments/base/time_left.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/runner.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "experiments/analyses/orders.h"
+#include "experiments/analyses/orders/orders.h"
 #include "experiments/analyses/results.h"
 #include "experiments/compare/folders.h"
 #include "experiments/runner/timing.h"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/orders/order_fit.h"
 #include "experiments/study/study.h"
 
 namespace irk {

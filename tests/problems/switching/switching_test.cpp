@@ -15,9 +15,10 @@ struct SwitchingTimes {
   std::vector<Event> events;
 };
 
-std::vector<SwitchingTimes> switchingTimes() {
-  const double third = 1.0 / 3;
-  return {
+constexpr double kThird = 1.0 / 3;
+
+const std::vector<SwitchingTimes>& switchingTimes() {
+  static const std::vector<SwitchingTimes> all = {
       {{"stick_slip",
         {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}},
        2,
@@ -31,11 +32,11 @@ std::vector<SwitchingTimes> switchingTimes() {
       {{"hydraulic_arm", {}},
        2,
        1e-8,
-       {{"lower kink", third},
-        {"upper kink", 2 * third},
-        {"upper kink", 4 * third},
+       {{"lower kink", kThird},
+        {"upper kink", 2 * kThird},
+        {"upper kink", 4 * kThird},
         {"valve", 1.33334403},
-        {"lower kink", 5 * third}}},
+        {"lower kink", 5 * kThird}}},
       {{"hydraulic_arm", {{"reference", "smooth"}}}, 2, 1e-9, {{"valve", 1.071073558}}},
       {{"hydraulic_manipulator", {}},
        10,
@@ -89,6 +90,7 @@ std::vector<SwitchingTimes> switchingTimes() {
         {"chopper", 0.7649596460809},
         {"slider turns", 0.9702121288}}},
   };
+  return all;
 }
 
 void expectEvents(const Result& r, const std::vector<Event>& known, double accuracy) {

@@ -1,4 +1,4 @@
-#include "experiments/analyses/orders.h"
+#include "experiments/analyses/orders/orders.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -6,8 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "experiments/analyses/order_fit.h"
-#include "experiments/analyses/theory.h"
+#include "experiments/analyses/orders/order_fit.h"
+#include "experiments/analyses/orders/theory.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/run_spec.h"

@@ -1,4 +1,4 @@
-#include "experiments/analyses/order_fit.h"
+#include "experiments/analyses/orders/order_fit.h"
 
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>

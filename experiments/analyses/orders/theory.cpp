@@ -1,4 +1,4 @@
-#include "experiments/analyses/theory.h"
+#include "experiments/analyses/orders/theory.h"
 
 #include <algorithm>
 

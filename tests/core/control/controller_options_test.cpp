@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "core/control/controller.h"
+#include "core/derivatives/differentiator.h"
+#include "core/estimates/step_attempt.h"
+#include "core/stages/error_norm.h"
+#include "tests/core/support.h"
+#include "tests/core/watched.h"
+
+namespace irk::test {
+namespace {
+
+StepOptions controlled(StepControl control) {
+  StepOptions o;
+  o.control = control;
+  o.s_min = 4;
+  o.change_at_least = 2;
+  o.growth_at_most = 5;
+  return o;
+}
+
+// HW II (IV.8.25): h_new = 0.9 h eps^(-1/(p+1)) (h / h_old) (eps_old / eps)^(1/(p+1)), where that
+// is less than without the two ratios.
+double gustafsson(int p, double error, double h, double error_before, double h_before) {
+  const double root = 1.0 / (p + 1);
+  const double trend = h / h_before * std::pow(error_before / error, root);
+  return 0.9 * h * std::pow(error, -root) * std::min(1.0, trend);
+}
+
+TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
+  struct Step {
+    double error, h;
+  };
+  // Steps that shrink and grow, errors that fall and grow: each ratio upside down gives another
+  // number.
+  const Step sequences[][3] = {{{0.5, 0.1}, {0.3, 0.07}, {0.6, 0.09}},
+                               {{0.2, 0.1}, {0.7, 0.12}, {0.9, 0.05}},
+                               {{0.9, 0.02}, {0.5, 0.015}, {0.8, 0.03}}};
+  for (const int p : {1, 3, 5}) {
+    for (const auto& steps : sequences) {
+      const auto controller = makeController(controlled(StepControl::kPredictive), p);
+      (void)controller->decide(steps[0].error, steps[0].h);
+      for (int i = 1; i < 3; ++i) {
+        const auto decision = controller->decide(steps[i].error, steps[i].h);
+        const double wish =
+            gustafsson(p, steps[i].error, steps[i].h, steps[i - 1].error, steps[i - 1].h);
+        const double ratio = wish / steps[i].h;
+        const double expected = ratio >= 1 && ratio <= 1.2 ? steps[i].h : wish;
+        EXPECT_TRUE(decision.accept);
+        EXPECT_NEAR(decision.h, expected, 1e-12 * expected) << "p = " << p << ", step " << i;
+      }
+    }
+  }
+}
+
+// Errors below 1e-2 count as 1e-2 for the trend (ERRACC of RADAU), and a changed order brings its
+// own past.
+TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
+  auto controller = makeController(controlled(StepControl::kPredictive), 3);
+  (void)controller->decide(1e-9, 0.1);
+  EXPECT_NEAR(controller->decide(0.9, 0.08).h, gustafsson(3, 0.9, 0.08, 1e-2, 0.1), 1e-12);
+  controller = makeController(controlled(StepControl::kPredictive), 3);
+  (void)controller->decide(0.4, 0.1);
+  controller->changeOrder(5, 0.2, 0.05);
+  EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 0.2, 0.05), 1e-12);
+  controller->changeOrder(5, 1e-9, 0.05);
+  EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 1e-2, 0.05), 1e-12);
+  controller->forget();
+  EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14)
+      << "no trend";
+}
+
+TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
+  const auto controller = makeController(controlled(StepControl::kPredictive), 3);
+  EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
+  int kept = 0;
+  while (kept < 100 && controller->decide(1e-6, 0.05).h == 0.05) ++kept;
+  EXPECT_EQ(kept, 9);
+  controller->afterFailure(0.1);
+  controller->forget();
+  EXPECT_GT(controller->decide(1e-6, 0.05).h, 0.1) << "a restart knows of no failure";
+}
+
+// The later source: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
+TEST(Hotint, HasItsOwnExponentAndSafety) {
+  const auto fresh = [](int p) { return makeController(controlled(StepControl::kHotint), p); };
+  EXPECT_NEAR(fresh(2)->decide(0.05, 0.1).h, 0.1 * std::sqrt(10.0), 1e-13);
+  EXPECT_NEAR(fresh(3)->decide(0.02, 0.1).h, 0.1 * std::cbrt(25.0), 1e-13);
+  EXPECT_NEAR(fresh(1)->decide(0.2499, 0.1).h, 0.1 / (2 * 0.2499), 1e-15) << "just below 1 / s_max";
+  EXPECT_EQ(fresh(1)->decide(0.25, 0.1).h, 0.1) << "not below 1 / s_max";
+  const auto rejected = fresh(2)->decide(8, 0.1);
+  EXPECT_FALSE(rejected.accept);
+  EXPECT_NEAR(rejected.h, 0.1 / 4, 1e-15);
+  // No gamma: the same decision whatever came before.
+  const auto controller = fresh(2);
+  (void)controller->decide(0.9, 0.2);
+  EXPECT_NEAR(controller->decide(0.05, 0.1).h, 0.1 * std::sqrt(10.0), 1e-13);
+  controller->changeOrder(3, 0.5, 0.1);
+  EXPECT_NEAR(controller->decide(0.02, 0.1).h, 0.1 * std::cbrt(25.0), 1e-13);
+}
+
+TEST(Paper, UsesItsOptions) {
+  StepOptions o = controlled(StepControl::kPaper);
+  o.s_min = 3;
+  o.change_at_least = 1.5;
+  o.growth_at_most = 2.5;
+  const auto fresh = [&] { return makeController(o, 1); };
+  EXPECT_NEAR(fresh()->decide(1 / 9.01, 0.1).h, 0.1 * std::sqrt(9.01 / 3), 1e-13);
+  EXPECT_EQ(fresh()->decide(1 / 8.99, 0.1).h, 0.1) << "s_max = s_min^2";
+  EXPECT_NEAR(fresh()->decide(1e-9, 0.1).h, 0.25, 1e-15);
+  EXPECT_NEAR(fresh()->decide(1.01, 0.1).h, 0.1 * std::sqrt(1 / 3.03), 1e-13);
+  EXPECT_NEAR(fresh()->afterFailure(0.1), 0.1 / 1.5, 1e-15);
+  EXPECT_NEAR(fresh()->decide(1e6, 0.1).h, 0.1 * 0.05, 1e-15);
+}
+
+TEST(Paper, ForgetsGammaAtARestartAndAtAnotherOrder) {
+  const double plain = 0.05 * std::pow(1 / (4 * 1e-2), 1.0 / 4);  // grows: below 1/16, f = 2.2
+  const auto damped = [] {
+    auto controller = makeController(controlled(StepControl::kPaper), 3);
+    (void)controller->decide(0.5, 0.1);
+    (void)controller->decide(0.5 / 8 * 0.95, 0.05);  // gamma = 0.95
+    return controller;
+  };
+  EXPECT_NEAR(damped()->decide(1e-2, 0.05).h, 0.95 * plain, 1e-12);
+  const auto restarted = damped();
+  restarted->forget();
+  EXPECT_NEAR(restarted->decide(1e-2, 0.05).h, plain, 1e-12);
+  const auto elsewhere = damped();
+  elsewhere->forget();
+  EXPECT_NEAR(elsewhere->decide(1e-2, 0.04).h, 0.8 * plain, 1e-12) << "another step: no gamma";
+  const auto failed = makeController(controlled(StepControl::kPaper), 3);
+  failed->afterFailure(0.1);
+  failed->forget();
+  EXPECT_NEAR(failed->decide(1e-9, 0.05).h, 0.25, 1e-12) << "a restart knows of no failure";
+  const auto changed = damped();
+  changed->changeOrder(1, 0.5, 0.05);
+  EXPECT_NEAR(changed->decide(1e-2, 0.05).h, 0.05 * 5, 1e-12);  // f = 5
+}
+
+}  // namespace
+}  // namespace irk::test

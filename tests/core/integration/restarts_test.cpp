@@ -1,0 +1,271 @@
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tests/core/located.h"
+#include "tests/core/switching_run.h"
+
+namespace irk::test {
+namespace {
+
+/// x' = -rate (x - 1), and a million times as fast from t = 0.5 on.
+struct Stiffening {
+  Sizes sizes() const {
+    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    const double rate = p.d[0] > T(0.5) ? 1e6 : 1;
+    r.x[0] = -rate * (p.x[0] - cos(p.t)) - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.t - 0.5);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+// With the Jacobian of the mode before Newton's increments grow by h 1e6: it would fail, and be
+// started again with a new one.
+TEST(Events, TheJacobianIsOfTheNewMode) {
+  const Stiffening problem;
+  for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
+    for (const auto terms : {JacobianTerms::kFull, JacobianTerms::kConstantStiffness}) {
+      IntegratorOptions options = located(1e-6);
+      options.newton.kind = kind;
+      options.jacobian = terms;
+      State<double> start(problem.sizes());
+      start.x[0] = 1;
+      const Result r = run(problem, start, 1, Discontinuity::kLocate, options);
+      ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(kind) << r.solution.detail;
+      ASSERT_EQ(r.events.size(), 1u);
+      EXPECT_EQ(r.solution.counters.newton_restarts, 0) << idOf(kind);
+      EXPECT_EQ(r.solution.counters.steps_rejected_newton, 0) << idOf(kind);
+      EXPECT_GE(r.solution.counters.jacobians, 2) << idOf(kind);
+      EXPECT_NEAR(r.solution.state.x[0], std::cos(1.0), 1e-5) << idOf(kind);
+    }
+  }
+}
+
+struct Step {
+  double t, h, error;
+  int iterations;
+};
+
+/// A driven oscillator whose spring has another stiffness from t = 0.5 on.
+struct Spring {
+  double factor;
+  Sizes sizes() const {
+    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    const double k = p.d[0] > T(0.5) ? 9 * factor : 9;
+    r.u[0] = sin(3.0 * p.t) - k * sin(p.u[0]) - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.t - 0.5);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+struct SpringRun {
+  std::vector<Step> steps;
+  State<double> event;
+  int attempts = 0, attempts_at_event = 0, attempts_of_first = 0;  // the first step after the event
+};
+
+SpringRun springRun(const Spring& problem, const State<double>& start,
+                    const IntegratorOptions& options) {
+  Integrator<double> integrator(
+      makeSystem<double>(problem,
+                         {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
+      makeTableau<double>("radau_iia_3"), options);
+  SpringRun run;
+  Monitor<double> monitor;
+  monitor.interrupt = [&] { return ++run.attempts, Outcome::kSuccess; };
+  monitor.accepted = [&](const StepRecord<double>& s) {
+    run.steps.push_back({s.t, s.h, s.error, s.newton_iterations});
+    if (s.t > 0.5 + 1e-6 && run.attempts_of_first == 0) {
+      run.attempts_of_first = run.attempts - run.attempts_at_event;
+    }
+  };
+  monitor.switched = [&](const SwitchRecord<double>& s) {
+    run.event = s.state;
+    run.attempts_at_event = run.attempts;
+  };
+  const auto solution = integrator.integrate(start, 3.0, monitor);
+  EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  return run;
+}
+
+// After an event nothing of before it decides: not the polynomial, the Jacobian, Newton's
+// contraction, nor the controller's memory of errors and steps. The same steps as of an integration
+// that begins there.
+TEST(Events, ARestartIsANewStart) {
+  for (const auto control : {StepControl::kPredictive, StepControl::kPaper, StepControl::kHotint}) {
+    for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
+      int compared = 0;
+      for (const double factor : {0.4, 0.8, 1.05, 1.1, 1.15, 1.2, 1.3, 1.5}) {
+        const Spring problem{factor};
+        IntegratorOptions options = located(1e-7);
+        options.step.control = control;
+        options.step.estimate = estimate;
+        State<double> start(problem.sizes());
+        start.u[0] = 0.7;
+        const SpringRun whole = springRun(problem, start, options);
+        const auto after = std::find_if(whole.steps.begin(), whole.steps.end(),
+                                        [](const Step& s) { return s.t > 0.5 + 1e-6; });
+        ASSERT_NE(after, whole.steps.end());
+        if (whole.attempts_of_first != 1) continue;  // rejected: the fresh run does not know of it
+        ++compared;
+        options.step.h = after->h;
+        const SpringRun fresh = springRun(problem, whole.event, options);
+        const std::vector<Step> rest(after, whole.steps.end());
+        // Only that errors of many steps add up goes on: from the fiftieth on.
+        const std::size_t common = std::min({fresh.steps.size(), rest.size(), std::size_t{20}});
+        ASSERT_GE(common, std::min(rest.size(), std::size_t{20})) << idOf(control) << idOf(estimate);
+        for (std::size_t i = 0; i < common; ++i) {
+          EXPECT_NEAR(fresh.steps[i].h, rest[i].h, 1e-4 * rest[i].h)
+              << idOf(control) << " " << idOf(estimate) << " " << factor << " step " << i;
+          EXPECT_NEAR(fresh.steps[i].iterations, rest[i].iterations, 1)  // round-off at thresholds
+              << idOf(control) << " " << idOf(estimate) << " " << factor << " step " << i;
+        }
+      }
+      EXPECT_GE(compared, 3) << idOf(control) << " " << idOf(estimate);
+    }
+  }
+}
+
+// Also a step that ends at an event is recorded with its own size.
+TEST(Events, StepsAddUp) {
+  for (const bool fixed : {false, true}) {
+    IntegratorOptions options = fixed ? fixedSteps(0.17) : located(1e-7);
+    State<double> start(Spring{2}.sizes());
+    start.u[0] = 0.7;
+    const SpringRun run = springRun({2}, start, options);
+    double t = 0;
+    for (const Step& s : run.steps) {
+      EXPECT_NEAR(s.h, s.t - t, 1e-13) << "at t = " << s.t;
+      t = s.t;
+    }
+    EXPECT_EQ(t, 3);
+  }
+}
+
+/// A nonlinear pendulum; due below a level, once.
+struct Passing {
+  double level;
+  Sizes sizes() const {
+    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.u[0] = -4.0 * sin(p.u[0]) - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(level - p.u[0]);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+// Re-solving a step to its switch takes about four attempts with two factorizations each; a wrong
+// slope, or a guess in the wrong half of the step, takes half as many again and more. The first step after
+// the restart has to follow (a, k) at its start: one attempt more.
+TEST(Events, AreFoundInFewAttempts) {
+  std::int64_t more = 0, events = 0;
+  for (const double tol : {1e-4, 1e-8}) {
+    for (const double level : {0.9, 0.7, 0.4, 0.1, -0.3}) {
+      for (const char* method : {"radau_iia_2", "radau_iia_5"}) {
+        const auto factorizations = [&](double at) {
+          const Passing problem{at};
+          State<double> start(problem.sizes());
+          start.u[0] = 1;
+          IntegratorOptions options = located(tol);
+          options.step.h = 0.3;
+          const Result r = run(problem, start, 1.2, Discontinuity::kLocate, options, method);
+          EXPECT_EQ(r.solution.outcome, Outcome::kSuccess);
+          events += static_cast<std::int64_t>(r.events.size());
+          return r.solution.counters.factorizations;
+        };
+        more += factorizations(level) - factorizations(-9);
+      }
+    }
+  }
+  EXPECT_EQ(events, 20);
+  EXPECT_LE(more, 14 * events);
+}
+
+/// x' = x, from 1; due where x reaches `level`, and where t reaches `at`. The steps' dense output
+/// is of low order: which of the two comes first only solved steps tell.
+struct Race {
+  double level, at;
+  bool swapped;
+  Sizes sizes() const {
+    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2};
+  }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.x[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    using std::exp;
+    g[swapped ? 1 : 0] = p.d[swapped ? 1 : 0] > T(0.5) ? T(-1.0) : T(p.x[0] - level);
+    g[swapped ? 0 : 1] = p.d[swapped ? 0 : 1] > T(0.5) ? T(-1.0) : T(exp(p.t) - exp(at));
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>&, T* d) const {
+    d[i] = T(1.0);
+  }
+};
+
+TEST(Events, OfARaceAreOrderedBySolvedSteps) {
+  for (const double tol : {1e-3, 1e-5, 1e-8}) {
+    for (const double lag : {0.03, 0.003, 0.0003, -0.0003, -0.003, -0.03}) {
+      for (const double crossing : {0.4, 0.7, 1.1}) {
+        for (const bool swapped : {false, true}) {
+          const Race problem{std::exp(crossing), crossing + lag, swapped};
+          State<double> start(problem.sizes());
+          start.x[0] = 1;
+          IntegratorOptions options = located(tol);
+          options.step.h = 1.5;
+          for (const char* method : {"radau_iia_2", "radau_iia_3"}) {
+            const Result r = run(problem, start, 1.5, Discontinuity::kLocate, options, method);
+            ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+            ASSERT_EQ(r.events.size(), 2u);
+            // That of the clock is known to round-off, however inexact the steps are.
+            const auto clock =
+                static_cast<std::size_t>(r.events[0].index == (swapped ? 0 : 1) ? 0 : 1);
+            EXPECT_NEAR(r.events[clock].t, problem.at, 1e-7)
+                << tol << " " << lag << " " << crossing;
+            if (std::abs(lag) < 200 * tol) continue;
+            const bool by_level = (lag > 0) != swapped;
+            EXPECT_EQ(r.events[0].index, by_level ? 0 : 1) << tol << " " << lag << " " << crossing;
+            EXPECT_NEAR(r.events[0].t, std::min(crossing, crossing + lag), 100 * tol);
+            EXPECT_NEAR(r.events[1].t, std::max(crossing, crossing + lag), 100 * tol);
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include "core/control/stall_detector.h"
+#include "core/steps/switch_scan.h"
+#include "tests/core/switching_run.h"
+#include "tests/core/trusted.h"
+
+namespace irk::test {
+namespace {
+
+/// A ball whose velocity jumps: v -> -0.8 v at the floor.
+struct Jumping {
+  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -10.0 - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.v[0] < T(0.0) ? T(-p.u[0]) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = p.d[0] + 1.0;
+  }
+  template <class T>
+  void jump(Index, const Point<T>& p, T*, T* v, T*) const {
+    v[0] = -0.8 * p.v[0];
+  }
+};
+
+TEST(Success, JumpsOfTheStateAreLocatedOrRefused) {
+  const Jumping ball;
+  State<double> start(ball.sizes());
+  start.u[0] = 1;
+  // Falls for sqrt(0.2), rises with 0.8 sqrt(20) for the rest.
+  const double fall = std::sqrt(0.2), left = 1 - fall;
+  const double height = 0.8 * std::sqrt(20.0) * left - 5 * left * left;
+  for (const auto& options : {adaptive(1e-8), embedded(1e-8)}) {
+    const Result r = run(ball, start, 1, Discontinuity::kLocate, options);
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
+    EXPECT_NEAR(r.solution.state.u[0], height, 1e-9);
+  }
+  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate}) {
+    EXPECT_THROW((void)run(ball, start, 1, mode, adaptive(1e-8)), Misuse);
+  }
+}
+
+// Gauss' methods with an even number of stages determine velocities of index 3 with order s - 2 only, and
+// multipliers not at all.
+TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
+  for (const char* method : {"gauss_2", "gauss_3", "gauss_4", "gauss_5", "radau_iia_3", "radau_iia_5",
+                             "lobatto_iiic_4", "radau_ia_4"}) {
+    for (const double tol : {1e-4, 1e-6, 1e-8}) {
+      const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
+                                       makeTableau<double>(method), adaptive(tol),
+                                       Formulation::kIndex3);
+      if (s.outcome != Outcome::kSuccess) continue;
+      const auto exact =
+          integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
+                            makeTableau<double>("radau_iia_7"), adaptive(1e-12));
+      EXPECT_LT((s.state.u - exact.state.u).norm(), 1e3 * tol) << method << " " << tol;
+      EXPECT_LT((s.state.v - exact.state.v).norm(), 1e3 * tol) << method << " " << tol;
+    }
+  }
+  const auto radau = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
+                                       makeTableau<double>("radau_iia_5"), adaptive(1e-6),
+                                       Formulation::kIndex3);
+  EXPECT_EQ(radau.outcome, Outcome::kSuccess) << radau.detail;
+}
+
+// At the end of an integration in index 2 multipliers follow from (u, v): Gauss' own are off by far.
+TEST(Success, MultipliersFollowFromTheState) {
+  for (const char* method : {"gauss_5", "gauss_7", "radau_iia_3", "lobatto_iiid_4"}) {
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
+                                     makeTableau<double>(method), adaptive(1e-6));
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << method << s.detail;
+    // u u'' + v^2 = 0 with u'' = -lambda u - g e_y, |u| = 1: lambda = v^2 - g y.
+    const auto& u = s.state.u;
+    EXPECT_NEAR(s.state.z()[0], s.state.v.squaredNorm() - 9.81 * u[1], 1e-4) << method;
+  }
+}
+
+/// A constraint that an index-1 formulation leaves quadratically: the bar stands still but for a push that
+/// the formulation does not see.
+TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
+  // Many revolutions at a loose tolerance with two differentiations: the mass leaves its circle by kilometres.
+  for (const char* method : {"radau_iia_2", "gauss_2"}) {
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1000,
+                                     makeTableau<double>(method), embedded(1e-2), Formulation::kIndex1);
+    ASSERT_EQ(s.outcome, Outcome::kDrift) << method << s.detail;
+    EXPECT_GT(s.state.u.norm(), 2) << method << ": this motion does not drift, the test tests nothing";
+    EXPECT_NE(s.detail.find("constraint"), std::string::npos) << s.detail;
+    EXPECT_NE(s.detail.find("allowed"), std::string::npos) << s.detail;
+  }
+}
+
+TEST(Success, NoDriftWhereTheToleranceIsKept) {
+  for (const Formulation f : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3,
+                              Formulation::kGgl, Formulation::kIndex2Projected}) {
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 3,
+                                     makeTableau<double>("radau_iia_4"), adaptive(1e-7), f);
+    EXPECT_EQ(s.outcome, Outcome::kSuccess) << idOf(f) << ": " << s.detail;
+  }
+}
+
+/// A transistor stage with a singular capacitance matrix: C (y1' - y2') and two algebraic rows, in volts
+/// and amperes; g(v) = 1e-6 (exp(v / 0.026) - 1). HW II, IV.1 and p. 376, reduced.
+struct Transistor {
+  Sizes sizes() const { return {.nx = 5}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::exp;
+    using std::sin;
+    const auto& y = p.x;
+    const auto& k = p.k;
+    const T Ue = 0.4 * sin(628.318530717958647 * p.t);
+    const T g = (exp((y[1] - y[2]) / 0.026) - 1.0) * 1e-6;
+    r.x[0] = (Ue - y[0]) / 1000 + 1e-6 * (k[1] - k[0]);
+    r.x[1] = 6.0 / 9000 - y[1] * (2.0 / 9000) - 0.01 * g - 1e-6 * (k[1] - k[0]);
+    r.x[2] = g - y[2] / 9000 - 2e-6 * k[2];
+    r.x[3] = 6.0 / 9000 - y[3] / 9000 - 0.99 * g + 3e-6 * (k[4] - k[3]);
+    r.x[4] = -y[4] / 9000 - 3e-6 * (k[4] - k[3]);
+  }
+};
+
+// Round-off of the residual over h lies above what Newton is asked for; halving the step makes it worse.
+TEST(Success, SingularMatricesInFrontOfRatesAreSolved) {
+  State<double> start(Transistor{}.sizes());
+  start.x << 0, 3, 3, 6, 0;
+  start.w << 0, 0, -3.0 / (2e-6 * 9000), 0, 0;
+  Vec<double> reference;
+  for (const double tol : {1e-10, 1e-8, 1e-6, 1e-4}) {
+    const auto s = integrate<double>(Transistor{}, start, 0.05, makeTableau<double>("radau_iia_5"),
+                                     adaptive(tol));
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << tol << ": " << s.detail;
+    EXPECT_LT(s.counters.steps_rejected_newton, s.counters.steps_accepted) << tol;
+    if (reference.size() == 0) reference = s.state.x;
+    EXPECT_LT((s.state.x - reference).norm(), 100 * tol) << tol;
+  }
+}
+
+TEST(StallDetector, SeesStepsThatStaySmallAndNoOthers) {
+  const auto attemptsUntilStall = [](double growth) {
+    StallDetector detector;
+    double t = 0, h = 1e-9;
+    detector.begin(t);
+    for (int i = 1; i <= 100000; ++i) {
+      t += h;
+      if (detector.attempted(t, h, 1.0, 1000000 - i)) return i;
+      if (i % 1000 == 0) h *= growth;
+      if (t >= 1) break;
+    }
+    return 0;
+  };
+  EXPECT_GE(attemptsUntilStall(1), 50000);
+  EXPECT_LE(attemptsUntilStall(1), 52000);
+  EXPECT_EQ(attemptsUntilStall(2), 0);  // grows out of it
+  // Within reach: 1e5 steps of 1e-5.
+  StallDetector detector;
+  detector.begin(0);
+  for (int i = 1; i < 100000; ++i) {
+    ASSERT_FALSE(detector.attempted(i * 1e-5, 1e-5, 1.0, 1000000 - i)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "experiments/audit/audit.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/runner/runner.h"
+#include "experiments/runs/configurations.h"
+#include "experiments/runs/fields.h"
+#include "experiments/runs/final_states.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/study/dice.h"
+#include "experiments/study/study_reader.h"
+#include "tests/experiments/audit/audited.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk::audit {
+namespace {
+
+// Bits and choices are part of the study: other ones would be another audit.
+TEST(AuditDice, AreTheSameOnEveryMachine) {
+  Dice dice("1 run 0");
+  EXPECT_EQ(dice.uniform(), 0x1.675a664420499p-1);  // by another implementation of MT19937-64
+  EXPECT_EQ(dice.below(1000), 28);
+  const double weights[] = {0, 1, 0, 3, 0};
+  int counts[5] = {};
+  for (int i = 0; i < 4000; ++i) ++counts[dice.weighted(weights)];
+  EXPECT_EQ(counts[0] + counts[2] + counts[4], 0);
+  EXPECT_NEAR(counts[1], 1000, 100);  // 3.7 standard deviations
+  std::set<Index> seen;
+  for (int i = 0; i < 200; ++i) seen.insert(dice.between(3, 7));
+  EXPECT_EQ(seen, (std::set<Index>{3, 4, 5, 6, 7}));
+}
+
+std::vector<std::string> texts(const std::vector<DrawnRun>& runs) {
+  std::vector<std::string> all;
+  for (const auto& run : runs) all.push_back(run.treatment + " " + canonicalText(run.spec));
+  return all;
+}
+
+TEST(AuditDraw, DependsOnTheSeedAlone) {
+  const auto first = texts(drawnRuns({.runs = 60}));
+  EXPECT_EQ(first, texts(drawnRuns({.runs = 60})));
+  auto longer = texts(drawnRuns({.runs = 80}));
+  longer.resize(60);
+  EXPECT_EQ(first, longer) << "a shorter audit is the beginning of a longer one";
+  const auto other = texts(drawnRuns({.runs = 60, .seed = 2}));
+  int same = 0;
+  for (std::size_t i = 0; i < other.size(); ++i) same += first[i] == other[i];
+  EXPECT_LT(same, 3);
+}
+
+TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
+  std::set<std::string> scenes, configurations, treatments, formulations, families, methods;
+  std::set<double> tolerances;
+  int with_settings = 0;
+  const auto runs = drawnRuns({.runs = 2500});
+  for (const auto& [spec, treatment] : runs) {
+    scenes.insert(spec.scene);
+    configurations.insert(spec.configuration);
+    treatments.insert(treatment);
+    formulations.insert(std::string(idOf(spec.formulation)));
+    methods.insert(spec.method);
+    tolerances.insert(spec.options.tolerances.rtol);
+    EXPECT_EQ(spec.options.tolerances.rtol, spec.options.tolerances.atol);
+    with_settings += !spec.settings.empty();
+    for (const auto& [name, value] : spec.settings) {
+      const bool unknowns = name == "m" && spec.scene == "beam_chain";
+      EXPECT_TRUE(!unknowns || std::stoi(value) <= 100) << value;
+      EXPECT_TRUE(name != "elements" || std::stoi(value) <= 4) << value;
+      EXPECT_TRUE(!name.starts_with("smoothing") || treatment == "smooth" || treatment == kNoSwitches);
+    }
+    // What is left open is the default, whatever that is.
+    if (treatment == kDefaultTreatment || treatment == kNoSwitches) {
+      RunSpec configured;
+      findField("configuration").set(configured, spec.configuration);
+      EXPECT_EQ(spec.discontinuity, configured.discontinuity);
+    } else {
+      EXPECT_EQ(idOf(spec.discontinuity), treatment);
+    }
+  }
+  EXPECT_EQ(scenes.size(), sceneCatalogue().size());
+  EXPECT_EQ(configurations.size(), irk::configurations().size());
+  EXPECT_EQ(treatments, (std::set<std::string>{"default", "ignore", "iterate", "locate", "no switches", "smooth"}));
+  EXPECT_EQ(formulations.size(), named<Formulation>().size());
+  EXPECT_EQ(tolerances.size(), 12u);
+  for (const auto* id : {"gauss_20", "radau_iia_1", "lobatto_iiid_4", "radau_ia"}) {
+    EXPECT_TRUE(methods.contains(id)) << id;
+  }
+  EXPECT_GT(with_settings, 700);  // half of the runs, of the scenes that have parameters
+}
+
+TEST(AuditDraw, CommandsRepeatTheRuns) {
+  auto runs = drawnRuns({.runs = 300});
+  runs[0].spec.t_end *= 0.3;
+  for (const auto& run : runs) {
+    const std::string command = commandOf(run);
+    EXPECT_EQ(specKey(solveSpec(parsed(command))), specKey(run.spec)) << command;
+  }
+}
+
+}  // namespace
+}  // namespace irk::audit

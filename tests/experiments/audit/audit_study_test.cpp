@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "experiments/audit/audit.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/runner/runner.h"
+#include "experiments/runs/configurations.h"
+#include "experiments/runs/fields.h"
+#include "experiments/runs/final_states.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/study/dice.h"
+#include "experiments/study/study_reader.h"
+#include "tests/experiments/audit/audited.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk::audit {
+namespace {
+
+TEST(Audit, StudyDrawsInsteadOfBlocks) {
+  const auto study = [](const std::string& text, StudyVariant variant) {
+    return parseStudy(text, "audit.toml", variant);
+  };
+  const std::string quick = "[audit]\nruns = 30\nseed = 3\n[audit.quick]\nruns = 10\n";
+  EXPECT_EQ(study(quick, StudyVariant::kFull).series.size(), 30u);
+  const auto small = study(quick, StudyVariant::kQuick);
+  ASSERT_EQ(small.series.size(), 10u);
+  EXPECT_EQ(specKey(small.series[9].runs[0]), specKey(drawnRuns({.runs = 10, .seed = 3})[9].spec));
+  EXPECT_TRUE(containsAll(misuseOf([&] { study("[audit]\nrun = 3\n", StudyVariant::kFull); }),
+                          {"audit.toml", "run", "runs"}));
+  EXPECT_TRUE(containsAll(misuseOf([&] { study("[audit]\n[[block]]\nscene='hires'\n", StudyVariant::kFull); }),
+                          {"[[block]]"}));
+}
+
+constexpr const char* kSmall = "title = 'small'\n[audit]\nruns = 60\ntime_limit = 0.5\n";
+
+/// One small audit for all tests of this suite.
+class SmallAudit : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    study_ = new Study(parseStudy(kSmall, "audit.toml", StudyVariant::kFull));
+    runs_ = new Table(run());
+    text_ = new std::string(auditRuns(*study_, *runs_, folder(), 2, quiet_));
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    delete study_;
+    delete runs_;
+    delete text_;
+  }
+  static Table run() {
+    RunnerOptions options;
+    options.results = folder_->path();
+    options.jobs = 2;
+    return runStudy(*study_, options, quiet_);
+  }
+  static std::filesystem::path folder() { return folder_->path() / "audit"; }
+
+  static inline TemporaryFolder* folder_;
+  static inline Study* study_;
+  static inline Table* runs_;
+  static inline std::string* text_;
+  static inline std::ostringstream quiet_;
+};
+
+TEST_F(SmallAudit, JudgesEveryRun) {
+  const Table table = readTable(folder() / "audit.csv");
+  ASSERT_EQ(table.rows.size(), 60u);
+  std::map<std::string, int> counts;
+  for (const auto& row : table.rows) {
+    ++counts[textAt(table, row, "judgement")];
+    if (textAt(table, row, "judgement") == "right") {
+      EXPECT_LE(numberAt(table, row, "error"), bar(numberAt(table, row, "tolerance")));
+      EXPECT_EQ(numberAt(table, row, "error") / numberAt(table, row, "tolerance"),
+                numberAt(table, row, "error_over_tolerance"));
+    }
+    EXPECT_EQ(specKey(solveSpec(parsed(textAt(table, row, "command")))), textAt(table, row, "key"));
+  }
+  EXPECT_GT(counts["right"], 30);
+  const Table summary = readTable(folder() / "audit_summary.csv");
+  for (const char* by : {"all", "configuration", "treatment", "scene", "family", "formulation",
+                         "configuration_treatment"}) {
+    int runs = 0, right = 0;
+    for (const auto& row : summary.rows) {
+      if (textAt(summary, row, "by") != by) continue;
+      runs += static_cast<int>(numberAt(summary, row, "runs"));
+      right += static_cast<int>(numberAt(summary, row, "right"));
+    }
+    EXPECT_EQ(runs, 60) << by;
+    EXPECT_EQ(right, counts["right"]) << by;
+  }
+  EXPECT_TRUE(containsAll(*text_, {"by configuration", "default", "embedded", "paper", "variable"}));
+}
+
+TEST_F(SmallAudit, FindsADamagedResult) {
+  const auto drawn = drawnRuns(*study_->audit);
+  auto states = readStates(folder() / "states.csv");
+  std::set<Question> questions;
+  for (const auto& run : drawn) questions.insert(questionOf(run.spec));
+  std::ostringstream quiet;
+  const Answers answers = answersTo(questions, folder() / "references.csv", 2, quiet);
+  EXPECT_EQ(quiet.str().find("runs made"), std::string::npos) << "all of them are known";
+  const Table table = auditTable(drawn, *runs_, states, answers);
+  // The first component of the right runs is moved by `bars` times what is allowed.
+  const auto moved = [&](double bars) {
+    auto other = states;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const auto& spec = drawn[i].spec;
+      if (textAt(table, table.rows[i], "judgement") != "right") continue;
+      const auto scale = makeScene<double>(spec.scene, spec.settings).scale;
+      const Vec<double>& state = states.at(table.rows[i][1]);
+      const double size = std::max(std::abs(state[0]), scale.size() > 0 ? scale[0] : 1);
+      other.at(table.rows[i][1])[0] = state[0] + bars * bar(spec.options.tolerances.atol) * size;
+    }
+    return auditTable(drawn, *runs_, other, answers);
+  };
+  const Table same = moved(0), damaged = moved(3);
+  int checked = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(same.rows[i], table.rows[i]);
+    // A magnitude is known to less than the bar where the bar is less than 1.
+    const bool sharp = numberAt(table, table.rows[i], "tolerance") <= 1e-4;
+    if (!sharp || textAt(table, table.rows[i], "judgement") != "right") continue;
+    EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << commandOf(drawn[i]);
+    ++checked;
+  }
+  EXPECT_GT(checked, 20);
+  EXPECT_TRUE(containsAll(summaryText(damaged, summaryTable(damaged), 3),
+                          {"the worst successes that are wrong", "irk solve "}));
+}
+
+TEST_F(SmallAudit, GoesOnWhereItWas) {
+  const Table again = run();
+  EXPECT_EQ(again.rows, runs_->rows) << "nothing is made again: times are the same";
+  // A run whose state is lost is made again.
+  const auto parts = partsOf(folder(), "states");
+  ASSERT_EQ(parts.size(), 1u);
+  Table states = readTable(parts.front());
+  const auto lost = states.rows.front();
+  states.rows.erase(states.rows.begin());
+  writeTable(parts.front(), states);
+  run();
+  const auto found = readStates(folder() / "states.csv");
+  ASSERT_TRUE(found.contains(lost[0]));
+  EXPECT_EQ(vectorText(found.at(lost[0])), lost[1]);
+}
+
+// Without their references, wrong runs would count as unjudged ones.
+TEST_F(SmallAudit, InterruptedLeavesNoCounts) {
+  TemporaryFolder copy;
+  std::filesystem::copy(folder(), copy.path(), std::filesystem::copy_options::recursive);
+  const auto references = readTable(copy.path() / "references.csv");
+  std::string text;
+  {
+    const InterruptScope interrupts;
+    std::raise(SIGINT);
+    text = auditRuns(*study_, *runs_, copy.path(), 2, quiet_);
+  }
+  EXPECT_TRUE(containsAll(text, {"interrupted"}));
+  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit.csv"));
+  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit_summary.csv"));
+  EXPECT_EQ(readTable(copy.path() / "references.csv").rows, references.rows);
+  const InterruptScope uninterrupted;  // the flag is false again
+  EXPECT_EQ(auditRuns(*study_, *runs_, copy.path(), 2, quiet_), *text_);
+}
+
+TEST_F(SmallAudit, IsDrawn) {
+  for (const std::string script : {"audit", "audit_errors"}) {
+    const auto out = folder() / script;
+    std::ostringstream err;
+    ASSERT_TRUE(drawFigure(script + ".gp",
+                           "data='" + folder().string() + "'; out='" + out.string() + "'",
+                           IRK_SOURCE_DIR, err))
+        << err.str();
+    std::ifstream in(out.string() + ".svg");
+    const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    EXPECT_TRUE(containsAll(svg, {"default", "paper", "embedded", "variable"}));
+    EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
+  }
+}
+
+}  // namespace
+}  // namespace irk::audit

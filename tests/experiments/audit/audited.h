@@ -1,0 +1,48 @@
+// What tests of the audit share.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "experiments/audit/audit.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/runner/runner.h"
+#include "experiments/runs/configurations.h"
+#include "experiments/runs/fields.h"
+#include "experiments/runs/final_states.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/study/dice.h"
+#include "experiments/study/study_reader.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk::audit {
+
+// A word of the command line that starts an option, and what follows it.
+inline SolveOptions parsed(const std::string& command) {
+  std::istringstream in(command);
+  std::string irk, solve, option, value;
+  SolveOptions options;
+  in >> irk >> solve >> options.scene;
+  EXPECT_EQ(irk + " " + solve, "irk solve");
+  while (in >> option >> value) {
+    std::string field = option.substr(2);
+    std::replace(field.begin(), field.end(), '-', '_');
+    if (field == "set") {
+      options.settings.push_back(value);
+    } else if (field == "tol") {
+      options.tol = value;
+    } else {
+      options.fields.emplace_back(field, value);
+    }
+  }
+  return options;
+}
+
+}  // namespace irk::audit

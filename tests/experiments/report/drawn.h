@@ -1,0 +1,124 @@
+// A figure drawn from a made-up table, and its curves.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "experiments/report/report.h"
+#include "experiments/tables/table.h"
+#include "tests/experiments/support.h"
+#include "tests/experiments/svg.h"
+
+namespace irk {
+
+inline constexpr Axis kLog = Axis::kLogarithmic, kLin = Axis::kLinear;
+
+using Cells = std::map<std::string, std::string>;
+
+inline std::string exact(double x) { return fmt::format("{}", x); }
+
+/// A folder with tables, and the figures that are drawn from it.
+class Drawing {
+ public:
+  /// Rows by column; what a row does not give is `other`.
+  void put(const std::string& name, const std::vector<std::string>& columns,
+           const std::vector<Cells>& rows, const std::string& other = "nan") {
+    Table table{{{"study", "made_up"}}, columns, {}};
+    for (const auto& cells : rows) {
+      TableRow row;
+      for (const auto& column : columns) {
+        const auto given = cells.find(column);
+        row.push_back(given == cells.end() ? other : given->second);
+      }
+      table.rows.push_back(row);
+    }
+    writeTable(folder_.path() / name, table);
+  }
+
+  Svg draw(const std::string& script, const std::string& options) {
+    const auto out = folder_.path() / fmt::format("figure_{}", ++count_);
+    std::ostringstream err;
+    EXPECT_TRUE(drawFigure(
+        script,
+        fmt::format("data='{}'; out='{}'; {}", folder_.path().string(), out.string(), options),
+        IRK_SOURCE_DIR, err))
+        << err.str();
+    EXPECT_EQ(err.str(), "") << script;
+    EXPECT_TRUE(std::filesystem::exists(out.string() + ".png")) << script;
+    return Svg(out.string() + ".svg");
+  }
+
+ private:
+  TemporaryFolder folder_;
+  int count_ = 0;
+};
+
+inline const std::vector<std::string> kRunColumns = {"key",
+                                              "scene",
+                                              "settings",
+                                              "method",
+                                              "family",
+                                              "stages",
+                                              "integrator",
+                                              "formulation",
+                                              "scaling",
+                                              "discontinuity",
+                                              "scalar",
+                                              "newton",
+                                              "h",
+                                              "rtol",
+                                              "atol",
+                                              "outcome",
+                                              "error",
+                                              "error_u",
+                                              "error_v",
+                                              "error_x",
+                                              "error_z",
+                                              "drift",
+                                              "residuals",
+                                              "dual_residuals",
+                                              "jacobians",
+                                              "factorizations",
+                                              "solves",
+                                              "newton_iterations",
+                                              "newton_restarts",
+                                              "steps_accepted",
+                                              "steps_rejected_error",
+                                              "cpu_s",
+                                              "cpu_median_s",
+                                              "cpu_spread",
+                                              "detail"};
+
+// Of run i: in every column another number, that falls or grows in another way with i.
+inline double numberOf(const std::string& column, int i) {
+  const auto place =
+      std::find(kRunColumns.begin(), kRunColumns.end(), column) - kRunColumns.begin();
+  const double j = static_cast<double>(place);
+  const double slope =
+      column.starts_with("error") || column == "drift" ? -0.8 - 0.03 * j : 0.1 + 0.02 * j;
+  const double level = column.starts_with("error") || column == "drift" ? 1e-2 : 1;
+  return level * (1 + 0.13 * j) * std::pow(10, slope * i);
+}
+
+inline Cells run(int i, const Cells& cells) {
+  Cells row = cells;
+  for (const auto& column :
+       {"error", "error_u", "error_v", "error_x", "error_z", "drift", "residuals", "dual_residuals",
+        "jacobians", "factorizations", "solves", "newton_iterations", "newton_restarts",
+        "steps_accepted", "steps_rejected_error", "cpu_s", "cpu_median_s", "cpu_spread"}) {
+    row.try_emplace(column, exact(numberOf(column, i)));
+  }
+  row.try_emplace("outcome", "success");
+  row.try_emplace("settings", "");
+  row.try_emplace("rtol", exact(1e-3 * std::pow(0.1, i)));
+  row.try_emplace("atol", exact(3e-3 * std::pow(0.1, i)));
+  return row;
+}
+
+}  // namespace irk

@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "experiments/report/report.h"
+#include "experiments/tables/table.h"
+#include "tests/experiments/report/drawn.h"
+#include "tests/experiments/support.h"
+#include "tests/experiments/svg.h"
+
+namespace irk {
+namespace {
+
+TEST(FigureCurves, ErrorVsStep) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* family, int s, int from) {
+    for (int i = from; i < from + 3; ++i) {
+      rows.push_back(run(i, {{"scene", "riccati_tracking"},
+                             {"family", family},
+                             {"stages", std::to_string(s)},
+                             {"h", exact(std::pow(0.1, i))}}));
+    }
+  };
+  add("radau_iia", 2, 1);
+  add("radau_iia", 3, 2);
+  add("gauss", 2, 3);
+  drawing.put("runs.csv", kRunColumns, rows);
+  drawing.put("orders.csv",
+              {"scene", "settings", "formulation", "component", "power_of", "family", "stages",
+               "order", "theory", "confidence", "h_min", "h_max", "verdict"},
+              {{{"scene", "riccati_tracking"},
+                {"settings", ""},
+                {"component", "x"},
+                {"power_of", "h"},
+                {"family", "radau_iia"},
+                {"stages", "2"},
+                {"order", "3.1"},
+                {"theory", "3"},
+                {"h_min", "0.001"},
+                {"h_max", "0.1"},
+                {"verdict", "agrees"}}});
+  for (const std::string component : {"x", "u"}) {
+    const Svg svg = drawing.draw(
+        "error_vs_step.gp", fmt::format("families='radau_iia gauss'; component='{}'", component));
+    const auto expected = [&](int from) {  // sorted by h
+      std::vector<SvgPoint> points;
+      for (int i = from + 2; i >= from; --i)
+        points.push_back({std::pow(0.1, i), numberOf("error_" + component, i)});
+      return points;
+    };
+    const auto a = svg.marked('a'), b = svg.marked('b');
+    ASSERT_EQ(a.size(), 2u);
+    ASSERT_EQ(b.size(), 1u);
+    expectPoints(svg.marks('a', a[0], kLog, kLog), expected(1), "radau 2");
+    expectPoints(svg.marks('a', a[1], kLog, kLog), expected(2), "radau 3");
+    expectPoints(svg.marks('b', b[0], kLog, kLog), expected(3), "gauss 2");
+    if (component == "x") {  // slope 3 through the middle of the window
+      const auto theory = svg.line('a', 1, kLog, kLog);
+      ASSERT_EQ(theory.size(), 3u);
+      EXPECT_NEAR(std::log(theory[2].y / theory[0].y) / std::log(theory[2].x / theory[0].x), 3,
+                  0.03);
+      EXPECT_NEAR(theory[0].x, 1e-3, 1e-5);
+    }
+  }
+}
+
+TEST(FigureCurves, EstimateRatio) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* group, double doubling, double richardson) {
+    rows.push_back({{"group", group},
+                    {"doubling", exact(doubling)},
+                    {"richardson", exact(richardson)},
+                    {"t", "1"}});
+  };
+  add("u", 1, 10);
+  add("u", 2, 20);
+  add("v", 0.5, 0.1);
+  add("v", 4, 0.2);
+  drawing.put("estimates.csv", {"t", "group", "doubling", "richardson"}, rows);
+  const Svg svg = drawing.draw("estimate_ratio.gp", "");
+  // Largest first: half of the steps lie above it.
+  expectPoints(svg.line('a', 1, kLog, kLog), {{2, 0.5}, {1, 1}}, "doubling u", 2e-2);
+  expectPoints(svg.line('a', 2, kLog, kLog), {{4, 0.5}, {0.5, 1}}, "doubling v", 2e-2);
+  expectPoints(svg.line('b', 1, kLog, kLog), {{20, 0.5}, {10, 1}}, "richardson u", 2e-2);
+  expectPoints(svg.line('b', 2, kLog, kLog), {{0.2, 0.5}, {0.1, 1}}, "richardson v", 2e-2);
+}
+
+TEST(FigureCurves, FailureMap) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](int s, const char* h, const char* rtol, const char* outcome,
+                       const char* error, const char* error_u) {
+    rows.push_back({{"scene", "pendulum"},
+                    {"settings", ""},
+                    {"family", "radau_iia"},
+                    {"stages", std::to_string(s)},
+                    {"h", h},
+                    {"rtol", rtol},
+                    {"outcome", outcome},
+                    {"error", error},
+                    {"error_u", error_u}});
+  };
+  add(2, "0.1", "1e-3", "success", "1e-3", "1e-12");
+  add(2, "0.01", "1e-4", "success", "1e-12", "1e-3");
+  add(3, "0.1", "1e-3", "newton_failed", "nan", "nan");
+  add(3, "0.01", "1e-4", "success", "1e-3", "1e-6");
+  rows.push_back({{"scene", "pendulum"},  // of two numbers of stages this family has one
+                  {"settings", ""},
+                  {"family", "lobatto_iiia"},
+                  {"stages", "3"},
+                  {"h", "0.1"},
+                  {"rtol", "1e-3"},
+                  {"outcome", "success"},
+                  {"error", "1e-6"},
+                  {"error_u", "1e-6"}});
+  drawing.put("runs.csv",
+              {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error", "error_u"},
+              rows);
+  const auto cellsOf = [](const Svg& svg) {  // colour by the labels of the cell
+    std::map<std::string, std::string> cells;
+    for (const auto& [colour, corners] : svg.curve('a', 1).boxes) {
+      double x = 0, y = 0;
+      for (const auto& c : corners)
+        x += c.x / static_cast<double>(corners.size()),
+            y += c.y / static_cast<double>(corners.size());
+      cells[svg.labelX('a', x) + " " + svg.labelY('a', y)] = colour;
+    }
+    return cells;
+  };
+  auto cells = cellsOf(drawing.draw("failure_map.gp", "scene='pendulum'"));
+  ASSERT_EQ(cells.size(), 3u);
+  ASSERT_TRUE(cells.contains("2 10^-1") && cells.contains("2 10^-2") && cells.contains("3 10^-2"));
+  EXPECT_EQ(cells["2 10^-1"], cells["3 10^-2"]) << "three digits";
+  EXPECT_NE(cells["2 10^-1"], cells["2 10^-2"]);
+  auto of_u =
+      cellsOf(drawing.draw("failure_map.gp", "scene='pendulum'; quantity='error_u'; y='rtol'"));
+  EXPECT_EQ(of_u["2 10^-3"], cells["2 10^-2"]) << "twelve digits";
+  EXPECT_EQ(of_u["2 10^-4"], cells["2 10^-1"]) << "three digits";
+  const Svg svg = drawing.draw("failure_map.gp", "scene='pendulum'");
+  const auto& failed = svg.curve('a', 2).marks;
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(svg.labelX('a', failed[0].x), "3");
+  EXPECT_EQ(svg.labelY('a', failed[0].y), "10^-1");
+  EXPECT_EQ(svg.occurrences("<text>no such method</text>"), 1);
+  EXPECT_EQ(svg.occurrences("fill = 'rgb(228, 228, 228)'"), 1) << "the column of the method that there is not";
+}
+
+const std::vector<std::string> kOrderColumns = {
+    "scene",  "settings", "formulation", "component", "power_of", "family", "stages",
+    "theory", "order",    "confidence",  "h_min",     "h_max",    "points", "verdict"};
+
+// Marks with error bars are drawn twice.
+std::vector<SvgPoint> once(const std::vector<SvgPoint>& points) {
+  std::vector<SvgPoint> different;
+  for (const auto& p : points) {
+    const auto same = [&](const SvgPoint& q) { return q.x == p.x && q.y == p.y; };
+    if (std::none_of(different.begin(), different.end(), same)) different.push_back(p);
+  }
+  return different;
+}
+
+TEST(FigureCurves, OrderVsStages) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* component, int s, double order, double theory,
+                       const char* verdict) {
+    rows.push_back({{"scene", "kaps"},
+                    {"settings", ""},
+                    {"component", component},
+                    {"power_of", "h"},
+                    {"family", "radau_iia"},
+                    {"stages", std::to_string(s)},
+                    {"order", exact(order)},
+                    {"theory", exact(theory)},
+                    {"confidence", "0.1"},
+                    {"verdict", verdict},
+                    {"points", "13"}});
+  };
+  add("x", 1, 1.2, 1, "agrees");
+  add("x", 2, 2.6, 3, "agrees");
+  add("x", 4, 5.4, 7, "differs");
+  add("z", 2, 9, 9, "agrees");
+  drawing.put("orders.csv", kOrderColumns, rows);
+  const Svg svg = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x'");
+  expectPoints(svg.line('a', 1, kLin, kLin), {{1, 1}, {2, 3}, {4, 7}}, "theory", 1e-2);
+  expectPoints(once(svg.marks('a', 2, kLin, kLin)), {{1, 1.2}, {2, 2.6}, {4, 5.4}}, "measured",
+               1e-2);
+  expectPoints(svg.marks('a', 3, kLin, kLin), {{4, 5.4}}, "differs", 1e-2);
+  const Svg both = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x z'");
+  const auto z = once(both.marks('a', 4, kLin, kLin));
+  ASSERT_EQ(z.size(), 1u);
+  EXPECT_NEAR(z[0].y, 9, 0.1);
+}
+
+TEST(FigureCurves, OrderVsStiffness) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* settings, int s, const char* order, const char* theory = "nan",
+                       const char* verdict = "agrees") {
+    rows.push_back({{"scene", "prothero_robinson"},
+                    {"settings", settings},
+                    {"component", "x"},
+                    {"power_of", "h"},
+                    {"family", "gauss"},
+                    {"stages", std::to_string(s)},
+                    {"order", order},
+                    {"theory", theory},
+                    {"confidence", "0.3"},
+                    {"verdict", verdict}});
+  };
+  add("lambda=-1e2", 2, "3.9");
+  add("lambda=-1e4", 2, "2.5");
+  add("", 2, "2.1", "3");  // -1e8
+  add("lambda=-1e2", 3, "5.9");
+  add("lambda=-1e4", 3, "nan", "nan", "not_measurable");
+  add("", 3, "4.4");
+  add("lambda=-1e8/h", 2, "11");  // no single stiffness
+  drawing.put("orders.csv", kOrderColumns, rows);
+  const Svg svg = drawing.draw("order_vs_stiffness.gp", "scene='prothero_robinson'");
+  // Curves of two numbers of stages each: theory's bars, the lines, the triangles.
+  expectPoints(svg.line('a', 1, kLog, kLin), {{4e7, 3}, {2.5e8, 3}}, "theory", 2e-2);
+  expectPoints(svg.marks('a', 3, kLog, kLin), {{1e2, 3.9}, {1e4, 2.5}, {1e8, 2.1}}, "s = 2", 1e-2);
+  expectPoints(svg.marks('a', 4, kLog, kLin), {{1e2, 5.9}, {1e8, 4.4}}, "s = 3", 1e-2);
+  EXPECT_EQ(svg.curve('a', 3).pieces, 1);
+  EXPECT_EQ(svg.curve('a', 4).pieces, 2) << "a line over what is not measurable";
+  const auto lost = svg.marks('a', 6, kLog, kLin);
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_NEAR(std::log10(lost[0].x), 4, 0.2);
+  EXPECT_LT(lost[0].y, 2.1) << "below all orders";
+}
+
+}  // namespace
+}  // namespace irk

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "experiments/report/report.h"
+#include "experiments/tables/table.h"
+#include "tests/experiments/report/drawn.h"
+#include "tests/experiments/support.h"
+#include "tests/experiments/svg.h"
+
+namespace irk {
+namespace {
+
+std::vector<SvgPoint> runPoints(const std::string& x, const std::string& y, int from, int to) {
+  std::vector<SvgPoint> points;
+  for (int i = from; i < to; ++i) points.push_back({numberOf(x, i), numberOf(y, i)});
+  return points;
+}
+
+TEST(FigureCurves, WorkPrecision) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  for (int s : {3, 5}) {
+    for (int i = 0; i < 4; ++i) {
+      rows.push_back(run(
+          i + s, {{"scene", "pendulum"}, {"family", "radau_iia"}, {"stages", std::to_string(s)}}));
+    }
+  }
+  rows.push_back(run(1, {{"scene", "pendulum"},
+                         {"family", "radau_iia"},
+                         {"stages", "3"},
+                         {"outcome", "timeout"},
+                         {"rtol", "1e-4"}}));
+  rows.push_back(run(9, {{"scene", "kepler"}, {"family", "radau_iia"}, {"stages", "3"}}));
+  rows.push_back(run(9, {{"scene", "pendulum"}, {"family", "gauss"}, {"stages", "3"}}));
+  rows.push_back(run(
+      9, {{"scene", "pendulum"}, {"settings", "k=1"}, {"family", "radau_iia"}, {"stages", "3"}}));
+  drawing.put("runs.csv", kRunColumns, rows);
+  for (const std::string quantity : {"error", "error_u", "error_v", "error_z", "error_x"}) {
+    for (const std::string cost : {"cpu_s", "residuals"}) {
+      const Svg svg = drawing.draw(
+          "work_precision.gp",
+          fmt::format("scene='pendulum'; family='radau_iia'; quantity='{}'; costs='{}'", quantity,
+                      cost));
+      expectPoints(svg.marks('a', 1, kLog, kLog), runPoints(quantity, cost, 3, 7), quantity + cost);
+      expectPoints(svg.marks('a', 2, kLog, kLog), runPoints(quantity, cost, 5, 9), quantity + cost);
+      const auto failed = svg.marks('a', 3, kLog, kLog);
+      ASSERT_EQ(failed.size(), 1u);
+      EXPECT_NEAR(failed[0].x, 1e-4, 1e-6) << "at the tolerance asked for";
+      EXPECT_GT(failed[0].y, numberOf(cost, 8)) << "above all lines";
+    }
+  }
+  const Svg several = drawing.draw(
+      "work_precision.gp", "scene='pendulum'; costs='jacobians newton_iterations factorizations'");
+  expectPoints(several.marks('a', 1, kLog, kLog), runPoints("error", "jacobians", 3, 7), "a");
+  expectPoints(several.marks('b', 1, kLog, kLog), runPoints("error", "newton_iterations", 3, 7),
+               "b");
+  expectPoints(several.marks('c', 1, kLog, kLog), runPoints("error", "factorizations", 3, 7), "c");
+}
+
+TEST(FigureCurves, WorkBy) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* scene, const char* newton, const char* formulation, int from) {
+    for (int i = from; i < from + 3; ++i) {
+      rows.push_back(run(i, {{"scene", scene}, {"newton", newton}, {"formulation", formulation}}));
+    }
+  };
+  add("pendulum", "simplified", "index2", 1);
+  add("pendulum", "modified", "index2", 2);
+  add("pendulum", "full", "index2", 3);
+  add("pendulum", "modified", "ggl", 5);  // not of `only`
+  add("kepler", "simplified", "index2", 4);
+  add("kepler", "modified", "index2", 6);
+  drawing.put("runs.csv", kRunColumns, rows);
+  const Svg svg =
+      drawing.draw("work_by.gp",
+                   "variant='newton'; variants='modified simplified'; cases='pendulum kepler'; "
+                   "only='formulation=index2'; costs='residuals'");
+  expectPoints(svg.marks('a', 1, kLog, kLog), runPoints("error", "residuals", 2, 5), "modified");
+  expectPoints(svg.marks('a', 2, kLog, kLog), runPoints("error", "residuals", 1, 4), "simplified");
+  expectPoints(svg.marks('b', 1, kLog, kLog), runPoints("error", "residuals", 6, 9),
+               "kepler, modified");
+  expectPoints(svg.marks('b', 2, kLog, kLog), runPoints("error", "residuals", 4, 7),
+               "kepler, simplified");
+  const Svg costs =
+      drawing.draw("work_by.gp",
+                   "variant='newton'; variants='full'; cases='pendulum'; quantity='error_v'; "
+                   "costs='cpu_s newton_iterations drift'");
+  expectPoints(costs.marks('a', 1, kLog, kLog), runPoints("error_v", "cpu_s", 3, 6), "cpu_s");
+  expectPoints(costs.marks('b', 1, kLog, kLog), runPoints("error_v", "newton_iterations", 3, 6),
+               "iterations");
+  expectPoints(costs.marks('c', 1, kLog, kLog), runPoints("error_v", "drift", 3, 6), "drift");
+}
+
+const std::vector<std::string> kCostColumns = {"scene",     "settings",         "family",  "method",
+                                               "stages",    "target_error",     "reached", "cpu_s",
+                                               "residuals", "newton_iterations"};
+
+TEST(FigureCurves, BestCost) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* scene, const char* family, int s, const char* error,
+                       double cost) {
+    rows.push_back({{"scene", scene},
+                    {"settings", ""},
+                    {"family", family},
+                    {"stages", std::to_string(s)},
+                    {"target_error", error},
+                    {"reached", "1"},
+                    {"cpu_s", exact(cost)},
+                    {"residuals", exact(7000 / cost)}});
+  };
+  add("pendulum", "radau_iia", 2, "1e-4", 0.01);
+  add("pendulum", "radau_iia", 3, "1e-4", 0.05);
+  add("pendulum", "radau_iia", 2, "1e-6", 0.8);
+  add("pendulum", "radau_iia", 3, "1e-6", 0.1);
+  add("pendulum", "gauss", 2, "1e-4", 0.3);
+  add("pendulum", "gauss", 2, "1e-6", 9);
+  add("kepler", "gauss", 2, "1e-4", 0.02);
+  add("kepler", "gauss", 2, "1e-6", 7);
+  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  const Svg svg = drawing.draw("best_cost.gp", "cases='pendulum kepler'");
+  expectPoints(svg.marks('a', 1, kLog, kLog), {{1e-6, 0.1}, {1e-4, 0.01}}, "radau");
+  expectPoints(svg.marks('a', 2, kLog, kLog), {{1e-6, 9}, {1e-4, 0.3}}, "gauss");
+  expectPoints(svg.marks('b', 2, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler");
+  const Svg other =
+      drawing.draw("best_cost.gp", "cases='pendulum'; cost='residuals'; values='gauss'");
+  expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 7000 / 9.0}, {1e-4, 7000 / 0.3}},
+               "residuals");
+}
+
+TEST(FigureCurves, CpuVsStages) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* settings, int s, const char* error, const char* cost,
+                       const char* residuals) {
+    rows.push_back({{"scene", "slider_crank"},
+                    {"settings", settings},
+                    {"family", "radau_iia"},
+                    {"stages", std::to_string(s)},
+                    {"target_error", error},
+                    {"cpu_s", cost},
+                    {"residuals", residuals}});
+  };
+  add("", 2, "1e-4", "0.01", "900");
+  add("", 3, "1e-4", "0.02", "500");
+  add("", 5, "1e-4", "0.05", "100");
+  add("", 2, "1e-8", "nan", "nan");
+  add("", 3, "1e-8", "3", "7000");
+  add("", 5, "1e-8", "0.7", "2000");
+  add("off=1", 2, "1e-4", "0.4", "40");
+  add("off=1", 10, "1e-4", "0.9", "60");
+  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  const Svg svg = drawing.draw("cpu_vs_stages.gp", "cases='slider_crank slider_crank:off=1'");
+  expectPoints(svg.marks('a', 1, kLog, kLog), {{2, 0.01}, {3, 0.02}, {5, 0.05}}, "1e-4");
+  expectPoints(svg.marks('a', 2, kLog, kLog), {{3, 3}, {5, 0.7}}, "1e-8");
+  expectPoints(svg.marks('b', 1, kLog, kLog), {{2, 0.4}, {10, 0.9}}, "off=1");
+  const Svg residuals = drawing.draw("cpu_vs_stages.gp", "cases='slider_crank'; cost='residuals'");
+  expectPoints(residuals.marks('a', 1, kLog, kLog), {{2, 900}, {3, 500}, {5, 100}}, "residuals");
+  // What was not reached stands above all.
+  bool missed = false;
+  for (const auto& [number, curve] : svg.panel('a').curves) {
+    for (const auto& p : svg.numbers('a', curve.marks, kLog, kLog))
+      missed = missed || (p.y > 3.01 && std::abs(p.x - 2) < 0.02);
+  }
+  EXPECT_TRUE(missed);
+}
+
+TEST(FigureCurves, Energy) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* summation, double t, double error) {
+    rows.push_back({{"scene", "kepler"},
+                    {"method", "gauss_8"},
+                    {"summation", summation},
+                    {"t", exact(t)},
+                    {"energy_error", exact(error)},
+                    {"scatter", "3e-16"},
+                    {"h", "77"},
+                    {"steps", "5"}});
+  };
+  add("plain", 1, 2e-16);
+  add("plain", 2, 9e-16);
+  add("plain", 4, 5e-16);
+  add("compensated", 1, 1e-16);
+  add("compensated", 2, 0.5e-16);
+  add("compensated", 4, 1.5e-16);
+  drawing.put("energy.csv",
+              {"scene", "method", "summation", "t", "h", "steps", "energy_error", "scatter"}, rows);
+  const Svg svg = drawing.draw("energy.gp", "cases='kepler:gauss_8'");
+  expectPoints(svg.line('a', 1, kLin, kLin), {{1, 2}, {2, 9}, {4, 5}}, "plain");
+  expectPoints(svg.line('a', 2, kLin, kLin), {{1, 1}, {2, 0.5}, {4, 1.5}}, "compensated", 2e-2);
+}
+
+}  // namespace
+}  // namespace irk
