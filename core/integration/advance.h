@@ -8,7 +8,7 @@
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/projection.h"
 #include "core/integration/constraint_check.h"
-#include "core/integration/event_location.h"
+#include "core/modes/event_location.h"
 #include "core/newton/newton_matrix.h"
 #include "irk/monitor.h"
 

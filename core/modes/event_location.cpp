@@ -1,4 +1,4 @@
-#include "core/integration/event_location.h"
+#include "core/modes/event_location.h"
 
 #include <algorithm>
 #include <cmath>
