@@ -24,6 +24,13 @@ bool readWhole(std::string_view text, Number& x) {
   throw Misuse(message);
 }
 
+// 1000000000000 where integers are expected, not 1e+12.
+std::string textIn(const Range& range, double x) {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  const bool integer = range.whole && x == std::floor(x) && std::abs(x) <= kExact;
+  return integer ? std::to_string(static_cast<std::int64_t>(x)) : numberText(x);
+}
+
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 }  // namespace
@@ -37,7 +44,7 @@ std::string numberText(double x) {
 
 std::string Range::text() const {
   constexpr Range kAll;
-  if (whole) return "an integer from " + numberText(least) + " to " + numberText(most);
+  if (whole) return "an integer from " + textIn(*this, least) + " to " + textIn(*this, most);
   const bool bounded_below = least != kAll.least, bounded_above = most != kAll.most;
   const std::string lower = least_excluded ? "<" : "<=", upper = most_excluded ? "<" : "<=";
   if (bounded_below && bounded_above) {
@@ -66,7 +73,7 @@ std::int64_t parseInteger(std::string_view place, std::string_view text, const R
 }
 
 void requireInRange(std::string_view place, double x, const Range& range) {
-  if (!range.contains(x)) refuse(place, numberText(x), "is out of range", range.text());
+  if (!range.contains(x)) refuse(place, textIn(range, x), "is out of range", range.text());
 }
 
 }  // namespace irk

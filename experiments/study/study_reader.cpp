@@ -71,11 +71,12 @@ std::vector<double> numbers(const StudyValue& value, std::string_view key,
 
 // Each one is both rtol and atol.
 std::vector<double> toleranceList(const StudyValue& value) {
+  auto tolerances = numbers(value, "tolerances", kPositive);
   RunSpec spec;
   for (const auto& item : value.items) {
     for (const auto* field : {"rtol", "atol"}) atPlace(value, [&] { findField(field).set(spec, item); });
   }
-  return numbers(value, "tolerances", kPositive);
+  return tolerances;
 }
 
 bool flag(const StudyKeys& keys, std::string_view key) {

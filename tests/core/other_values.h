@@ -33,15 +33,20 @@ inline std::vector<double> illegalValues(const Range& range) {
   return all;
 }
 
+/// As the field's setter reads it.
+template <class Spec>
+std::string textOf(const Field<Spec>& field, double x) {
+  const bool integer = field.kind == FieldKind::kInteger && std::isfinite(x) && x == std::floor(x);
+  return integer ? std::to_string(static_cast<std::int64_t>(x)) : numberText(x);
+}
+
 /// Of axes every id but the default, of numbers some that are legal; nothing of texts.
 template <class Spec>
 std::vector<std::string> otherValues(const Field<Spec>& field) {
   std::vector<std::string> values;
   for (const auto& choice : field.choices) values.push_back(choice.id);
-  if (field.kind == FieldKind::kInteger) {
-    for (const double x : legalValues(field.range)) values.push_back(std::to_string(static_cast<std::int64_t>(x)));
-  } else if (field.kind == FieldKind::kNumber) {
-    for (const double x : legalValues(field.range)) values.push_back(numberText(x));
+  if (field.isNumeric()) {
+    for (const double x : legalValues(field.range)) values.push_back(textOf(field, x));
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -194,7 +194,7 @@ TEST(Integrator, IllegalCombinationsAreRefused) {
   o = adaptive(1e-6);
   o.step.estimate = ErrorEstimate::kNone;
   expectRefused(build(Riccati{}, "gauss_2", o), {"none", "predictive"});
-  expectRefused(build(Riccati{}, "gauss_2", fixedSteps(-0.1)), {"step", "-0.1", "> 0"});
+  expectRefused(build(Riccati{}, "gauss_2", fixedSteps(-0.1)), {"h = -0.1", ">= 0"});
   o = adaptive(2);
   expectRefused(build(Riccati{}, "gauss_2", o), {"rtol", "2", "< 1"});
   o = adaptive(1e-6);

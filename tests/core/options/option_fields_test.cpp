@@ -59,7 +59,7 @@ TEST(OptionFields, NumbersOutOfRangeAreRefusedBySettersAndByValidate) {
     ++numbers;
     for (const double x : illegalValues(field.range)) {
       IntegratorOptions options;
-      const std::string text = numberText(x);
+      const std::string text = textOf(field, x);
       const std::string by_setter = refusal([&] { field.set(options, text); });
       EXPECT_TRUE(containsAllOf(by_setter, {field.name, text, field.range.text()})) << field.name << ": " << by_setter;
       EXPECT_EQ(field.get(options), field.defaultText()) << field.name << ": set all the same";
@@ -70,7 +70,7 @@ TEST(OptionFields, NumbersOutOfRangeAreRefusedBySettersAndByValidate) {
     }
     for (const double x : legalValues(field.range)) {
       IntegratorOptions options;
-      EXPECT_EQ(refusal([&] { field.set(options, numberText(x)); }), "") << field.name;
+      EXPECT_EQ(refusal([&] { field.set(options, textOf(field, x)); }), "") << field.name;
       EXPECT_EQ(refusal([&] { validate(options); }), "") << field.name << " = " << x;
     }
   }
@@ -92,6 +92,7 @@ TEST(Range, ReadsAsItIsChecked) {
   EXPECT_EQ(Range::above(0).text(), "> 0");
   EXPECT_EQ(Range::from(0.5).text(), ">= 0.5");
   EXPECT_EQ(Range::integers(-1, 1000).text(), "an integer from -1 to 1000");
+  EXPECT_EQ(Range::integers(1, 1'000'000'000'000).text(), "an integer from 1 to 1000000000000");
   EXPECT_EQ(Range{}.text(), "a number");
   EXPECT_TRUE(Range::from(0).below(1).contains(0));
   EXPECT_FALSE(Range::from(0).below(1).contains(1));

@@ -120,7 +120,7 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
       {{"solve", "kepler", "--newton", "simple"}, {"newton", "simple", "'simplified'"}},
       {{"solve", "kepler", "--solver", "schurr"}, {"solver", "schurr", "'schur'"}},
       {{"solve", "kepler", "--jacobian", "no_mas"}, {"jacobian", "no_mas", "'no_mass'"}},
-      {{"solve", "kepler", "--step", "-0.1"}, {"step", "-0.1", "> 0"}},
+      {{"solve", "kepler", "--step", "-0.1"}, {"h", "-0.1", ">= 0"}},
       {{"solve", "kepler", "--step", "0"}, {"step", "0", "> 0"}},
       {{"solve", "kepler", "--tol", "2"}, {"tol", "2", "0 <= x < 1"}},
       {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
