@@ -2,11 +2,12 @@
 // command line, keys of studies, columns, messages and validation are made from tables of these.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/base/number_text.h"
@@ -121,11 +122,12 @@ Field<Outer> fieldOfMember(const Field<Inner>& inner, Inner Outer::*member) {
   return field;
 }
 
-/// How many members an aggregate has: a table of its fields must have as many.
+/// Converts to whatever a member is; never called.
 struct AnyMember {
   template <class T>
   operator T() const;
 };
+/// How many members an aggregate has: a table of its fields must have as many.
 template <class Aggregate, class... Members>
 consteval std::size_t memberCount() {
   if constexpr (requires { Aggregate{Members{}..., AnyMember{}}; }) {

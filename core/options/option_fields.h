@@ -1,5 +1,5 @@
-// The one table of the options of an integration. Whoever adds a member to IntegratorOptions adds its line there; else
-// core/options/option_fields.cpp does not compile.
+// The one table of the options of an integration. A member that is added to IntegratorOptions, or to a struct in it,
+// needs its line in option_fields.cpp, which does not compile without.
 #pragma once
 
 #include <span>

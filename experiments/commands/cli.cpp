@@ -167,7 +167,8 @@ class Program {
     auto* sub =
         verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
     sub->add_option("study", study_, "id or TOML file")->required();
-    sub->add_option("--shard", shard_, "Make part i of n only: i/n, or in an array job auto/n; see merge. [default: all]");
+    sub->add_option("--shard", shard_,
+                    "Make part i of n only: i/n, or in an array job auto/n; see merge. [default: all]");
     addRunnerOptions(*sub);
     auto* slurm = verb(app_, "slurm", "print a job script of Slurm: a study in n parts", [this](Streams s) {
       return slurmCommand({study_, shard_, variant(), results_, std::max(1, parseJobs())}, s);

@@ -100,14 +100,15 @@ Field<RunSpec> endField() {
 }
 
 Field<RunSpec> maxStagesField() {
-  auto field = numberField<RunSpec>("max_stages", "The most stages of variable order.", Range::integers(1, kMaxStages),
-                                    [](auto& s) -> auto& { return s.max_stages; });
+  auto field = numberField<RunSpec>("max_stages", "The most stages of variable order.",
+                                    Range::integers(1, kMaxStages), [](auto& s) -> auto& { return s.max_stages; });
   field.unused = [](const RunSpec& s) -> std::string_view {
     return s.options.order == OrderControl::kFixed ? "it belongs to order 'variable'" : "";
   };
   return field;
 }
 
+// What a series runs through. A new field is part of the name of a series unless it is added here.
 constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 
 #define IRK_MEMBER(path) [](auto& s) -> auto& { return s.path; }
@@ -127,8 +128,8 @@ std::vector<SpecField> makeFields() {
       maxStagesField(), endField(),
       numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
                            kNotNegative, IRK_MEMBER(time_limit))});
-  static_assert(std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)> + 1 == memberCount<RunSpec>(),
-                "a member of RunSpec has no field");
+  constexpr std::size_t kOwn = std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)>;
+  static_assert(kOwn + 1 == memberCount<RunSpec>(), "a member of RunSpec has no field");
   std::vector<SpecField> fields;
   for (auto& field : before) fields.push_back({std::move(field)});
   for (const auto& option : optionFields()) fields.push_back({fieldOfMember(option, &RunSpec::options)});

@@ -23,6 +23,7 @@ std::string_view axisName<ScalarKind>();
 /// Round-off of a number of this kind.
 double epsilonOf(ScalarKind scalar);
 
+/// Legal values and meanings: fields.cpp. A member that is added here needs its line there.
 struct RunSpec {
   std::string scene;
   /// Of `configurations`: a name for tables and figures.
@@ -35,11 +36,11 @@ struct RunSpec {
   Discontinuity discontinuity = Discontinuity::kLocate;
   ScalarKind scalar = ScalarKind::kDouble;
   IntegratorOptions options;
-  /// 1 .. kMaxStages. Variable order: the largest member of the method's family.
+  /// Variable order: the largest member of the method's family.
   int max_stages = 13;
   /// NaN: the scene's own.
   double t_end = std::numeric_limits<double>::quiet_NaN();
-  /// >= 0, seconds of the thread's CPU clock; 0 = no limit.
+  /// Seconds of the thread's CPU clock; 0 = no limit.
   double time_limit = 0;
 };
 

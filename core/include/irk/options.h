@@ -110,34 +110,36 @@ std::string_view idOf(E value) {
 template <class E>
 std::string_view axisName();
 
+// The legal values of all options, their meanings for users, and which ones have no effect beside others are in the
+// table optionFields(), core/options/option_fields.cpp. A member that is added here needs its line there.
+
 struct NewtonOptions {
   NewtonKind kind = NewtonKind::kSimplified;
-  /// (0, 1). Paper (3.2): done when eps(i) <= tol eps(0). `modified` and `full`.
+  /// Paper (3.2): done when eps(i) <= tol eps(0). `modified` and `full`.
   double residual_tolerance = 1e-10;
-  /// (0, 1]. Paper (3.4): contractivity above which the Jacobian is recomputed, ...
+  /// Paper (3.4): contractivity above which the Jacobian is recomputed, ...
   double contractivity_limit = 0.7;
-  /// >= 0. ... after more than this many iterations.
+  /// ... after more than this many iterations.
   int contractivity_after = 3;
-  /// >= 1. Paper, section 3: 25 iterations without convergence are a failure.
+  /// Paper, section 3: 25 iterations without convergence are a failure.
   int max_iterations = 25;
-  /// >= 0; 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
+  /// 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
   /// that shrinks with s. `simplified`, `broyden`: done when eta |dw| <= kappa in the error norm.
   double kappa = 0;
-  /// [0, 1). `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
+  /// `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
   double keep_jacobian_below = 1e-3;
 };
 
 struct StepOptions {
   StepControl control = StepControl::kPredictive;
   ErrorEstimate estimate = ErrorEstimate::kRichardson;
-  /// > 0. Fixed control: the step (the last one is shortened to end at t_end). Else the first step;
+  /// Fixed control: the step, > 0 (the last one is shortened to end at t_end). Else the first step;
   /// 0 = chosen from the scale of the solution.
   double h = 0;
-  /// >= 0; 0 = 16 eps |t| or the smallest number.
+  /// 0 = 16 eps |t| or the smallest number.
   double h_min = 0;
-  /// > 0.
   double h_max = 1e300;
-  /// > 0. Attempted steps.
+  /// Attempted steps.
   std::int64_t max_steps = 1'000'000;
   /// Paper (6.1)-(6.3): s_min = 4, s_max = s_min^2; a step is kept unless it would change by
   /// `change_at_least`; growth at most `growth_at_most`.
@@ -147,8 +149,8 @@ struct StepOptions {
 };
 
 struct Tolerances {
-  double rtol = 1e-6;  ///< [0, 1)
-  double atol = 1e-6;  ///< > 0, times the component's scale
+  double rtol = 1e-6;
+  double atol = 1e-6;  ///< times the component's scale
   NormKind norm = NormKind::kMixed;
 };
 
@@ -162,7 +164,7 @@ struct IntegratorOptions {
   StageSolverKind solver = StageSolverKind::kSchur;
   /// Of `schur` and `eigen`; the coupled solvers have their own.
   Storage storage = Storage::kAutomatic;
-  /// [1, 1024]. Residuals of the stages and factorizations of the blocks at a time, inside one
+  /// Residuals of the stages and factorizations of the blocks at a time, inside one
   /// integration; the numbers do not depend on it. In a parallel region of the caller: 1.
   int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
