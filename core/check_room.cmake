@@ -72,7 +72,7 @@ while(taken)
 endwhile()
 if(units)
   list(JOIN units " " circle)
-  message(WARNING "${ROOM}: these files include each other in a circle: ${circle}")
+  list(APPEND faults "${ROOM}: these files include each other in a circle: ${circle}")
 endif()
 
 if(faults)

@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace irk {
+
+IRK_STRATEGIES(StepControl, "control")
+
 namespace {
 
 /// Paper, section 6, with the error in units of the tolerance:
@@ -11,12 +14,13 @@ namespace {
 ///   gamma = (eps_i / eps_{i-1}) (h_{i-1} / h_i)^p, after every change of step     (6.3)
 /// The step is repeated if eps > 1; kept unless f changes it by at least `change_at_least`; grown
 /// only if eps < 1 / s_max, s_max = s_min^2, and at most by `growth_at_most`.
-class PaperController final : public StepController {
+class PaperController : public StepController {
  public:
-  PaperController(const StepOptions& o, int order)
+  /// `damped`: by gamma.
+  PaperController(const StepOptions& o, int order, bool damped = true)
       : o_(o),
         p_(order),
-        damped_(o.control == StepControl::kPaper),
+        damped_(damped),
         exponent_(1.0 / (damped_ ? order + 1 : order)),
         s_max_(o.s_min * o.s_min) {}
 
@@ -79,10 +83,16 @@ class PaperController final : public StepController {
 };
 
 /// The later HOTINT source (paper/README erratum 5): s_min = 2, s_max = 4, exponent 1/p, no gamma.
-StepOptions hotintRules(StepOptions o) {
-  o.s_min = 2;
-  return o;
-}
+class HotintController final : public PaperController {
+ public:
+  HotintController(const StepOptions& o, int order) : PaperController(rules(o), order, false) {}
+
+ private:
+  static StepOptions rules(StepOptions o) {
+    o.s_min = 2;
+    return o;
+  }
+};
 
 /// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
 ///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
@@ -90,7 +100,7 @@ StepOptions hotintRules(StepOptions o) {
 /// rejection it does not grow at once.
 class PredictiveController final : public StepController {
  public:
-  explicit PredictiveController(int order)
+  PredictiveController(const StepOptions&, int order)
       : exponent_(1.0 / (order + 1)), least_root_(std::pow(kErrorFloor, exponent_)) {}
 
   StepDecision decide(double error, double h) override {
@@ -153,15 +163,21 @@ class PredictiveController final : public StepController {
 
 }  // namespace
 
+template <>
+Catalogue<StepControl>& catalogue<StepControl>() {
+  const Needs estimate{.estimate = true};
+  static Catalogue<StepControl> all({
+      {StepControl::kPredictive, "Gustafsson's, HW II (IV.8.25)", estimate, construct<PredictiveController>},
+      {StepControl::kPaper, "section 6 of the paper", estimate, construct<PaperController>},
+      {StepControl::kHotint, "the paper's, as the later source has it", estimate, construct<HotintController>},
+      {StepControl::kFixed, "constant steps", {}, nullptr},
+  });
+  return all;
+}
+
 std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
-  switch (options.control) {
-    case StepControl::kPaper: return std::make_unique<PaperController>(options, order);
-    case StepControl::kHotint:
-      return std::make_unique<PaperController>(hotintRules(options), order);
-    case StepControl::kPredictive: return std::make_unique<PredictiveController>(order);
-    case StepControl::kFixed: return nullptr;
-  }
-  return nullptr;
+  const auto& make = catalogue<StepControl>()[options.control].make;
+  return make ? make(options, order) : nullptr;
 }
 
 }  // namespace irk

@@ -1,9 +1,11 @@
 // Step-size controllers; they see error estimates and step sizes only.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
-#include "irk/options.h"
+#include "core/options/catalogue.h"
 
 namespace irk {
 
@@ -24,6 +26,19 @@ class StepController {
   /// From now on errors fall with h^(order+1); with the new order the last step h would have had `error`.
   virtual void changeOrder(int order, double error, double h) = 0;
 };
+
+using ControllerMaker = std::function<std::unique_ptr<StepController>(const StepOptions&, int order)>;
+
+/// How steps are chosen.
+template <>
+struct Strategy<StepControl> {
+  StepControl id;
+  std::string meaning;
+  Needs needs = {};
+  ControllerMaker make;  ///< null for fixed steps
+};
+template <>
+Catalogue<StepControl>& catalogue<StepControl>();
 
 /// `order`: p of the estimate's leading error h^(p+1).
 std::unique_ptr<StepController> makeController(const StepOptions& options, int order);

@@ -27,15 +27,6 @@ int EmbeddedEstimate<Real>::order(const Scheme<Real>& scheme) {
 template <class Real>
 Real EmbeddedEstimate<Real>::weight(const Scheme<Real>& scheme) {
   using std::pow;
-  if (!scheme.regular || scheme.first > 0) {
-    throw Misuse("illegal combination: estimate 'embedded' with method '" + scheme.tableau.id +
-                 "': its A is singular; use estimate 'richardson'");
-  }
-  if (scheme.tableau.stage_order < 1) {
-    throw Misuse("illegal combination: estimate 'embedded' with method '" + scheme.tableau.id +
-                 "': its stage order is 0, so that step and estimate miss the same forces where these change "
-                 "with time; use estimate 'richardson'");
-  }
   Real determinant(1);
   for (const auto& block : schurForm(scheme.A).blocks) {
     if (block.size == 1 && block.mu.real() > Real(0)) return block.mu.real();

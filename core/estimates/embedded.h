@@ -18,8 +18,8 @@ namespace irk {
 template <class Real>
 class EmbeddedEstimate {
  public:
-  /// Throws Misuse for a singular A: its first stage is the step's start, or none determines it; and for stage
-  /// order 0 (Radau IA with one stage, at c = 0 with a = 1): what it evaluates lies at another time.
+  /// A is invertible, without an explicit first stage: that would be the step's start. The stage order is at least 1
+  /// (that of Radau IA with one stage, at c = 0 with a = 1, is 0): else what it evaluates lies at another time.
   EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
                    const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
                    NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters);

@@ -2,18 +2,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <memory>
+#include <vector>
 
+#include "core/options/catalogue.h"
 #include "core/steps/stepper.h"
 
 namespace irk {
-
-struct AttemptResult : StepResult {
-  /// Estimate in the error norm, accepted up to 1; NaN without one. Of variable order: times what is
-  /// asked of the member.
-  double error = 0;
-  /// What an accepted step adds to the error of the result, in tolerances; 0 where it is far below the estimate.
-  double added = 0;
-};
 
 /// What an accepted step means for the next one.
 struct NextStep {
@@ -75,14 +71,42 @@ template <class Real>
 Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
                             ErrorEstimate estimate);
 
-/// `schemes`: one or, with variable order, members of a family by ascending stages, of which
-/// `start` is the first. Keeps references. Throws Misuse for an estimate that a scheme does not have.
+/// What an estimate is made from. All references outlive it.
 template <class Real>
-std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const System<Real>& system,
-                                                   const std::vector<Scheme<Real>>& schemes,
-                                                   std::size_t start,
-                                                   const IntegratorOptions& options,
-                                                   SharedJacobian<Real>& jacobian,
-                                                   const ErrorNorm<Real>& norm, Counters& counters);
+struct StepAttemptSetup {
+  const System<Real>& system;
+  /// One or, with variable order, members of a family by ascending stages, of which `start` is the first.
+  const std::vector<Scheme<Real>>& schemes;
+  std::size_t start;
+  const IntegratorOptions& options;
+  SharedJacobian<Real>& jacobian;
+  const ErrorNorm<Real>& norm;
+  Counters& counters;
+
+  const Scheme<Real>& scheme() const { return schemes[start]; }
+};
+template <class Real>
+using StepAttemptMaker = std::function<std::unique_ptr<StepAttempt<Real>>(const StepAttemptSetup<Real>&)>;
+
+/// An error estimate.
+template <>
+struct Strategy<ErrorEstimate> {
+  ErrorEstimate id;
+  std::string meaning;
+  Needs needs = {};
+  bool estimates = true;         ///< false: there is no error to control steps by
+  bool sees_switches = false;    ///< looks at the switches in a step that goes on over them; the paper's do not
+  bool own_orders = false;       ///< divides each component's difference by its own order, see doublingFactors
+  bool compares_orders = false;  ///< by one method of a family what another would err
+  PerScalar<StepAttemptMaker> make;
+};
+template <>
+Catalogue<ErrorEstimate>& catalogue<ErrorEstimate>();
+
+/// The estimate of the options.
+template <class Real>
+std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const StepAttemptSetup<Real>& setup) {
+  return catalogue<ErrorEstimate>()[setup.options.step.estimate].make.template of<Real>()(setup);
+}
 
 }  // namespace irk

@@ -7,6 +7,9 @@
 #include "irk/multiprecision.h"
 
 namespace irk {
+
+IRK_STRATEGIES(OrderControl, "order")
+
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -59,21 +62,16 @@ Index firstStages(const Tolerances& tolerances) {
 }
 
 template <class Real>
-VariableOrder<Real>::VariableOrder(const System<Real>& system,
-                                   const std::vector<Scheme<Real>>& schemes, std::size_t start,
-                                   const IntegratorOptions& options,
-                                   SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
-                                   Counters& counters)
-    : jacobian_(jacobian),
-      start_(start),
-      at_(start),
-      past_at_(start),
+VariableOrder<Real>::VariableOrder(const StepAttemptSetup<Real>& setup)
+    : jacobian_(setup.jacobian),
+      start_(setup.start),
+      at_(start_),
+      past_at_(start_),
       lower_error_(kUnknown),
-      unknowns_(static_cast<double>(system.sizes().n())) {
-  for (const auto& scheme : schemes) {
-    members_.push_back(
-        std::make_unique<Member>(system, scheme, options, jacobian, norm, counters));
-    members_.back()->exigence = exigence(scheme, schemes.back(), options.tolerances);
+      unknowns_(static_cast<double>(setup.system.sizes().n())) {
+  for (const auto& scheme : setup.schemes) {
+    members_.push_back(std::make_unique<Member>(setup, scheme));
+    members_.back()->exigence = exigence(scheme, setup.schemes.back(), setup.options.tolerances);
   }
   past_ = &member().stepper.stages();
 }
@@ -231,5 +229,26 @@ int VariableOrder<Real>::order() const {
 }
 
 IRK_INSTANTIATE_CLASS(VariableOrder)
+
+Strategy<ErrorEstimate> embeddedEstimate() {
+  return {.id = ErrorEstimate::kEmbedded,
+          .meaning = "an embedded method of order s: one real solve, HW II (IV.8)",
+          .needs = {.invertible_matrix = true, .stage_order = true, .kept_jacobian = true, .instead = "estimate 'richardson'"},
+          .sees_switches = true,
+          .compares_orders = true,
+          .make = makes<StepAttemptMaker, VariableOrder>()};
+}
+
+template <>
+Catalogue<OrderControl>& catalogue<OrderControl>() {
+  static Catalogue<OrderControl> all({
+      {.id = OrderControl::kFixed, .meaning = "one number of stages"},
+      {.id = OrderControl::kVariable,
+       .meaning = "the method's family, up to max_stages: the least work per unit step",
+       .needs = {.embedded_estimate = true},
+       .several_methods = true},
+  });
+  return all;
+}
 
 }  // namespace irk

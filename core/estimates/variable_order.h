@@ -28,9 +28,7 @@ Index firstStages(const Tolerances& tolerances);
 template <class Real>
 class VariableOrder final : public StepAttempt<Real> {
  public:
-  VariableOrder(const System<Real>& system, const std::vector<Scheme<Real>>& schemes,
-                std::size_t start, const IntegratorOptions& options,
-                SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
+  explicit VariableOrder(const StepAttemptSetup<Real>& setup);
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
   void begin() override;
@@ -49,16 +47,15 @@ class VariableOrder final : public StepAttempt<Real> {
 
  private:
   struct Member {
-    Member(const System<Real>& system, const Scheme<Real>& s, const IntegratorOptions& options,
-           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
+    Member(const StepAttemptSetup<Real>& setup, const Scheme<Real>& s)
         : scheme(s),
-          stepper(system, s, options, jacobian, norm, counters),
-          estimate(system, s, options, jacobian, stepper.matrix(), norm, counters),
+          stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),
+          estimate(setup.system, s, setup.options, setup.jacobian, stepper.matrix(), setup.norm, setup.counters),
           order(EmbeddedEstimate<Real>::order(s)),
           accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) ||
                       !dampsStiffErrors(s)),
           adds(s.tableau.order <= order),
-          accumulation(stiffCaution(s), options.tolerances) {}
+          accumulation(stiffCaution(s), setup.options.tolerances) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
@@ -100,5 +97,19 @@ class VariableOrder final : public StepAttempt<Real> {
   double lower_error_;                 // of the member below, NaN if not known
   double unknowns_;
 };
+
+/// The entry `embedded` of the estimates.
+Strategy<ErrorEstimate> embeddedEstimate();
+
+/// How the order is chosen.
+template <>
+struct Strategy<OrderControl> {
+  OrderControl id;
+  std::string meaning;
+  Needs needs = {};
+  bool several_methods = false;  ///< takes the members of a family
+};
+template <>
+Catalogue<OrderControl>& catalogue<OrderControl>();
 
 }  // namespace irk

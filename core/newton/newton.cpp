@@ -9,6 +9,9 @@
 #include "irk/multiprecision.h"
 
 namespace irk {
+
+IRK_STRATEGIES(NewtonKind, "newton")
+
 namespace {
 
 // x^n by squaring, n >= 0.
@@ -107,7 +110,7 @@ class NewtonBase : public Newton<Real> {
 /// The last step's eta, raised to 0.8, stands in for the first iteration, where theta is unknown.
 /// With Broyden's updates the theta that is reported is the first one, the matrix' own.
 template <class Real>
-class SimplifiedNewton final : public NewtonBase<Real> {
+class SimplifiedNewton : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
 
  public:
@@ -121,9 +124,6 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     const double kappa = options.newton.kappa;
     kappa_ = std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1))));
     adaptive_ = options.step.control != StepControl::kFixed;
-    if (options.newton.kind == NewtonKind::kBroyden && sizes.n() >= kUpdatesFrom) {
-      updates_.emplace(sizes.n(), scheme.implicitStages());
-    }
   }
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
@@ -146,6 +146,9 @@ class SimplifiedNewton final : public NewtonBase<Real> {
     return result;
   }
   void forget() override { eta_ = theta_ = 1; }
+
+ protected:
+  std::optional<BroydenUpdates<Real>> updates_;
 
  private:
   NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W) {
@@ -223,50 +226,28 @@ class SimplifiedNewton final : public NewtonBase<Real> {
 
   double kappa_;
   bool adaptive_;
-  std::optional<BroydenUpdates<Real>> updates_;
   double eta_ = 1, theta_ = 1;
+};
+
+/// With Broyden's updates of the matrix.
+template <class Real>
+class BroydenNewton final : public SimplifiedNewton<Real> {
+ public:
+  BroydenNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : SimplifiedNewton<Real>(options, sizes, scheme) {
+    if (sizes.n() >= kUpdatesFrom) this->updates_.emplace(sizes.n(), scheme.implicitStages());
+  }
 };
 
 /// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
 /// the iteration as well: then the residual cannot shrink by the asked factor.
 template <class Real>
-class ResidualNewton final : public NewtonBase<Real> {
-  using Base = NewtonBase<Real>;
-
+class ResidualNewton : public NewtonBase<Real> {
  public:
   ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : Base(options, sizes, scheme) {}
+      : NewtonBase<Real>(options, sizes, scheme) {}
 
-  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
-    this->begin(c, W);
-    if (this->options_.newton.kind == NewtonKind::kFull) {
-      return iterate(c, W, kStagewise);
-    }
-    auto& shared = c.matrix.shared();
-    this->refresh(c, W);
-    c.stagewise.reserve();
-    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
-    NewtonResult result = iterate(c, W, kKept);
-    int before = result.iterations;
-    if (result.outcome != Outcome::kSuccess && had_old) {
-      ++c.counters.newton_restarts;
-      W = this->W0_;
-      shared.evaluate(c.eq, W);
-      result = iterate(c, W, kKept);
-      result.iterations += before;
-      before = result.iterations;
-    }
-    if (result.outcome != Outcome::kSuccess) {
-      ++c.counters.newton_restarts;
-      W = this->W0_;
-      result = iterate(c, W, kStagewise);
-      result.iterations += before;
-    }
-    if (result.outcome != Outcome::kSuccess) shared.markStale();
-    return result;
-  }
-
- private:
+ protected:
   enum Jacobian { kKept, kStagewise };
 
   NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W, Jacobian jacobian) {
@@ -298,6 +279,8 @@ class ResidualNewton final : public NewtonBase<Real> {
     }
     return fail(result, Outcome::kNewtonFailed);
   }
+
+ private:
   double residualNorm() const { return static_cast<double>(Real(this->R_.norm())); }
   static NewtonResult fail(NewtonResult result, Outcome outcome) {
     result.outcome = outcome;
@@ -305,20 +288,86 @@ class ResidualNewton final : public NewtonBase<Real> {
   }
 };
 
+/// With the kept Jacobian, then with a new one, then with those of the stages.
+template <class Real>
+class ModifiedNewton final : public ResidualNewton<Real> {
+  using Base = ResidualNewton<Real>;
+
+ public:
+  using Base::Base;
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    this->begin(c, W);
+    auto& shared = c.matrix.shared();
+    this->refresh(c, W);
+    c.stagewise.reserve();
+    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
+    NewtonResult result = this->iterate(c, W, Base::kKept);
+    if (result.outcome != Outcome::kSuccess && had_old) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      shared.evaluate(c.eq, W);
+      result = again(c, W, Base::kKept, result);
+    }
+    if (result.outcome != Outcome::kSuccess) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      result = again(c, W, Base::kStagewise, result);
+    }
+    if (result.outcome != Outcome::kSuccess) shared.markStale();
+    return result;
+  }
+
+ private:
+  NewtonResult again(NewtonContext<Real>& c, Mat<Real>& W, typename Base::Jacobian jacobian,
+                     const NewtonResult& before) {
+    NewtonResult result = this->iterate(c, W, jacobian);
+    result.iterations += before.iterations;
+    return result;
+  }
+};
+
+/// With those of the stages, new in every iteration.
+template <class Real>
+class FullNewton final : public ResidualNewton<Real> {
+  using Base = ResidualNewton<Real>;
+
+ public:
+  using Base::Base;
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    this->begin(c, W);
+    return this->iterate(c, W, Base::kStagewise);
+  }
+};
+
 }  // namespace
+
+template <>
+Catalogue<NewtonKind>& catalogue<NewtonKind>() {
+  static Catalogue<NewtonKind> all({
+      {.id = NewtonKind::kSimplified,
+       .meaning = "increment test in the error norm, HW II (IV.8)",
+       .make = makes<NewtonMaker, SimplifiedNewton>()},
+      {.id = NewtonKind::kBroyden,
+       .meaning = "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on",
+       .make = makes<NewtonMaker, BroydenNewton>()},
+      {.id = NewtonKind::kModified,
+       .meaning = "the paper's, with its restart and fallback rules",
+       .uses_stage_matrices = true,
+       .make = makes<NewtonMaker, ModifiedNewton>()},
+      {.id = NewtonKind::kFull,
+       .meaning = "a new stage-wise Jacobian in every iteration",
+       .needs = {.coupled_solver = true},
+       .keeps_jacobian = false,
+       .uses_stage_matrices = true,
+       .make = makes<NewtonMaker, FullNewton>()},
+  });
+  return all;
+}
 
 template <class Real>
 std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
                                          const Scheme<Real>& scheme) {
-  switch (options.newton.kind) {
-    case NewtonKind::kSimplified:
-    case NewtonKind::kBroyden:
-      return std::make_unique<SimplifiedNewton<Real>>(options, sizes, scheme);
-    case NewtonKind::kModified:
-    case NewtonKind::kFull:
-      return std::make_unique<ResidualNewton<Real>>(options, sizes, scheme);
-  }
-  return nullptr;
+  return catalogue<NewtonKind>()[options.newton.kind].make.template of<Real>()(options, sizes, scheme);
 }
 
 template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&,

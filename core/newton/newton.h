@@ -1,9 +1,12 @@
-// Newton's method for the stage equations: three strategies behind one interface.
+// Newton's method for the stage equations: the strategies of the axis `newton`.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "core/newton/newton_matrix.h"
+#include "core/options/catalogue.h"
 #include "core/stages/error_norm.h"
 
 namespace irk {
@@ -43,6 +46,23 @@ class Newton {
   /// What was learnt of the contraction says nothing of the next step: a start, a failure, a new mode.
   virtual void forget() {}
 };
+
+template <class Real>
+using NewtonMaker =
+    std::function<std::unique_ptr<Newton<Real>>(const IntegratorOptions&, const Sizes&, const Scheme<Real>&)>;
+
+/// A Newton method.
+template <>
+struct Strategy<NewtonKind> {
+  NewtonKind id;
+  std::string meaning;
+  Needs needs = {};
+  bool keeps_jacobian = true;       ///< one for all stages, of the SharedJacobian
+  bool uses_stage_matrices = false;  ///< the StagewiseMatrix
+  PerScalar<NewtonMaker> make;
+};
+template <>
+Catalogue<NewtonKind>& catalogue<NewtonKind>();
 
 /// With fixed steps no tolerance is known: iterates to round-off.
 template <class Real>

@@ -80,11 +80,7 @@ template <class Real>
 NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind,
                                  StageSolverSetup<Real> setup, Counters& counters)
     : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters) {
-  if (kind == StageSolverKind::kEigen) {
-    setup_.form = std::make_shared<const BlockForm<Real>>(eigenForm(setup_.A));
-  } else if (kind == StageSolverKind::kSchur) {
-    setup_.form = std::make_shared<const BlockForm<Real>>(schurForm(setup_.A));
-  }
+  setup_.form = makeBlockForm(kind, setup_.A);
   if (shared_.differentiator().pattern()) adopt(shared_.differentiator().pattern());
 }
 
@@ -115,10 +111,10 @@ Outcome NewtonMatrix<Real>::prepare(const Real& h) {
 
 template <class Real>
 StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup,
-                                       NewtonKind newton, Counters& counters)
+                                       bool used, Counters& counters)
     : shared_(shared),
       setup_(std::move(setup)),
-      used_(newton == NewtonKind::kModified || newton == NewtonKind::kFull),
+      used_(used),
       counters_(counters),
       at_(static_cast<std::size_t>(setup_.A.rows())) {
   reserve();

@@ -87,8 +87,8 @@ class NewtonMatrix {
 template <class Real>
 class StagewiseMatrix {
  public:
-  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, NewtonKind newton,
-                  Counters& counters);
+  /// `used`: by the Newton method, at least as a last resort.
+  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, bool used, Counters& counters);
 
   /// Allocates what the first use would, where it is not too large and the pattern is known.
   void reserve();

@@ -124,16 +124,6 @@ void validate(const IntegratorOptions& o) {
   }
   const bool fixed = o.step.control == StepControl::kFixed;
   if (fixed && o.step.h == 0) throw Misuse("illegal combination: control 'fixed' with h = 0: fixed steps need h > 0");
-  const bool own = o.solver == StageSolverKind::kCoupledDense ||
-                   o.solver == StageSolverKind::kCoupledSparse;
-  if (own && o.storage != Storage::kAutomatic && o.storage != storageOf(o)) {
-    throw Misuse("illegal combination: solver '" + std::string(idOf(o.solver)) +
-                 "' with storage '" + std::string(idOf(o.storage)) + "'");
-  }
-  if (!fixed && o.step.estimate == ErrorEstimate::kNone) {
-    throw Misuse("illegal combination: control '" + std::string(idOf(o.step.control)) +
-                 "' with estimate 'none': a step controller needs an error estimate");
-  }
 }
 
 }  // namespace irk

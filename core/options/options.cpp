@@ -16,11 +16,6 @@ constexpr Named<Formulation> kFormulations[] = {
     {Formulation::kIndex1, "index1", "constraints differentiated twice"},
     {Formulation::kFirstOrder, "first_order",
      "y' = f(t, y): index 1 solved for (a, k), M factorized in every evaluation"}};
-constexpr Named<Discontinuity> kDiscontinuities[] = {
-    {Discontinuity::kLocate, "locate", "the root of a switching function ends the step; restart"},
-    {Discontinuity::kIgnore, "ignore", "jumps are left to the error estimate (paper)"},
-    {Discontinuity::kIterate, "iterate", "modes frozen in Newton, updated after it, step repeated"},
-    {Discontinuity::kSmooth, "smooth", "the scene's regularisation"}};
 constexpr Named<ConstraintScaling> kScalings[] = {
     {ConstraintScaling::kOn, "on", "constraint rows multiplied by 1/h or 1/h^2 (paper)"},
     {ConstraintScaling::kOff, "off", "constraint rows as they are"}};
@@ -28,39 +23,10 @@ constexpr Named<DerivativeSource> kSources[] = {
     {DerivativeSource::kAutomatic, "automatic", "dual numbers, exact"},
     {DerivativeSource::kCentral, "difference_central", "central differences"},
     {DerivativeSource::kForward, "difference_forward", "forward differences (paper)"}};
-constexpr Named<NewtonKind> kNewtons[] = {
-    {NewtonKind::kSimplified, "simplified", "increment test in the error norm, HW II (IV.8)"},
-    {NewtonKind::kBroyden, "broyden", "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on"},
-    {NewtonKind::kModified, "modified", "the paper's, with its restart and fallback rules"},
-    {NewtonKind::kFull, "full", "a new stage-wise Jacobian in every iteration"}};
-constexpr Named<StageSolverKind> kSolvers[] = {
-    {StageSolverKind::kSchur, "schur", "real Schur form of A: s/2 complex n x n systems"},
-    {StageSolverKind::kEigen, "eigen", "eigenvectors of A: s/2 complex n x n systems, cheapest"},
-    {StageSolverKind::kCoupledDense, "coupled_dense", "one LU of the s n x s n matrix (paper)"},
-    {StageSolverKind::kCoupledSparse, "coupled_sparse", "one sparse LU of the s n x s n matrix"}};
 constexpr Named<Storage> kStorages[] = {
     {Storage::kAutomatic, "automatic", "sparse where the system is large and sparse enough"},
     {Storage::kDense, "dense", "dense matrices, their derivatives coloured all the same"},
     {Storage::kSparse, "sparse", "compressed columns, pivots by KLU; scalar double only"}};
-constexpr Named<Predictor> kPredictors[] = {
-    {Predictor::kExtrapolated, "extrapolated", "collocation polynomial of the step before"},
-    {Predictor::kPrevious, "previous", "stages of the step before (paper)"},
-    {Predictor::kAcceleration, "acceleration", "(a, k, z) at the step's start"}};
-constexpr Named<ErrorEstimate> kEstimates[] = {
-    {ErrorEstimate::kRichardson, "richardson",
-     "doubling, each component with its own order; sees switches"},
-    {ErrorEstimate::kDoubling, "doubling", "one step against two half steps (paper)"},
-    {ErrorEstimate::kDoublingScalar, "doubling_scalar", "difference of the norms (HOTINT)"},
-    {ErrorEstimate::kEmbedded, "embedded", "an embedded method of order s: one real solve, HW II (IV.8)"},
-    {ErrorEstimate::kNone, "none", "no estimate: fixed steps only"}};
-constexpr Named<StepControl> kControls[] = {
-    {StepControl::kPredictive, "predictive", "Gustafsson's, HW II (IV.8.25)"},
-    {StepControl::kPaper, "paper", "section 6 of the paper"},
-    {StepControl::kHotint, "hotint", "the paper's, as the later source has it"},
-    {StepControl::kFixed, "fixed", "constant steps"}};
-constexpr Named<OrderControl> kOrders[] = {
-    {OrderControl::kFixed, "fixed", "one number of stages"},
-    {OrderControl::kVariable, "variable", "the method's family, up to max_stages: the least work per unit step"}};
 constexpr Named<Summation> kSummations[] = {
     {Summation::kCompensated, "compensated", "additions of increments keep what they lose"},
     {Summation::kPlain, "plain", "round-off accumulates"}};
@@ -106,32 +72,12 @@ constexpr Named<NormKind> kNorms[] = {
 IRK_AXIS(Formulation, kFormulations, "formulation")
 IRK_AXIS(ConstraintScaling, kScalings, "scaling")
 IRK_AXIS(DerivativeSource, kSources, "derivatives")
-IRK_AXIS(NewtonKind, kNewtons, "newton")
-IRK_AXIS(StageSolverKind, kSolvers, "solver")
 IRK_AXIS(Storage, kStorages, "storage")
-IRK_AXIS(Predictor, kPredictors, "predictor")
-IRK_AXIS(ErrorEstimate, kEstimates, "estimate")
-IRK_AXIS(StepControl, kControls, "control")
-IRK_AXIS(OrderControl, kOrders, "order")
 IRK_AXIS(Summation, kSummations, "summation")
 IRK_AXIS(Multipliers, kMultipliers, "multipliers")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
 IRK_AXIS(JacobianTerms, kTerms, "jacobian")
-IRK_AXIS(Discontinuity, kDiscontinuities, "discontinuity")
 IRK_AXIS(NormKind, kNorms, "norm")
 #undef IRK_AXIS
-
-Storage storageOf(const IntegratorOptions& options) {
-  switch (options.solver) {
-    case StageSolverKind::kCoupledDense:
-      return Storage::kDense;
-    case StageSolverKind::kCoupledSparse:
-      return Storage::kSparse;
-    case StageSolverKind::kSchur:
-    case StageSolverKind::kEigen:
-      break;
-  }
-  return options.storage;
-}
 
 }  // namespace irk

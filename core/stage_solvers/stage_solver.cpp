@@ -1,52 +1,39 @@
 #include "core/stage_solvers/stage_solver.h"
 
-#include <type_traits>
-
-#include "core/stage_solvers/coupled.h"
-#include "core/stage_solvers/decoupled.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
-namespace {
 
-template <class Real>
-std::unique_ptr<StageSolver<Real>> decoupled(const StageSolverSetup<Real>& setup,
-                                             BlockForm<Real> form) {
-  if constexpr (std::is_same_v<Real, double>) {
-    if (!setup.pattern->full) {
-      return std::make_unique<Decoupled<Real, SparseLu>>(setup, std::move(form));
-    }
-  }
-  return std::make_unique<Decoupled<Real, DenseLu>>(setup, std::move(form));
+IRK_STRATEGIES(StageSolverKind, "solver")
+
+Storage storageOf(const IntegratorOptions& options) {
+  const Storage own = catalogue<StageSolverKind>()[options.solver].storage;
+  return own == Storage::kAutomatic ? options.storage : own;
 }
 
 template <class Real>
-std::unique_ptr<StageSolver<Real>> coupledSparse(const StageSolverSetup<Real>& setup) {
-  if constexpr (std::is_same_v<Real, double>) {
-    return std::make_unique<Coupled<Real, SparseLu>>(setup);
-  }
-  throw Misuse("illegal combination: solver 'coupled_sparse' in multiprecision: KLU is for double");
+std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const Mat<Real>& A) {
+  const auto& form = catalogue<StageSolverKind>()[kind].form.template of<Real>();
+  return form ? std::make_shared<const BlockForm<Real>>(form(A)) : nullptr;
 }
-
-}  // namespace
 
 template <class Real>
 std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
                                                    const StageSolverSetup<Real>& setup) {
-  switch (kind) {
-    case StageSolverKind::kCoupledDense:
-      if (!setup.pattern->full) throw Misuse("solver 'coupled_dense' with a sparse pattern");
-      return std::make_unique<Coupled<Real, DenseLu>>(setup);
-    case StageSolverKind::kCoupledSparse:
-      return coupledSparse(setup);
-    case StageSolverKind::kSchur:
-      return decoupled(setup, setup.form ? *setup.form : schurForm(setup.A));
-    case StageSolverKind::kEigen:
-      return decoupled(setup, setup.form ? *setup.form : eigenForm(setup.A));
+  const auto& make = catalogue<StageSolverKind>()[kind].make.template of<Real>();
+  if (!make) {
+    throw Misuse("illegal combination: solver '" + std::string(idOf(kind)) +
+                 "': it is not made for this scalar");
   }
-  return nullptr;
+  if (setup.form) return make(setup);
+  StageSolverSetup<Real> with_form = setup;
+  with_form.form = makeBlockForm(kind, setup.A);
+  return make(with_form);
 }
 
+template std::shared_ptr<const BlockForm<double>> makeBlockForm(StageSolverKind, const Mat<double>&);
+template std::shared_ptr<const BlockForm<mp50>> makeBlockForm(StageSolverKind, const Mat<mp50>&);
+template std::shared_ptr<const BlockForm<mp100>> makeBlockForm(StageSolverKind, const Mat<mp100>&);
 template std::unique_ptr<StageSolver<double>> makeStageSolver(StageSolverKind,
                                                               const StageSolverSetup<double>&);
 template std::unique_ptr<StageSolver<mp50>> makeStageSolver(StageSolverKind,

@@ -1,13 +1,16 @@
 // The linear systems of Newton's method: block (i, j) = delta_ij D0 + h A_ij D1 + h^2 (A^2)_ij D2.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/derivatives/differentiator.h"
 #include "core/linear/block_form.h"
 #include "core/linear/sparse_lu.h"
+#include "core/options/catalogue.h"
 #include "irk/options.h"
 #include "irk/outcome.h"
 #include "irk/statistics.h"
@@ -54,11 +57,37 @@ class StageSolver {
   }
 };
 
+template <class Real>
+using BlockFormMaker = std::function<BlockForm<Real>(const Mat<Real>& A)>;
+template <class Real>
+using StageSolverMaker = std::function<std::unique_ptr<StageSolver<Real>>(const StageSolverSetup<Real>&)>;
+
+/// A stage solver.
+template <>
+struct Strategy<StageSolverKind> {
+  StageSolverKind id;
+  std::string meaning;
+  Needs needs = {};
+  bool coupled = false;                   ///< takes one linearization per stage, or one for all
+  Storage storage = Storage::kAutomatic;  ///< the only one it has; kAutomatic: that of the options
+  PerScalar<BlockFormMaker> form = {};    ///< of A, with which `make` needs its setup; empty for coupled ones
+  PerScalar<StageSolverMaker> make;
+};
+template <>
+Catalogue<StageSolverKind>& catalogue<StageSolverKind>();
+
 /// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the
 /// kind cannot treat A (`eigen` with a defective A) or the pattern.
 template <class Real>
 std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
                                                    const StageSolverSetup<Real>& setup);
+
+/// The form of A that a decoupled solver works in; null for a coupled one. Throws Misuse for `eigen` with a defective A.
+template <class Real>
+std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const Mat<Real>& A);
+
+/// What the solver of the options stores: the coupled ones have a storage of their own.
+Storage storageOf(const IntegratorOptions& options);
 
 /// Counts factorizations and solves of another solver.
 template <class Real>

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/buffer.h"
 #include "core/base/legendre.h"
 #include "core/base/small_product.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
+
+IRK_STRATEGIES(Predictor, "predictor")
+
 namespace {
 
 // Extrapolation multiplies the stages' errors (Newton's tolerance) by up to sum_j |E_ij|. Above this
@@ -17,11 +21,36 @@ constexpr double kAmplificationLimit = 1e4;
 // Of the past step, without an allocation: those of variable order.
 constexpr Index kReservedStages = 13;
 
-}  // namespace
+/// The collocation polynomial of the step before.
+template <class Real>
+class Extrapolated : public StagePredictor<Real> {
+ public:
+  explicit Extrapolated(const Scheme<Real>& scheme);
+  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) override {
+    smallProduct<Real>(
+        past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
+  }
+
+ private:
+  // Start values of stage i are W_past times column i. Kept for two places: doubling alternates
+  // between the two halves of a step.
+  struct Weights {
+    const Scheme<Real>* past = nullptr;
+    Real offset{-1}, ratio{-1};
+    Buffer<Real> matrix;  // s of the past x s
+  };
+  MatView<Real> weights(const Scheme<Real>& past, const Real& offset, const Real& ratio);
+  void compute(Weights& weights);
+
+  const Scheme<Real>& scheme_;
+  Weights weights_[2];
+  int newest_ = 0;
+  Index farthest_ = 0;  // stage
+  Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at the new stage i
+};
 
 template <class Real>
-StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
-    : kind_(kind), scheme_(scheme) {
+Extrapolated<Real>::Extrapolated(const Scheme<Real>& scheme) : scheme_(scheme) {
   scheme.c.maxCoeff(&farthest_);
   const Index most = std::max(scheme.s, kReservedStages);
   basis_.resize(most, scheme.s);
@@ -29,7 +58,7 @@ StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
 }
 
 template <class Real>
-MatView<Real> StartValues<Real>::weights(const Scheme<Real>& past, const Real& offset,
+MatView<Real> Extrapolated<Real>::weights(const Scheme<Real>& past, const Real& offset,
                                          const Real& ratio) {
   for (Weights& w : weights_) {
     if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix.view();
@@ -46,7 +75,7 @@ MatView<Real> StartValues<Real>::weights(const Scheme<Real>& past, const Real& o
 // w(t_past + tau h_past) = sum_k P_k(tau) (V^-1 W^T)_k at tau_i = offset + ratio c_i, truncated after
 // the largest degree whose amplification stays below the limit.
 template <class Real>
-void StartValues<Real>::compute(Weights& w) {
+void Extrapolated<Real>::compute(Weights& w) {
   const Index s = scheme_.s, degrees = w.past->s;
   MatView<Real> basis = basis_.resize(degrees, s);
   MatView<Real> matrix = w.matrix.resize(degrees, s);
@@ -69,17 +98,57 @@ void StartValues<Real>::compute(Weights& w) {
   }
 }
 
+/// The stages of the step before; of another number of stages their polynomial.
 template <class Real>
-void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from,
-                             const Real& h, Mat<Real>& W) {
-  const bool constant = kind_ == Predictor::kAcceleration || !past.valid;
-  if (constant) {
-    W.colwise() = from.w;
-  } else if (kind_ == Predictor::kPrevious && past.W.cols() == W.cols()) {
+class Previous final : public Extrapolated<Real> {
+ public:
+  using Extrapolated<Real>::Extrapolated;
+  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) override {
+    if (past.W.cols() != W.cols()) return Extrapolated<Real>::fill(past, from, h, W);
     W = past.W;
+  }
+};
+
+/// (a, k, z) at the step's start.
+template <class Real>
+class Acceleration final : public StagePredictor<Real> {
+ public:
+  explicit Acceleration(const Scheme<Real>&) {}
+  void fill(const StagePolynomial<Real>&, const State<Real>& from, const Real&, Mat<Real>& W) override {
+    W.colwise() = from.w;
+  }
+};
+
+}  // namespace
+
+template <>
+Catalogue<Predictor>& catalogue<Predictor>() {
+  static Catalogue<Predictor> all({
+      {.id = Predictor::kExtrapolated,
+       .meaning = "collocation polynomial of the step before",
+       .extrapolates = true,
+       .make = makes<PredictorMaker, Extrapolated>()},
+      {.id = Predictor::kPrevious,
+       .meaning = "stages of the step before (paper)",
+       .make = makes<PredictorMaker, Previous>()},
+      {.id = Predictor::kAcceleration,
+       .meaning = "(a, k, z) at the step's start",
+       .make = makes<PredictorMaker, Acceleration>()},
+  });
+  return all;
+}
+
+template <class Real>
+StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
+    : scheme_(scheme), predictor_(catalogue<Predictor>()[kind].make.template of<Real>()(scheme)) {}
+
+template <class Real>
+void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+                             Mat<Real>& W) {
+  if (past.valid) {
+    predictor_->fill(past, from, h, W);
   } else {
-    smallProduct<Real>(
-        past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
+    W.colwise() = from.w;
   }
   for (Index i = 0; i < scheme_.first; ++i) W.col(i) = from.w;
 }

@@ -1,9 +1,12 @@
 // Start values of Newton's iteration.
 #pragma once
 
-#include "core/base/buffer.h"
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/options/catalogue.h"
 #include "core/stages/scheme.h"
-#include "irk/options.h"
 #include "irk/system.h"
 
 namespace irk {
@@ -17,7 +20,31 @@ struct StagePolynomial {
   bool valid = false;
 };
 
-/// Fills W for a step from a solved one. Owns its weights.
+/// A strategy of the axis `predictor`. Owns its scratch.
+template <class Real>
+class StagePredictor {
+ public:
+  virtual ~StagePredictor() = default;
+  /// W (n x s) for the step [from.t, from.t + h], from the valid polynomial `past` of any number of stages.
+  virtual void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) = 0;
+};
+
+template <class Real>
+using PredictorMaker = std::function<std::unique_ptr<StagePredictor<Real>>(const Scheme<Real>&)>;
+
+/// Where start values come from.
+template <>
+struct Strategy<Predictor> {
+  Predictor id;
+  std::string meaning;
+  Needs needs = {};
+  bool extrapolates = false;  ///< good from a longer step, too: half steps start from the whole step's stages
+  PerScalar<PredictorMaker> make;  ///< keeps a reference to the scheme
+};
+template <>
+Catalogue<Predictor>& catalogue<Predictor>();
+
+/// Start values by the predictor of the options.
 template <class Real>
 class StartValues {
  public:
@@ -30,22 +57,8 @@ class StartValues {
             Mat<Real>& W);
 
  private:
-  // Start values of stage i are W_past times column i. Kept for two places: doubling alternates
-  // between the two halves of a step.
-  struct Weights {
-    const Scheme<Real>* past = nullptr;
-    Real offset{-1}, ratio{-1};
-    Buffer<Real> matrix;  // s of the past x s
-  };
-  MatView<Real> weights(const Scheme<Real>& past, const Real& offset, const Real& ratio);
-  void compute(Weights& weights);
-
-  Predictor kind_;
   const Scheme<Real>& scheme_;
-  Weights weights_[2];
-  int newest_ = 0;
-  Index farthest_ = 0;  // stage
-  Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at the new stage i
+  std::unique_ptr<StagePredictor<Real>> predictor_;
 };
 
 }  // namespace irk

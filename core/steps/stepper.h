@@ -1,37 +1,20 @@
-// One step of the scheme: predict, solve, finish, and settle the discrete state.
+// One step of the scheme: predict, solve, finish, and settle the mode.
 #pragma once
 
-#include <limits>
 #include <memory>
-#include <vector>
 
-#include "core/derivatives/consistent_start.h"
 #include "core/derivatives/projection.h"
 #include "core/newton/newton.h"
 #include "core/stages/start_values.h"
-#include "core/steps/switch_scan.h"
+#include "core/steps/modes.h"
+#include "core/steps/rate_norm.h"
 
 namespace irk {
-
-struct StepResult {
-  Outcome outcome = Outcome::kSuccess;
-  int newton_iterations = 0;
-  double theta = 0;     ///< Newton's contraction (see NewtonResult), the worst of the attempt's solves
-  double round_off = 0;  ///< of Newton's increments, in tolerances (see NewtonResult)
-  Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
-  /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
-  double switch_at = std::numeric_limits<double>::quiet_NaN();
-  /// Of a step in which a switch becomes due, in the error norm: what the wrong mode does over the
-  /// whole step. `iterate`: the difference between the step in its first mode and in its last; where
-  /// the switch comes and goes inside the step, h times the change of (a, k) that it makes. `ignore`
-  /// and `smooth` with an estimate that sees switches: h times the largest change of (a, k) in the step.
-  double mode_error = 0;
-};
 
 /// Attempts steps; keeps the stages of its last solved step. Owns all scratch of a step. A failed
 /// attempt leaves `to` and the stage polynomial unspecified but `from` untouched.
 template <class Real>
-class Stepper {
+class Stepper final : private StepRepeater<Real> {
  public:
   Stepper(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
@@ -70,21 +53,12 @@ class Stepper {
   }
 
  private:
-  void solve(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
-             State<Real>& to, JacobianUse use, StepResult& result);
-  void takeStages(const State<Real>& from, const Real& h);
-  void iterateModes(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
-                    State<Real>& to, StepResult& result);
-  void followModes(const State<Real>& from, const Real& h, State<Real>& to, StepResult& result);
-  double firstDue(const State<Real>& from, const State<Real>& to);
-  bool dueInside(const State<Real>& from, const State<Real>& to, Index& index);
-  double modeChange(const Real& h);
-  double largestChange(const State<Real>& from, const Real& h);
-  double changeInStep(const State<Real>& from, const Real& h, const State<Real>& to);
-  double stepNorm(const Vec<Real>& dw, const Real& h);
+  void solve(const State<Real>& from, const Real& h, JacobianUse use, StepResult& result);
+  void solveAndKeep(const State<Real>& from, const Real& h, JacobianUse use, StepResult& result);
+  void repeat(const State<Real>& start, StepResult& result) override;
   int highest() const { return W_.cols() > 2 ? 2 : 1; }  // coefficients of `roughness`
 
-  const System<Real>& system_;
+  Sizes sizes_;
   Counters& counters_;
   StageEquations<Real> eq_;
   NewtonMatrix<Real> matrix_;
@@ -95,19 +69,13 @@ class Stepper {
   StagePolynomial<Real> stages_;
   Mat<Real> W_;
   std::unique_ptr<VelocityProjection<Real>> projection_;
-  Switches<Real> switches_;
-  State<Real> frozen_;      // `iterate`: the start with another discrete state
-  State<Real> first_mode_;  // and the end in the first one
-  std::unique_ptr<SwitchScan<Real>> scan_;             // but in `locate`
-  std::unique_ptr<ConsistentStart<Real>> consistent_;  // (a, k) of another mode
-  State<Real> other_mode_;
-  Vec<Real> rates_;  // n
-  Vec<double> row_weights_;
-  bool sees_switches_;
+  std::unique_ptr<ModesInStep<Real>> modes_;  // null where nothing follows a solved step
+  RateNorm<Real> rate_norm_;
+  Vec<Real> rates_;           // n
   bool has_hidden_unknowns_;  // algebraic, of index 2, and no multipliers of position constraints
-  Vec<double> ones_;
-  Vec<Real> g_before_;
-  std::vector<Index> done_;  // switches of the discontinuous iterations
+  // Of the attempt, for `repeat`.
+  const StagePolynomial<Real>* past_ = nullptr;
+  State<Real>* to_ = nullptr;
 };
 
 }  // namespace irk

@@ -48,16 +48,7 @@ double newtonTest(double norm) {
 }
 
 bool doublesSteps(ErrorEstimate estimate) {
-  switch (estimate) {
-    case ErrorEstimate::kDoubling:
-    case ErrorEstimate::kRichardson:
-    case ErrorEstimate::kDoublingScalar:
-      return true;
-    case ErrorEstimate::kEmbedded:
-    case ErrorEstimate::kNone:
-      return false;
-  }
-  return false;
+  return estimate != ErrorEstimate::kEmbedded && estimate != ErrorEstimate::kNone;
 }
 
 }  // namespace
@@ -88,11 +79,7 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       row_weights_(system_->sizes().n()),
       factor_(Vec<double>::Ones(system_->sizes().components())),
       t_(scheme_.s) {
-  if (kind_ == StageSolverKind::kEigen) {
-    setup_.form = std::make_shared<const BlockForm<double>>(eigenForm(setup_.A));
-  } else if (kind_ == StageSolverKind::kSchur) {
-    setup_.form = std::make_shared<const BlockForm<double>>(schurForm(setup_.A));
-  }
+  setup_.form = makeBlockForm(kind_, setup_.A);
   countResiduals(spec);
   jacobian();
   makeSolver();

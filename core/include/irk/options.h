@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "irk/misuse.h"
+#include "irk/strategy_id.h"
 #include "irk/system_options.h"
 
 namespace irk {
@@ -29,37 +30,68 @@ enum class Storage {
   kSparse,
 };
 
-enum class NewtonKind {
-  kSimplified,  ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
-  kBroyden,     ///< the same with rank-one corrections of the matrix, Deuflhard's QNERR
-  kModified,    ///< the paper's: stop on the residual, its restart and fallback rules, section 3
-  kFull,        ///< a new stage-wise Jacobian in every iteration, stop on the residual
+// The catalogue of each axis, with what the ids mean and need, stands beside its strategies: core/options/catalogue.h.
+struct NewtonKind : StrategyId<NewtonKind> {
+  static const NewtonKind kSimplified;  ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
+  static const NewtonKind kBroyden;   ///< the same with rank-one corrections of the matrix, Deuflhard's QNERR
+  static const NewtonKind kModified;  ///< the paper's: stop on the residual, its restart and fallback rules, section 3
+  static const NewtonKind kFull;      ///< a new stage-wise Jacobian in every iteration, stop on the residual
 };
-enum class StageSolverKind { kCoupledDense, kCoupledSparse, kSchur, kEigen };
-enum class Predictor {
-  kExtrapolated,  ///< collocation polynomial of the step before
-  kPrevious,      ///< the stages of the step before, stage by stage (paper)
-  kAcceleration,  ///< every stage starts from (a, k, z) at the step's start
+inline constexpr NewtonKind NewtonKind::kSimplified{{"simplified"}};
+inline constexpr NewtonKind NewtonKind::kBroyden{{"broyden"}};
+inline constexpr NewtonKind NewtonKind::kModified{{"modified"}};
+inline constexpr NewtonKind NewtonKind::kFull{{"full"}};
+
+struct StageSolverKind : StrategyId<StageSolverKind> {
+  static const StageSolverKind kSchur, kEigen, kCoupledDense, kCoupledSparse;
 };
-enum class ErrorEstimate {
+inline constexpr StageSolverKind StageSolverKind::kSchur{{"schur"}};
+inline constexpr StageSolverKind StageSolverKind::kEigen{{"eigen"}};
+inline constexpr StageSolverKind StageSolverKind::kCoupledDense{{"coupled_dense"}};
+inline constexpr StageSolverKind StageSolverKind::kCoupledSparse{{"coupled_sparse"}};
+
+struct Predictor : StrategyId<Predictor> {
+  static const Predictor kExtrapolated;  ///< collocation polynomial of the step before
+  static const Predictor kPrevious;      ///< the stages of the step before, stage by stage (paper)
+  static const Predictor kAcceleration;  ///< every stage starts from (a, k, z) at the step's start
+};
+inline constexpr Predictor Predictor::kExtrapolated{{"extrapolated"}};
+inline constexpr Predictor Predictor::kPrevious{{"previous"}};
+inline constexpr Predictor Predictor::kAcceleration{{"acceleration"}};
+
+struct ErrorEstimate : StrategyId<ErrorEstimate> {
   /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; not less than what a switch in
   /// the step does, nor than an estimate of the stages' order where the halves do not show order q
-  kRichardson,
-  kDoubling,        ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
-  kDoublingScalar,  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
-  kEmbedded,        ///< one solve with a real system: an embedded method of order s, HW II (IV.8)
-  kNone,
+  static const ErrorEstimate kRichardson;
+  static const ErrorEstimate kDoubling;  ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
+  static const ErrorEstimate kDoublingScalar;  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
+  static const ErrorEstimate kEmbedded;  ///< one solve with a real system: an embedded method of order s, HW II (IV.8)
+  static const ErrorEstimate kNone;
 };
-enum class StepControl {
-  kPaper,       ///< the paper's section 6
-  kHotint,      ///< the later source: s_min 2, s_max 4, exponent 1/p, no gamma
-  kPredictive,  ///< Gustafsson's, HW II (IV.8.25)
-  kFixed,
+inline constexpr ErrorEstimate ErrorEstimate::kRichardson{{"richardson"}};
+inline constexpr ErrorEstimate ErrorEstimate::kDoubling{{"doubling"}};
+inline constexpr ErrorEstimate ErrorEstimate::kDoublingScalar{{"doubling_scalar"}};
+inline constexpr ErrorEstimate ErrorEstimate::kEmbedded{{"embedded"}};
+inline constexpr ErrorEstimate ErrorEstimate::kNone{{"none"}};
+
+struct StepControl : StrategyId<StepControl> {
+  static const StepControl kPaper;       ///< the paper's section 6
+  static const StepControl kHotint;      ///< the later source: s_min 2, s_max 4, exponent 1/p, no gamma
+  static const StepControl kPredictive;  ///< Gustafsson's, HW II (IV.8.25)
+  static const StepControl kFixed;
 };
-enum class OrderControl {
-  kFixed,     ///< one method
-  kVariable,  ///< members of a family by work per unit step and Newton's contraction
+inline constexpr StepControl StepControl::kPaper{{"paper"}};
+inline constexpr StepControl StepControl::kHotint{{"hotint"}};
+inline constexpr StepControl StepControl::kPredictive{{"predictive"}};
+inline constexpr StepControl StepControl::kFixed{{"fixed"}};
+
+struct OrderControl : StrategyId<OrderControl> {
+  static const OrderControl kFixed;     ///< one method
+  static const OrderControl kVariable;  ///< members of a family by work per unit step and Newton's contraction
 };
+inline constexpr OrderControl OrderControl::kFixed{{"fixed"}};
+inline constexpr OrderControl OrderControl::kVariable{{"variable"}};
+
 /// How a step's increments are added to u, v, x.
 enum class Summation {
   kCompensated,  ///< what an addition loses is added to the next increment
@@ -100,6 +132,7 @@ E parseId(std::string_view id);
 
 template <class E>
 std::string_view idOf(E value) {
+  if constexpr (requires { value.id; }) return value.id;
   for (const auto& entry : named<E>()) {
     if (entry.value == value) return entry.id;
   }
@@ -154,7 +187,7 @@ struct Tolerances {
   NormKind norm = NormKind::kMixed;
 };
 
-/// Everything an integration can be told. Validated once by `validate`.
+/// Everything an integration can be told.
 struct IntegratorOptions {
   Tolerances tolerances;
   DerivativeSource derivatives = DerivativeSource::kAutomatic;
@@ -174,10 +207,7 @@ struct IntegratorOptions {
   StepOptions step;
 };
 
-/// What the solver needs: the coupled ones have a storage of their own.
-Storage storageOf(const IntegratorOptions& options);
-
-/// Throws Misuse naming field, value and range.
+/// Throws Misuse naming field, value and range. Which options go together: core/integration/rules.h.
 void validate(const IntegratorOptions& options);
 
 }  // namespace irk

@@ -21,6 +21,11 @@ enum class Outcome {
   kInaccurate,         ///< the estimated errors of all steps add up to more than 1000 tolerances
 };
 
+/// Whether a shorter step may end better: Newton's method failed, or its matrix is singular.
+constexpr bool isRecoverable(Outcome outcome) {
+  return outcome == Outcome::kNewtonFailed || outcome == Outcome::kSingular;
+}
+
 /// The name in tables: `success`, `newton_failed`, ...
 constexpr std::string_view name(Outcome outcome) {
   switch (outcome) {

@@ -44,8 +44,7 @@ class ProblemSystem final : public System<Real> {
           "illegal combination: discontinuity 'smooth' with a scene that has no "
           "regularisation: its discrete state is a memory");
     }
-    const bool goes_on = options.discontinuity == Discontinuity::kIgnore ||
-                         options.discontinuity == Discontinuity::kIterate;
+    const bool goes_on = options.discontinuity.at_switch == AtSwitch::kGoOn;
     if (goes_on && kHasJump && sizes_.switches > 0) {
       throw Misuse(
           "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
@@ -120,7 +119,7 @@ class ProblemSystem final : public System<Real> {
   /// All rows at p, the discrete state as the options treat it.
   template <class T>
   void evaluateAt(Level level, const Point<T>& p, T* r) const {
-    const bool implied = kHasSwitching && options_.discontinuity == Discontinuity::kIgnore;
+    const bool implied = kHasSwitching && options_.discontinuity.sees == ModeSeen::kImplied;
     if (sizes_.switches == 0 || !(implied || smooth())) return evaluateFrozen(level, p, r);
     std::array<T, kMostDiscrete> d;
     std::copy(p.d.data(), p.d.data() + p.d.size(), d.begin());
@@ -176,7 +175,7 @@ class ProblemSystem final : public System<Real> {
   [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const {
     evaluateAt(Level::kFormulated, p, r);
   }
-  bool smooth() const { return options_.discontinuity == Discontinuity::kSmooth; }
+  bool smooth() const { return options_.discontinuity.sees == ModeSeen::kRegularised; }
 
   /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.
   static int algebraicIndex() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "irk/scalar.h"
+#include "irk/strategy_id.h"
 
 namespace irk {
 
@@ -100,15 +101,37 @@ struct StagePoints {
   }
 };
 
-/// How switches are treated. Design, section 3.
-enum class Discontinuity {
-  kIgnore,   ///< every residual takes the mode its point implies; jumps are left to the error
-             ///< estimate
-  kIterate,  ///< discrete states frozen in Newton, updated after it, the step repeated until they
-             ///< stay
-  kLocate,   ///< frozen; the first root of a switching function ends the step, then a restart
-  kSmooth,   ///< the problem's regularisation: nothing switches
+/// Which discrete state a residual takes.
+enum class ModeSeen {
+  kFrozen,       ///< that of its point
+  kImplied,      ///< the one that (u, v, x; a, k, z) of its point imply
+  kRegularised,  ///< the problem's regularisation: a smooth function of its point
 };
+/// What a switch inside a step does to the step.
+enum class AtSwitch {
+  kGoOn,   ///< the step goes on over it
+  kEnd,    ///< the step ends there
+  kNever,  ///< nothing switches
+};
+
+/// How switches are treated: what the system has to know of it. What follows a solved step and its acceptance:
+/// core/steps/modes.h.
+struct Discontinuity : StrategyId<Discontinuity> {
+  ModeSeen sees = ModeSeen::kFrozen;
+  AtSwitch at_switch = AtSwitch::kGoOn;
+
+  /// Jumps are left to the error estimate.
+  static const Discontinuity kIgnore;
+  /// Modes are updated after Newton's method, the step repeated until they stay.
+  static const Discontinuity kIterate;
+  /// The first root of a switching function ends the step, then a restart.
+  static const Discontinuity kLocate;
+  static const Discontinuity kSmooth;
+};
+inline constexpr Discontinuity Discontinuity::kIgnore{{"ignore"}, ModeSeen::kImplied, AtSwitch::kGoOn};
+inline constexpr Discontinuity Discontinuity::kIterate{{"iterate"}, ModeSeen::kFrozen, AtSwitch::kGoOn};
+inline constexpr Discontinuity Discontinuity::kLocate{{"locate"}, ModeSeen::kFrozen, AtSwitch::kEnd};
+inline constexpr Discontinuity Discontinuity::kSmooth{{"smooth"}, ModeSeen::kRegularised, AtSwitch::kNever};
 
 /// Which residual. `kFormulated` is the one that is integrated; the others replace its rows of
 /// position constraints g(t, u) = 0 by g, dg/dt or d2g/dt2, whatever the formulation: to check a

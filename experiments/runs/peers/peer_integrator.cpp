@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/integration/rules.h"
 #include "experiments/runs/setup.h"
 #include "irk/system_check.h"
 
@@ -70,6 +71,7 @@ PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scen
       ends_consistent_(spec.options.multipliers == Multipliers::kConsistent &&
                        system_->sizes().nz > 0) {
   validate(spec.options);
+  requireLegal(spec.options);
 }
 
 Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_end,

@@ -11,6 +11,9 @@
 #include "irk/multiprecision.h"
 
 namespace irk {
+
+IRK_STRATEGIES(ErrorEstimate, "estimate")
+
 namespace {
 
 // Powers of 2 by which the roughness of the stages falls from a step to its halves: at least, as a part of
@@ -32,9 +35,9 @@ bool isIndex3(const System<Real>& system) {
 template <class Real>
 class Single final : public StepAttempt<Real> {
  public:
-  template <class... Args>
-  explicit Single(int order, Args&&... args)
-      : order_(order), stepper_(std::forward<Args>(args)...) {}
+  explicit Single(const StepAttemptSetup<Real>& setup)
+      : order_(setup.scheme().tableau.order),
+        stepper_(setup.system, setup.scheme(), setup.options, setup.jacobian, setup.norm, setup.counters) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
     return {stepper_.attempt(stepper_.stages(), from, h, to),
@@ -56,25 +59,9 @@ class Single final : public StepAttempt<Real> {
 /// The half steps are a stepper of their own: both keep their factors. Unless the paper's start
 /// values are asked for, the half steps start from the whole step's polynomial, which spans them.
 template <class Real>
-class Doubling final : public StepAttempt<Real> {
+class Doubling : public StepAttempt<Real> {
  public:
-  Doubling(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
-           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
-      : whole_(system, scheme, options, jacobian, norm, counters),
-        half_(system, scheme, options, jacobian, norm, counters),
-        norm_(norm),
-        factor_(doublingFactors(scheme, system, options.step.estimate)),
-        scalar_(options.step.estimate == ErrorEstimate::kDoublingScalar),
-        accumulates_(options.step.estimate == ErrorEstimate::kRichardson && !isIndex3(system)),
-        accumulation_(std::max(kReserve, stiffCaution(scheme)), options.tolerances),
-        looks_again_(options.step.estimate == ErrorEstimate::kRichardson && scheme.s > 1),
-        order_(scheme.tableau.order),
-        interpolate_(options.predictor == Predictor::kExtrapolated),
-        keeps_pieces_(system.sizes().switches > 0 &&
-                      system.discontinuity() == Discontinuity::kLocate),
-        coarse_(system.sizes()),
-        middle_(system.sizes()),
-        zero_(system.sizes()) {}
+  explicit Doubling(const StepAttemptSetup<Real>& setup) : Doubling(setup, setup.system, setup.scheme(), setup.options) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
     AttemptResult result;
@@ -101,7 +88,7 @@ class Doubling final : public StepAttempt<Real> {
     if (looks_again_) rough_whole_ = whole_.roughness(from), rough_halves_ = half_.roughness(from);
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
     if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness(middle_));
-    result.error = error(to, static_cast<double>(h));
+    result.error = error(coarse_, to, static_cast<double>(h));
     if (accumulates_) {
       result.added = result.error;
       result.error = accumulation_.asked(result.error, accumulation_.factor(steps_, sum_),
@@ -152,7 +139,32 @@ class Doubling final : public StepAttempt<Real> {
     return {{{{&from, &first_half_}, {&middle_, &half_.stages()}}}, 2};
   }
 
+ protected:
+  /// The difference of the two solutions in the error norm.
+  virtual double error(const State<Real>& coarse, const State<Real>& fine, double h) const {
+    return norm_.difference(coarse, fine, h, factor_);
+  }
+  const ErrorNorm<Real>& norm_;
+  Vec<double> factor_;
+
  private:
+  Doubling(const StepAttemptSetup<Real>& setup, const System<Real>& system, const Scheme<Real>& scheme,
+           const IntegratorOptions& options)
+      : norm_(setup.norm),
+        factor_(doublingFactors(scheme, system, options.step.estimate)),
+        whole_(system, scheme, options, setup.jacobian, setup.norm, setup.counters),
+        half_(system, scheme, options, setup.jacobian, setup.norm, setup.counters),
+        accumulates_(ownOrders(options) && !isIndex3(system)),
+        accumulation_(std::max(kReserve, stiffCaution(scheme)), options.tolerances),
+        looks_again_(ownOrders(options) && scheme.s > 1),
+        order_(scheme.tableau.order),
+        interpolate_(catalogue<Predictor>()[options.predictor].extrapolates),
+        keeps_pieces_(system.sizes().switches > 0 && system.discontinuity().at_switch == AtSwitch::kEnd),
+        coarse_(system.sizes()),
+        middle_(system.sizes()) {}
+  static bool ownOrders(const IntegratorOptions& options) {
+    return catalogue<ErrorEstimate>()[options.step.estimate].own_orders;
+  }
   // A second look, of the order of the stages: it is below the tolerance, or it falls from the whole step
   // to its halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
   double unresolved() const {
@@ -161,16 +173,8 @@ class Doubling final : public StepAttempt<Real> {
     const double most = std::exp2(whole_.decay() + kBeyondDecay);
     return rough_whole_ > kRough && rough_whole_ > most * rough_halves_ ? rough_whole_ : 0;
   }
-  double error(const State<Real>& fine, double h) const {
-    if (!scalar_) return norm_.difference(coarse_, fine, h, factor_);
-    return std::abs(norm_.difference(coarse_, zero_, h, factor_) -
-                    norm_.difference(fine, zero_, h, factor_));
-  }
 
   Stepper<Real> whole_, half_;
-  const ErrorNorm<Real>& norm_;
-  Vec<double> factor_;
-  bool scalar_;
   bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
   Accumulation accumulation_;
   std::int64_t steps_ = 0;  // accepted
@@ -185,7 +189,21 @@ class Doubling final : public StepAttempt<Real> {
   bool interpolate_;
   bool keeps_pieces_;  // for the dense output of `locate`
   StagePolynomial<Real> first_half_;
-  State<Real> coarse_, middle_, zero_;
+  State<Real> coarse_, middle_;
+};
+
+/// HOTINT: the difference of the two solutions' norms.
+template <class Real>
+class ScalarDoubling final : public Doubling<Real> {
+ public:
+  explicit ScalarDoubling(const StepAttemptSetup<Real>& setup) : Doubling<Real>(setup), zero_(setup.system.sizes()) {}
+
+ private:
+  double error(const State<Real>& coarse, const State<Real>& fine, double h) const override {
+    return std::abs(this->norm_.difference(coarse, zero_, h, this->factor_) -
+                    this->norm_.difference(fine, zero_, h, this->factor_));
+  }
+  State<Real> zero_;
 };
 
 }  // namespace
@@ -198,7 +216,7 @@ double worse(double error, int p, double other, int q) {
 template <class Real>
 Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
                             ErrorEstimate estimate) {
-  const bool own = estimate == ErrorEstimate::kRichardson;
+  const bool own = catalogue<ErrorEstimate>()[estimate].own_orders;
   const Sizes n = system.sizes();
   const ErrorPowers& powers = system.errorPowers();
   const int p = scheme.tableau.order;
@@ -222,35 +240,31 @@ Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& syst
   return factor;
 }
 
-template <class Real>
-std::unique_ptr<StepAttempt<Real>> makeStepAttempt(
-    const System<Real>& system, const std::vector<Scheme<Real>>& schemes, std::size_t start,
-    const IntegratorOptions& options, SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm,
-    Counters& counters) {
-  const Scheme<Real>& scheme = schemes[start];
-  switch (options.step.estimate) {
-    case ErrorEstimate::kNone:
-      return std::make_unique<Single<Real>>(scheme.tableau.order, system, scheme, options, jacobian,
-                                            norm, counters);
-    case ErrorEstimate::kDoubling:
-    case ErrorEstimate::kRichardson:
-    case ErrorEstimate::kDoublingScalar:
-      return std::make_unique<Doubling<Real>>(system, scheme, options, jacobian, norm, counters);
-    case ErrorEstimate::kEmbedded:
-      return std::make_unique<VariableOrder<Real>>(system, schemes, start, options, jacobian, norm,
-                                                   counters);
-  }
-  return nullptr;
+template <>
+Catalogue<ErrorEstimate>& catalogue<ErrorEstimate>() {
+  static Catalogue<ErrorEstimate> all({
+      {.id = ErrorEstimate::kRichardson,
+       .meaning = "doubling, each component with its own order; sees switches",
+       .sees_switches = true,
+       .own_orders = true,
+       .make = makes<StepAttemptMaker, Doubling>()},
+      {.id = ErrorEstimate::kDoubling,
+       .meaning = "one step against two half steps (paper)",
+       .make = makes<StepAttemptMaker, Doubling>()},
+      {.id = ErrorEstimate::kDoublingScalar,
+       .meaning = "difference of the norms (HOTINT)",
+       .make = makes<StepAttemptMaker, ScalarDoubling>()},
+      embeddedEstimate(),
+      {.id = ErrorEstimate::kNone,
+       .meaning = "no estimate: fixed steps only",
+       .estimates = false,
+       .make = makes<StepAttemptMaker, Single>()},
+  });
+  return all;
 }
 
-#define IRK_INSTANTIATE(Real)                                                                     \
-  template Vec<double> doublingFactors(const Scheme<Real>&, const System<Real>&, ErrorEstimate);  \
-  template std::unique_ptr<StepAttempt<Real>> makeStepAttempt(                                    \
-      const System<Real>&, const std::vector<Scheme<Real>>&, std::size_t,                         \
-      const IntegratorOptions&, SharedJacobian<Real>&, const ErrorNorm<Real>&, Counters&);
-IRK_INSTANTIATE(double)
-IRK_INSTANTIATE(mp50)
-IRK_INSTANTIATE(mp100)
-#undef IRK_INSTANTIATE
+template Vec<double> doublingFactors(const Scheme<double>&, const System<double>&, ErrorEstimate);
+template Vec<double> doublingFactors(const Scheme<mp50>&, const System<mp50>&, ErrorEstimate);
+template Vec<double> doublingFactors(const Scheme<mp100>&, const System<mp100>&, ErrorEstimate);
 
 }  // namespace irk

@@ -1,0 +1,273 @@
+#include "core/integration/trajectory.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "core/estimates/accumulation.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+// Of switches at one time that make others due by the (a, k, z) which follow from them.
+constexpr int kRounds = 5;
+
+template <class Real>
+bool isIndex3(const System<Real>& system) {
+  const auto& powers = system.errorPowers().v;
+  return std::any_of(powers.begin(), powers.end(), [](int p) { return p > 0; });
+}
+
+// "u[3]": component i of (u, v, x, z).
+std::string componentName(const Sizes& n, Index i) {
+  const auto name = [i](const char* group, Index first) {
+    return group + ("[" + std::to_string(i - first) + "]");
+  };
+  if (i < n.nu) return name("u", 0);
+  if (i < 2 * n.nu) return name("v", n.nu);
+  return i < 2 * n.nu + n.nx ? name("x", 2 * n.nu) : name("z", 2 * n.nu + n.nx);
+}
+
+// Multipliers that are solved anew at the end count nothing where the method does not determine them.
+template <class Real>
+ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+                       const Vec<double>& scale) {
+  ErrorNorm<Real> norm(system, options.tolerances, scale);
+  const bool solved_anew = options.multipliers == Multipliers::kConsistent;
+  if (solved_anew && !dampsStiffErrors(scheme)) norm.leaveMultipliersOut();
+  return norm;
+}
+
+}  // namespace
+
+template <class Real>
+Trajectory<Real>::Trajectory(const System<Real>& system, const std::vector<Scheme<Real>>& schemes,
+                             std::size_t start, const IntegratorOptions& options, const Vec<double>& scale,
+                             Counters& counters)
+    : system_(system),
+      options_(options),
+      counters_(counters),
+      norm_(normOf(system, schemes[start], options, scale)),
+      jacobian_(system, schemes[start], options, counters),
+      attempt_(makeStepAttempt<Real>({system, schemes, start, options, jacobian_, norm_, counters})),
+      order_(attempt_->order()),
+      controller_(makeController(options.step, order_)),
+      modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
+      start_(system, options.derivatives, schemes[start].first > 0),
+      constraints_(system, norm_, options.tolerances),
+      switches_(system),
+      state_(system.sizes()),
+      next_(system.sizes()) {
+  const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
+  if (isIndex3(system) && stops) {
+    projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
+  }
+}
+
+template <class Real>
+Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const Monitor<Real>& monitor) {
+  monitor_ = &monitor;
+  length_ = length;
+  chatter_ = {};
+  start_detail_.clear();
+  blamed_ = -1;
+  note_.clear();
+  round_off_ = 0;
+  attempt_->begin();
+  jacobian_.forgetPattern();
+  restart();
+  followOrder(1, 0);
+  state_ = system_.fromScene(start);
+  const Outcome modes = modes_->settlesAtStart() ? settle() : Outcome::kSuccess;
+  if (modes != Outcome::kSuccess) return modes;
+  start_.forgetPattern();
+  const StartReport report = start_.apply(state_);
+  start_detail_ = report.detail;
+  if (!switches_.none() && report.determined) attempt_->restart();
+  return report.outcome;
+}
+
+template <class Real>
+AttemptResult Trajectory<Real>::attempt(const Real& h) {
+  norm_.update(state_);
+  const AttemptResult result = attempt_->attempt(state_, h, next_);
+  blamed_ = -1;
+  if (result.outcome != Outcome::kSuccess) {
+    ++counters_.steps_rejected_newton;
+    blamed_ = result.switched;
+    followOrder(1, 0);
+  }
+  return result;
+}
+
+template <class Real>
+double Trajectory<Real>::shorten(double h) {
+  attempt_->forget();
+  return controller_->afterFailure(h);
+}
+
+template <class Real>
+double Trajectory<Real>::nextSize(const AttemptResult& result, double h, double wanted) {
+  const NextStep next = attempt_->accepted(result, h, wanted);
+  followOrder(next.error, h);
+  return next.h;
+}
+
+// The controller's exponent is that of the next attempt's estimate.
+template <class Real>
+void Trajectory<Real>::followOrder(double error, double h) {
+  if (attempt_->order() == order_) return;
+  order_ = attempt_->order();
+  controller_->changeOrder(order_, error, h);
+}
+
+template <class Real>
+Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, const Real& end) {
+  const CommittedStep<Real> step = modes_->accept(*attempt_, result, state_, h, next_);
+  if (step.outcome != Outcome::kSuccess) {
+    blamed_ = step.index;
+    return step.outcome;
+  }
+  if (!step.shortened) next_.t = end;
+  takeOver(step);
+  if (!step.at_switch) return Outcome::kSuccess;
+  ++counters_.located_events;
+  if (chatter_.event(static_cast<double>(state_.t), length_, step.resolution)) {
+    ++counters_.chattering;
+    blamed_ = step.index;
+    return Outcome::kChattering;
+  }
+  return restartAtSwitch();
+}
+
+template <class Real>
+void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
+  const AttemptResult& attempt = step.attempt;
+  std::swap(state_, next_);
+  ++counters_.steps_accepted;
+  round_off_ = std::max(round_off_, attempt.round_off);
+  if (step.switched) {
+    ++counters_.switches;
+    tell(attempt.switched);
+    if (modes_->restarts()) restart();
+  }
+  if (chatter_.step(step.switched)) noteChattering(attempt.switched);
+  if (!monitor_->accepted) return;
+  const State<Real> scene = system_.toScene(state_);
+  monitor_->accepted({state_.t, static_cast<double>(step.h), attempt.error, attempt.newton_iterations, scene});
+}
+
+// The new mode and its (a, k, z), which may make further switches due.
+template <class Real>
+Outcome Trajectory<Real>::restartAtSwitch() {
+  for (int round = 0; round < kRounds; ++round) {
+    const Outcome modes = settle();
+    if (modes != Outcome::kSuccess) return modes;
+    restart();
+    if (projection_) {
+      const Outcome projected = projection_->applyToPositions(state_);
+      if (projected != Outcome::kSuccess) return projected;
+    }
+    const StartReport report = start_.apply(state_, StartCheck::kNone);
+    start_detail_ = report.detail;
+    if (report.outcome != Outcome::kSuccess) return report.outcome;
+    // In index 3 the stages' accelerations are of low order: what they miss at the start says nothing.
+    if (report.determined && !projection_) attempt_->restart();
+    const SwitchReport at = switches_.evaluate(state_);
+    blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;
+    if (at.outcome != Outcome::kSuccess || blamed_ < 0) return at.outcome;
+  }
+  ++counters_.chattering;
+  return Outcome::kChattering;
+}
+
+// Due switches at the state, each counted and told.
+template <class Real>
+Outcome Trajectory<Real>::settle() {
+  const SwitchReport report = switches_.settle(state_, Jumps::kDone, [this](Index i) {
+    ++counters_.switches;
+    tell(i);
+  });
+  blamed_ = report.outcome == Outcome::kSuccess ? -1 : report.index;
+  return report.outcome;
+}
+
+// Nothing of the steps before a change of mode is of use after it.
+template <class Real>
+void Trajectory<Real>::restart() {
+  attempt_->forget();
+  jacobian_.forget();
+  if (controller_) controller_->forget();
+}
+
+template <class Real>
+void Trajectory<Real>::tell(Index i) const {
+  if (!monitor_->switched) return;
+  const State<Real> scene = system_.toScene(state_);
+  monitor_->switched({state_.t, i, system_.switchName(i), scene});
+}
+
+template <class Real>
+void Trajectory<Real>::noteChattering(Index i) {
+  ++counters_.chattering;
+  if (counters_.chattering > 1) return;
+  std::ostringstream text;
+  text << "chattering: " << switches_.describe(i)
+       << " switches in every step at t = " << static_cast<double>(state_.t);
+  addNote(text.str());
+}
+
+template <class Real>
+void Trajectory<Real>::addNote(const std::string& text) {
+  note_ += (note_.empty() || text.empty() ? "" : "; ") + text;
+}
+
+template <class Real>
+Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) const {
+  return {outcome, std::move(detail), system_.toScene(state_), counters_};
+}
+
+template <class Real>
+Solution<Real> Trajectory<Real>::success() {
+  if (controller_) {
+    norm_.update(state_);
+    const std::string violation = constraints_.violation(state_);
+    if (!violation.empty()) return solution(Outcome::kDrift, violation);
+  }
+  const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
+  if (solved_anew) addNote(start_.applyAtEnd(state_));
+  if (round_off_ > 0) {
+    std::ostringstream text;
+    text.precision(2);
+    text << "Newton's corrections end in round-off of the residual, up to " << round_off_
+         << " tolerances";
+    addNote(text.str());
+  }
+  return solution(Outcome::kSuccess, note_);
+}
+
+template <class Real>
+Solution<Real> Trajectory<Real>::failed(Outcome outcome, double h, const std::string& what) const {
+  if (!start_detail_.empty()) return solution(outcome, start_detail_);
+  std::ostringstream text;
+  text.precision(6);
+  text << what << " at t = " << static_cast<double>(state_.t) << ", h = " << h;
+  if (blamed_ >= 0) text << ", " << switches_.describe(blamed_);
+  return solution(outcome, text.str());
+}
+
+template <class Real>
+std::string Trajectory<Real>::rejections() const {
+  const Counters& c = counters_;
+  std::string text = "(" + std::to_string(c.steps_accepted) + " accepted, rejected by the error " +
+                     std::to_string(c.steps_rejected_error) + ", by Newton " +
+                     std::to_string(c.steps_rejected_newton);
+  const Index i = attempt_->worstComponent();
+  if (i >= 0) text += "; largest error in " + componentName(system_.sizes(), i);
+  return text + ")";
+}
+
+IRK_INSTANTIATE_CLASS(Trajectory)
+
+}  // namespace irk

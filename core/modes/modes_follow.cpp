@@ -1,0 +1,96 @@
+#include "core/modes/modes_follow.h"
+
+#include "core/estimates/step_attempt.h"
+#include "core/modes/switch_effect.h"
+
+namespace irk {
+namespace {
+
+/// Judges a step over a switch. No doubling can be trusted there: both solutions carry the same wrong mode before
+/// their first stage and behind their last, and between two stages. What the switch does over the whole step bounds
+/// the error.
+template <class Real>
+class FollowedModes : public ModesInStep<Real> {
+ public:
+  FollowedModes(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm, Counters&)
+      : switches_(system),
+        effect_(system, options, norm),
+        before_(system.sizes()),
+        sees_switches_(catalogue<ErrorEstimate>()[options.step.estimate].sees_switches) {}
+
+ protected:
+  /// Does the switches that are due at the step's end; `before_` is what the end was.
+  SwitchReport update(SolvedStep<Real>& step, Jumps jumps, StepResult& result) {
+    before_ = step.to;
+    const SwitchReport report = switches_.settle(step.to, jumps);
+    if (report.index >= 0) result.switched = report.index;
+    return report;
+  }
+  void judge(const SolvedStep<Real>& step, const SwitchReport& report, StepResult& result) {
+    if (!sees_switches_) return;
+    Index inside = -1;
+    if (report.count == 0 && !effect_.dueInside(step, before_, inside)) return;
+    if (inside >= 0) result.switched = inside;
+    result.mode_error = effect_.changeInStep(step, before_);
+  }
+
+ private:
+  Switches<Real> switches_;
+  SwitchEffect<Real> effect_;
+  State<Real> before_;
+  bool sees_switches_;
+};
+
+/// The mode at the end of a step is the one in which the next step starts.
+template <class Real>
+class IgnoredInStep final : public FollowedModes<Real> {
+ public:
+  using FollowedModes<Real>::FollowedModes;
+  void settle(SolvedStep<Real>& step, StepResult& result) override {
+    const SwitchReport report = this->update(step, Jumps::kDone, result);
+    result.outcome = report.outcome;
+    if (result.outcome == Outcome::kSuccess) this->judge(step, report, result);
+  }
+};
+
+/// The mode is a hint only: residuals see the regularisation.
+template <class Real>
+class SmoothInStep final : public FollowedModes<Real> {
+ public:
+  using FollowedModes<Real>::FollowedModes;
+  void settle(SolvedStep<Real>& step, StepResult& result) override {
+    this->judge(step, this->update(step, Jumps::kNone, result), result);
+  }
+};
+
+template <class Real>
+class IgnoredAfterStep final : public ModesAfterStep<Real> {
+ public:
+  IgnoredAfterStep(const System<Real>&, const IntegratorOptions&) {}
+};
+
+/// Nothing switches.
+template <class Real>
+class SmoothAfterStep final : public ModesAfterStep<Real> {
+ public:
+  SmoothAfterStep(const System<Real>&, const IntegratorOptions&) {}
+  bool settlesAtStart() const override { return false; }
+  CommittedStep<Real> accept(StepAttempt<Real>&, const AttemptResult& solved, const State<Real>&, const Real& h,
+                            State<Real>&) override {
+    return {Outcome::kSuccess, solved, h};
+  }
+};
+
+}  // namespace
+
+Strategy<Discontinuity> ignoredModes() {
+  return {Discontinuity::kIgnore, "jumps are left to the error estimate (paper)", {},
+          makes<ModesInStepMaker, IgnoredInStep>(), makes<ModesAfterStepMaker, IgnoredAfterStep>()};
+}
+
+Strategy<Discontinuity> smoothModes() {
+  return {Discontinuity::kSmooth, "the scene's regularisation", {}, makes<ModesInStepMaker, SmoothInStep>(),
+          makes<ModesAfterStepMaker, SmoothAfterStep>()};
+}
+
+}  // namespace irk

@@ -1,0 +1,62 @@
+#include "core/modes/modes_locate.h"
+
+#include <algorithm>
+
+#include "core/modes/event_location.h"
+
+namespace irk {
+namespace {
+
+// How finely a switch is located: a part of the tolerance, with fixed steps to round-off.
+double locationTolerance(const IntegratorOptions& options) {
+  if (options.step.control == StepControl::kFixed) return 0;
+  return std::max(options.tolerances.rtol, options.tolerances.atol);
+}
+
+/// Shortens a step to the first switch in it.
+template <class Real>
+class LocatedAfterStep final : public ModesAfterStep<Real> {
+ public:
+  LocatedAfterStep(const System<Real>& system, const IntegratorOptions& options)
+      : locator_(system, locationTolerance(options)) {}
+
+  CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
+                            const Real& h, State<Real>& next) override {
+    const Location<Real> at = locator_.locate(attempt, from, h, next);
+    CommittedStep<Real> step{at.outcome, solved, h};
+    step.index = at.index;
+    if (at.outcome != Outcome::kSuccess) return step;
+    step.shortened = at.h < h;
+    if (step.shortened) {
+      step.attempt = at.attempt;
+      step.h = at.h;
+      // A shorter step with a larger error than the tolerance is no step (NaN: fixed steps).
+      if (at.attempt.error > 1) {
+        step.outcome = Outcome::kNewtonFailed;
+        step.index = -1;
+      }
+    }
+    step.at_switch = at.found;
+    step.resolution = at.resolution;
+    return step;
+  }
+
+ private:
+  EventLocator<Real> locator_;
+};
+
+/// Nothing follows a solved step: its mode is right up to the switch that ends it.
+template <class Real>
+std::unique_ptr<ModesInStep<Real>> nothing(const System<Real>&, const IntegratorOptions&, const ErrorNorm<Real>&,
+                                           Counters&) {
+  return nullptr;
+}
+
+}  // namespace
+
+Strategy<Discontinuity> locatedModes() {
+  return {Discontinuity::kLocate, "the root of a switching function ends the step; restart", {},
+          {nothing<double>, nothing<mp50>, nothing<mp100>}, makes<ModesAfterStepMaker, LocatedAfterStep>()};
+}
+
+}  // namespace irk

@@ -1,0 +1,125 @@
+// Catalogues of strategies: for each axis with behaviour the list of its entries, which others can extend.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/base/text.h"
+#include "irk/multiprecision.h"
+#include "irk/options.h"
+
+namespace irk {
+
+/// What a strategy needs of the method, the system and the other strategies. core/integration/rules.h checks it.
+struct Needs {
+  bool invertible_matrix = false;  ///< A of the method, with no explicit first stage
+  bool stage_order = false;        ///< of at least 1
+  bool coupled_solver = false;     ///< a stage solver that takes one linearization per stage
+  bool kept_jacobian = false;      ///< a Newton method that keeps one Jacobian for all stages
+  bool estimate = false;           ///< an error estimate
+  bool embedded_estimate = false;  ///< one that compares orders
+  std::string_view instead = "";   ///< what to use where this does not work: "estimate 'richardson'"
+};
+
+/// One factory per scalar; an empty one says that the strategy does not exist in that scalar.
+template <template <class> class Maker>
+struct PerScalar {
+  Maker<double> in_double;
+  Maker<mp50> in_mp50;
+  Maker<mp100> in_mp100;
+
+  template <class Real>
+  const Maker<Real>& of() const {
+    if constexpr (std::is_same_v<Real, double>) return in_double;
+    else if constexpr (std::is_same_v<Real, mp50>) return in_mp50;
+    else return in_mp100;
+  }
+};
+
+/// A factory that passes its arguments to the constructor of T.
+template <class T>
+inline constexpr auto construct = [](auto&&... args) { return std::make_unique<T>(args...); };
+
+/// T<Real> of every scalar.
+template <template <class> class Maker, template <class> class T>
+PerScalar<Maker> makes() {
+  return {construct<T<double>>, construct<T<mp50>>, construct<T<mp100>>};
+}
+
+/// One entry of the axis `Id`: specialised beside its strategies, with at least `Id id`, `std::string meaning` and
+/// `Needs needs`.
+template <class Id>
+struct Strategy;
+
+/// The entries of one axis, the default first.
+template <class Id>
+class Catalogue {
+ public:
+  explicit Catalogue(std::vector<Strategy<Id>> entries) {
+    for (auto& entry : entries) add(std::move(entry));
+  }
+  Catalogue(const Catalogue&) = delete;
+  Catalogue& operator=(const Catalogue&) = delete;
+
+  /// Throws Misuse with the axis, the nearest id and all ids.
+  const Strategy<Id>& operator[](const Id& id) const {
+    for (const auto& entry : entries_) {
+      if (entry->id == id) return *entry;
+    }
+    std::vector<std::string> known;
+    for (const auto& entry : entries_) known.emplace_back(entry->id.id);
+    throw Misuse(unknownName(axisName<Id>(), id.id, known));
+  }
+  /// Valid until the next `add`.
+  std::span<const Named<Id>> named() const { return named_; }
+  /// Throws Misuse for an id that is taken, naming both entries.
+  void add(Strategy<Id> entry) {
+    for (const auto& other : entries_) {
+      if (other->id != entry.id) continue;
+      throw Misuse(std::string(axisName<Id>()) + " '" + std::string(entry.id.id) + "' (" + entry.meaning +
+                   "): the id is taken by '" + std::string(other->id.id) + "' (" + other->meaning + ")");
+    }
+    entries_.push_back(std::make_unique<Strategy<Id>>(std::move(entry)));
+    const Strategy<Id>& kept = *entries_.back();
+    named_.push_back({kept.id, kept.id.id, kept.meaning});
+  }
+
+ private:
+  std::vector<std::unique_ptr<Strategy<Id>>> entries_;  // at fixed addresses
+  std::vector<Named<Id>> named_;
+};
+
+/// The catalogue of an axis: defined beside its strategies. Reading is safe from any number of threads.
+template <class Id>
+Catalogue<Id>& catalogue();
+
+/// Adds a strategy to its axis: from then on options, `parseId` and `named` know it as they know those of the library.
+/// Throws Misuse for an id that is taken. Not while other threads use the axis.
+template <class Id>
+void registerStrategy(Strategy<Id> entry) {
+  catalogue<Id>().add(std::move(entry));
+}
+
+}  // namespace irk
+
+/// Defines what options.h declares of an axis, by its catalogue.
+#define IRK_STRATEGIES(Id, axis)            \
+  template <>                               \
+  std::string_view axisName<Id>() {         \
+    return axis;                            \
+  }                                         \
+  template <>                               \
+  std::span<const Named<Id>> named<Id>() {  \
+    return catalogue<Id>().named();         \
+  }                                         \
+  template <>                               \
+  Id parseId<Id>(std::string_view id) {     \
+    Id wanted{};                            \
+    wanted.id = id;                         \
+    return catalogue<Id>()[wanted].id;      \
+  }

@@ -1,0 +1,58 @@
+// The stage solvers that come with the library.
+#include <type_traits>
+
+#include "core/stage_solvers/coupled.h"
+#include "core/stage_solvers/decoupled.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+std::unique_ptr<StageSolver<Real>> decoupled(const StageSolverSetup<Real>& setup) {
+  if constexpr (std::is_same_v<Real, double>) {
+    if (!setup.pattern->full) return std::make_unique<Decoupled<Real, SparseLu>>(setup, *setup.form);
+  }
+  return std::make_unique<Decoupled<Real, DenseLu>>(setup, *setup.form);
+}
+
+template <class Real>
+std::unique_ptr<StageSolver<Real>> coupledDense(const StageSolverSetup<Real>& setup) {
+  if (!setup.pattern->full) throw Misuse("solver 'coupled_dense' with a sparse pattern");
+  return std::make_unique<Coupled<Real, DenseLu>>(setup);
+}
+
+std::unique_ptr<StageSolver<double>> coupledSparse(const StageSolverSetup<double>& setup) {
+  return std::make_unique<Coupled<double, SparseLu>>(setup);
+}
+
+PerScalar<StageSolverMaker> decoupledSolvers() { return {decoupled<double>, decoupled<mp50>, decoupled<mp100>}; }
+
+}  // namespace
+
+template <>
+Catalogue<StageSolverKind>& catalogue<StageSolverKind>() {
+  static Catalogue<StageSolverKind> all({
+      {.id = StageSolverKind::kSchur,
+       .meaning = "real Schur form of A: s/2 complex n x n systems",
+       .form = {schurForm<double>, schurForm<mp50>, schurForm<mp100>},
+       .make = decoupledSolvers()},
+      {.id = StageSolverKind::kEigen,
+       .meaning = "eigenvectors of A: s/2 complex n x n systems, cheapest",
+       .form = {eigenForm<double>, eigenForm<mp50>, eigenForm<mp100>},
+       .make = decoupledSolvers()},
+      {.id = StageSolverKind::kCoupledDense,
+       .meaning = "one LU of the s n x s n matrix (paper)",
+       .coupled = true,
+       .storage = Storage::kDense,
+       .make = {coupledDense<double>, coupledDense<mp50>, coupledDense<mp100>}},
+      {.id = StageSolverKind::kCoupledSparse,
+       .meaning = "one sparse LU of the s n x s n matrix",
+       .coupled = true,
+       .storage = Storage::kSparse,
+       .make = {coupledSparse, nullptr, nullptr}},
+  });
+  return all;
+}
+
+}  // namespace irk

@@ -1,0 +1,131 @@
+// Strategies from outside the library, and the rules that hold for them as for its own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/control/controller.h"
+#include "core/stages/start_values.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+constexpr StepControl kSteady{{"steady"}};
+constexpr Predictor kZero{{"zero"}};
+
+int g_decisions = 0, g_predictions = 0;
+
+/// Steps of one size, shorter only where the tolerance asks for it.
+class SteadyController final : public StepController {
+ public:
+  StepDecision decide(double error, double h) override {
+    ++g_decisions;
+    return {error <= 1, error <= 1 ? h : h / 2};
+  }
+  double afterFailure(double h) override { return h / 2; }
+  void forget() override {}
+  void changeOrder(int, double, double) override {}
+};
+
+/// Newton's iteration starts from zero.
+class ZeroPredictor final : public StagePredictor<double> {
+ public:
+  void fill(const StagePolynomial<double>&, const State<double>&, const double&, Mat<double>& W) override {
+    ++g_predictions;
+    W.setZero();
+  }
+};
+
+Strategy<StepControl> steady() {
+  return {kSteady, "one size of steps", {.estimate = true}, [](const StepOptions&, int) {
+            return std::make_unique<SteadyController>();
+          }};
+}
+Strategy<Predictor> zero() {
+  const auto make = [](const Scheme<double>&) { return std::make_unique<ZeroPredictor>(); };
+  return {.id = kZero, .meaning = "nothing is known", .make = {make, nullptr, nullptr}};
+}
+
+/// Registers both, once in this program.
+IntegratorOptions withBoth(double tol) {
+  static const bool registered = [] {
+    registerStrategy(steady());
+    registerStrategy(zero());
+    return true;
+  }();
+  static_cast<void>(registered);
+  IntegratorOptions o = adaptive(tol);
+  o.step.control = kSteady;
+  o.predictor = kZero;
+  return o;
+}
+
+Solution<double> pendulum(const IntegratorOptions& options) {
+  return integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 0.5, makeTableau<double>("radau_iia_3"),
+                           options);
+}
+
+template <class F>
+std::string refusal(const F& f) {
+  try {
+    f();
+  } catch (const Misuse& misuse) {
+    return misuse.what();
+  }
+  return "not refused";
+}
+
+TEST(Strategies, OnesFromOutsideRunAnIntegration) {
+  g_decisions = g_predictions = 0;
+  const auto own = pendulum(withBoth(1e-8));
+  ASSERT_EQ(own.outcome, Outcome::kSuccess) << own.detail;
+  EXPECT_GE(g_decisions, own.counters.steps_accepted);
+  EXPECT_GT(g_predictions, own.counters.steps_accepted);
+  const auto library = pendulum(adaptive(1e-8));
+  EXPECT_LT((own.state.u - library.state.u).norm(), 1e-6);
+  EXPECT_NE(own.counters.newton_iterations, library.counters.newton_iterations);
+}
+
+TEST(Strategies, OnesFromOutsideAreFoundByTheirIds) {
+  static_cast<void>(withBoth(1e-6));
+  EXPECT_EQ(parseId<StepControl>("steady"), kSteady);
+  EXPECT_EQ(parseId<Predictor>("zero"), kZero);
+  const auto all = named<Predictor>();
+  const auto at = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.id == "zero"; });
+  ASSERT_NE(at, all.end());
+  EXPECT_EQ(at->meaning, "nothing is known");
+  EXPECT_EQ(all.front().value, IntegratorOptions().predictor);  // the default stays first
+}
+
+TEST(Strategies, ATakenIdIsRefusedNamingBoth) {
+  Strategy<Predictor> other = zero();
+  other.id = Predictor::kPrevious;
+  const std::string why = refusal([&] { registerStrategy(other); });
+  for (const char* word : {"predictor 'previous'", "nothing is known", "stages of the step before"}) {
+    EXPECT_NE(why.find(word), std::string::npos) << why;
+  }
+  EXPECT_EQ(refusal([] { pendulum(withBoth(1e-4)); }), "not refused");
+  const std::string twice = refusal([] { registerStrategy(zero()); });
+  EXPECT_NE(twice.find("taken"), std::string::npos) << twice;
+}
+
+TEST(Strategies, UnknownIdsAreRefusedWithTheNearest) {
+  IntegratorOptions o = adaptive(1e-6);
+  o.predictor = Predictor{{"previos"}};
+  const std::string why = refusal([&] { pendulum(o); });
+  EXPECT_NE(why.find("did you mean 'previous'"), std::string::npos) << why;
+}
+
+TEST(Strategies, NeedsOfOnesFromOutsideAreRules) {
+  IntegratorOptions o = withBoth(1e-6);
+  o.step.estimate = ErrorEstimate::kNone;
+  const std::string estimate = refusal([&] { pendulum(o); });
+  EXPECT_NE(estimate.find("control 'steady' with estimate 'none'"), std::string::npos) << estimate;
+  const std::string scalar = refusal([] {
+    Integrator<mp50>(makeSystem<mp50>(CartesianPendulum{}), makeTableau<mp50>("radau_iia_3"), withBoth(1e-6));
+  });
+  EXPECT_NE(scalar.find("predictor 'zero' in multiprecision"), std::string::npos) << scalar;
+}
+
+}  // namespace
+}  // namespace irk::test
