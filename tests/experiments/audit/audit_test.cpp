@@ -208,7 +208,7 @@ TEST(FinalStates, AreWrittenAsTextAndReadBack) {
   record.v = vec({3, 0.1});
   record.x = vec({kUnknown});
   writeTable(file, {{}, {"key", "state"}, {{"key", vectorText(componentsOf(record))}}});
-  EXPECT_EQ(vectorText(readStates(file).at("key")), "1 2 3 0.10000000000000001 nan");
+  EXPECT_EQ(vectorText(readStates(file).at("key")), "1 2 3 0.1 nan");
 }
 
 }  // namespace
