@@ -123,10 +123,8 @@ Finding phaseShares(const ResultTables& tables) {
 Finding massDerivatives(const ResultTables& tables) {
   constexpr double kSame = 1.1, kLittle = 1.5;
   const Table& all = tables.runs("jacobian");
-  const auto flexible = [&](std::string_view cost) {
-    return compareCosts(where(inBlocks(all, "jacobian", {"terms_elastic_rod"}), {{"newton", "simplified"}}), "jacobian", "full",
-                        "no_mass", cost);
-  };
+  const Table rod = where(inBlocks(all, "jacobian", {"terms_elastic_rod"}), {{"newton", "simplified"}});
+  const auto flexible = [&](std::string_view cost) { return compareCosts(rod, "jacobian", "full", "no_mass", cost); };
   const CostRatios iterations = flexible("newton_iterations"), time = flexible("cpu_s");
   if (iterations.all.empty()) return notMeasurable("no error is reached with and without them");
   const auto control = compareCosts(inBlocks(all, "jacobian", {"terms_constant_mass"}), "jacobian", "full", "no_mass",

@@ -31,7 +31,8 @@ struct PartReading {
   std::vector<DamagedLine> damaged;
 };
 
-/// Calls `take(cells, offset)` for every row, in order; of an exported table the column of blocks is one cell more; `offset`: bytes before the row. Rows are single lines: damage
+/// Calls `take(cells, offset)` for every row, in order; of an exported
+/// table the column of blocks is one cell more; `offset`: bytes before the row. Rows are single lines: damage
 /// to one never spreads. Throws Failure if the file cannot be read.
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
                      const std::function<bool(const std::vector<std::string_view>& cells,

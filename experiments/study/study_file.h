@@ -6,8 +6,8 @@
 //   [defaults]                     keys of every block   [quick]        the same, --quick only
 //   [[block]]                      one sweep             [block.quick]  the same, --quick only
 //
-// In a block: name (letters, digits and _; block_1, block_2, ... if not given), scene, methods or families and stages; one of tolerances, steps, refine_most; fields of a spec. A block
-// has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
+// In a block: name (letters, digits and _; block_1, block_2, ... if not given), scene, methods or families
+// and stages; one of tolerances, steps, refine_most; fields of a spec. A block has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
 #pragma once
 
 #include <map>

@@ -121,7 +121,7 @@ SceneEntry mechatronicCrankEntry() {
           .panels = {{"angles", {"theta", "phi"}},
                      {"angular velocities", {"theta'", "phi'"}},
                      {"current", {"i"}},
-                     {"integral of the speed error", {"e"}},
+                     {"controller state", {"e"}},
                      {"slider", {"x3"}},
                      {"multiplier", {"lambda"}}},
           .reference_cases = {{.times = "0.5"}},

@@ -180,7 +180,7 @@ SceneEntry sliderCrankFlexibleEntry() {
                      {"bending modes", {"q1", "q2"}, "mm", 1e3},
                      {"longitudinal modes", {"q3", "q4"}, "µm", 1e6},
                      {"multipliers", {"lambda1", "lambda2"}},
-                     {"multiplier of the crank", {"lambda3"}}},
+                     {"multiplier", {"lambda3"}}},
           .reference_cases = {{.times = "0.025 0.05", .tolerance = kFewDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
