@@ -10,6 +10,7 @@
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/analysis.h"
+#include "experiments/study/study.h"
 
 namespace irk {
 namespace {

@@ -16,6 +16,7 @@
 #include "experiments/store/store.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
+#include "experiments/runs/block_names.h"
 
 namespace irk::store {
 namespace {

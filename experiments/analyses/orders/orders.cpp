@@ -15,6 +15,7 @@
 #include "experiments/study/analysis.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
+#include "experiments/runs/fields.h"
 
 namespace irk {
 namespace {

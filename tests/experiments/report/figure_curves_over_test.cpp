@@ -152,7 +152,9 @@ TEST(FigureCurves, SceneSolution) {
   drawing.put("pendulum.radau_iia_5.csv",
               {"t", "h", "error", "newton_iterations", "switches", "x", "y", "x'", "y'", "lambda"},
               rows);
-  const Svg svg = drawing.draw("scene_solution.gp", "scene='pendulum'");
+  const Svg svg = drawing.draw(
+      "scene_solution.gp",
+      "scene='pendulum'; panels='\"positions|x y|1\" \"velocities|x'' y''|1\" \"multiplier|lambda|1\"'");
   const auto near = [&](char panel, int curve, const std::vector<SvgPoint>& expected,
                         const char* what) {
     const auto seen = svg.line(panel, curve, kLin, kLin);
