@@ -1,12 +1,11 @@
-// Views through which constraints g(t, u) are differentiated without storing a vector of
-// derivatives.
+// Views for differentiating constraints g(t, u) without storing vectors of derivatives. Internal.
 #pragma once
 
 #include "irk/system.h"
 
 namespace irk::detail {
 
-// g(t, u(t)) with u' = v: views that hand out and take in rates without storing a vector of them.
+// Arguments u of g(t, u(t)) with their time derivatives: u' = v, and u'' = a.
 template <class T>
 struct VelocityView {
   const ConstVec<T>& u;
@@ -21,7 +20,7 @@ struct AccelerationView {
   Rate<Rate<T>> operator[](Index i) const { return {{u[i], v[i]}, {v[i], a[i]}}; }
 };
 
-// g[i] = expression stores only the wanted derivative.
+// Results: `g[i] = expression` stores only the wanted derivative, dg_i/dt or d2g_i/dt2.
 template <class T>
 struct RateSink {
   T& out;
@@ -38,7 +37,7 @@ struct SinkRow {
   Sink operator[](Index i) const { return Sink{data[i]}; }
 };
 
-// u with unit directions first, first + 1, ... for derivatives of g with respect to u.
+// u with unit directions for components first, first + 1, ..., for derivatives of g with respect to u.
 template <class T>
 struct DirectionView {
   const ConstVec<T>& u;
@@ -51,7 +50,7 @@ struct DirectionView {
     return value;
   }
 };
-// g[k] = expression adds mu_k dg_k/du_i to the rows of the directions.
+// `g[k] = expression` adds mu_k dg_k/du_i to the rows i of the present directions.
 template <class T>
 struct TransposedSink {
   T* rows;

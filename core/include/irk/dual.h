@@ -1,10 +1,10 @@
-// DualNumber<T, N>: a value with N directional derivatives, nesting over itself and over
-// multiprecision.
+// DualNumber<T, N>: a value with N directional derivatives. T is double, a multiprecision number or
+// another DualNumber.
 //
-// One type serves Jacobians (N = 8), time derivatives of constraints (N = 1) and both nested.
-// Eigen's AutoDiffScalar cannot: nested over a multiprecision number it rejects `double` operands,
-// and its abs() mixes int with the scalar. No expression templates: `auto` is safe in a user's
-// residual.
+// One type serves for Jacobians (N = 8), for time derivatives of constraints (N = 1) and for both nested.
+// Eigen's AutoDiffScalar does not: nested over a multiprecision number it rejects `double` operands,
+// and its abs() mixes int with the scalar. DualNumber has no expression templates, so that `auto` is
+// safe in a user's residual.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +30,7 @@ struct Innermost<DualNumber<T, N>> {
   using type = typename Innermost<T>::type;
 };
 
-/// Operands without derivatives: built-in numbers, and the scalar below all levels of duals.
+/// Operands without derivatives: built-in numbers, and the innermost scalar of nested dual numbers.
 template <class S, class T>
 concept ConstantFor = std::is_arithmetic_v<S> || std::is_same_v<S, typename Innermost<T>::type>;
 
@@ -57,7 +57,7 @@ struct DualNumber {
       : value(detail::constant(s)), d{} {}  // NOLINT
   DualNumber(T v, T rate) requires(N == 1) : value(std::move(v)), d{std::move(rate)} {}
 
-  /// f(x) with f' = slope.
+  /// The chain rule: f(x) for this number x, with value f and slope = f'(x).
   DualNumber chain(const T& f, const T& slope) const {
     DualNumber r(f);
     for (std::size_t i = 0; i < N; ++i) r.d[i] = slope * d[i];
@@ -102,8 +102,8 @@ struct DualNumber {
     return r;
   }
 
-  // A constant operand costs no derivative arithmetic. Built-in numbers and the innermost
-  // scalar mix with any T.
+  // Operations with a constant operand skip its derivatives, which are zero. Built-in numbers and the
+  // innermost scalar mix with any T.
   template <class S>
   requires detail::ConstantFor<S, T>
   friend DualNumber operator*(const S& s, const DualNumber& a) {
@@ -138,7 +138,7 @@ struct DualNumber {
   requires detail::ConstantFor<S, T>
   friend DualNumber operator-(const S& s, const DualNumber& a) { return -a + s; }
 
-  // Comparisons are those of the values: derivatives follow the branch that the value takes.
+  // Comparisons compare the values only; the derivatives are those of the branch that is taken.
   friend bool operator<(const DualNumber& a, const DualNumber& b) { return a.value < b.value; }
   friend bool operator>(const DualNumber& a, const DualNumber& b) { return b.value < a.value; }
   friend bool operator<=(const DualNumber& a, const DualNumber& b) { return a.value <= b.value; }
@@ -177,10 +177,10 @@ struct DualNumber {
   }
 };
 
-/// Directions that one dual evaluation carries; a Jacobian with more columns takes several chunks.
+/// Number of directions per dual evaluation; a Jacobian with more columns takes several evaluations.
 inline constexpr std::size_t kChunk = 8;
 
-/// First-order dual number with kChunk directions: exact derivatives of a templated function.
+/// First-order dual number with kChunk directions; gives exact derivatives of a templated function.
 template <class Real>
 using Dual = DualNumber<Real, kChunk>;
 
@@ -188,7 +188,7 @@ using Dual = DualNumber<Real, kChunk>;
 template <class T>
 using Rate = DualNumber<T, 1>;
 
-/// The number below all derivatives, as a double: for branches and messages.
+/// The value without its derivatives, rounded to double: for branches and messages.
 inline double valueOf(double x) { return x; }
 template <class T>
 requires(!std::is_arithmetic_v<T>) double valueOf(const T& x) { return static_cast<double>(x); }

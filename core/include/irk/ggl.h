@@ -7,8 +7,9 @@
 
 namespace irk {
 
-/// A problem struct P with position constraints as a system of first order. Its unknowns:
-/// x = (u, v, x of the scene), z = (z of the scene, mu); no second-order rows.
+/// A problem struct P with position constraints as a system of first order, with the unknowns
+/// x = (u, v, x of the scene) and z = (z of the scene, mu). It has no second-order rows. Immutable; its
+/// constructor throws Misuse as that of ProblemSystem does.
 template <class P, class Real>
 class GglSystem final : public System<Real> {
  public:
@@ -102,7 +103,7 @@ class GglSystem final : public System<Real> {
     T* const last = r + nu + inner_.n();
     if (level == Level::kFormulated) {
       scene_.constraintRows(Level::kVelocity, at, last);
-    } else {  // mu vanishes on the solution
+    } else {  // mu = 0 on the exact solution
       for (Index i = 0; i < nc; ++i) last[i] = mu[i];
     }
   }

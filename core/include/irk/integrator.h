@@ -1,4 +1,4 @@
-// From a start to an end: accepted steps, their record, and how it ended.
+// Integrates a system from a start to an end time.
 #pragma once
 
 #include <memory>
@@ -10,22 +10,27 @@
 
 namespace irk {
 
-/// One integration at a time; reusable. Allocates in its constructor, not in its steps. One per
-/// thread; the system and the tableau are shared.
+/// Integrates one system with one set of options. An object may be used for any number of integrations, one
+/// after the other; use one object per thread. The system may be shared by threads unless it keeps scratch
+/// (first-order form). The constructor allocates; steps do not.
 template <class Real>
 class Integrator {
  public:
-  /// `scale`: typical magnitudes of u, v, x, z (2 nu + nx + nz); empty = 1.
-  /// Throws Misuse for a system that cannot be (core/include/irk/system_check.h) and for illegal combinations, naming both ids and the reason: several methods but
-  /// with variable order and the estimate `embedded`, a family that cannot treat algebraic unknowns, `eigen` with a defective A, `full` with a decoupled solver, ...
+  /// Shares ownership of `system`; copies the rest. `scale`: typical magnitudes > 0 of u, v, x, z
+  /// (2 nu + nx + nz numbers); empty means 1.
+  /// Throws Misuse for an invalid system or scale (irk/system_check.h), for options out of range, and for
+  /// combinations that cannot work; the message names both ids and the reason. Such combinations are, for
+  /// example: several methods without variable order, variable order without the estimate `embedded`, a
+  /// singular A with algebraic unknowns, a defective A with `eigen`, Newton `full` with a decoupled solver...
   Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
              const IntegratorOptions& options, const Vec<double>& scale = {});
   ~Integrator();
   Integrator(Integrator&&) noexcept;
 
-  /// From `start` (the scene's u, v, x, z) to t_end. Returns every numerical failure as an outcome, kNotFinite for a
-  /// start with a NaN. Throws Misuse for a start of other sizes than the scene's, and for times that are not finite or
-  /// in the wrong order.
+  /// Integrates from `start` (in the scene's unknowns u, v, x, z) to t_end. Numerical failures are returned as
+  /// Solution::outcome (kNotFinite for a start with a NaN); Solution::state is then the last accepted state.
+  /// Throws Misuse, before the first step, for a start whose sizes differ from the scene's, for times that are
+  /// not finite, and for t_end < start.t. `monitor` is called during this call only.
   [[nodiscard]] Solution<Real> integrate(const State<Real>& start, const Real& t_end,
                                          const Monitor<Real>& monitor = {});
 

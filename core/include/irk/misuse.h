@@ -1,4 +1,5 @@
-// Misuse: bad input found before the first step. Outcomes of numerics are enums (outcome.h).
+// Misuse: the exception for bad input, thrown before the first step. Numerical failures are values of Outcome
+// (outcome.h).
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +8,8 @@
 namespace irk {
 
 /// Thrown for input that can never work: an unknown id, a value out of range, an illegal combination,
-/// a damaged file. The message names the place, the value and the allowed range. Exit status 2.
+/// a damaged file. The message names the place, the value and the allowed range. The program `irk` then exits
+/// with status 2.
 class Misuse : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

@@ -1,4 +1,4 @@
-// What a caller hears of an integration while it runs, and what it gets at the end.
+// Callbacks of an integration, and its result.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace irk {
 
-/// One accepted step, as an observer sees it. `state` is in the scene's unknowns (u, v, x, z).
+/// One accepted step. `state`, in the scene's unknowns (u, v, x, z), is valid during the callback only.
 template <class Real>
 struct StepRecord {
   Real t;                       ///< at the end of the step
   double h;
-  double error;                 ///< estimate in the error norm, NaN without one
-  int newton_iterations;        ///< of the whole attempt
+  double error;                 ///< error estimate in the error norm; NaN without an estimate
+  int newton_iterations;        ///< of the whole attempt, all its solves together
   const State<Real>& state;
 };
 
-/// One switch. `state`: just after it, in the scene's unknowns.
+/// One switch. `state`: just after the switch, in the scene's unknowns; valid during the callback only.
 template <class Real>
 struct SwitchRecord {
   Real t;
@@ -29,21 +29,22 @@ struct SwitchRecord {
   const State<Real>& state;
 };
 
-/// What the caller wants to know and to say while an integration runs. All optional.
+/// Callbacks; each may be empty. They are called from within Integrator::integrate, on the caller's thread.
 template <class Real>
 struct Monitor {
   std::function<void(const StepRecord<Real>&)> accepted;
   std::function<void(const SwitchRecord<Real>&)> switched;
-  /// Asked before each step: kSuccess goes on; kTimeout or kInterrupted ends the run.
+  /// Called before each step. kSuccess continues; kTimeout or kInterrupted ends the integration with that outcome.
   std::function<Outcome()> interrupt;
 };
 
+/// The result of an integration.
 template <class Real>
 struct Solution {
   Outcome outcome = Outcome::kSuccess;
-  std::string detail;  ///< where and what, in one line: of a failure, or what a success has to tell
-  /// The last accepted state, in the scene's unknowns. (a, k, z) at t_end as the option `multipliers`
-  /// says; those of the step records are always the stages'.
+  std::string detail;  ///< one line: where and why an integration failed, or a remark on a success; may be empty
+  /// The last accepted state, in the scene's unknowns; its t tells how far the integration came. At t_end
+  /// (a, k, z) are computed as the option `multipliers` says; in step records they always come from the stages.
   State<Real> state;
   Counters counters;
 };

@@ -1,4 +1,4 @@
-// From a user's struct to a System: the formulation of its position constraints, and its switches.
+// Makes a System of a user's problem struct.
 //
 // A problem is one struct of about 30 lines:
 //
@@ -16,28 +16,36 @@
 //     }
 //   };
 //
-// Write `using std::sin;` and unqualified calls; T is double, a dual number or a multiprecision
-// number. Branches may compare values of T.
+// `residual` writes every row: r.u (nu rows), r.x (nx), and r.z (nz - constraints rows, the algebraic equations
+// that are not position constraints). T is double, a dual number or a multiprecision number: write
+// `using std::sin;` and unqualified calls. Branches may compare values of T. Functions must not throw; what
+// cannot be computed is NaN.
 //
-// A problem that switches keeps its modes in the discrete state p.d (sizes().discrete numbers) and
-// declares sizes().switches switching functions. Its residual never asks where it is, only p.d:
+// A problem with switches keeps its mode in the discrete state p.d (sizes().discrete numbers) and has
+// sizes().switches switching functions. Its residual depends on the mode through p.d only and never tests
+// t, u, v or x itself:
 //
 //     template <class T>  // p.d is valid while all g <= 0
 //     void switching(const Point<T>& p, T* g) const;
-//     template <class T>  // g[i] > 0: changes d, a copy of p.d
+//     template <class T>  // switch i, due when g[i] > 0: changes d, a copy of p.d
 //     void onSwitch(Index i, const Point<T>& p, T* d) const;
 //
-// and, where they exist:
+// Optional functions:
 //
-//     template <class T>  // what jumps; p.d is the new one. Only where switches are located.
+//     // Changes u, v, x where they jump at switch i; p.d is the new mode. With discontinuity `ignore` or
+//     // `iterate` a problem with this function is refused.
+//     template <class T>
 //     void jump(Index i, const Point<T>& p, T* u, T* v, T* x) const;
-//     template <class T>  // what is known exactly in the new mode, where u, v, x are continuous: a
-//     void snap(Index i, const Point<T>& p, T* u, T* v, T* x) const;  // correction of round-off's size
-//     template <class T>  // d as a smooth function of p
+//     // Sets those of u, v, x that the new mode p.d determines exactly, e.g. v of the belt after slip turns into
+//     // stick. They are continuous at the switch: the change is as small as round-off.
+//     template <class T>
+//     void snap(Index i, const Point<T>& p, T* u, T* v, T* x) const;
+//     // d as a smooth function of p, for discontinuity `smooth`.
+//     template <class T>
 //     void smoothed(const Point<T>& p, T* d) const;
 //     std::string switchName(Index i) const;  // for messages
 //
-// A switching function that has no meaning in a mode returns -1 there.
+// A switching function that has no meaning in a mode returns -1 in this mode.
 #pragma once
 
 #include <memory>
@@ -48,13 +56,17 @@
 
 namespace irk {
 
-/// The form y' = f(t, y) that codes for ordinary differential equations ask for: y = (u, v, x), f = (v, a, k), where
-/// (a, k, z) solve the rows of `system` at acceleration level. It keeps scratch: one per thread.
+/// `system` in the form y' = f(t, y) that codes for ordinary differential equations need: y = (u, v, x) and
+/// f = (v, a, k), where (a, k, z) solve the rows of `system` at acceleration level. Shares ownership of `system`.
+/// The result keeps scratch: use one object per thread. Its fromScene throws Misuse if (a, k, z) do not follow
+/// from (u, v, x).
 template <class Real>
 std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system);
 
-/// The system of a problem struct P in the formulation that the options name. Throws Misuse for sizes that cannot be
-/// and for options that the problem does not allow (see ProblemSystem).
+/// The system of a problem struct P in the formulation that the options name. Keeps a copy of the problem; the
+/// result is immutable and may be shared by threads, except in the formulation kFirstOrder (see firstOrderForm).
+/// Throws Misuse for invalid sizes (irk/system_check.h) and for options that the problem does not allow
+/// (see ProblemSystem).
 template <class Real, class P>
 std::shared_ptr<const System<Real>> makeSystem(P problem, const SystemOptions& options = {}) {
   if (options.formulation == Formulation::kFirstOrder) {

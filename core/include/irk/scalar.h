@@ -1,4 +1,4 @@
-// Scalars and the vector aliases used everywhere.
+// Dual numbers, and the aliases for vectors and matrices that all rooms use.
 #pragma once
 
 #include <Eigen/Core>

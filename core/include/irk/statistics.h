@@ -1,4 +1,4 @@
-// What a run cost, in operations: deterministic, so a noisy machine cannot spoil it.
+// The cost of an integration, counted in operations. Counts, unlike times, do not depend on the machine's load.
 #pragma once
 
 #include <cstdint>
@@ -6,22 +6,22 @@
 namespace irk {
 
 struct Counters {
-  std::int64_t residuals = 0;          ///< evaluations of r over the plain scalar
+  std::int64_t residuals = 0;          ///< evaluations of r over plain numbers
   std::int64_t dual_residuals = 0;     ///< evaluations of r over dual numbers (8 directions each)
   std::int64_t jacobians = 0;          ///< evaluations of (D0, D1, D2) at one point
-  std::int64_t factorizations = 0;     ///< of the Newton matrix (all its blocks count once)
-  std::int64_t solves = 0;             ///< with a factorization (all its blocks count once)
+  std::int64_t factorizations = 0;     ///< of the Newton matrix (all its blocks together count as one)
+  std::int64_t solves = 0;             ///< with a factorized Newton matrix (all its blocks together count as one)
   std::int64_t newton_iterations = 0;
-  std::int64_t newton_restarts = 0;    ///< paper: new Jacobian, or full Newton, from the start value
+  std::int64_t newton_restarts = 0;    ///< from the start values, with a new Jacobian or full Newton (paper)
   std::int64_t steps_accepted = 0;
   std::int64_t steps_rejected_error = 0;
   std::int64_t steps_rejected_newton = 0;
   std::int64_t switches = 0;                  ///< changes of the discrete state
   std::int64_t discontinuous_iterations = 0;  ///< `iterate`: steps repeated with a new discrete state
   std::int64_t located_events = 0;            ///< `locate`: steps that end at a switch
-  std::int64_t chattering = 0;                ///< runs of steps that each end with a switch
+  std::int64_t chattering = 0;                ///< sequences of steps that each end with a switch
 
-  /// f(name, value) for each, in this order: the columns of every table.
+  /// Calls f(name, value) for each counter, in the order of the columns of tables.
   template <class F>
   void forEach(F&& f) const {
     f("residuals", residuals);

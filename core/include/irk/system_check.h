@@ -1,4 +1,4 @@
-// What a system and a start must be before an integration: checked once, so that no step has to ask.
+// Checks of a system and of a start. They run once, before the first step.
 #pragma once
 
 #include <string>
@@ -7,27 +7,27 @@
 
 namespace irk {
 
-/// What a problem declares beside its sizes.
+/// The functions that a problem has.
 struct Declared {
-  bool constraints = true;  ///< a function of position constraints
-  bool switching = true;    ///< switching functions
+  bool constraints = true;  ///< it has a function `constraints`
+  bool switching = true;    ///< it has a function `switching`
 };
 
-/// Throws Misuse, naming the number and what is allowed: negative sizes, no unknowns, more multipliers than algebraic
-/// unknowns, constraints or switches without their functions.
+/// Throws Misuse for negative sizes, for a system without unknowns, for more multipliers than algebraic unknowns,
+/// and for constraints or switches without their functions. The message names the size and what is allowed.
 void requireSizes(const Sizes& sizes, const Declared& declared = {});
 
-/// Also for systems that are made by hand: Misuse for null, for sizes as above, for powers of another number of rows or
-/// components. `scale` is empty or has a number > 0 for each component.
+/// Checks any system, also one that is not made by makeSystem. Throws Misuse for null, for sizes as above, for row
+/// or error powers of the wrong length, and for a scale that is neither empty nor > 0 in every component.
 template <class Real>
 void requireSystem(const System<Real>* system, const Vec<double>& scale);
 
-/// Throws Misuse for a start of other sizes than the scene's, for a start or an end at no finite time, and for an end
-/// before the start.
+/// Throws Misuse for a start whose sizes differ from the scene's, for a start or end time that is not finite, and
+/// for an end before the start. The numbers of the start may be infinite or NaN; see notFinite.
 template <class Real>
 void requireStart(const System<Real>& system, const State<Real>& start, const Real& t_end);
 
-/// Empty, or the first number of u, v, x, (a, k, z), d that is not finite: "v[0] = inf".
+/// Names the first number of u, v, x, w = (a, k, z), d that is not finite, e.g. "v[0] = inf"; empty if there is none.
 template <class Real>
 std::string notFinite(const State<Real>& start);
 

@@ -1,29 +1,29 @@
-// Which system is made of a problem: the formulation of its constraints, the scaling of their rows, and what is done
-// at switches.
+// Options of a system: the formulation of its position constraints, the scaling of their rows, and the treatment of
+// switches.
 #pragma once
 
 #include "irk/system.h"
 
 namespace irk {
 
-/// How position constraints g(t, u) = 0 enter. Design, section 3.
+/// The form in which position constraints g(t, u) = 0 enter the system.
 enum class Formulation {
   kIndex2,           ///< dg/dt = 0
   kIndex3,           ///< g = 0
   kGgl,              ///< g = 0 and dg/dt = 0 with u' = v + G^T mu; Gear, Gupta, Leimkuhler 1985
-  kIndex2Projected,  ///< dg/dt = 0, v projected on it after each step; HW II (VII.2)
+  kIndex2Projected,  ///< dg/dt = 0; after each step v is projected onto it, HW II (VII.2)
   kIndex1,           ///< d2g/dt2 = 0
-  kFirstOrder,       ///< y' = f(t, y), y = (u, v, x); irk/problem.h
+  kFirstOrder,       ///< y' = f(t, y) with y = (u, v, x); see firstOrderForm in irk/problem.h
 };
 
-/// Whether constraint rows are multiplied by 1/h^power (paper, section 4). Off only to show why.
+/// Whether constraint rows are multiplied by 1/h^power (paper, section 4). kOff exists to show what scaling gains.
 enum class ConstraintScaling { kOn, kOff };
 
-/// Which system is made of a problem.
+/// How makeSystem turns a problem into a system.
 struct SystemOptions {
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
-  /// Without effect on a problem that declares no switches.
+  /// Has no effect on a problem without switches.
   Discontinuity discontinuity = Discontinuity::kLocate;
 };
 

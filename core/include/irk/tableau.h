@@ -1,4 +1,4 @@
-// A method is data: the Butcher tableau of an implicit Runge-Kutta scheme.
+// The Butcher tableau of an implicit Runge-Kutta method.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace irk {
 /// The largest number of stages that ids, files and options accept.
 inline constexpr Index kMaxStages = 100;
 
-/// A (s x s), b, c (s) with the orders that its family or file declares.
+/// The coefficients A (s x s), b and c (s each), with the orders that the family or the file declares.
 template <class Real>
 struct Tableau {
   std::string id;      ///< e.g. `radau_iia_5`, or the file it came from
-  std::string family;  ///< e.g. `radau_iia`; `user` for a file without one
+  std::string family;  ///< e.g. `radau_iia`; `user` for a file that names no family
   Mat<Real> A;
   Vec<Real> b, c;
   int order = 0;        ///< classical order p
@@ -24,7 +24,7 @@ struct Tableau {
 
   Index stages() const { return b.size(); }
 
-  /// Rounds every coefficient once.
+  /// The same tableau over another scalar; every coefficient is rounded once.
   template <class To>
   Tableau<To> cast() const {
     const auto round = [](const Real& x) { return static_cast<To>(x); };
@@ -33,11 +33,11 @@ struct Tableau {
   }
 };
 
-/// One method, or with variable order members of a family by ascending stages.
+/// One method; or, for variable order, members of one family sorted by their number of stages.
 template <class Real>
 struct Methods {
   std::vector<Tableau<Real>> members;
-  std::size_t start = 0;  ///< the member to start with
+  std::size_t start = 0;  ///< index of the member that takes the first step
 
   Methods(Tableau<Real> one) : members{std::move(one)} {}  // NOLINT: one method is a method
   Methods(std::vector<Tableau<Real>> all, std::size_t first)
