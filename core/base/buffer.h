@@ -1,4 +1,4 @@
-// Room for matrices of changing size.
+// Scratch memory for matrices of changing size.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@ namespace irk {
 template <class Real>
 using MatView = Eigen::Map<Mat<Real>>;
 
-/// Scratch that allocates only for a size above all before it.
+/// A matrix that allocates only when it becomes larger than ever before. Owns its numbers.
 template <class Real>
 class Buffer {
  public:
-  /// rows x columns, what they hold unspecified. Invalidates earlier views.
+  /// A view of rows x columns numbers, whose values are unspecified. Invalidates earlier views.
   MatView<Real> resize(Index rows, Index columns) {
     const auto size = static_cast<std::size_t>(rows * columns);
     if (values_.size() < size) values_.resize(size);

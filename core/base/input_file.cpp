@@ -28,7 +28,7 @@ const char* nameOf(std::filesystem::file_type type) {
 
 }  // namespace
 
-// Devices and pipes may have no end, and opening a pipe waits for its writer.
+// Only regular files are read: devices and pipes may have no end, and opening a pipe waits for its writer.
 void requireRegularFile(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -60,7 +60,7 @@ std::string readInputFile(const std::filesystem::path& path, std::size_t most) {
   if (!in) refuse();
   std::string text;
   constexpr std::size_t kBlock = std::size_t{1} << 16U;
-  // Files of /proc have no size, and a file may grow: counted again while it is read.
+  // Files in /proc report no size, and a file may grow. The bytes are therefore counted again while reading.
   if (!error) text.reserve(static_cast<std::size_t>(size));
   for (std::streamsize got = 1; in && got > 0;) {
     const std::size_t had = text.size();

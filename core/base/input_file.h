@@ -1,4 +1,4 @@
-// Files that a user names: read whole, within a limit.
+// Reads whole files that a user names, up to a size limit.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,17 @@
 
 namespace irk {
 
-/// Bytes of the largest study or tableau that is read; a tableau of 100 stages with 80 digits has 1 MB.
+/// Largest study or tableau file, in bytes. A tableau of 100 stages with 80 digits has 1 MB.
 inline constexpr std::size_t kMostInputBytes = std::size_t{8} << 20U;
-/// And of the largest table.
+/// Largest table, in bytes.
 inline constexpr std::size_t kMostTableBytes = std::size_t{8} << 30U;
 
-/// The whole content of a regular file (or a link to one). Throws Misuse naming the path, what is there and
-/// what is allowed: for a folder, a device, a pipe, a file that cannot be read, one of more than `most` bytes.
+/// Returns the whole content of a regular file (or of a link to one). Throws Misuse for a path that does not exist,
+/// for a folder, a device or a pipe, for a file that cannot be read, and for one of more than `most` bytes. The
+/// message names the path, what was found and what is allowed.
 std::string readInputFile(const std::filesystem::path& path, std::size_t most = kMostInputBytes);
 
-/// Throws Misuse as readInputFile for what is there and no regular file.
+/// Throws Misuse if the path exists but is no regular file (nor a link to one).
 void requireRegularFile(const std::filesystem::path& path);
 
 }  // namespace irk

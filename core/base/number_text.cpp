@@ -9,7 +9,7 @@
 namespace irk {
 namespace {
 
-// std::from_chars reads no leading '+', which people write in exponents and numbers alike.
+// std::from_chars rejects a leading '+' of a number, which people do write.
 template <class Number>
 bool readWhole(std::string_view text, Number& x) {
   if (text.starts_with('+')) text.remove_prefix(1);

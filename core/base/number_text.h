@@ -1,4 +1,4 @@
-// Numbers as text: one way out, one checked way in.
+// Writes numbers as text, and reads them with a check of their range.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace irk {
 /// The shortest text that reads back to the same bits: 0.1, 1e-06; NaN is `nan`.
 std::string numberText(double x);
 
-/// Throws Misuse `place = 'text' ...: range` for text that is not a finite number of the range.
+/// Reads a number. Throws Misuse `place = 'text' ...: range` unless the text is a finite number within the range.
 double parseNumber(std::string_view place, std::string_view text, const Range& range);
-/// For text that is not an integer of the range; `1e3` is none.
+/// Reads an integer; throws likewise. Notations such as `1e3` are not accepted.
 std::int64_t parseInteger(std::string_view place, std::string_view text, const Range& range);
 
 /// Throws Misuse `place = x is out of range: range`.

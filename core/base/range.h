@@ -1,4 +1,4 @@
-// The legal values of a number as data, so that validation, messages, help and tests read one object.
+// The range of a number as data. Validation, messages, help and tests all use the same object.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Products of matrices with few rows, where a general product costs more than its operations.
+// Products of matrices with few rows. There a general product spends more time on overhead than on arithmetic.
 #pragma once
 
 #include "core/base/small_size.h"
@@ -6,11 +6,11 @@
 namespace irk {
 namespace detail {
 
-/// N rows: out(:, j) = start(j) + sum_k A(:, k) B(k, j), N accumulators in registers.
+/// Computes N rows, out(:, j) = start(j) + sum_k A(:, k) B(k, j), with N accumulators in registers.
 template <Index N, class Real, class RightHand, class Start>
 void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Index out_stride,
                  Index row, const Start& start) {
-  // Unrolled where a call is over in fewer cycles than its loops would cost.
+  // Small products are unrolled: the control of their loops would cost more than their arithmetic.
   constexpr Index kMostInner = N <= 3 && std::is_same_v<Real, double> ? 9 : 0;
   withSize<kMostInner>(B.rows(), [&](auto inner) {
     for (Index j = 0; j < B.cols(); ++j) {
@@ -27,10 +27,10 @@ void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Ind
 
 }  // namespace detail
 
-/// out(i, j) = start(i, j) + sum_k A(i, k) B(k, j) for i < rows. A and out: columns `stride` and
-/// `out_stride` apart; not aliased. B: a matrix or vector without gaps. By blocks of rows whose sums
-/// stay in registers: a tenth of the time of a general product for two rows, and not more for hundreds
-/// of them, since B is small.
+/// out(i, j) = start(i, j) + sum_k A(i, k) B(k, j) for i < rows. The columns of A and out are `stride` and
+/// `out_stride` numbers apart; A and out must not overlap. B is a matrix or vector without gaps. The product is
+/// computed by blocks of rows whose sums stay in registers. For two rows it takes a tenth of the time of a
+/// general product, and for hundreds of rows not more than that product, since B is small.
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out,
                   Index out_stride, const Start& start) {
@@ -50,14 +50,14 @@ void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, R
   }
 }
 
-/// The same from zero.
+/// The same with start = 0.
 template <class Real, class RightHand>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out,
                   Index out_stride) {
   smallProduct(A, stride, rows, B, out, out_stride, [](Index, Index) { return Real(0); });
 }
 
-/// out = A B; matrices or vectors, B without gaps; out not aliased, of the right size.
+/// out = A B for matrices or vectors; B has no gaps. `out` has the right size and does not overlap A or B.
 template <class Real, class RightHand, class Result>
 void smallProduct(const Eigen::Ref<const Mat<Real>>& A, const RightHand& B, Result&& out) {
   smallProduct(A.data(), A.outerStride(), A.rows(), B, out.data(), out.outerStride());

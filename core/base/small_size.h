@@ -1,4 +1,4 @@
-// Loops over a few entries, unrolled.
+// Unrolls loops over a few entries.
 #pragma once
 
 #include <type_traits>
@@ -7,8 +7,8 @@
 
 namespace irk {
 
-/// f(n) with n a constant of the type where it is at most `Most` (itself at most 9), so that its loops
-/// are unrolled; the same f with the number itself above. One text for both.
+/// Calls f(n). If n <= Most (at most 9), f gets n as a compile-time constant, so that the compiler unrolls the
+/// loops in f; otherwise f gets n as a plain number. f is written once for both cases.
 template <Index Most, class F>
 decltype(auto) withSize(Index n, const F& f) {
   static_assert(Most <= 9);

@@ -1,4 +1,4 @@
-// Messages of misuse: nearest known name, lists.
+// Helpers for messages of Misuse: the nearest known name, lists of names.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace irk {
 
-/// The known name with the smallest edit distance.
+/// The known name with the smallest edit distance to `given`; empty if no names are known.
 std::string nearestName(std::string_view given, const std::vector<std::string>& known);
 
-/// `unknown <kind> 'given'; did you mean 'nearest'? Known: a, b, c`
+/// The message `unknown <kind> 'given'; did you mean 'nearest'? Known: a, b, c`.
 std::string unknownName(std::string_view kind, std::string_view given,
                         const std::vector<std::string>& known);
 
