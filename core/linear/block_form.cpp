@@ -12,13 +12,13 @@
 namespace irk {
 namespace {
 
-// The condition of the unit eigenvectors grows by 3.7 per stage for Gauss (theory.md); 5 with a margin
-// tells a defective A (condition 1e8 and more at small s) from a merely high order.
+// For Gauss methods the condition of the unit eigenvectors grows by a factor of 3.7 per stage. The limit grows by 5
+// per stage: it separates a defective A (condition 1e8 and more at small s) from an A of many stages.
 constexpr double kEigenConditionGrowth = 5;
 constexpr double kEigenConditionPerStage = 1e3;
 
-// A block [[alpha, beta], [gamma, alpha]], beta gamma < 0, acts on y1 + i sigma y2 as multiplication
-// by mu = alpha + i gamma sigma if sigma^2 = -beta / gamma.
+// A block [[alpha, beta], [gamma, alpha]] with beta gamma < 0 multiplies y1 + i sigma y2 by
+// mu = alpha + i gamma sigma if sigma^2 = -beta / gamma.
 template <class Real>
 void appendBlocks(BlockForm<Real>& form) {
   using std::sqrt;
@@ -46,7 +46,7 @@ BlockForm<Real> schurForm(const Mat<Real>& A) {
   form.Q = schur.matrixU();
   form.Q_inverse = form.Q.transpose();
   form.T = schur.matrixT();
-  // Eigen splits real pairs but leaves the diagonal entries of complex pairs unequal.
+  // Eigen splits real pairs into two blocks, but leaves the diagonal entries of complex pairs unequal.
   for (Index i = 0; i + 1 < A.rows(); ++i) {
     if (form.T(i + 1, i) != Real(0)) {
       // Rotate [[a, b], [c, d]] to equal diagonal entries: tan 2 phi = (a - d) / (b + c).
@@ -96,8 +96,8 @@ BlockForm<Real> eigenForm(const Mat<Real>& A) {
     form.T(i + 1, i) = -omega;
     i += 2;
   }
-  // A double zero eigenvalue of a defective A comes out as two eigenvectors that agree to the square
-  // root of round-off or better; the worst regular family has condition 3.7^s (theory.md).
+  // For a double zero eigenvalue of a defective A, the eigenvectors found agree to the square root of round-off or
+  // better, so that their condition is very large. The worst family with a regular A has condition 3.7^s.
   const Eigen::FullPivLU<Mat<Real>> lu(form.Q);
   form.Q_inverse = lu.inverse();
   const double condition =

@@ -8,24 +8,24 @@
 
 namespace irk {
 
-/// A = Q T Q^-1 with 1 x 1 and 2 x 2 blocks on the diagonal of T, and its blocks.
+/// A = Q T Q^-1, where T has 1 x 1 and 2 x 2 blocks on its diagonal. All matrices are s x s.
 template <class Real>
 struct BlockForm {
   Mat<Real> Q, Q_inverse, T;
-  bool diagonal = false;  ///< T is block diagonal (eigenvectors), else block upper triangular
+  bool diagonal = false;  ///< true: T is block diagonal (eigenbasis); false: block upper triangular (Schur)
   struct Block {
-    Index start;
-    Index size;              ///< 1 real, 2 a complex pair
-    std::complex<Real> mu;   ///< eigenvalue of A
-    Real sigma;              ///< y1 + i sigma y2 diagonalizes a 2 x 2 block
+    Index start;            ///< its first row in T
+    Index size;             ///< 1: a real eigenvalue; 2: a complex pair
+    std::complex<Real> mu;  ///< eigenvalue of A
+    Real sigma;             ///< y1 + i sigma y2 diagonalizes a 2 x 2 block
   };
   std::vector<Block> blocks;
 };
 
-/// Real Schur form: Q orthogonal.
+/// The real Schur form: Q is orthogonal. Defined for every A.
 template <class Real>
 BlockForm<Real> schurForm(const Mat<Real>& A);
-/// Real eigenbasis [Re v, Im v]. Throws Misuse for a defective A.
+/// The real eigenbasis, with columns Re v, Im v for a complex eigenvector v. Throws Misuse for a defective A.
 template <class Real>
 BlockForm<Real> eigenForm(const Mat<Real>& A);
 

@@ -1,4 +1,4 @@
-// LU with partial pivoting that neither allocates after construction nor hides a zero pivot.
+// Dense LU with partial pivoting. It allocates in its constructor only and reports a zero pivot.
 #pragma once
 
 #include <Eigen/LU>
@@ -29,7 +29,7 @@ template <class Real>
 Real product(const Real& a, const Real& b) {
   return a * b;
 }
-/// Without the standard's care for infinities, which costs more than the product.
+/// The product without the standard's treatment of infinities, which costs more than the product itself.
 template <class Real>
 std::complex<Real> product(const std::complex<Real>& a, const std::complex<Real>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
@@ -39,7 +39,7 @@ template <class Real>
 Real inverse(const Real& x) {
   return Real(1) / x;
 }
-/// Smith's: no overflow where the result has none.
+/// Smith's division: it overflows only if the result does.
 template <class Real>
 std::complex<Real> inverse(const std::complex<Real>& x) {
   using std::abs;
@@ -60,7 +60,7 @@ void subtract(Real* y, const Real* x, const Real& f, Index n) {
 template <class Real>
 void subtract(std::complex<Real>* y, const std::complex<Real>* x, const std::complex<Real>& f,
               Index n) {
-  if constexpr (std::is_floating_point_v<Real>) {  // arrays of pairs, [complex.numbers]
+  if constexpr (std::is_floating_point_v<Real>) {  // complex arrays are arrays of pairs, [complex.numbers]
     const Real fr = f.real(), fi = f.imag();
     Real* const Y = reinterpret_cast<Real*>(y);
     const Real* const X = reinterpret_cast<const Real*>(x);
@@ -75,20 +75,21 @@ void subtract(std::complex<Real>* y, const std::complex<Real>* x, const std::com
 
 }  // namespace detail
 
-/// T real or complex; n fixed by the constructor. Up to `kPlainLu` unknowns plain loops by columns:
-/// measured for complex doubles, factorization takes a fifth (n = 2) to three quarters (n = 200) of
-/// Eigen's time, and less than LAPACK's zgetrf (OpenBLAS) up to n = 48. Above, Eigen's blocks.
+/// LU of an n x n matrix; T is real or complex, n is fixed by the constructor. Up to `kPlainLu` unknowns it uses
+/// plain loops by columns, above that Eigen's blocked LU. Measured for complex doubles, the plain loops factorize
+/// in a fifth (n = 2) to three quarters (n = 200) of Eigen's time, and faster than LAPACK's zgetrf (OpenBLAS) up
+/// to n = 48.
 template <class T>
 class DenseLu {
  public:
   explicit DenseLu(Index n)
       : matrix_(n, n), pivots_(static_cast<std::size_t>(n)), lu_(plain() ? 0 : n) {}
 
-  /// To be filled, all of it, before `factorize`, which may overwrite it.
+  /// Fill all entries (by columns) before `factorize`, which may overwrite them.
   Mat<T>& matrix() { return matrix_; }
   T* values() { return matrix_.data(); }
 
-  /// kSuccess, kSingular, kNotFinite.
+  /// Returns kSuccess, kSingular or kNotFinite. After a failure `solve` must not be called.
   [[nodiscard]] Outcome factorize() {
     if (plain()) {
       return withSize<kUnrolled>(matrix_.rows(), [this](auto n) { return factorizePlain(n); });
@@ -101,7 +102,7 @@ class DenseLu {
     return Outcome::kSuccess;
   }
 
-  /// In place; x has n entries, contiguous.
+  /// Solves in place; x has n contiguous entries.
   void solve(T* x) {
     if (plain()) {
       return withSize<kUnrolled>(matrix_.rows(), [this, x](auto n) { solvePlain(x, n); });
@@ -119,8 +120,8 @@ class DenseLu {
 
   bool plain() const { return matrix_.rows() <= kPlainLu; }
 
-  // Diagonal: inverse pivots. What is not finite above the diagonal spreads below it, where the
-  // search for the pivot meets it.
+  // The diagonal holds the inverse pivots. A number that is not finite above the diagonal spreads below it during
+  // elimination, where the search for the pivot finds it.
   template <class Size>
   Outcome factorizePlain(Size n) {
     using std::isfinite;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMostLanes = 8, kLeastWidth = 4;
 
-// Entry by entry: the real parts of all lanes, then the imaginary parts.
+// Writes the entries of one lane. Each entry holds the real parts of all lanes, then their imaginary parts.
 template <class T>
 void spread(const std::vector<T>& from, std::size_t lane, std::size_t width,
             std::vector<double>& to) {
@@ -111,7 +111,7 @@ void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) 
       at[0] = f.scale[k] * (lane.sigma * lane.im[f.p[k]]);
     }
   }
-  // x of the rows of a column's entries -= entry times `here`.
+  // Subtracts column k times (re, im) from x.
   const auto eliminate = [x](const std::vector<int>& start, const std::vector<int>& row,
                              const std::vector<double>& value, std::size_t k, const Array& re,
                              const Array& im) {

@@ -1,4 +1,5 @@
-// Inverses of matrices with a few rows: a product has no chain of substitutions to wait for.
+// Inverses of matrices with a few rows. A product with the inverse is faster than substitution with factors, where
+// each row waits for the one before.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +12,13 @@
 
 namespace irk {
 
-/// Up to this many unknowns the blocks of a step are inverted. Measured for complex n = 8: the inverse
-/// takes as long as the factors (its loops are vector instructions), a product a sixth of the
+/// Blocks of the Newton matrix with up to this many unknowns are inverted. Measured for complex n = 8: the inverse
+/// takes as long as the factors (its loops become vector instructions), a product a sixth of the time of the
 /// substitutions.
 inline constexpr Index kSmallInverse = 8;
 
-/// A real (Parts = 1) or complex matrix by columns, real parts before imaginary ones: loops over its
-/// rows become vector instructions.
+/// A view of a real (Parts = 1) or complex (Parts = 2) n x n matrix, by columns; all real parts come before all
+/// imaginary parts, so that loops over rows become vector instructions.
 template <class Real, int Parts>
 class SplitMatrix {
  public:
@@ -44,7 +45,7 @@ class SplitMatrix {
       std::swap(data_[part * imaginary_ + a], data_[part * imaginary_ + b]);
     }
   }
-  /// A column's own copy: what is read and what is written cannot overlap.
+  /// A copy of one column, so that the numbers read and the numbers written cannot overlap.
   struct Column {
     alignas(64) std::array<Real, static_cast<std::size_t>(kSmallInverse)> re, im;
   };
@@ -74,8 +75,8 @@ class SplitMatrix {
   Index imaginary_;
 };
 
-/// a (n x n, n <= kSmallInverse) := its inverse, Gauss-Jordan with partial pivoting. kSuccess,
-/// kSingular, kNotFinite.
+/// Replaces the n x n matrix at `data` (n <= kSmallInverse) by its inverse: Gauss-Jordan with partial pivoting.
+/// Returns kSuccess, kSingular or kNotFinite; after a failure the entries are unspecified.
 template <int Parts, class Real, class Size>
 [[nodiscard]] Outcome invert(Real* data, Size n) {
   using std::isfinite;
@@ -103,7 +104,7 @@ template <int Parts, class Real, class Size>
       if (j == k) continue;
       const Value f = detail::product(a.get(j * n + k), inverse);
       a.subtract(j * n, rest, f, n);  // rest[k] = 0
-      a.set(j * n + k, f);            // before it the vector would wait for this number
+      a.set(j * n + k, f);            // set last: the vector operation does not wait for this number
     }
     for (Index i = 0; i < n; ++i) a.set(column + i, detail::product(-a.get(column + i), inverse));
     a.set(column + k, inverse);
@@ -119,7 +120,7 @@ template <int Parts, class Real, class Size>
 template <class Real, class Size>
 void multiplySmall(const Real* A, Real* y, Size m) {
   constexpr auto kMost = static_cast<std::size_t>(2 * kSmallInverse);
-  std::array<Real, kMost> even, odd;  // sums that need not wait for each other
+  std::array<Real, kMost> even, odd;  // two independent sums: neither waits for the other
   for (Index i = 0; i < m; ++i) even[static_cast<std::size_t>(i)] = A[i] * y[0];
   for (Index i = 0; i < m; ++i) odd[static_cast<std::size_t>(i)] = Real(0);
   for (Index j = 1; j + 1 < m; j += 2) {

@@ -13,25 +13,25 @@
 namespace irk {
 namespace {
 
-// Old pivots serve as long as the smallest of them, relative to the largest, is not this much
-// smaller than when they were chosen.
+// Old pivots are used as long as the ratio of the smallest to the largest pivot is at least this part of the ratio
+// at the time of their choice.
 constexpr double kSmallerPivot = 1e-3;
 
 klu_common defaults() {
   klu_common common;
   klu_defaults(&common);
-  common.btf = 0;  // one block: nothing beside L and U
+  common.btf = 0;  // no block triangular form: the factors are L and U only
   return common;
 }
 
 template <class T>
 constexpr bool kHasKlu = std::is_same_v<T, double> || std::is_same_v<T, std::complex<double>>;
 
-// KLU takes arrays as not const, and changes none of these.
+// KLU's functions take non-const arrays but do not change these.
 int* indices(const std::vector<int>& x) { return const_cast<int*>(x.data()); }
 
-// KLU's arrays as SparsePivots keeps them: without the diagonals, first in a column of L and last in one
-// of U; and where the entries of A go.
+// Brings KLU's arrays into the form of SparsePivots: removes the diagonals (the first entry in a column of L, the
+// last in a column of U), inverts the scales, and lists where the entries of A go.
 void finish(const SparseAnalysis& analysis, SparsePivots& f, std::vector<int>& row_of) {
   const std::size_t n = f.p.size();
   row_of.resize(n);
@@ -66,7 +66,7 @@ void finish(const SparseAnalysis& analysis, SparsePivots& f, std::vector<int>& r
   f.source_start.push_back(static_cast<int>(f.source.size()));
 }
 
-// What KLU allocates for one factorization.
+// Owns KLU's numeric object for one factorization.
 template <class T>
 struct Pivoting {
   klu_common common = defaults();
@@ -93,8 +93,8 @@ struct Pivoting {
   Pivoting& operator=(const Pivoting&) = delete;
   bool good() const { return value && common.status == KLU_OK; }
 
-  /// Columns of L and U with their diagonals, rows ascending. Without values KLU extracts no pattern.
-  /// re and im are scratch.
+  /// Columns of L and U with their diagonals, rows ascending. KLU extracts a pattern only together with its values,
+  /// which go to the scratch re and im.
   void extract(klu_symbolic* symbolic, SparsePivots& f, std::vector<double>& re,
                std::vector<double>& im) {
     const auto n = static_cast<std::size_t>(symbolic->n);
@@ -140,7 +140,7 @@ SparseAnalysis::~SparseAnalysis() {
   klu_free_symbolic(&symbolic_->value, &common);
 }
 
-// KLU gives -1 where it does not know.
+// KLU returns -1 if it does not know the number.
 std::size_t SparseAnalysis::lowerEntries() const {
   return static_cast<std::size_t>(std::max(symbolic_->value->lnz, 0.0));
 }
@@ -187,7 +187,8 @@ Outcome SparseLu<T>::factorize(const SparsePivots* others, bool rather) {
   return pivot() ? Outcome::kSuccess : Outcome::kSingular;
 }
 
-// Pivots that KLU might have chosen itself: none is a smaller part of its column than it allows.
+// Takes the pivots of another matrix if KLU might have chosen them itself: no pivot is a smaller part of its column
+// than KLU's tolerance allows.
 template <class T>
 bool SparseLu<T>::adopt(const SparsePivots& pivots) {
   if (pivoted_ && pivots == pivots_) return false;
@@ -203,7 +204,7 @@ bool SparseLu<T>::adopt(const SparsePivots& pivots) {
   return pivoted_;
 }
 
-// Left-looking, column by column, with the pattern and the pivots that are there.
+// Left-looking LU, column by column, with the present pattern and pivots.
 template <class T>
 bool SparseLu<T>::refactorize() {
   const SparsePivots& f = pivots_;
@@ -248,7 +249,7 @@ bool SparseLu<T>::refactorize() {
   return true;
 }
 
-// New pivots of KLU's, and the factors with them.
+// Lets KLU choose new pivots, then factorizes with them.
 template <class T>
 bool SparseLu<T>::pivot() {
   if constexpr (kHasKlu<T>) {

@@ -1,6 +1,5 @@
-// Sparse LU: KLU orders a pattern once for any number of matrices, and chooses their pivots; with
-// these a matrix is factorized again and solved here. Davis & Palamadai Natarajan, ACM TOMS 37 (2010),
-// algorithm 907.
+// Sparse LU. KLU orders a pattern once for any number of matrices and chooses their pivots. Refactorization with
+// these pivots, and solves, are done here. Davis & Palamadai Natarajan, ACM TOMS 37 (2010), algorithm 907.
 #pragma once
 
 #include <complex>
@@ -14,20 +13,20 @@ namespace irk {
 
 struct SparsePivots;
 
-/// The order of elimination of a pattern. Immutable: shared by factorizations and threads.
+/// The order of elimination for a pattern. Immutable; may be shared by factorizations and threads.
 class SparseAnalysis {
  public:
-  /// Compressed columns of an n x n pattern, rows ascending.
+  /// Takes the compressed columns of an n x n pattern, rows ascending. Throws Misuse if KLU cannot analyse it.
   SparseAnalysis(std::vector<int> column_start, std::vector<int> row);
   ~SparseAnalysis();
   SparseAnalysis(const SparseAnalysis&) = delete;
   SparseAnalysis& operator=(const SparseAnalysis&) = delete;
 
   Index n() const { return static_cast<Index>(column_start.size()) - 1; }
-  /// Entries of L and of U that this order leads to if all pivots are on the diagonal.
+  /// Numbers of entries of L and of U if all pivots are on the diagonal.
   std::size_t lowerEntries() const;
   std::size_t upperEntries() const;
-  /// Room for twice as many.
+  /// Reserves memory for twice as many entries.
   void reserve(SparsePivots& pivots) const;
   const std::vector<int> column_start, row;
 
@@ -38,21 +37,21 @@ class SparseAnalysis {
   std::unique_ptr<Symbolic> symbolic_;
 };
 
-/// Factors L U = S A(p, q) but for their values: the order of elimination with its pivots, the scales S of
-/// the permuted rows, and the pattern, by columns: that of L below and that of U above the diagonal,
-/// rows ascending.
+/// The factors L U = S A(p, q) without their values: the permutations p and q, the scales S of the permuted rows,
+/// and the patterns of L below and of U above the diagonal, by columns, rows ascending.
 struct SparsePivots {
   std::vector<int> l_start, l_row, u_start, u_row;
   std::vector<int> p, q;
   std::vector<double> scale;
-  std::vector<int> source_start, source, target;  ///< a column's values: where they come from and go
+  std::vector<int> source_start, source, target;  ///< by column: entries of A, and their rows in the permuted A
 
   bool operator==(const SparsePivots&) const = default;
 };
 
 namespace detail {
 
-/// Pivots beside the diagonal fill more than the analysis foresees: there is room for twice as much.
+/// Resizes x; reserves twice the size when x has to grow. Pivots off the diagonal fill more than the analysis
+/// predicts, and more may follow.
 template <class Entry>
 void fit(std::vector<Entry>& x, std::size_t size) {
   if (x.capacity() < size) x.reserve(2 * size);
@@ -61,34 +60,33 @@ void fit(std::vector<Entry>& x, std::size_t size) {
 
 }  // namespace detail
 
-/// T: double or std::complex<double>; any other scalar is refused by its constructor (Misuse).
-/// Allocates in its constructor; KLU allocates where it pivots anew, and this class where they fill more
-/// than twice as much as the analysis has foreseen. KLU's own refactorization
-/// and solve, which divide complex numbers in every row, take 1.9 and 1.4 times as long (complex,
-/// pentadiagonal, n = 100 and 2000).
+/// Sparse LU of an n x n matrix. T is double or std::complex<double>; for any other scalar the constructor throws
+/// Misuse. Allocates in its constructor; later only KLU allocates, when it chooses new pivots, and this class, when
+/// these fill more than twice as much as the analysis predicts. KLU's own refactorization and solve, which divide
+/// complex numbers in every row, take 1.9 and 1.4 times as long (complex, pentadiagonal, n = 100 and 2000).
 template <class T>
 class SparseLu {
  public:
   explicit SparseLu(std::shared_ptr<const SparseAnalysis> analysis);
 
-  /// To be filled before `factorize`, in the order of the pattern.
+  /// The entries, in the order of the pattern. Fill all of them before `factorize`, which keeps them.
   T* values() { return values_.data(); }
 
-  /// With the pivots of the last factorization where they still serve, else with the `others` of a like
-  /// matrix where they do, else with new ones; `rather`: with the others first. kSuccess, kSingular,
-  /// kNotFinite.
+  /// Factorizes with the pivots of the last factorization if they are still good; else with `others`, the pivots of
+  /// a similar matrix, if they are good; else with new pivots. `rather`: tries `others` first. Returns kSuccess,
+  /// kSingular or kNotFinite.
   [[nodiscard]] Outcome factorize(const SparsePivots* others = nullptr, bool rather = false);
 
-  /// In place; x has n entries, contiguous.
+  /// Solves in place; x has n contiguous entries. The last factorization must have succeeded.
   void solve(T* x);
 
-  /// min |u_ii| / max |u_ii|, a cheap estimate of the reciprocal condition.
+  /// min |u_ii| / max |u_ii|: a cheap estimate of the reciprocal condition.
   double reciprocalCondition() const { return condition_; }
-  /// How often pivots were chosen.
+  /// How many times KLU has chosen pivots.
   int pivotings() const { return pivotings_; }
 
-  /// Of the last factorization, if any; `version` changes with them and is 0 without. The values of L and
-  /// U in their order, and the inverses of the diagonal of U.
+  /// Pivots and factors of the last factorization: the values of L and U in the order of `pivots`, and the inverses
+  /// of the diagonal of U. `version` changes with the pivots; it is 0 if there are none.
   const SparsePivots& pivots() const { return pivots_; }
   int version() const { return pivoted_ ? version_ : 0; }
   const std::vector<T>& lower() const { return l_; }
@@ -111,7 +109,7 @@ class SparseLu {
   std::vector<double> re_, im_;
   bool pivoted_ = false;
   int version_ = 0;
-  double condition_ = 0, chosen_at_ = 0;  // reciprocal; the latter when the pivots were chosen
+  double condition_ = 0, chosen_at_ = 0;  // reciprocal conditions: now, and when the pivots were chosen
   int pivotings_ = 0;
 };
 
