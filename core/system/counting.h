@@ -1,4 +1,4 @@
-// Decorators that count evaluations, so that no strategy can forget to.
+// A decorator that counts evaluations, so that no strategy has to count its own.
 #pragma once
 
 #include <atomic>
@@ -8,8 +8,8 @@
 
 namespace irk {
 
-/// Forwards to another system and counts its evaluations. One per integrator; several threads may
-/// evaluate it where that is said at its construction.
+/// Forwards to another system and counts its evaluations. Keeps references to both. Each integrator has its own;
+/// several threads may evaluate it at a time if `threads` > 1.
 template <class Real>
 class CountingSystem final : public System<Real> {
  public:

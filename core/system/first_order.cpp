@@ -19,7 +19,7 @@ bool allFinite(const Vec<Real>& x) {
   return std::all_of(x.begin(), x.end(), [](const Real& value) { return isfinite(value); });
 }
 
-// A state near `from`: every number moved by up to a tenth of its size, or of 1.
+// A state near `from`: t and every number of u, v, x is moved by up to a tenth of 1 + its magnitude.
 template <class Real>
 State<Real> moved(const State<Real>& from, int sample) {
   State<Real> to = from;
@@ -85,7 +85,7 @@ void FirstOrderForm<Real>::evaluate(Level level, const Point<Dual<Real>>& p,
   for (Index i = 0; i < p.d.size(); ++i) dual_.d[i] = Dual<Real>(at_.d[i]);
   inner_->evaluate(Level::kAcceleration, pointOf(dual_), {dual_residual_.data(), n});
   for (Index i = 0; i < n; ++i) residual_[i] = dual_residual_[i].value;
-  if (rates_ != Rates::kNonlinear && !isSolution(residual_)) {  // not what it was near the start
+  if (rates_ != Rates::kNonlinear && !isSolution(residual_)) {  // `classify` was wrong for this point
     rates_ = Rates::kNonlinear;
     solved_ = false;
     return evaluate(level, p, r);
@@ -99,7 +99,7 @@ void FirstOrderForm<Real>::evaluate(Level level, const Point<Dual<Real>>& p,
   for (Index i = 0; i < nu + nx; ++i) r[nu + i] = dual_.w[i] - p.k[nu + i];
 }
 
-// --- w = (a, k, z) at a point, kept in at_.
+// --- Solves for w = (a, k, z) at a point; at_ keeps the point and w.
 
 template <class Real>
 bool FirstOrderForm<Real>::holds(const Real& t, const Real* y, const Real* d) const {
@@ -109,7 +109,7 @@ bool FirstOrderForm<Real>::holds(const Real& t, const Real* y, const Real* d) co
          std::equal(at_.d.begin(), at_.d.end(), d);
 }
 
-// The chunks of one Jacobian share their point, and its factorization.
+// All dual evaluations of one Jacobian are at the same point: w and the factorization are computed once.
 template <class Real>
 bool FirstOrderForm<Real>::solve(const Real& t, const Real* y, const Real* d) const {
   if (solved_ && holds(t, y, d)) return true;
@@ -123,7 +123,7 @@ bool FirstOrderForm<Real>::solve(const Real& t, const Real* y, const Real* d) co
   return solved_;
 }
 
-// r is linear in w: r(0) + D0 w = 0.
+// For r linear in w: r(0) + D0 w = 0.
 template <class Real>
 bool FirstOrderForm<Real>::solveLinear() const {
   at_.w.setZero();
@@ -138,7 +138,7 @@ bool FirstOrderForm<Real>::solveLinear() const {
   return allFinite(at_.w);
 }
 
-// From the last point's w to round-off.
+// Newton's method from the w of the last point, until the change is as small as round-off.
 template <class Real>
 bool FirstOrderForm<Real>::solveNewton() const {
   using std::sqrt;
@@ -159,7 +159,7 @@ bool FirstOrderForm<Real>::solveNewton() const {
   return false;
 }
 
-// Whether w leaves a residual that changes it by less than half the digits.
+// Whether at_.w solves the residual: a Newton step would change it by less than half of its digits.
 template <class Real>
 bool FirstOrderForm<Real>::isSolution(const Vec<Real>& residual) const {
   using std::sqrt;
@@ -169,7 +169,7 @@ bool FirstOrderForm<Real>::isSolution(const Vec<Real>& residual) const {
   return Real(column_.norm()) <= Real(sqrt(eps)) * (Real(1) + Real(at_.w.norm()));
 }
 
-// D0 into the factors' matrix and the residual, at at_.
+// Evaluates D0 (into the matrix of lu_) and the residual at at_.
 template <class Real>
 void FirstOrderForm<Real>::evaluateMatrix() const {
   const Index n = inner_sizes_.n();
@@ -212,10 +212,10 @@ void FirstOrderForm<Real>::divideByMatrix(Vec<Real>& x) const {
   }
 }
 
-// --- What D0 depends on.
+// --- Finds out what D0 depends on.
 
-// At the start and after each switch. D0's dependence is seen on states nearby; where it shows only
-// further away, a Jacobian's residual tells (`evaluate`).
+// Called at the start and after each switch. D0 is compared with its values at states nearby. A dependence that shows
+// only further away is found later, by the residual of a dual evaluation (`evaluate`).
 template <class Real>
 bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   solved_ = false;
@@ -223,7 +223,7 @@ bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   evaluateMatrix();
   const Mat<Real> D0 = lu_.matrix();
   if (!Eigen::FullPivLU<Mat<Real>>(D0).isInvertible()) {
-    rates_ = Rates::kNonlinear;  // whose solves will say so
+    rates_ = Rates::kNonlinear;  // later solves report that D0 is singular
     return false;
   }
   rates_ = kindNear(scene, D0);
@@ -252,7 +252,7 @@ typename FirstOrderForm<Real>::Rates FirstOrderForm<Real>::kindNear(const State<
   return constant ? Rates::kConstant : Rates::kLinear;
 }
 
-// --- The scene's unknowns and these.
+// --- Translates between the scene's unknowns and y.
 
 template <class Real>
 void FirstOrderForm<Real>::switching(const Point<Real>& p, VecView<Real> g) const {

@@ -1,6 +1,6 @@
-// The form y' = f(t, y) that codes for ordinary differential equations ask for: y = (u, v, x),
+// The form y' = f(t, y) that codes for ordinary differential equations need: y = (u, v, x),
 // f = (v, a, k), where (a, k, z) solve the residual at acceleration level.
-// Made by firstOrderForm, irk/problem.h.
+// Users call firstOrderForm in irk/problem.h.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace irk {
 
-/// A system as one of first order: its x is (u, v, x), its rows are f(t, x) - k. z is eliminated:
-/// position constraints enter twice differentiated, and drift. For a mechanism f is v' = M^-1 F: M
-/// (all of D0) is evaluated and factorized at every new point, unless it is constant.
+/// A system in first-order form: its x is (u, v, x) of the inner system, its rows are f(t, x) - k. z is eliminated:
+/// position constraints enter twice differentiated, so that positions drift. For a mechanism f contains
+/// v' = M^-1 F: M (the whole D0) is evaluated and factorized at every new point, unless it is constant.
 ///
-/// Unlike other systems it keeps scratch: one per thread.
+/// Unlike other systems it keeps scratch: use one object per thread.
 template <class Real>
 class FirstOrderForm final : public System<Real> {
  public:
-  /// Of `inner` only the acceleration level is used.
+  /// Shares ownership of `inner`, which is evaluated at acceleration level only.
   explicit FirstOrderForm(std::shared_ptr<const System<Real>> inner);
 
   Sizes sizes() const override { return sizes_; }
   Sizes sceneSizes() const override { return inner_sizes_; }
-  /// All levels are the same: there are no constraints left. NaN where D0 is singular.
+  /// Ignores `level`, since there are no constraints left. Writes NaN where D0 is singular.
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override;
-  /// Implicit differentiation: D0 dw = -dr at fixed w = (a, k, z).
+  /// Differentiates implicitly: D0 dw = -dr, where dr is taken at fixed w = (a, k, z).
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override;
   const std::vector<int>& rowPowers() const override { return row_powers_; }
   const ErrorPowers& errorPowers() const override { return error_powers_; }
@@ -38,7 +38,7 @@ class FirstOrderForm final : public System<Real> {
   Discontinuity discontinuity() const override { return inner_->discontinuity(); }
   bool secondOrder() const override { return false; }
 
-  /// Throws Misuse where D0 is singular: (a, k, z) do not follow from (u, v, x).
+  /// Throws Misuse if D0 is singular at `scene`: (a, k, z) then do not follow from (u, v, x).
   State<Real> fromScene(const State<Real>& scene) const override;
   State<Real> toScene(const State<Real>& state) const override;
 
@@ -46,7 +46,8 @@ class FirstOrderForm final : public System<Real> {
   std::int64_t massFactorizations() const { return factorizations_; }
 
  private:
-  /// How (a, k, z) enter the residual: decides how often D0 is evaluated.
+  /// How D0 depends on the point; decides how often it is evaluated. kDiagonal is also constant; kLinear: it depends
+  /// on (t, u, v, x), but not on (a, k, z).
   enum class Rates { kDiagonal, kConstant, kLinear, kNonlinear };
 
   bool classify(const State<Real>& scene) const;  // false: D0 is singular
@@ -72,7 +73,7 @@ class FirstOrderForm final : public System<Real> {
   mutable Vec<Real> residual_, column_, values_;
   mutable State<Dual<Real>> dual_;
   mutable Vec<Dual<Real>> dual_residual_;
-  mutable Vec<Real> diagonal_;  // of D0, where that is all of it
+  mutable Vec<Real> diagonal_;  // of D0, used for kDiagonal
   mutable DenseLu<Real> lu_;    // of D0
   mutable std::int64_t factorizations_ = 0;
 };

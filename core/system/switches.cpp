@@ -6,7 +6,8 @@
 
 namespace irk {
 namespace {
-// Two switches of every kind at one time are more than any scene needs; a third round is a circle.
+// Largest number of switches at one time, per switching function. No scene needs more than two of a kind; after
+// three the modes are taken to repeat in a circle.
 constexpr Index kRounds = 3;
 }  // namespace
 
@@ -16,7 +17,7 @@ Switches<Real>::Switches(const System<Real>& system)
 
 template <class Real>
 SwitchReport Switches<Real>::evaluate(const Point<Real>& p) {
-  using std::isfinite;  // of double; others by their namespace
+  using std::isfinite;  // for double; other scalars are found by their namespace
   if (none()) return {};
   system_.switching(p, VecView<Real>(g_.data(), g_.size()));
   for (Index i = 0; i < g_.size(); ++i) {

@@ -1,4 +1,4 @@
-// The discrete state: which switches are due, and doing them.
+// The discrete state: finds switches that are due, and executes them.
 #pragma once
 
 #include <algorithm>
@@ -11,26 +11,26 @@
 
 namespace irk {
 
-/// Whether u, v, x jump where the scene makes them.
+/// Whether System::jump is called after a switch, so that u, v, x may jump.
 enum class Jumps { kDone, kNone };
 
 struct SwitchReport {
-  Outcome outcome = Outcome::kSuccess;  ///< kNotFinite, or kChattering: no mode is valid
-  Index count = 0;                      ///< switches done
-  Index index = -1;                     ///< of the last one, or the one to blame
+  Outcome outcome = Outcome::kSuccess;  ///< or kNotFinite; or kChattering: no mode was found to be valid
+  Index count = 0;                      ///< number of switches executed
+  Index index = -1;                     ///< of the last switch, or of the switching function that failed
 };
 
-/// Switches that follow each other without time passing.
+/// Detects chattering: switches that follow each other while time (almost) stands still.
 class ChatterDetector {
  public:
-  /// After an accepted step of a mode that does not locate: true once per run of kRun steps that
-  /// all end with a switch.
+  /// Call after each accepted step if switches are not located. Returns true when kRun steps in succession have
+  /// ended with a switch; once for each such sequence.
   bool step(bool switched) {
     steps_ = switched ? steps_ + 1 : 0;
     return steps_ == kRun;
   }
-  /// After a switch located at t as finely as `resolution`, in an integration of this length: true
-  /// if there is no getting away.
+  /// Call after a switch located at t, with accuracy `resolution`, in an integration over an interval of this length.
+  /// Returns true when kRun switches in succession had practically no time between them.
   bool event(double t, double length, double resolution) {
     events_ = t - last_ <= std::max(kNoTime * length, 4 * resolution) ? events_ + 1 : 0;
     last_ = t;
@@ -44,7 +44,7 @@ class ChatterDetector {
   double last_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Evaluates and does switches of one system. Owns scratch.
+/// Evaluates the switching functions of one system and executes its switches. Owns scratch.
 template <class Real>
 class Switches {
  public:
@@ -52,13 +52,14 @@ class Switches {
   explicit Switches(const System<Real>& system);
 
   bool none() const { return g_.size() == 0; }
-  /// g at a point; kNotFinite with the first index that is.
+  /// Evaluates g() at a point. kNotFinite names the first switching function that is not finite.
   SwitchReport evaluate(const Point<Real>& p);
   SwitchReport evaluate(const State<Real>& state) { return evaluate(pointOf(state)); }
   const Vec<Real>& g() const { return g_; }
-  /// The first switch due in g(), or -1.
+  /// The first switch that is due by the last g(), or -1.
   Index due() const;
-  /// Does due switches until none is due; `done` hears each, after it.
+  /// Executes due switches, changing state.d (and u, v, x if they jump), until none is due. Calls `done` after each.
+  /// After a failure the state keeps the switches executed so far.
   SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone,
                       const std::function<void(Index)>& done = {});
   /// "switching function 'contact'".

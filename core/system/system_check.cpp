@@ -16,7 +16,7 @@ void requireCount(const std::string& what, Index given, Index wanted) {
 
 template <class Real>
 bool isFinite(const Real& x) {
-  using std::isfinite;  // of double; others by their namespace
+  using std::isfinite;  // for double; other scalars are found by their namespace
   return isfinite(x);
 }
 
