@@ -7,7 +7,7 @@
 namespace irk {
 
 std::vector<int> colour(const RowSets& sets, Index rows) {
-  // The colours in use at each row, side by side: there is room for one of each set.
+  // The colours in use at each row, stored one row after the other, with room for one colour of each set there.
   std::vector<std::size_t> begin(static_cast<std::size_t>(rows) + 1, 0);
   for (const auto& set : sets) {
     for (const int row : set) ++begin[static_cast<std::size_t>(row) + 1];
@@ -16,7 +16,7 @@ std::vector<int> colour(const RowSets& sets, Index rows) {
   std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
   std::vector<int> at_row(begin.back());
   std::vector<int> colours(sets.size(), 0);
-  std::vector<std::size_t> used_by;  // by colour: the last set + 1 for which it is in use
+  std::vector<std::size_t> used_by;  // by colour: 1 + the last set that cannot have it
   for (std::size_t i = 0; i < sets.size(); ++i) {
     for (const int row : sets[i]) {
       const auto r = static_cast<std::size_t>(row);
@@ -61,7 +61,7 @@ ColouredDirections::ColouredDirections(const Directions& group, const RowSets& r
   }
   first_direction.push_back(directions.size());
   first_entry.push_back(entries.size());
-  for (const std::size_t i : order) {  // what reaches nothing takes part in the check only
+  for (const std::size_t i : order) {  // directions that reach no row take part in the check only
     if (!rows[i].empty()) continue;
     directions.push_back(group[i]);
     weights.push_back(around_one(random));

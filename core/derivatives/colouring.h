@@ -1,4 +1,4 @@
-// Few directions instead of all: columns of a Jacobian that share no row are differentiated together.
+// Colouring: columns of a Jacobian that share no row are differentiated together, in few evaluations.
 #pragma once
 
 #include <vector>
@@ -8,26 +8,27 @@
 namespace irk {
 
 /// Greedy colouring of the column intersection graph: sets of one colour share no row. Gebremedhin,
-/// Manne & Pothen, SIAM Review 47 (2005). Returns the colour of each set.
+/// Manne & Pothen, SIAM Review 47 (2005). Returns the colour of each set, from 0 on; `rows`: number of rows.
 std::vector<int> colour(const RowSets& sets, Index rows);
 
-/// Directions to be differentiated together: those of one colour share no row.
+/// Directions sorted by colour; those of one colour share no row and are differentiated together. The number
+/// colours() stands for one more colour, the check: all directions at a time, each with its weight.
 struct ColouredDirections {
   struct Entry {
-    int row;                ///< of the derivative along a colour
-    int matrix;             ///< whose value it is, ...
-    Index slot;             ///< ... where in the pattern, ...
-    std::size_t direction;  ///< ... and in which of the directions
+    int row;                ///< row in the derivative along the colour
+    int matrix;             ///< the matrix that it belongs to: D0, D1 or D2
+    Index slot;             ///< its place in the pattern
+    std::size_t direction;  ///< index of its direction
   };
   Directions directions;
-  std::vector<double> weights;  ///< of the directions, random around 1: a combination for checks
-  std::vector<std::size_t> first_direction, first_entry;  ///< colours + 1
+  std::vector<double> weights;                            ///< of the directions in the check, random around 1
+  std::vector<std::size_t> first_direction, first_entry;  ///< by colour; colours + 1 numbers
   std::vector<Entry> entries;
 
   ColouredDirections() = default;
   ColouredDirections(const Directions& group, const RowSets& rows, const Pattern& pattern);
   std::size_t colours() const { return first_direction.empty() ? 0 : first_direction.size() - 1; }
-  /// The directions of a colour; of `colours()`: all, with their weights.
+  /// The range of directions of a colour; for colour = colours() all directions.
   std::size_t begin(std::size_t colour) const {
     return colour == colours() ? 0 : first_direction[colour];
   }

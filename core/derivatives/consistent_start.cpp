@@ -8,10 +8,10 @@
 namespace irk {
 namespace {
 
-// A start given with eight digits is a start; with fewer it is a mistake.
+// A start given with eight digits is accepted; larger violations count as mistakes.
 constexpr double kConstraintTolerance = 1e-7;
 constexpr int kIterations = 50;
-// The derivatives serve on while the corrections contract at least so much.
+// The derivatives are kept while each correction is at most this part of the one before.
 constexpr double kKeepBelow = 1e-3;
 constexpr const char* kStart = "at the start";
 constexpr const char* kConsistent = "consistent (a, k, z)";
@@ -26,7 +26,7 @@ StartReport report(Outcome outcome, const char* place, double t, Index row, cons
   return {outcome, text.str(), true};
 }
 
-// The row of the largest number, one that is not finite before all others.
+// The first row that is not finite; if there is none, the row of the largest magnitude.
 template <class Real>
 Index worstRow(const Vec<Real>& r) {
   using std::abs;
@@ -51,7 +51,7 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
       dw_(system.sizes().n()),
       given_(system.sizes().n()) {}
 
-// False where D0 is singular; a dense one is asked with full pivoting.
+// Returns false if D0 is singular. For a dense D0 this is decided by full pivoting.
 template <class Real>
 bool ConsistentStart<Real>::factorize() {
   if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
@@ -70,7 +70,7 @@ void ConsistentStart<Real>::solve() {
   }
 }
 
-// g = 0, dg/dt = 0, and nothing that is not finite.
+// Checks that g = 0, dg/dt = 0 and that all residuals are finite.
 template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
   using std::abs;
@@ -120,7 +120,8 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
   return "multipliers of the stages: " + found.detail;
 }
 
-// kSingular where D0 is. Where Newton does not converge a residual of `tolerated` will do.
+// Newton's method for state.w. Returns kSingular if D0 is singular. If Newton does not converge, a residual up to
+// `tolerated`, relative to 1 + |w|, is accepted.
 template <class Real>
 StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place,
                                              double tolerated) {
@@ -153,7 +154,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
     }
     solve();
     const Real size = dw_.norm();
-    // Kept derivatives that do not serve: once more with new ones.
+    // If kept derivatives contract badly, the correction is dropped and computed again with new derivatives.
     renew = !renew && size > Real(kKeepBelow) * before;
     if (renew) continue;
     before = size;
@@ -167,7 +168,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
                 "Newton does not converge; residual", value, allowed);
 }
 
-// The given (a, k, z), where they are not required or satisfy the residual.
+// Keeps the given (a, k, z) if they are not required or satisfy the residual.
 template <class Real>
 StartReport ConsistentStart<Real>::keep(const State<Real>& state, const char* place) {
   system_.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(r_.data(), r_.size()));

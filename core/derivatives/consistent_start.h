@@ -1,4 +1,4 @@
-// Consistent states: constraints hold, and (a, k, z) follow from (u, v, x).
+// Makes states consistent: checks that the constraints hold and computes (a, k, z) from (u, v, x).
 #pragma once
 
 #include <string>
@@ -13,36 +13,36 @@ namespace irk {
 
 struct StartReport {
   Outcome outcome = Outcome::kSuccess;
-  std::string detail;
-  bool determined = true;  ///< false: D0 is singular, (a, k, z) are the given ones
+  std::string detail;      ///< where and why it failed; one line
+  bool determined = true;  ///< false: D0 is singular, and (a, k, z) are kept as given
 };
 
-/// What is asked of a state before (a, k, z) are determined.
+/// What is checked before (a, k, z) are determined.
 enum class StartCheck {
-  kConstraints,  ///< a user's start: g = 0 and dg/dt = 0
-  kNone,         ///< a restart after a switch: the drift of the integration is no mistake
+  kConstraints,  ///< for a user's start: g = 0 and dg/dt = 0
+  kNone,         ///< for a restart after a switch: the constraints are violated by the drift so far
 };
 
-/// Owns its derivatives, factors and scratch: for any number of starts of one system.
+/// Makes any number of states of one system consistent. Owns derivatives, factors and scratch.
 template <class Real>
 class ConsistentStart {
  public:
-  /// Keeps a reference to the system. `w_required`: a (a, k, z) that cannot be determined has to
-  /// satisfy the residual as it is given.
+  /// Keeps a reference to the system. `w_required`: if (a, k, z) cannot be determined, the given values have to
+  /// satisfy the residual.
   ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required);
 
-  /// A new integration: the same bits as of a new object.
+  /// Resets all history before a new integration: results are then bitwise those of a new object.
   void forgetPattern() { differentiator_.forgetPattern(); }
 
-  /// Replaces state.w by the solution of the residual at Level::kAcceleration: Newton on w, with the
-  /// derivatives kept while it contracts well; one that ends with a residual as small as that asked of
-  /// constraints will do as start values. Where its matrix D0 is singular (algebraic unknowns
-  /// of higher index that are no multipliers of position constraints) state.w is kept if it is not
-  /// required or satisfies the residual; else kInconsistentStart. kNotFinite names the row. After a
-  /// failure state.w is the given one.
+  /// Replaces state.w by the solution of the residual at Level::kAcceleration. Uses Newton's method for w and keeps
+  /// the derivatives while it contracts well. If Newton does not converge, a residual within the tolerance of the
+  /// constraint check is accepted, since w then only serves as start values. If D0 is singular (algebraic unknowns
+  /// of higher index that are no multipliers of position constraints), state.w is kept, provided that it is not
+  /// required or satisfies the residual; otherwise the outcome is kInconsistentStart. For kNotFinite the detail
+  /// names the row or the matrix. A failure leaves the state unchanged.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
-  /// The same at the end of an integration, with `Multipliers::kConsistent`. Where Newton does not
-  /// converge to (a, k, z) those of the stages stay, and what is returned says why; else it is empty.
+  /// The same at the end of an integration, for `Multipliers::kConsistent`. If Newton does not converge, (a, k, z)
+  /// stay those of the stages, and the reason is returned; otherwise the text is empty.
   std::string applyAtEnd(State<Real>& state);
 
  private:
@@ -56,7 +56,7 @@ class ConsistentStart {
   bool w_required_;
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
-  RateLu<Real> lu_;  // sparse
+  RateLu<Real> lu_;  // for a sparse pattern
   Eigen::FullPivLU<Mat<Real>> dense_lu_;
   Vec<Real> r_, dw_, given_;
 };

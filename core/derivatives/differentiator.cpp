@@ -12,9 +12,10 @@
 namespace irk {
 namespace {
 
-// Of the rows' terms: round-off for exact derivatives, truncation for differences.
+// Tolerances of the check, relative to the terms of a row: round-off of exact derivatives, truncation error of
+// differences.
 constexpr double kDualCheck = 1e-8, kDifferenceCheck = 1e-3;
-// A failed check that no new entry explains was round-off.
+// If a check fails but no new entry is found, it was round-off: the tolerance grows by this factor.
 constexpr double kLooser = 10;
 
 template <class F>
@@ -53,7 +54,7 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
   }
   const bool no_mass = terms == JacobianTerms::kNoMass;
   const bool no_vxz = no_mass || terms == JacobianTerms::kNoMassVxz;
-  // Other rows than F2 have no constant stiffness: with them D2 has to be evaluated anyway.
+  // Only the rows F2 have a constant stiffness. If there are other rows, D2 has to be evaluated for them anyway.
   const bool once = terms == JacobianTerms::kConstantStiffness && sizes_.n() == sizes_.nu;
   const Index rates = sizes_.nu + sizes_.nx;
   for (const Direction& d : allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1)) {
@@ -88,7 +89,7 @@ void Differentiator<Real>::forgetPattern() {
   if (!detects()) setPattern();
 }
 
-/// Looks at p. Returns whether there is anything new.
+/// Searches the pattern near p, and at p itself if it has been searched before. Returns whether it has grown.
 template <class Real>
 bool Differentiator<Real>::look(Level level, const Point<Real>& p) {
   bool grown = !looked_;
@@ -195,7 +196,7 @@ void Differentiator<Real>::keepStiffness(Linearization<Real>& out) {
                [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
 }
 
-/// Takes the changes along a colour, by row, to their matrices.
+/// Stores the changes along a colour, given by row, in the matrices.
 template <class Real>
 template <class Change>
 void Differentiator<Real>::take(const ColouredDirections& group, std::size_t colour,
@@ -216,7 +217,7 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
   }
 }
 
-/// The rows' changes along the combination of all directions against what was stored.
+/// Compares the changes along the combination of all directions, by row, with the stored derivatives.
 template <class Real>
 template <class Change>
 void Differentiator<Real>::check(const Change& change, Linearization<Real>& out) {
@@ -224,7 +225,7 @@ void Differentiator<Real>::check(const Change& change, Linearization<Real>& out)
   using std::isfinite;
   for (Index row = 0; row < sizes_.n(); ++row) {
     const Real all = change(row);
-    if (!isfinite(all)) {  // in an entry that the pattern may not have
+    if (!isfinite(all)) {  // the entry may be outside of the pattern
       out.d0.setConstant(std::numeric_limits<Real>::quiet_NaN());
       return;
     }
@@ -233,7 +234,7 @@ void Differentiator<Real>::check(const Change& change, Linearization<Real>& out)
   }
 }
 
-// The colour after the last one is the check.
+// The colour after the last one stands for the check.
 template <class Real>
 void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level,
                                         Linearization<Real>& out) {

@@ -1,4 +1,4 @@
-// D0 = dr/d(a,k,z), D1 = dr/d(v,x,.), D2 = dr/d(u,.,.) and where they come from.
+// Evaluates the matrices D0 = dr/d(a,k,z), D1 = dr/d(v,x,.), D2 = dr/d(u,.,.).
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@
 
 namespace irk {
 
-/// The three matrices at one point, values in the order of the pattern.
+/// The three matrices at one point; their values are in the order of the pattern.
 template <class Real>
 struct Linearization {
   std::shared_ptr<const Pattern> pattern;
   Vec<Real> d0, d1, d2;
 
-  /// Without a pattern: the first evaluation brings it.
+  /// Has no pattern yet; the first evaluation sets it.
   Linearization() = default;
   explicit Linearization(std::shared_ptr<const Pattern> p)
       : pattern(std::move(p)),
@@ -25,7 +25,7 @@ struct Linearization {
         d1(d0),
         d2(d0) {}
   using DenseView = Eigen::Map<const Mat<Real>>;
-  /// n x n views; the pattern must be full.
+  /// The matrices as n x n views; the pattern must be full.
   DenseView dense0() const { return {d0.data(), pattern->n, pattern->n}; }
   DenseView dense1() const { return {d1.data(), pattern->n, pattern->n}; }
   DenseView dense2() const { return {d2.data(), pattern->n, pattern->n}; }
@@ -34,18 +34,18 @@ struct Linearization {
 /// Which matrices a Differentiator evaluates; the others stay zero.
 enum class Matrices { kAll, kOnlyD0 };
 
-/// Below this many unknowns no pattern is looked for: every column is a direction of its own. From
-/// it on `automatic` storage is sparse where no more than kSparseFill of the pattern is filled.
-/// Measured: at n = 16 a sparse factorization takes two fifths of the dense one's time on
-/// beam_chain (5 entries a row), at n = 18 three fifths on ANCF elements (12 a row).
+/// Below this many unknowns no pattern is searched: each column is a direction of its own. From this number on
+/// `automatic` storage is sparse if at most the part kSparseFill of the matrix is filled. Measured: at n = 16 a
+/// sparse factorization takes two fifths of the time of a dense one for beam_chain (5 entries per row), at n = 18
+/// three fifths for ANCF elements (12 per row).
 inline constexpr Index kSparseFrom = 16;
 inline constexpr double kSparseFill = 0.5;
 
-/// Evaluates a Linearization. Its first evaluation finds the pattern, and colours it: then a
-/// Jacobian takes as many directions as the fullest row needs, whatever n. Every evaluation
-/// compares one random combination of the directions with the assembled matrices; where they
-/// differ, as after a switch of modes, the pattern is looked for again and grows. Owns scratch: one
-/// per thread. Allocates when its pattern changes, never else.
+/// Evaluates Linearizations of one system. The first evaluation finds the pattern and colours it; from then on the
+/// number of directions depends on the fullest row, not on n. Every evaluation compares the derivative along one
+/// random combination of all directions with the assembled matrices. If they differ, for example after a switch of
+/// modes, the pattern is searched again and grows. Owns scratch: use one object per thread. Allocates only when the
+/// pattern changes.
 template <class Real>
 class Differentiator {
  public:
@@ -54,16 +54,17 @@ class Differentiator {
                  JacobianTerms terms = JacobianTerms::kFull, Storage storage = Storage::kDense,
                  Matrices matrices = Matrices::kAll);
 
-  /// The matrices at p. `out` takes the present pattern where it has another one.
+  /// Evaluates the matrices at p. `out` gets the present pattern if it has another one. Derivatives that are not
+  /// finite appear as NaN in `out`.
   void evaluate(Level level, const Point<Real>& p, Linearization<Real>& out);
-  /// Forgets what `constant_stiffness` keeps: a new mode.
+  /// Forgets the matrix that `constant_stiffness` keeps; for a new mode.
   void forget() { stiffness_known_ = false; }
-  /// Forgets the pattern as well: a new integration.
+  /// Forgets the pattern as well; for a new integration.
   void forgetPattern();
 
-  /// Null as long as it is unknown: where it may be sparse, before the first evaluation.
+  /// The present pattern. Null before the first evaluation if the pattern may be sparse.
   const std::shared_ptr<const Pattern>& pattern() const { return pattern_; }
-  /// Directional derivatives in one evaluation; 0 before the first one.
+  /// Number of directional derivatives per evaluation; 0 before the first evaluation if a pattern is searched.
   std::size_t directions() const;
 
  private:
@@ -94,11 +95,11 @@ class Differentiator {
   Sizes sizes_;
   JacobianTerms terms_;
   Storage storage_;
-  Group at_a_, at_zero_;  // differentiated at the point's a, at a = 0
-  Group stiffness_;       // D2, where `constant_stiffness` may evaluate it only once
+  Group at_a_, at_zero_;  // directions differentiated at the point's a, and at a = 0
+  Group stiffness_;       // directions of D2 that `constant_stiffness` evaluates only once
   std::shared_ptr<const Pattern> pattern_;
-  bool looked_ = false;
-  bool incomplete_ = false;  // the last evaluation's check has failed
+  bool looked_ = false;      // the pattern has been searched
+  bool incomplete_ = false;  // the check of the last evaluation has failed
   double check_tolerance_ = 0;
   Vec<Real> kept_stiffness_;  // values of D2
   bool stiffness_known_ = false;
@@ -107,8 +108,8 @@ class Differentiator {
   PointBuffers<Real> real_;
   Vec<Real> base_;
   Vec<Real> zero_a_;
-  Vec<Real> y_, delta_;             // of the directions: the component, its increment
-  Vec<Real> expected_, magnitude_;  // of the check, by row
+  Vec<Real> y_, delta_;             // by direction: the component and its increment
+  Vec<Real> expected_, magnitude_;  // by row, for the check: the sum of its terms, and of their magnitudes
 };
 
 }  // namespace irk

@@ -50,7 +50,7 @@ bool unite(const RowSets& more, RowSets& into) {
 
 std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
                                             Index n) {
-  // All rows of a column side by side, then each once.
+  // First the rows of all directions of a column, then the same rows sorted and without repetitions.
   std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     start[static_cast<std::size_t>(directions[i].column) + 1] += static_cast<int>(rows[i].size());

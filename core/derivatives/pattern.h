@@ -1,4 +1,4 @@
-// Which entries of D0, D1 and D2 can differ from zero, and how few directions give all of them.
+// The sparsity pattern of D0, D1 and D2, and the directions along which they are differentiated.
 #pragma once
 
 #include <memory>
@@ -8,19 +8,19 @@
 
 namespace irk {
 
-/// Compressed columns shared by D0, D1 and D2 (the union of their patterns), so that
-/// D0 + mu D1 + mu^2 D2 is one combination of three value arrays. A full pattern is the dense case:
-/// its value array is the column-major n x n matrix itself.
+/// One pattern for D0, D1 and D2, in compressed columns. It is the union of their patterns, so that
+/// D0 + mu D1 + mu^2 D2 is a combination of three arrays of values. A full pattern is the dense case:
+/// the array of values is then the column-major n x n matrix itself.
 struct Pattern {
   Index n = 0;
   bool full = true;
-  std::vector<int> column_start;  ///< n + 1
-  std::vector<int> row;           ///< column_start[n], ascending in each column
+  std::vector<int> column_start;  ///< n + 1 numbers
+  std::vector<int> row;           ///< column_start[n] numbers, ascending in each column
 
   static std::shared_ptr<const Pattern> dense(Index n);
   Index nonzeros() const { return static_cast<Index>(row.size()); }
 
-  /// f(k, row) for all entries k, in their order.
+  /// Calls f(k, row) for all entries k, in their order.
   template <class F>
   void forEach(F&& f) const {
     if (!full) {
@@ -33,27 +33,28 @@ struct Pattern {
   }
 };
 
-/// Whether matrices of one fit the other: the same object, or both full and of one size.
+/// Whether values of one pattern fit the other: both are the same object, or both are full and of the same size.
 bool sameShape(const std::shared_ptr<const Pattern>& a, const std::shared_ptr<const Pattern>& b);
 
-/// A column of D0, D1 or D2: the derivative along one component of the point.
+/// A column of D0, D1 or D2, i.e. the derivative along one component of the point.
 struct Direction {
-  int matrix;    ///< 0: of w = (a, k, z), 1: of (v, x), 2: of u
+  int matrix;    ///< 0: D0, components of w = (a, k, z); 1: D1, of (v, x); 2: D2, of u
   Index column;  ///< in 0..n-1
 };
 using Directions = std::vector<Direction>;
 
-/// All directions that `matrices` of the three have: n of D0, nu + nx of D1, nu of D2.
+/// All directions of the first `matrices` of D0, D1, D2, which have n, nu + nx and nu directions.
 Directions allDirections(const Sizes& n, int matrices = 3);
 
-/// The rows that each direction reaches, ascending; in the order of the directions.
+/// For each direction the rows where its derivative may differ from zero, ascending.
 using RowSets = std::vector<std::vector<int>>;
 
+/// All n rows for each of the directions.
 RowSets fullRows(std::size_t directions, Index n);
-/// `into` with the rows of `more` added. Returns whether that was any.
+/// Adds the rows of `more` to `into`. Returns whether `into` has grown.
 bool unite(const RowSets& more, RowSets& into);
 
-/// The union of the matrices' columns.
+/// The union of the patterns of D0, D1 and D2.
 std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
                                             Index n);
 

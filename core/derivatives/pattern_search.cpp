@@ -11,8 +11,8 @@
 namespace irk {
 namespace {
 
-// How far from p the pattern is looked at: a part of 1 + |y|, a tenth of it after each point where the
-// residual is not finite. (What that misses, the check of an evaluation finds, and then p is looked at.)
+// Distance of the random point from p, relative to 1 + |y|. It is divided by ten after each point where the residual
+// is not finite. (Entries missed there are found by the check of an evaluation, which then searches at p.)
 constexpr double kDistance = 0.01;
 constexpr int kCloser = 6;
 
@@ -44,10 +44,10 @@ class RowSearch {
   };
   struct Partition {
     std::vector<Interval> intervals;
-    RowSets rows;  // that each reaches, or may reach
+    RowSets rows;  // for each interval: the rows that it reaches, or may reach
   };
 
-  // One interval per matrix, so that neighbours in one are not neighbours of another matrix' columns.
+  // One interval per matrix: an interval never contains columns of two matrices.
   Partition whole() const {
     Partition all;
     for (std::size_t i = 0; i < directions_.size(); ++i) {
@@ -60,7 +60,7 @@ class RowSearch {
     return all;
   }
 
-  // Every interval in kChunk parts, the parts of intervals that share no row together.
+  // Splits every interval into kChunk parts. Intervals that share no row are evaluated together.
   Partition split(const Partition& parents, std::minstd_rand& random) {
     const std::vector<int> colours = colour(parents.rows, system_.sizes().n());
     const int count = 1 + *std::max_element(colours.begin(), colours.end());

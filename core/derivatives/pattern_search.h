@@ -1,15 +1,15 @@
-// The pattern of a system's derivatives, found by evaluating them.
+// Finds the pattern of a system's derivatives by evaluating them.
 #pragma once
 
 #include "core/derivatives/pattern.h"
 
 namespace irk {
 
-/// The rows where derivatives differ from zero at a point near p, by dual numbers in random
-/// combinations: intervals of columns are halved thrice at a time, those that share no row together,
-/// so that about log8(n) times the colours of the pattern are evaluated. Near p: a derivative that
-/// happens to vanish at p is found. `at_p`: and at p itself, which costs as much again. What is not
-/// finite is not counted.
+/// For each direction the rows where the derivative differs from zero at a random point near p. A point near p is
+/// used because a derivative may happen to vanish at p. `at_p`: searches at p, too, at twice the cost. Derivatives
+/// that are not finite do not count. Method: dual numbers with random combinations of directions; each interval of
+/// directions is split into eight parts at a time, and intervals that share no row are evaluated together. This
+/// takes about log8(n) evaluations per colour of the pattern.
 template <class Real>
 RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
                    const Directions& directions, bool at_p);

@@ -1,4 +1,4 @@
-// The numbers below a Point, in a scalar of one's own, and the residual there.
+// Owns the numbers of a Point in a scalar T, and the residual at this point.
 #pragma once
 
 #include "core/derivatives/pattern.h"
@@ -36,7 +36,7 @@ struct PointBuffers {
             {d.data(), sizes.discrete}};
   }
   VecView<T> residual() { return {r.data(), r.size()}; }
-  /// What a direction moves.
+  /// The component along which a direction differentiates.
   T& component(const Direction& along) {
     if (along.matrix == 0) return w[along.column];
     if (along.matrix == 2) return u[along.column];

@@ -14,7 +14,7 @@ VelocityProjection<Real>::VelocityProjection(const System<Real>& system, Derivat
                       Matrices::kOnlyD0),
       r_(sizes_.n()) {}
 
-// r = D0^-1 of the constraint rows at this level.
+// r_ = D0^-1 times the constraint rows at this level, all other rows zero.
 template <class Real>
 Outcome VelocityProjection<Real>::solve(Level level, const State<Real>& state) {
   const Index first = sizes_.nu + sizes_.nx;
@@ -38,7 +38,7 @@ Outcome VelocityProjection<Real>::apply(State<Real>& state) {
 
 template <class Real>
 Outcome VelocityProjection<Real>::applyToPositions(State<Real>& state) {
-  constexpr int kCorrections = 2;  // of what is small already: quadratic convergence
+  constexpr int kCorrections = 2;  // enough: g is small already, and convergence is quadratic
   for (int i = 0; i < kCorrections; ++i) {
     const Outcome outcome = solve(Level::kPosition, state);
     if (outcome != Outcome::kSuccess) return outcome;

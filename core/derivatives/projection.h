@@ -1,4 +1,4 @@
-// Velocities on dg/dt = 0 after a step: the formulation `index2_projected`.
+// Projects velocities onto dg/dt = 0 after a step, for the formulation `index2_projected`.
 #pragma once
 
 #include "core/derivatives/differentiator.h"
@@ -8,18 +8,19 @@
 
 namespace irk {
 
-/// M (v - v0) + G^T mu = 0, dg/dt(t, u, v) = 0: the nearest velocity in the norm of M. HW II
-/// (VII.2), with the matrix of the acceleration level, D0 = [-M, -G^T; G, 0]. dg/dt is linear in v,
-/// so that one solve is exact. Owns scratch.
+/// Solves M (v - v0) + G^T mu = 0, dg/dt(t, u, v) = 0: v is the velocity nearest to v0 in the norm of M. HW II
+/// (VII.2). The matrix is that of the acceleration level, D0 = [-M, -G^T; G, 0]. dg/dt is linear in v, so that
+/// one solve is exact. Owns scratch.
 template <class Real>
 class VelocityProjection {
  public:
-  /// Keeps references.
+  /// Keeps references to the system and the counters.
   VelocityProjection(const System<Real>& system, DerivativeSource source, Counters& counters);
-  /// Changes state.v. kSingular or kNotFinite where the projection does not exist.
+  /// Replaces state.v by its projection. Returns kSingular or kNotFinite, with the state unchanged, if there is none.
   [[nodiscard]] Outcome apply(State<Real>& state);
-  /// First the positions on g = 0 in the same way, then the velocities. For a start of index 3, whose short
-  /// steps make velocities g / h of what is left of g.
+  /// Projects the positions onto g = 0 in the same way, then the velocities. For a start in the index-3 formulation:
+  /// there a remaining g enters the velocities as g / h, which is large for a short step. A failure may leave
+  /// projected positions with unprojected velocities.
   [[nodiscard]] Outcome applyToPositions(State<Real>& state);
 
  private:

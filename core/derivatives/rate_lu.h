@@ -1,4 +1,4 @@
-// LU of D0 = dr/d(a, k, z) alone, dense or sparse as its pattern is.
+// LU of D0 = dr/d(a, k, z) alone; dense or sparse, depending on the pattern.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace irk {
 
-/// Allocates when the pattern changes.
+/// Owns a copy of the factorized matrix. Allocates only when the pattern changes.
 template <class Real>
 class RateLu {
  public:
-  /// kSuccess, kSingular, kNotFinite.
+  /// Returns kSuccess, kSingular or kNotFinite. After a failure `solve` must not be called.
   [[nodiscard]] Outcome factorize(const Linearization<Real>& D) {
     if (!sameShape(pattern_, D.pattern)) adopt(D.pattern);
     std::copy_n(D.d0.data(), D.d0.size(), sparse_ ? sparse_->values() : dense_->values());
@@ -23,11 +23,11 @@ class RateLu {
     const bool singular = outcome == Outcome::kSuccess && sparse_->reciprocalCondition() < kSingular;
     return singular ? Outcome::kSingular : outcome;
   }
-  /// In place; x has n entries.
+  /// Solves in place; x has n entries.
   void solve(Vec<Real>& x) { sparse_ ? sparse_->solve(x.data()) : dense_->solve(x.data()); }
 
  private:
-  // Of the pivots' ratio; round-off leaves this much of a pivot that is zero.
+  // Limit for the ratio of the smallest to the largest pivot: round-off leaves about this much of a zero pivot.
   static constexpr double kSingular = 1e-15;
 
   void adopt(std::shared_ptr<const Pattern> pattern) {
