@@ -12,7 +12,7 @@ namespace {
 
 double square(double x) { return x * x; }
 
-// h^power, power a small integer >= 0.
+// h^power for a small integer power >= 0.
 double powerOf(double h, int power) {
   double f = 1;
   for (int i = 0; i < power; ++i) f *= h;
@@ -66,7 +66,7 @@ double ErrorNorm<Real>::zFactor(double h, Index i) const {
   return powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
 }
 
-// f(component, its part) of the difference, over u, v, x, z.
+// Calls f(component, its weighted difference) for all components of u, v, x, z.
 template <class Real>
 template <class F>
 void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h,

@@ -1,4 +1,4 @@
-// The error norm: weights of the state's components, and the norms built on them.
+// The error norm: weights of the state's components, and norms of errors and Newton increments.
 #pragma once
 
 #include "irk/options.h"
@@ -7,39 +7,40 @@
 namespace irk {
 
 /// Weights sc_i = atol scale_i + rtol |y_i|, so that a norm of 1 is the tolerance. HW I (II.4.10-11).
-/// Algebraic unknowns of index i carry h^(i-1), HW II (VII.7). Norms are doubles for every scalar: they
-/// decide, they are not results.
+/// Errors of algebraic unknowns of index i are multiplied by h^(i-1), HW II (VII.7). Norms are doubles for every
+/// scalar, since they only serve for decisions.
 template <class Real>
 class ErrorNorm {
  public:
-  /// `scale`: magnitudes of u, v, x, z; empty = 1. Keeps a reference to the system.
+  /// `scale`: magnitudes of u, v, x, z (2 nu + nx + nz); empty means 1. Throws Misuse for another length. Keeps a
+  /// reference to the system's error powers.
   ErrorNorm(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale);
 
-  /// From the next update on multipliers of position constraints count nothing: where a method does not
-  /// determine them and they are solved anew at the end, their errors are nobody's.
+  /// Leaves multipliers of position constraints out of the norm, from the next update on. For methods that do not
+  /// determine them well, if they are computed anew at the end: their errors then do not enter the result.
   void leaveMultipliersOut() { leaves_multipliers_out_ = true; }
 
-  /// Weights from the magnitudes of `y`, before a step. Absolute norm: weights atol.
+  /// Sets the weights from the magnitudes of `y`; call it before each step. In the absolute norm they are all atol.
   void update(const State<Real>& y);
 
-  /// sc of (u, v, x, z), 2 nu + nx + nz.
+  /// The weights sc of (u, v, x, z); 2 nu + nx + nz numbers.
   const Vec<double>& weights() const { return weight_; }
-  /// The component of (u, v, x, z) with the largest part in `difference`.
+  /// Index of the component of (u, v, x, z) that contributes most to `difference`.
   Index worst(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor) const;
 
-  /// Norm of the difference of two states after a step of size h; `factor` (2 nu + nx + nz):
-  /// multiplies each component's difference.
+  /// Norm of the difference of two states after a step of size h. `factor` (2 nu + nx + nz numbers) multiplies the
+  /// differences of the components.
   double difference(const State<Real>& p, const State<Real>& q, double h,
                     const Vec<double>& factor) const;
 
-  /// Of an error e itself: the difference to zero.
+  /// Norm of an error e, i.e. of its difference from zero.
   double magnitude(const State<Real>& e, double h) const;
 
-  /// The square of what one unit in row i of (a, k, z) counts by its effect on (u, v, x, z): h^2 da,
-  /// h da, h dk, dz; components of index i, of u, v, x as well, carry h^(i-1): Newton corrects those of
-  /// higher index later, and its contraction is that of the others. n entries, for `increment`.
+  /// Writes n squared weights of (a, k, z) for `increment`. A change of (a, k, z) counts by its effect on
+  /// (u, v, x, z): h^2 da, h da, h dk, dz. Components of index i, here of u, v, x as well, are multiplied by
+  /// h^(i-1): Newton corrects those of higher index later, and its contraction is that of the others.
   void rowWeights(double h, Vec<double>& squares) const;
-  /// Norm of a Newton increment dW (columns from `first`). RMS whatever the error norm is.
+  /// Norm of a Newton increment dW (n x s), columns from `first` on. Always an RMS norm, whatever the error norm is.
   double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const;
 
  private:
@@ -52,8 +53,8 @@ class ErrorNorm {
   Sizes sizes_;
   const ErrorPowers& powers_;
   Tolerances tolerances_;
-  Vec<double> scale_;   // u, v, x, z
-  Vec<double> weight_;  // the same
+  Vec<double> scale_;   // of u, v, x, z
+  Vec<double> weight_;  // of u, v, x, z
   bool leaves_multipliers_out_ = false;
 };
 

@@ -15,7 +15,7 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   A_transposed = A.transpose();
   A1 = A.rowwise().sum();
   A2_transposed = A2.transpose();
-  // Round-off of a sum of s coefficients of size <= 1.
+  // The round-off of a sum of s coefficients of magnitude <= 1.
   const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();
   const auto small = [&](const auto& x) { return x.cwiseAbs().maxCoeff() <= tiny; };
   stiffly_accurate = small(A.row(s - 1).transpose() - b);
@@ -24,7 +24,7 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   regular = lu.isInvertible();
   if (regular && first == 0) d = Mat<Real>(A.transpose()).fullPivLu().solve(b);
 
-  Mat<Real> V(s, s);  // transposed: column i = stage i
+  Mat<Real> V(s, s);  // transposed: column i belongs to stage i
   for (Index i = 0; i < s; ++i) legendre<Real>(c[i], V.col(i));
   legendre_inverse = V.transpose().fullPivLu().inverse();
   legendre_inverse_transposed = legendre_inverse.transpose();

@@ -10,11 +10,12 @@
 namespace irk {
 namespace {
 
-// Where in a step the derivatives stand for those of all stages: measured, 0.5 to 0.7 are equally good
-// and save a tenth to a third of the iterations of a start's.
+// The part of a step at which the derivatives are evaluated that represent all stages. Measured: 0.5 to 0.7 are
+// equally good and save a tenth to a third of the iterations, compared with derivatives at the start.
 constexpr double kInner = 0.6;
 
-// y1 = y0 + (dy + carry0) and what the addition lost: Knuth's two-sum, exact whatever is larger.
+// y1 = y0 + (y1 + carry0), where y1 comes in as the increment; carry1 is the round-off of the last addition. Knuth's
+// two-sum: carry1 is exact, whichever operand is larger.
 template <class Real>
 void addCompensated(const Vec<Real>& y0, const Real* carry0, Vec<Real>& y1, Real* carry1) {
   for (Index i = 0; i < y0.size(); ++i) {
@@ -67,8 +68,8 @@ void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
   if (scaled_) rowScales(system_.rowPowers(), h, scales_);
 }
 
-// (2.5), (2.6): V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a (A 1 = c but for
-// stage order 0, as of Radau IA with one stage), X = x0 + h A k.
+// Paper (2.5), (2.6): V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a, X = x0 + h A k. (A 1 = c, except for methods of
+// stage order 0 such as Radau IA with one stage.)
 template <class Real>
 void StageEquations<Real>::place(const Mat<Real>& W) {
   const Index nu = sizes_.nu, nx = sizes_.nx;

@@ -1,4 +1,4 @@
-// The K-form: the residual of all stages of one step, and the step's end.
+// The stage equations: the residual of all stages of one step, and the state at its end.
 #pragma once
 
 #include "core/stages/scheme.h"
@@ -7,34 +7,34 @@
 
 namespace irk {
 
-/// The nonlinear system of one step, paper (2.5)-(2.7). Unknown W: n x s, column i = (a_i, k_i, z_i).
+/// The nonlinear system of one step, paper (2.5)-(2.7). The unknown is W (n x s) with columns (a_i, k_i, z_i).
 /// Owns the stages' u, v, x. Allocates only in its constructor.
 template <class Real>
 class StageEquations {
  public:
-  /// Keeps references.
+  /// Keeps references to the system and the scheme. `threads`: number of stages evaluated at a time.
   StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation,
                  int threads);
 
-  /// A step of size h from `from`, which must outlive the step.
+  /// Begins a step of size h. Keeps a reference to `from`, which must not change during the step.
   void begin(const State<Real>& from, const Real& h);
 
-  /// R (n x s), rows of constraints multiplied by h^-power. Columns before `scheme.first` are known
-  /// stages and stay zero. False if a residual is not finite.
+  /// Writes the residuals of the stages W to R (n x s); rows of constraints are multiplied by h^-power. Columns
+  /// before `scheme.first` belong to known stages and are zero. Returns false if a residual is not finite.
   [[nodiscard]] bool residual(const Mat<Real>& W, Mat<Real>& R);
 
-  /// The stages' u, v, x of W, without a residual.
+  /// Computes u, v, x of the stages W, without the residual.
   void place(const Mat<Real>& W);
-  /// Stage i as of the last `residual` or `place`, for stage-wise derivatives.
+  /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives.
   Point<Real> stage(const Mat<Real>& W, Index i) const;
-  /// The step's start and its middle (u, v, x by Taylor's formula from the start), for derivatives.
+  /// Points for derivatives: the step's start, and its middle (u, v, x by Taylor's formula from the start).
   Point<Real> start() const;
   Point<Real> middle();
-  /// The stage of the start values W that is nearest to 0.6 h.
+  /// The point of the stage nearest to 0.6 h, for the start values W.
   Point<Real> predicted(const Mat<Real>& W);
 
-  /// End of the step, paper (2.10), (2.11) with d = A^-T b. `compensated`: `to.carry` is what the
-  /// additions lost, `from.carry` what those before have lost.
+  /// Writes the state at the end of the step to `to`, paper (2.10), (2.11) with d = A^-T b. With compensated
+  /// summation the round-off lost so far, `from.carry`, is added, and that lost here is stored in `to.carry`.
   void finish(const Mat<Real>& W, State<Real>& to);
 
   const Scheme<Real>& scheme() const { return scheme_; }
