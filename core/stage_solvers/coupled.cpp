@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-// s x s blocks with the pattern of one: in each column the stages' entries follow each other.
+// Analyses s x s blocks that all have the pattern `block`. In a column the entries of the stages follow each other.
 std::shared_ptr<const SparseAnalysis> analyse(const Pattern& block, Index s) {
   std::vector<int> column_start{0}, row;
   for (Index j = 0; j < s * block.n; ++j) {
@@ -43,7 +43,8 @@ Coupled<Real, Lu>::Coupled(const StageSolverSetup<Real>& setup)
       flat_(setup.A.rows() * setup.pattern->n),
       lu_(makeLu<Lu<Real>>(setup)) {}
 
-// Column by column and, in each, stage by stage: the order of a dense matrix and of `analyse`.
+// Writes the entries column by column and, within a column, stage by stage. This is the order of a dense matrix, and
+// that of `analyse`.
 template <class Real, template <class> class Lu>
 Outcome Coupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, const Real& h) {
   const Pattern& pattern = *setup_.pattern;

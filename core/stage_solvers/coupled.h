@@ -1,4 +1,4 @@
-// The paper's stage solver: one LU of the s n x s n Newton matrix.
+// The stage solver of the paper: one LU of the whole Newton matrix, s n x s n.
 #pragma once
 
 #include "core/linear/dense_lu.h"
@@ -7,7 +7,7 @@
 
 namespace irk {
 
-/// Lu: DenseLu or SparseLu.
+/// Lu is DenseLu or SparseLu. Contracts: StageSolver.
 template <class Real, template <class> class Lu>
 class Coupled final : public StageSolver<Real> {
  public:

@@ -10,7 +10,8 @@
 namespace irk {
 namespace {
 
-// Two ways to an eigenvalue of A, Schur's form and eigenvectors, differ by some units of round-off.
+// An eigenvalue of A from the Schur form and the same one from the eigenbasis differ by round-off. They count as
+// equal up to this multiple of eps.
 constexpr double kSameEigenvalue = 1e4;
 
 }  // namespace
@@ -53,7 +54,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
     analysis->reserve(pivots_);
     if (!form_.diagonal || form_.blocks.size() == 1) return;
     together_.emplace(*analysis, form_.blocks.size());
-    for (const Index size : {1, 2}) {  // the real ones first
+    for (const Index size : {1, 2}) {  // real blocks first
       for (const auto& block : form_.blocks) {
         if (block.size != size) continue;
         double* const re = Y_.col(block.start).data();
@@ -66,8 +67,8 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
   }
 }
 
-// The blocks are independent of each other: any number of threads gives the same bits. Sparse ones try the
-// pivots of the first.
+// The blocks are independent of each other, so that any number of threads gives the same bits. Sparse blocks try the
+// pivots of the first block.
 template <class Real, template <class> class Lu>
 Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, const Real& h) {
   at_ = &at.front();
@@ -127,7 +128,7 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
   return factorized(lu);
 }
 
-// M by entries, then by the rows that are scaled: loops that become vector instructions. With
+// Computes all entries of M first and scales rows afterwards: both loops become vector instructions. With
 // M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
 // [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
 template <class Real, template <class> class Lu>
@@ -166,7 +167,7 @@ Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) {
   });
 }
 
-// Subtracts what the blocks right of this one, already solved, contribute to its rows.
+// Subtracts the contributions of the blocks to the right of this one, which are solved already, from its rows.
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& block) {
   const Index n = Y_.rows();
@@ -181,7 +182,7 @@ void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& bloc
   }
 }
 
-// D1 and D2 times a column of Y. D1 acts on (v, x), D2 on u: their other columns are zero.
+// Multiplies D1 and D2 by a column of Y. D1 acts on (v, x) and D2 on u; their other columns are zero.
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::multiply(Index column) {
   const Index nu = setup_.sizes.nu, rates = nu + setup_.sizes.nx;

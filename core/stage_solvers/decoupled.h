@@ -1,5 +1,5 @@
-// Stage solvers in a basis in which A is (block) triangular or (block) diagonal: about s/2 complex
-// systems D0 + h mu D1 + h^2 mu^2 D2 of size n, mu an eigenvalue of A. HW II (IV.8).
+// Stage solvers that use a basis in which A is block triangular or block diagonal. There the Newton matrix splits
+// into about s/2 complex systems D0 + h mu D1 + h^2 mu^2 D2 of size n, where mu is an eigenvalue of A. HW II (IV.8).
 #pragma once
 
 #include <complex>
@@ -16,7 +16,7 @@
 
 namespace irk {
 
-/// Lu: DenseLu, or SparseLu with one analysis for all blocks and step sizes.
+/// Lu is DenseLu or SparseLu; one sparse analysis serves for all blocks and step sizes. Contracts: StageSolver.
 template <class Real, template <class> class Lu>
 class Decoupled final : public StageSolver<Real> {
  public:
@@ -39,23 +39,25 @@ class Decoupled final : public StageSolver<Real> {
   BlockForm<Real> form_;
   Mat<Real> T2_;
   Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
-  std::vector<Lu<Real>> real_lu_;        // by block, in order of the real ones
-  std::vector<Lu<Complex>> complex_lu_;  // by block, in order of the pairs
-  std::vector<std::size_t> lu_index_;
-  SparsePivots pivots_;  // of the first block, if sparse, as the others get to know them:
-  int version_ = 0;      // at the beginning of a factorization, but in the first one
-  bool news_ = false;    // since the factorization before
-  std::optional<InterleavedLu> together_;  // all of them, where the blocks are sparse and do not couple
+  std::vector<Lu<Real>> real_lu_;        // of the real blocks, in their order
+  std::vector<Lu<Complex>> complex_lu_;  // of the complex pairs, in their order
+  std::vector<std::size_t> lu_index_;    // by block: its index in real_lu_ or complex_lu_
+  // Sparse blocks: the pivots of the first block, offered to the others. Copied at the beginning of a factorization;
+  // in the very first one, after the first block is factorized.
+  SparsePivots pivots_;
+  int version_ = 0;    // of pivots_
+  bool news_ = false;  // pivots_ have changed since the last factorization
+  std::optional<InterleavedLu> together_;  // all factors, if the blocks are sparse and do not couple
   std::vector<InterleavedLu::Lane> lanes_;
-  bool gathered_ = false;
+  bool gathered_ = false;          // together_ holds the present factors
   std::vector<Outcome> outcomes_;  // by block
-  bool small_;  // blocks are inverted, see small_inverse.h; not worth it for one stage
-  std::vector<Vec<Real>> inverses_;  // by block: as real matrices of size n or 2n
+  bool small_;  // blocks are inverted, see small_inverse.h; not for one stage, where it does not pay
+  std::vector<Vec<Real>> inverses_;  // by block, as real matrices of size n or 2n
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;
   Mat<Real> Y_;           // transformed right-hand side and solution, n x s
-  Mat<Real> D1Y_, D2Y_;   // D1 and D2 times the solved columns of Y (Schur only)
+  Mat<Real> D1Y_, D2Y_;   // D1 and D2 times the solved columns of Y (Schur form only)
   Vec<Complex> eta_;
 };
 
