@@ -1,12 +1,12 @@
 cmake_minimum_required(VERSION 3.25)
-# Reads the includes of a room's files and stops at one that the room may not have, and at units (x.h with x.cpp) that
-# include each other in a circle.
-#   ROOM     library/room
-#   USES     the rooms it may include, library/room;...
-#   HEADERS  public headers and where they belong, irk/x.h=library/room;...
-#   FILES    its files
-#   ROOT     of the sources
-#   OUT      written when all is well
+# Checks the includes of a room's files. Stops at an include that the room may not have; warns of units (x.h with
+# x.cpp) that include each other in a circle.
+#   ROOM     the room, library/room
+#   USES     the rooms that it may include, library/room;...
+#   HEADERS  public headers and their rooms, irk/x.h=library/room;...
+#   FILES    the files of the room
+#   ROOT     the root folder of the sources
+#   OUT      a file that is written if no include is wrong
 set(libraries_core core)
 set(libraries_tableaus core tableaus)
 set(libraries_problems core problems)
@@ -41,14 +41,14 @@ foreach(file IN LISTS FILES)
     elseif(place STREQUAL "" OR NOT place_library IN_LIST libraries_${library})
       list(APPEND faults "${name} includes ${included}, of no room below ${ROOM}")
     elseif(included MATCHES "^irk/" AND NOT place_library STREQUAL library)
-      # the public headers of a library below
+      # a public header of a library below
     elseif(NOT place IN_LIST USES)
       list(APPEND faults "${name} includes ${included}: ${ROOM} may include ${USES}")
     endif()
   endforeach()
 endforeach()
 
-# A unit that includes none of those left, or that none of them includes, is in no circle and can be taken away.
+# A unit that includes none of the remaining units, or that none of them includes, is in no circle and is removed.
 list(REMOVE_DUPLICATES units)
 set(taken TRUE)
 while(taken)

@@ -1,5 +1,5 @@
-# KLU of SuiteSparse as target irk_klu; Debian 12 has no package configuration of it. Also installed: users of the
-# library need it, too.
+# Defines the target irk_klu for KLU of SuiteSparse; Debian 12 has no CMake package for it. This file is also
+# installed, since users of the library need it, too.
 find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(KLU_LIBRARY klu REQUIRED)
 if(NOT TARGET irk_klu)
