@@ -123,7 +123,7 @@ Real piOf() {
 
 namespace {
 
-// rad/s, m/s, 1/s; nothing in a scene without units.
+// The unit of a time derivative: rad/s, m/s, 1/s; unchanged in a scene without a time unit.
 std::string rateUnit(const std::string& unit, const std::string& time_unit) {
   if (time_unit.empty()) return unit;
   return (unit.empty() ? "1" : unit) + "/" + time_unit;

@@ -14,7 +14,7 @@ JacobiFunctions<Real> jacobiFunctions(const Real& u, const Real& m) {
   using std::cos;
   using std::sin;
   using std::sqrt;
-  // Arithmetic-geometric mean: c_n is squared in every step, so 12 serve thousands of digits.
+  // Arithmetic-geometric mean: c_n is squared in every step, so that 12 steps give thousands of digits.
   constexpr std::size_t kSteps = 12;
   std::array<Real, kSteps> ratio{};  // c_n / a_n
   Real a = 1, b = sqrt(1 - m), factor = 1;

@@ -8,8 +8,8 @@ struct JacobiFunctions {
   Real sn, cn, dn;
 };
 
-/// sn, cn, dn of u to the parameter m = k^2 in [0, 1). Descending Landen transformation,
-/// Abramowitz & Stegun 16.4. Absolute error of some eps (1 + |u|).
+/// sn, cn, dn of u for the parameter m = k^2 in [0, 1). Descending Landen transformation,
+/// Abramowitz & Stegun 16.4. The absolute error is a few eps (1 + |u|).
 template <class Real>
 JacobiFunctions<Real> jacobiFunctions(const Real& u, const Real& m);
 

@@ -1,4 +1,4 @@
-// The entries behind the catalogue, one per scene file. Internal.
+// The entries of the catalogue; each is defined in the file of its scene. Internal.
 #pragma once
 
 #include "irk/scene.h"

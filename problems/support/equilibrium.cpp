@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxIterations = 50;
 
-// dr/d(u, x, z): columns of D2, D1 and D0.
+// dr/d(u, x, z), made of columns of D2, D1 and D0.
 template <class Real>
 Mat<Real> staticJacobian(const Linearization<Real>& D, const Sizes& n) {
   Mat<Real> J(n.n(), n.n());
@@ -31,7 +31,7 @@ Equilibrium<Real> findEquilibrium(const System<Real>& system, const State<Real>&
   State<Real>& s = found.state;
   s.v.setZero();
   s.w.head(n.nu + n.nx).setZero();
-  // Newton's error is the square of its last step, up to a constant: below eps with this step.
+  // Newton's error is about the square of its last step: after a step smaller than this it is below eps.
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   const Real small = cbrt(eps * eps);
   Differentiator<Real> differentiator(system, DerivativeSource::kAutomatic);

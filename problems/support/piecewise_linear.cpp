@@ -10,7 +10,7 @@
 namespace irk {
 namespace {
 
-// y' = A y with the state's parts taken from and put back to where they belong.
+// One phase between two switches, y' = A y; converts between the state and y.
 template <class Real>
 struct Phase {
   Index nu, nx;
@@ -33,13 +33,13 @@ struct Phase {
     A(first + 1, first) = -of.omega;
   }
 
-  // Largest time over which the series below loses no digits: a quarter of the fastest one.
+  // Largest time over which the series below loses no digits: a quarter of the fastest time constant.
   Real step() const {
     using std::sqrt;
     const Real rate = sqrt(Mat<Real>(A * A).template lpNorm<Eigen::Infinity>());
     return rate > 0 ? Real(1 / (4 * rate)) : Eigen::NumTraits<Real>::highest();
   }
-  // exp(A tau) y by its series.
+  // The state after the time tau: exp(A tau) y by its power series.
   State<Real> after(const Real& tau, const State<Real>& from) const {
     const Real eps = Eigen::NumTraits<Real>::epsilon();
     Vec<Real> sum = y, term = y;
@@ -64,14 +64,14 @@ Vec<Real> switching(const System<Real>& system, const State<Real>& s) {
   return g;
 }
 
-// A time in (0, step) at which g > 0, where g is not above 0 at both ends; 0 if there is none. Over a quarter of the
-// fastest time g rises and falls at most once: it may be the least of two smooth functions.
+// Finds a time in (0, step) at which g > 0, for g <= 0 at both ends; returns 0 if there is none. Over a quarter of
+// the fastest time constant g rises and falls at most once. g may be the minimum of two smooth functions.
 template <class Real, class F>
 Real positiveInside(const F& g, const Real& step, const Real& at_start, const Real& at_end) {
   const Real middle = g(Real(step / 2));
   const auto [least, most] = std::minmax({at_start, middle, at_end});
   if (middle > 0) return step / 2;
-  if (most + (most - least) < 0) return 0;  // a peak cannot rise by more than all three differ
+  if (most + (most - least) < 0) return 0;  // a peak rises above `most` by less than the three values differ
   constexpr int kBits = 40;
   const auto negative = [&](const Real& tau) { return Real(-g(tau)); };
   const auto [at, value] = boost::math::tools::brent_find_minima(negative, Real(0), step, kBits);

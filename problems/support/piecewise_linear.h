@@ -1,4 +1,4 @@
-// Exact solutions of scenes that are linear between their switches: matrix exponentials, switches
+// Exact solutions of scenes that are linear between their switches, by matrix exponentials and by switches that are
 // located to the last digit. Internal.
 #pragma once
 
@@ -9,16 +9,17 @@
 
 namespace irk {
 
-/// y = (u, v, x, 1), and (sin omega t, cos omega t) where the scene is driven.
+/// The exact solution as a function of time. y = (u, v, x, 1), for a driven scene with (sin omega t, cos omega t)
+/// appended.
 template <class Real>
 struct PiecewiseLinear {
-  std::shared_ptr<const System<Real>> system;  ///< for its switches
+  std::shared_ptr<const System<Real>> system;  ///< defines the switches
   State<Real> start;                           ///< at t = 0
-  /// The rows of (v', x') = rates(d) y.
+  /// The matrix of (v', x') = rates(d) y.
   std::function<Mat<Real>(const Vec<Real>& d)> rates;
   Real omega = 0;  ///< 0: not driven
 
-  /// The state at t >= 0 with w = (a, k) and the discrete state.
+  /// The state at t >= 0, with w = (a, k) and the discrete state d.
   State<Real> operator()(const Real& t) const;
 };
 

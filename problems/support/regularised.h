@@ -1,9 +1,9 @@
-// C1 functions in place of steps and kinks: what the scenes' regularisations are made of. Internal.
+// C1 functions that replace steps and kinks in regularised scenes. Internal.
 #pragma once
 
 namespace irk {
 
-/// From 0 (y <= 0) to 1 (y >= 1).
+/// A smooth step: 0 for y <= 0, 1 for y >= 1.
 template <class T>
 T smoothStep(const T& y) {
   if (y <= T(0.0)) return T(0.0);
@@ -11,7 +11,7 @@ T smoothStep(const T& y) {
   return y * y * (3 - 2 * y);
 }
 
-/// max(0, y), rounded within |y| < width.
+/// max(0, y), with its kink rounded for |y| < width.
 template <class T, class Real>
 T roundedRamp(const T& y, const Real& width) {
   const T above = y + width;
