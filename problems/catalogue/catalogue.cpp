@@ -83,7 +83,7 @@ const std::function<Scene<Real>(const Settings&)>& makerOf(const SceneEntry& ent
   }
 }
 
-// Ids of scalars: experiments/runs/run_spec.cpp.
+// Ids of scalars, as in experiments/runs/run_spec.cpp.
 template <class Real>
 constexpr const char* kScalarId = "double";
 template <>

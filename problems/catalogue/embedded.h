@@ -1,4 +1,4 @@
-// The text of problems/reference/*.csv, put into the library at build time. Internal.
+// The text of problems/reference/*.csv, embedded in the library at build time. Internal.
 #pragma once
 
 #include <string_view>

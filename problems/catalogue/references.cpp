@@ -1,4 +1,4 @@
-// problems/reference/*.csv, embedded at build time (reference/embedded.cpp.in), parsed once.
+// Parses problems/reference/*.csv once. The text is embedded at build time (catalogue/embedded.cpp.in).
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -17,7 +17,7 @@ struct Row {
   Reference reference;
 };
 
-// `name=value` pairs separated by blanks.
+// Parses `name=value` pairs separated by blanks.
 Settings parseSettings(const std::string& text) {
   Settings settings;
   std::istringstream words(text);
@@ -29,7 +29,7 @@ Settings parseSettings(const std::string& text) {
   return settings;
 }
 
-// scene,settings,t,component,value,accuracy,source: the source is the rest of the line.
+// Parses a line `scene,settings,t,component,value,accuracy,source`. The source is the rest of the line.
 Row parseRow(const std::string& line) {
   constexpr int kFields = 6;
   std::string fields[kFields];
@@ -60,7 +60,7 @@ std::vector<Row> parseRows() {
   return rows;
 }
 
-// Numbers compare as numbers ("0.50" is "0.5"), words as text.
+// Compares numbers as numbers ("0.50" equals "0.5") and words as text.
 bool sameValue(const std::string& a, const std::string& b) {
   char* end_a = nullptr;
   char* end_b = nullptr;
