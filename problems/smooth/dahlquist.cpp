@@ -1,4 +1,4 @@
-// Dahlquist's y' = lambda y with complex lambda, as two real equations.
+// Dahlquist's equation y' = lambda y with complex lambda, written as two real equations.
 #include <cmath>
 
 #include "problems/support/build.h"

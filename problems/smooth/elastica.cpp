@@ -1,7 +1,7 @@
-// The inextensible elastica: a clamped beam under a dead tip load, deflected at will. Arc length
-// stands for time. EI theta'' = f cos theta, r' = (cos theta, sin theta), theta(0) = 0,
-// theta'(L) = 0; load = f L^2 / EI. The limit of ancf_cantilever at rest for EA and elements to
-// infinity.
+// The inextensible elastica: a clamped beam under a dead tip load, with arbitrarily large deflections. The arc length
+// takes the place of time. EI theta'' = f cos theta, r' = (cos theta, sin theta), theta(0) = 0,
+// theta'(L) = 0; load = f L^2 / EI. It is the limit of ancf_cantilever at rest when EA and the number of elements
+// tend to infinity.
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -66,13 +66,13 @@ class ExactElastica {
     return sqrt(x);
   }
 
-  // phi where theta = 0.
+  // phi at theta = 0.
   static Real amplitude(const Real& k) {
     using std::asin;
     return asin(rootOf(Real(0.5)) / k);
   }
 
-  // sqrt(load) = K(k) - F(phi(0), k), which grows from 0 at k^2 = 1/2 to infinity at 1.
+  // Solves sqrt(load) = K(k) - F(phi(0), k). The right-hand side grows from 0 at k^2 = 1/2 to infinity at 1.
   static Real modulus(const Real& load) {
     const Real wanted = rootOf(load);
     const auto excess = [&](const Real& k) {
@@ -103,7 +103,7 @@ Scene<Real> make(const Settings& settings) {
   setComponents(scene, {{"theta", "rad", 1, 1 / length}}, {{"x", "m", length}, {"y", "m", length}});
   scene.exact = [exact](const Real& s) { return exact.at(s); };
   scene.start = scene.exact(Real(0));
-  scene.start.u[0] = scene.start.x[0] = scene.start.x[1] = Real(0);  // exact up to rounding
+  scene.start.u[0] = scene.start.x[0] = scene.start.x[1] = Real(0);  // exact(0) is 0 up to rounding only
   scene.outputs = {{"u_x", [](const State<Real>& s) { return Real(s.x[0] - s.t); }, "m"},
                    {"u_y", [](const State<Real>& s) { return s.x[1]; }, "m"}};
   return scene;

@@ -1,5 +1,5 @@
-// Frame of the nonlinear DAEs x' = f(x, z), 0 = g(x, z) whose exact solution is x_i = exp(lambda_i
-// t), z = exp(mu t): all but their equations. Internal.
+// The common part of the nonlinear DAEs x' = f(x, z), 0 = g(x, z) with the exact solution x_i = exp(lambda_i t),
+// z = exp(mu t). Each problem adds its equations. Internal.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace irk {
 
-/// What a problem P has to have besides sizes and residual: int kAlgebraicIndex, arrays of int
-/// kRates (lambda) and of names kNames, one per x, int kAlgebraicRate (mu), the name
-/// kAlgebraicName, a function referenceCase.
+/// Makes the scene of a problem P. Besides `sizes` and `residual` P needs: int kAlgebraicIndex; an array of int
+/// kRates (lambda) and an array of names kNames, with one entry per x; int kAlgebraicRate (mu); the name
+/// kAlgebraicName; a function referenceCase.
 template <class P>
 struct ExponentialDae {
   static std::string id() { return "index" + std::to_string(P::kAlgebraicIndex) + "_nonlinear"; }

@@ -36,7 +36,7 @@ Scene<Real> make(const Settings&) {
   scene.start.x[7] = decimal<Real>("0.0057");
   completeStart(scene);
   scene.t_end = 321.8122;
-  // HW II (IV.10): Atol = 1e-4 Rtol.
+  // As in HW II (IV.10): Atol = 1e-4 Rtol.
   std::vector<Component> concentrations;
   for (int i = 1; i <= 8; ++i) concentrations.push_back({"y" + std::to_string(i), "", 1e-4});
   setComponents(scene, {}, concentrations);

@@ -1,5 +1,5 @@
 // A nonlinear DAE of index 2 after Hairer, Lubich & Roche (LNM 1409, 1989); y = (exp t, exp -2t),
-// z = exp 2t. z enters nonlinearly: no multiplier of a position constraint.
+// z = exp 2t. z enters nonlinearly: it is no multiplier of a position constraint.
 #include <array>
 
 #include "problems/smooth/exponential_dae.h"

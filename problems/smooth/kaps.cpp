@@ -1,4 +1,4 @@
-// Kaps' problem: y1' = -(2 + 1/eps) y1 + y2^2 / eps, y2' = y1 - y2 - y2^2; y = (exp -2t, exp -t)
+// Kaps' problem: y1' = -(2 + 1/eps) y1 + y2^2 / eps, y2' = y1 - y2 - y2^2. The solution is y = (exp -2t, exp -t)
 // for every eps.
 #include <cmath>
 

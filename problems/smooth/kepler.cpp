@@ -1,4 +1,4 @@
-// The planar two-body problem q'' = -q / |q|^3 of eccentricity e, started at the pericentre.
+// The planar two-body problem q'' = -q / |q|^3 with eccentricity e, started at the pericentre.
 #include <cmath>
 
 #include "problems/support/build.h"
@@ -21,8 +21,8 @@ struct Kepler {
     r.u[1] = -p.u[1] * inverse_cube - p.a[1];
   }
 
-  // Kepler's equation M = E - e sin E with M = t, by Newton from E = M + e sign(sin M): convex on
-  // the way to the root, hence monotone.
+  // Solves Kepler's equation M = E - e sin E with M = t by Newton's method from E = M + e sign(sin M). The function
+  // is convex on the way to the root, so that the iteration is monotone.
   Real eccentricAnomaly(const Real& t) const {
     using std::abs;
     using std::cos;

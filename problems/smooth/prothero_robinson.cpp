@@ -1,4 +1,5 @@
-// Prothero & Robinson: y' = lambda (y - phi) + phi', phi = cos t; y = phi. HW II (IV.15).
+// Prothero & Robinson's problem: y' = lambda (y - phi) + phi' with phi = cos t. The solution is y = phi.
+// HW II (IV.15).
 #include <cmath>
 
 #include "problems/support/build.h"

@@ -1,5 +1,6 @@
-// y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t; y = phi. Nonlinear and non-autonomous: a linear,
-// an autonomous or a quadrature problem is blind to some damaged tableaus.
+// A Riccati equation: y' = -(y^2 - phi^2) + phi' with phi = 1.5 + sin t. The solution is y = phi. The problem is
+// nonlinear and non-autonomous, because a linear, an autonomous or a quadrature problem does not reveal the errors
+// of some damaged tableaus.
 #include <cmath>
 
 #include "problems/support/build.h"

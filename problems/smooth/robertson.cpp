@@ -28,7 +28,7 @@ Scene<Real> make(const Settings&) {
   scene.start.x << Real(1), Real(0), Real(0);
   completeStart(scene);
   scene.t_end = 1e11;
-  // HW II (IV.10): Atol = 1e-6 Rtol.
+  // As in HW II (IV.10): Atol = 1e-6 Rtol.
   setComponents(scene, {}, {{"y1", "", 1e-6}, {"y2", "", 1e-6}, {"y3", "", 1e-6}});
   return scene;
 }
