@@ -9,7 +9,7 @@
 namespace irk {
 namespace {
 
-// d = (1 in contact, else 0).
+// d = (1 in contact, 0 otherwise).
 template <class Real>
 struct BouncingMass {
   Real m, k, g;    // kg, N/m, m/s^2
@@ -28,12 +28,12 @@ struct BouncingMass {
   void onSwitch(Index, const Point<T>& p, T* d) const {
     d[0] = 1 - p.d[0];
   }
-  // The floor stiffens over the first part of the penetration; it never pulls.
+  // The floor reaches its full stiffness over the first `smoothing` of the penetration. It never pulls.
   template <class T>
   void smoothed(const Point<T>& p, T* d) const {
     d[0] = smoothStep<T>(-p.u[0] / smoothing);
   }
-  // v' from (u, v, 1)
+  // The matrix of v' = rates (u, v, 1).
   Mat<Real> rates(const Vec<Real>& d) const {
     Mat<Real> rows(1, 3);
     rows << -k / m * d[0], 0, -g;

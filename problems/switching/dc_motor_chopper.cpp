@@ -10,7 +10,7 @@
 namespace irk {
 namespace {
 
-// d = (1 while the supply is on). The hysteresis is a memory: no regularisation.
+// d = (1 while the supply is on, 0 otherwise). There is no regularisation, since the hysteresis is a memory.
 template <class Real>
 struct DcMotorChopper {
   Real U, R, L;       // V, Ohm, H
@@ -33,7 +33,7 @@ struct DcMotorChopper {
   void onSwitch(Index, const Point<T>& p, T* d) const {
     d[0] = 1 - p.d[0];
   }
-  // (v', x') from (u, v, x, 1)
+  // The matrix of (v', x') = rates (u, v, x, 1).
   Mat<Real> rates(const Vec<Real>& d) const {
     Mat<Real> rows(2, 4);
     rows << 0, -b / J, kM / J, -TL / J,  //

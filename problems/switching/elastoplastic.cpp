@@ -1,6 +1,6 @@
-// A mass on a spring and an ideal-plastic slider in series, driven by a harmonic force.
+// A mass on a spring and an ideally plastic slider in series, driven by a harmonic force.
 //
-// x = the slider's displacement.
+// u = displacement of the mass, x = displacement of the slider.
 #include <cmath>
 
 #include "problems/support/build.h"
@@ -11,7 +11,7 @@
 namespace irk {
 namespace {
 
-// d: 1 while the slider moves; the sign of its last force, 0 before the first yield.
+// d = (1 while the slider moves, 0 otherwise; sign of the force at the last yield, 0 before the first one).
 enum Discrete : Index { kPlastic, kSide };
 enum Switch : Index { kYieldsPositive, kYieldsNegative, kUnloads };
 
@@ -33,8 +33,8 @@ struct Elastoplastic {
     r.x[0] = p.d[kPlastic] * p.v[0] - p.k[0];
   }
 
-  // Yield is due when F - Fy and u' are both positive (or both negative with -Fy): after unloading
-  // F stays within round-off of Fy, but u' has turned.
+  // Yield is due when both `above`, the force beyond the yield limit, and the velocity `outwards` are positive. The
+  // force alone does not decide: just after unloading it is at the limit up to round-off, but u' has turned.
   template <class T>
   T yields(const T& above, const T& outwards) const {
     return above < outwards ? above : outwards;
@@ -52,23 +52,23 @@ struct Elastoplastic {
     d[kPlastic] = T(i == kUnloads ? 0.0 : 1.0);
     if (i != kUnloads) d[kSide] = T(i == kYieldsPositive ? 1.0 : -1.0);
   }
-  // F = +-Fy
+  // Sets x such that the force is exactly +-Fy.
   template <class T>
   void snap(Index, const Point<T>& p, T*, T*, T* x) const {
     x[0] = p.u[0] - p.d[kSide] * (Fy / k);
   }
-  // The slider starts to move before F is Fy, and with a fraction of u' that grows with it.
+  // The slider starts to move before F reaches Fy. Its velocity is a fraction of u' that grows with F and with u'.
   template <class T>
   void smoothed(const Point<T>& p, T* d) const {
     using std::sqrt;
     const T F = force<T>(p);
     const bool positive = F > T(0.0);
     const T size = positive ? F : T(-F), outwards = positive ? p.v[0] : T(-p.v[0]);
-    const Real velocity = Fy / sqrt(k * m);  // at which the spring's energy is that of yield
+    const Real velocity = Fy / sqrt(k * m);  // kinetic energy at this velocity = energy of the spring at yield
     d[kPlastic] = smoothStep<T>((size / Fy - 1) / smoothing + 1) *
                   smoothStep<T>(outwards / (smoothing * velocity));
   }
-  // (v', x') from (u, v, x, 1, sin Omega t, cos Omega t)
+  // The matrix of (v', x') = rates (u, v, x, 1, sin Omega t, cos Omega t).
   Mat<Real> rates(const Vec<Real>& d) const {
     Mat<Real> rows(2, 6);
     rows << -k / m, 0, k / m, 0, P0 / m, 0,  //

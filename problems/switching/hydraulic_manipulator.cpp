@@ -1,6 +1,6 @@
-// Two links, the first lifted by a cylinder behind a spool valve: after Naya et al. (2011).
+// Two links; a hydraulic cylinder with a spool valve lifts the first one. After Naya et al. (2011).
 //
-// u = (theta1, theta2), angles from the horizontal; x = (p1, p2). The cylinder runs from
+// u = (theta1, theta2), angles from the horizontal; x = (p1, p2), pressures in the chambers. The cylinder runs from
 // (sqrt(3)/2 L, 0) to the middle of rod 1, so that it is L/2 long at theta1 = 30 degrees.
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ enum class Manoeuvre { kSteps, kSine };
 
 constexpr std::size_t kCorners = 4;
 
-// Straight between its corners, constant before the first and after the last.
+// A polyline: straight between its corners, constant before the first and after the last one.
 template <class Real>
 struct Polyline {
   std::array<Real, kCorners> t, value;
@@ -38,11 +38,11 @@ struct Polyline {
   }
 };
 
-// d: corners passed, then the polyline level + slope t, then a flag for each of the valve's edges,
-// 1 while its pressure drops in the direction of the flow.
+// d: the number of corners passed; level and slope of the present piece of the polyline, level + slope t; a flag for
+// each edge of the valve, 1 while the pressure drops in the direction of the flow.
 enum Discrete : Index { kPassed, kLevel, kSlope, kFirstEdge };
 constexpr Index kEdges = 4;
-// Switches: the next corner, then the edges.
+// Switches: the next corner, then the edges of the valve.
 constexpr Index kCorner = 0, kFirstEdgeSwitch = 1;
 
 template <class Real>
@@ -54,7 +54,7 @@ struct HydraulicManipulator {
   Manoeuvre manoeuvre;
   Polyline<Real> polyline;
   Real smoothing, smoothing_p;  // s, Pa
-  Real pi, base;                // -, m: foot of the cylinder from the hinge
+  Real pi, base;                // -, m: distance from the hinge to the foot of the cylinder
   Real kappa0 = 0;
 
   Sizes sizes() const {
@@ -67,13 +67,13 @@ struct HydraulicManipulator {
     using std::sqrt;
     return sqrt(base * base + L * L / 4 - base * L * cos(theta1));
   }
-  // ds/d(theta1)
+  // ds/d(theta1), where s is the length of the cylinder.
   template <class T>
   T lever(const T& theta1) const {
     using std::sin;
     return base * L / 2 * sin(theta1) / length<T>(theta1);
   }
-  // Weight's moment about the hinge over cos(theta1).
+  // The moment of the weight about the hinge, divided by cos(theta1).
   Real load() const { return g * L * (m1 / 2 + mt + m2); }
 
   template <class T>
@@ -88,12 +88,12 @@ struct HydraulicManipulator {
     }
     return kappa0 * (1 - line * sin(4 * pi * p.t));
   }
-  // Supply to 1, 1 to tank, supply to 2, 2 to tank.
+  // Pressure drops at the edges: supply to chamber 1, chamber 1 to tank, supply to chamber 2, chamber 2 to tank.
   template <class T>
   std::array<T, kEdges> drops(const Point<T>& p) const {
     return {pP - p.x[0], p.x[0] - pT, pP - p.x[1], p.x[1] - pT};
   }
-  // cd sqrt(2 drop / rho), continued as an odd function: a frozen mode may overshoot its end.
+  // cd sqrt(2 drop / rho), continued as an odd function, since Newton may evaluate a mode beyond its end.
   template <class T>
   T speed(const T& drop) const {
     using std::sqrt;
@@ -187,8 +187,8 @@ Polyline<Real> polylineOf(Manoeuvre manoeuvre) {
   return {{0, 1, 8, 9}, {0, number("0.1"), number("0.1"), 0}};
 }
 
-// Rest at theta1 = 30 degrees: the pressures carry the load, and both chambers' flows vanish. With
-// kappa / (1 - kappa) = q that is q^2 = (p1 - pT) / (pP - p1) = (pP - p2) / (p2 - pT), hence
+// The equilibrium at theta1 = 30 degrees: the pressures carry the load, and the net flow into both chambers vanishes.
+// With kappa / (1 - kappa) = q the latter means q^2 = (p1 - pT) / (pP - p1) = (pP - p2) / (p2 - pT), hence
 // p1 + p2 = pP + pT.
 template <class Real>
 void setEquilibrium(HydraulicManipulator<Real>& problem, State<Real>& start) {

@@ -1,4 +1,4 @@
-// An oscillator under a PD controller that is sampled at fixed times and held in between.
+// An oscillator under a PD controller whose force is computed at sampling times and held constant in between.
 #include <cmath>
 
 #include "problems/support/build.h"
@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-// d: the held force F_k, and the number k + 1 of the next sample. A memory: no regularisation.
+// d = (the held force F_k, the number k + 1 of the next sample). There is no regularisation, since d is a memory.
 enum Discrete : Index { kForce, kNext };
 
 template <class Real>
@@ -33,10 +33,10 @@ struct SampledControl {
   void onSwitch(Index, const Point<T>& p, T* modes) const {
     modes[kForce] = control<T>(p.u[0], p.v[0]);
     modes[kNext] = p.d[kNext] + 1;
-    // A step may be longer than the sampling.
+    // A step may be longer than the time between samples.
     while (p.t >= modes[kNext] * Ts) modes[kNext] = modes[kNext] + 1;
   }
-  // v' from (u, v, 1)
+  // The matrix of v' = rates (u, v, 1).
   Mat<Real> rates(const Vec<Real>& modes) const {
     Mat<Real> rows(1, 3);
     rows << -c / m, -d / m, modes[kForce] / m;

@@ -1,5 +1,5 @@
-// A mass on a spring and a moving belt with set-valued Coulomb friction; with the belt at rest,
-// free Coulomb decay.
+// A mass on a spring and a moving belt with set-valued Coulomb friction. With the belt at rest: free oscillations
+// that decay by Coulomb friction.
 #include <cmath>
 
 #include "problems/support/build.h"
@@ -9,7 +9,7 @@
 namespace irk {
 namespace {
 
-// d = (friction while slipping: Fd sign(vb - x'), 1 while sticking).
+// d = (friction force while slipping, Fd sign(vb - x'); 1 while sticking, 0 otherwise).
 enum Discrete : Index { kFriction, kSticks };
 enum Switch : Index { kSlipsBack, kSlipsAhead, kReachesBelt };
 
@@ -51,8 +51,8 @@ struct StickSlip {
   void snap(Index i, const Point<T>&, T*, T* v, T*) const {
     if (i == kReachesBelt) v[0] = T(vb);
   }
-  // Instead of sticking the mass creeps: friction rises to Fs over the first `smoothing` of
-  // relative velocity and falls to Fd over the next.
+  // Instead of sticking the mass creeps: friction rises to Fs over the first `smoothing` of the relative velocity,
+  // and falls to Fd over the next one.
   template <class T>
   void smoothed(const Point<T>& p, T* d) const {
     const T slip = (vb - p.v[0]) / smoothing;
@@ -77,7 +77,7 @@ struct StickSlip {
   }
 };
 
-// The solution, event by event: stick until |k x| = Fs, slip until x' = vb again. Between them
+// The exact solution, phase by phase: stick until |k x| = Fs, slip until x' = vb again. While slipping
 // x = c + X cos omega tau + (V / omega) sin omega tau, c = +-Fd / k.
 template <class Real>
 class ExactStickSlip {
@@ -87,7 +87,7 @@ class ExactStickSlip {
   State<Real> at(const Real& t) const {
     using std::abs;
     Real x = p_.x0, v = p_.v0, left = t;
-    bool slips_off = false;  // leaves sticking: |k x| is Fs, up to rounding
+    bool slips_off = false;  // sticking has just ended: |k x| is Fs up to rounding
     while (true) {
       if (v == p_.vb && !slips_off && abs(p_.k * x) <= p_.Fs) {
         const Real duration = stickDuration(x);
@@ -119,8 +119,8 @@ class ExactStickSlip {
       centre = side * p.Fd / p.k;
       X = x - centre;
       V = v;
-      // x' = R cos(omega tau - delta) = vb. From x' = vb on, tau = 0 is one root, 2 delta the
-      // other.
+      // Slip ends at x' = R cos(omega tau - delta) = vb. If it starts with x' = vb, omega tau = 0 is one root and
+      // 2 delta the other.
       const Real R = sqrt(V * V + omega * omega * X * X);
       const Real delta = atan2(-omega * X, V);
       const Real turn = 2 * piOf<Real>();
@@ -154,7 +154,7 @@ class ExactStickSlip {
     if (p_.vb == 0) return std::numeric_limits<Real>::infinity();
     return (p_.vb > 0 ? Real(edge - x) : Real(edge + x)) / (p_.vb > 0 ? p_.vb : Real(-p_.vb));
   }
-  // side: sign of the friction, 0 while sticking.
+  // `side`: the sign of the friction force; 0 while sticking.
   State<Real> state(const Real& t, const Real& x, const Real& v, const Real& a,
                     const Real& side) const {
     State<Real> s(p_.sizes());
@@ -187,8 +187,7 @@ Scene<Real> make(const Settings& settings) {
   problem.startMode(scene.start.d.data());
   completeStart(scene);
   scene.t_end = 50;
-  // Velocities matter as far as they compare with the belt's: an error e of x delays a slip by e /
-  // vb.
+  // Velocities are measured by the speed of the belt: an error e of x delays a slip by e / vb.
   const double belt = std::abs(static_cast<double>(problem.vb));
   setComponents(scene, {{"x", "m", static_cast<double>(Real(problem.Fs / problem.k)), belt > 0 ? belt : 1}});
   if (problem.Fd <= problem.Fs) {

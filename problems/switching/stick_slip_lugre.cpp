@@ -1,7 +1,7 @@
-// Stick-slip with bristles: LuGre's friction, Canudas de Wit, Olsson, Astrom & Lischinsky (1995).
+// Stick-slip with bristles: the LuGre friction model of Canudas de Wit, Olsson, Astrom & Lischinsky (1995).
 //
-// u = X, x = Z, the bristles' mean deflection. The mass is pulled through a spring whose other end
-// moves at vb.
+// u = X, position of the mass; x = Z, mean deflection of the bristles. The mass is pulled by a spring whose other end
+// moves at the speed vb.
 #include <cmath>
 
 #include "problems/support/build.h"
