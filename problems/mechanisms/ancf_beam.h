@@ -1,9 +1,9 @@
 // Planar ANCF cable elements, Gerstmayr & Irschik (JSV 318, 2008). Internal to ancf_*.cpp.
 //
-// Coordinates of node n: r (position) and r' (slope with respect to the arc length x), so that
-// eight belong to each element. eps = |r'| - 1, K = (r' x r'') / |r'|^2, N = EA eps, Mb = EI K,
-// dW = int (N d eps + Mb d K) dx; Gauss points: 5 axial, 3 bending, and 4 for the mass, which is
-// exact for cubic shape functions and hence in closed form here.
+// The coordinates of a node are r (position) and r' (slope with respect to the arc length x); each element has eight.
+// eps = |r'| - 1, K = (r' x r'') / |r'|^2, N = EA eps, Mb = EI K, dW = int (N d eps + Mb d K) dx. Gauss points: 5 for
+// the axial strain, 3 for bending. For the mass 4 points would be exact with cubic shape functions; the closed form
+// is used instead.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -18,7 +18,7 @@
 
 namespace irk {
 
-/// Coordinates that are zero for ever and hence no unknowns.
+/// The support. It fixes coordinates at zero, which are therefore no unknowns.
 enum class AncfSupport {
   kClamped,  ///< r and the y-component of r' at node 0
   kHinged,   ///< r at node 0
@@ -28,12 +28,12 @@ template <class Real>
 struct AncfData {
   Index elements;
   Real L, EA, EI, rhoA;  // m, N, N m^2, kg/m
-  Real g;                // m/s^2, down
-  Real tip_load;         // N, dead, down
+  Real g;                // m/s^2, downwards
+  Real tip_load;         // N, dead load, downwards
   AncfSupport support;
 };
 
-/// A beam along x, discretized by equal elements. u = the free coordinates, node by node
+/// A problem struct: a beam along x, discretized by equal elements. u holds the free coordinates, node by node
 /// (r_x, r_y, r'_x, r'_y).
 template <class Real>
 class AncfBeam {
@@ -77,7 +77,7 @@ class AncfBeam {
     }
   }
 
-  /// Kinetic, elastic and potential energy, J. The semi-discrete system conserves it.
+  /// The sum of kinetic, elastic and potential energy, in J. The semi-discrete system conserves it.
   Real energy(const Vec<Real>& u, const Vec<Real>& v) const {
     Real sum = d_.tip_load * u[tipY()];
     for (Index e = 0; e < d_.elements; ++e) {
@@ -102,7 +102,7 @@ class AncfBeam {
     return sum;
   }
 
-  /// Straight along x at rest, with the accelerations of the loads that act on it.
+  /// The beam straight along x and at rest, with the accelerations caused by its loads.
   State<Real> straightStart() const {
     State<Real> s(sizes());
     for (Index n = 0; n <= d_.elements; ++n) {
@@ -130,8 +130,8 @@ class AncfBeam {
     return s;
   }
 
-  /// r2_x, s2_x (slope): node and direction; the last node's position is tip_x, tip_y. Positions and slopes are about
-  /// 1, their time derivatives `speed`.
+  /// Names, units and magnitudes of u. r2_x is the x-position of node 2, s2_x its slope; the position of the last
+  /// node is tip_x, tip_y. The magnitude of positions and slopes is 1, that of their time derivatives `speed`.
   std::vector<Component> coordinates(double speed) const {
     const char* const axes[] = {"_x", "_y"};
     std::vector<Component> all;
@@ -160,7 +160,7 @@ class AncfBeam {
     Shape d1, d2;
   };
 
-  // r', r'' and K at a bending point.
+  // r', r'', 1 / |r'|^2 and K at a Gauss point of bending.
   template <class T>
   struct Curvature {
     T x, y, xx, yy, inverse, K;
@@ -245,7 +245,7 @@ class AncfBeam {
       bending_[i] = {d_.EI * bending[i][1] * le_ / 2, firstDerivatives(xi), secondDerivatives(xi)};
     }
   }
-  // Of the cubic Hermite functions for (r0, r0', r1, r1'), with respect to x = le xi.
+  // Derivatives of the cubic Hermite functions for (r0, r0', r1, r1') with respect to x = le xi.
   Shape firstDerivatives(const Real& xi) const {
     const Real bump = 6 * xi * (1 - xi) / le_;
     return {-bump, 1 - 4 * xi + 3 * xi * xi, bump, -2 * xi + 3 * xi * xi};
@@ -258,10 +258,10 @@ class AncfBeam {
   AncfData<Real> d_;
   Real le_;
   Index nu_ = 0;
-  std::vector<Index> unknown_;  // of every coordinate; kFixed for those of the support
+  std::vector<Index> unknown_;  // by coordinate: its index in u, or kFixed if the support fixes it
   std::array<Axial, 5> axial_;
   std::array<Bending, 3> bending_;
-  std::array<Shape, 4> mass_;  // of one direction
+  std::array<Shape, 4> mass_;  // mass matrix of an element for one direction
   Shape weight_;
 };
 

@@ -1,4 +1,4 @@
-// A cantilever of ANCF elements with a dead tip load 3 EI / L^2, stepped on at t = 0.
+// A cantilever of ANCF elements; a dead tip load 3 EI / L^2 is applied suddenly at t = 0.
 #include <cmath>
 
 #include "problems/mechanisms/ancf_beam.h"
@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-// Defaults that follow the other parameters.
+// Defaults that are computed from other parameters.
 constexpr const char* kSquare = "A^2/12";
 constexpr const char* kStandardLoad = "3EI/L^2";
 
@@ -31,8 +31,7 @@ Scene<Real> make(const Settings& settings) {
   setProblem(scene, beam);
   scene.start = beam.straightStart();
   scene.t_end = 0.1;
-  // Positions over the length, slopes over 1; velocities as of the first bending mode,
-  // omega = 3.5 sqrt(EI / (rhoA L^4)).
+  // Velocities have the magnitude of the first bending mode, omega = 3.5 sqrt(EI / (rhoA L^4)).
   using std::sqrt;
   const Real omega = 3.5 * sqrt(EI / (data.rhoA * L * L)) / L;
   setComponents(scene, beam.coordinates(static_cast<double>(omega)));

@@ -25,7 +25,7 @@ Scene<Real> make(const Settings& settings) {
   setProblem(scene, beam);
   scene.start = beam.straightStart();
   scene.t_end = 1;
-  // Positions over the length, slopes over 1; velocities as of a rigid rod, sqrt(3 g L) at its tip.
+  // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
   const double speed = std::sqrt(static_cast<double>(Real(3 * data.g * L)));
   setComponents(scene, beam.coordinates(std::max(speed, 1.0)));
   scene.outputs = {{"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }, "J"}};

@@ -1,6 +1,6 @@
 // A simply supported beam in finite differences: u'' + c K u' + K u = 100 x_i sin 50 t, K = D^2,
-// D = tridiag(1, -2, 1) (m + 1)^2, x_i = i / (m + 1). Linear; exact by the modes of the discrete
-// system, w_k = 4 (m + 1)^2 sin^2(k pi / (2 (m + 1))).
+// D = tridiag(1, -2, 1) (m + 1)^2, x_i = i / (m + 1). The system is linear; the exact solution is the sum of the
+// modes of the discrete system, with frequencies w_k = 4 (m + 1)^2 sin^2(k pi / (2 (m + 1))).
 #include <cmath>
 #include <cstddef>
 
@@ -26,14 +26,14 @@ struct BeamChain {
     const Real n2 = intervals() * intervals();
     const Real n4 = n2 * n2;
     const T force = kForce / intervals() * sin(kForceRate * p.t);
-    // K = D D in two steps. Differences of neighbours keep the digits of smooth u and v; the terms of a single
-    // fourth difference, 6 (m + 1)^4 u, cancel and leave their round-off.
+    // Applies K = D D in two steps. Differences of neighbours keep the digits of smooth u and v. The terms of a
+    // single fourth difference, 6 (m + 1)^4 u, would cancel and leave their round-off.
     const auto D = [m = m](const auto& y, Index i) {
       const T before = i > 0 ? T(y[i] - y[i - 1]) : T(y[i]);
       const T after = i + 1 < m ? T(y[i + 1] - y[i]) : T(-y[i]);
       return T(after - before);
     };
-    const auto moment = [&](Index i) {  // of q = u + damping u', zero beyond the ends
+    const auto moment = [&](Index i) {  // D q with q = u + damping u'; zero beyond the ends
       return i < m ? T(D(p.u, i) + damping * D(p.v, i)) : T(0.0);
     };
     T before(0.0), here = moment(0);
@@ -47,7 +47,7 @@ struct BeamChain {
   }
 };
 
-// One mode: q'' + 2 delta q' + w^2 q = F sin 50 t, 2 delta = c w^2, from rest at q0.
+// One mode: q'' + 2 delta q' + w^2 q = F sin 50 t with 2 delta = c w^2, started at rest from q0.
 template <class Real>
 struct Mode {
   Real q, rate, acceleration;
@@ -58,10 +58,10 @@ struct Mode {
     using std::sin;
     using std::sqrt;
     const Real W = kForceRate, w2 = w * w, delta = c * w2 / 2;
-    // Particular solution P sin W t + Q cos W t.
+    // The particular solution is P sin W t + Q cos W t.
     const Real a = w2 - W * W, b = 2 * delta * W, size = F / (a * a + b * b);
     const Real P = a * size, Q = -b * size;
-    const Real y0 = q0 - Q, v0 = -P * W;  // of the free part
+    const Real y0 = q0 - Q, v0 = -P * W;  // start of the free part
     Real free, free_rate;
     if (delta < w) {
       const Real s = sqrt(w2 - delta * delta), decay = exp(-delta * t);
@@ -92,7 +92,7 @@ class ExactBeamChain {
     for (Index i = 0; i < 2 * (p_.m + 1); ++i) sines_.push_back(sin(static_cast<double>(i) * step));
   }
 
-  // Sines of the start: 1, 0.2, 0.05.
+  // Amplitudes of the first three modes at the start: 1, 0.2, 0.05.
   Real startAmplitude(Index k) const {
     return k == 1 ? Real(1) : k == 2 ? Real(1) / 5 : k == 3 ? Real(1) / 20 : Real(0);
   }
@@ -125,7 +125,7 @@ class ExactBeamChain {
     return s;
   }
 
-  // At rest, bent in the first three modes; no force at t = 0.
+  // The start: at rest, bent in the first three modes. There is no force at t = 0.
   State<Real> start() const {
     State<Real> s(p_.sizes());
     for (Index k = 1; k <= std::min<Index>(3, p_.m); ++k) {
@@ -142,7 +142,7 @@ class ExactBeamChain {
   Real angle(Index k) const { return static_cast<double>(k) * piOf<Real>() / (2 * p_.intervals()); }
 
   BeamChain<Real> p_;
-  std::vector<Real> sines_;  // of j pi / (m + 1) over one period
+  std::vector<Real> sines_;  // sin(j pi / (m + 1)) over one period
 };
 
 template <class Real>
@@ -153,7 +153,7 @@ Scene<Real> make(const Settings& settings) {
   Scene<Real> scene;
   setProblem(scene, problem);
   scene.t_end = 2;
-  // Amplitude 1 at the first mode's rate pi^2.
+  // Amplitudes are about 1, at the frequency pi^2 of the first mode.
   std::vector<Component> deflections;
   for (Index i = 1; i <= problem.m; ++i) deflections.push_back({"u" + std::to_string(i), "", 1, 10});
   setComponents(scene, deflections);

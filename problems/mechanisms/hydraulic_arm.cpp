@@ -1,8 +1,8 @@
-// One rigid arm, one cylinder, one valve with sign-switched flow: the closest reconstruction of the
-// paper's example.
+// One rigid arm, one cylinder, and one valve whose flow depends on the sign of its opening. This is the closest
+// reconstruction of the paper's example.
 //
-// u = angle of the arm from the horizontal, x = (p0, p1). The cylinder runs from (0, -L/4) to the
-// arm's point at L/4 from the hinge: s = L/4 sqrt(2 + 2 sin angle).
+// u = angle of the arm from the horizontal, x = (p0, p1), pressures in the chambers. The cylinder runs from (0, -L/4)
+// to the point of the arm at L/4 from the hinge; its length is s = L/4 sqrt(2 + 2 sin angle).
 #include <cmath>
 
 #include "problems/support/build.h"
@@ -14,8 +14,8 @@ namespace {
 
 enum class ArmReference { kKinked, kSmooth };
 
-// d: 1 while the valve opens chamber 0 to the supply (and chamber 1 to the tank); then, of the
-// kinked reference, 1 while it rises or falls, and 1 at its upper end.
+// d: 1 while the valve connects chamber 0 to the supply (and chamber 1 to the tank). For the kinked reference also:
+// 1 while it rises or falls; 1 at its upper end.
 enum Discrete : Index { kSupply0, kMiddle, kHigh };
 // Switches: the valve; the lower and the upper kink.
 enum Switch : Index { kValve, kLower, kUpper };
@@ -39,7 +39,7 @@ struct HydraulicArm {
     using std::cos;
     return 1 - cos(pi * t);
   }
-  // The kinked one moves between wave = 0.5 and 1.5.
+  // The kinked reference moves while the wave is between 0.5 and 1.5.
   template <class T>
   T referenceLength(const Point<T>& p) const {
     switch (reference) {
@@ -56,7 +56,7 @@ struct HydraulicArm {
     using std::sqrt;
     return L / 4 * sqrt(2 + 2 * sin(angle));
   }
-  // Of chamber 0; that of chamber 1 is its negative.
+  // The opening of the valve for chamber 0; that for chamber 1 is its negative.
   template <class T>
   T opening(const Point<T>& p) const {
     return 2 * (referenceLength<T>(p) - length<T>(p.u[0]));
@@ -68,8 +68,8 @@ struct HydraulicArm {
     using std::sqrt;
     return y < T(0.0) ? T(-sqrt(-y)) : T(sqrt(y));
   }
-  // Flow into a chamber at pressure p: from the supply if the valve opens to that side, else to the
-  // tank.
+  // The flow into a chamber at pressure p. It comes from the supply if the valve opens to that side; else the chamber
+  // is connected to the tank.
   template <class T>
   T flow(const T& from_supply, const T& opening, const T& p) const {
     return Qn * opening *
@@ -83,7 +83,7 @@ struct HydraulicArm {
     const T slope = L * L / 16 * (cosine / length<T>(p.u[0]));  // ds/d(angle)
     const T s_rate = slope * p.v[0];
     const T force = A * (p.x[1] - p.x[0]) + d * s_rate;  // tension positive
-    // J + m (L/2)^2 = m L^2 / 3 about the hinge
+    // Inertia about the hinge: J + m (L/2)^2 = m L^2 / 3.
     r.u[0] = -m * g * L / 2 * cosine - force * slope - m * L * L / 3 * p.a[0];
     const T Av0 = opening<T>(p), supply0 = p.d[kSupply0];
     const T volume_rate = A * s_rate;
@@ -110,7 +110,7 @@ struct HydraulicArm {
     modes[kMiddle] = 1 - p.d[kMiddle];
     modes[kHigh] = i == kUpper ? T(1 - p.d[kHigh]) : T(0.0);
   }
-  // Over `smoothing` of the valve's opening, and of the reference's way around its kinks.
+  // Blends over `smoothing`: as the opening of the valve, and as the distance of the reference from its kinks.
   template <class T>
   void smoothed(const Point<T>& p, T* modes) const {
     if (reference == ArmReference::kKinked) {
@@ -152,7 +152,7 @@ Scene<Real> make(const Settings& settings) {
   Scene<Real> scene;
   setProblem(scene, arm);
   scene.start.x << value("p0"), value("p1");
-  scene.start.d[kSupply0] = 1;  // closed; the arm falls first
+  scene.start.d[kSupply0] = 1;  // the valve is closed; the arm falls first, which opens chamber 0 to the supply
   completeStart(scene);
   scene.t_end = 2;
   setComponents(scene, {{"angle", "rad"}}, {{"p0", "Pa", 1e7}, {"p1", "Pa", 1e7}});

@@ -1,7 +1,7 @@
 // A slider-crank with a DC motor, a chopper, a speed controller and Coulomb friction on the slider.
 //
-// u = (theta, phi), z = (lambda) as in slider_crank's redundant form; x = (i, e), the motor's
-// current and the integral of the speed's error.
+// u = (theta, phi), z = (lambda) as in the redundant form of slider_crank; x = (i, e), the current of the motor and
+// the integral of the speed error.
 #include <cmath>
 
 #include "problems/mechanisms/slider_crank_data.h"
@@ -15,8 +15,8 @@ using slider_crank::Angles;
 using slider_crank::Data;
 using slider_crank::treeRows;
 
-// d: 1 while the supply is on; the sign of the slider's velocity. The chopper's hysteresis is a
-// memory: no regularisation.
+// d = (1 while the supply is on, 0 otherwise; sign of the slider's velocity). There is no regularisation, since the
+// hysteresis of the chopper is a memory.
 enum Discrete : Index { kSupply, kDirection };
 enum Switch : Index { kChopper, kSliderTurns };
 
@@ -38,7 +38,7 @@ struct MechatronicCrank {
     const auto rows = treeRows<Real, T>(crank, q, p.v[0], p.v[1], p.a[0], p.a[1]);
     const T& current = p.x[0];
     const T friction =
-        Fc * p.d[kDirection];  // against x3' = -L1 sin theta theta' - L2 sin phi phi'
+        Fc * p.d[kDirection];  // opposes x3' = -L1 sin theta theta' - L2 sin phi phi'
     r.u[0] = kM * current + friction * (crank.L1 * q.sin_theta) + rows.theta -
              crank.L1 * q.cos_theta * p.z[0];
     r.u[1] = friction * (crank.L2 * q.sin_phi) + rows.phi - crank.L2 * q.cos_phi * p.z[0];

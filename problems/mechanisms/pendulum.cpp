@@ -23,7 +23,7 @@ struct Pendulum {
     c[0] = (u[0] * u[0] + u[1] * u[1] - l * l) * 0.5;
   }
 
-  // Angle theta from below, amplitude pi/2: sin(theta/2) = k cd(omega t), k^2 = 1/2,
+  // theta is the angle from the lower equilibrium, with amplitude pi/2: sin(theta/2) = k cd(omega t), k^2 = 1/2,
   // cos(theta/2) = k' / dn, theta' = -2 k k' omega sn / dn, k k' = 1/2.
   State<Real> exact(const Real& t) const {
     using std::sqrt;
@@ -56,7 +56,7 @@ Scene<Real> make(const Settings& settings) {
   const double speed = std::sqrt(2 * g * l);
   setComponents(scene, {{"x", "m", l, speed}, {"y", "m", l, speed}}, {}, {{"lambda", "N/m", m * g / l}});
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
-  scene.start.u[0] = problem.l;  // exact(0) is this up to rounding
+  scene.start.u[0] = problem.l;  // exact(0) gives these values up to rounding only
   scene.start.w[1] = -problem.g;
   scene.outputs = {{"energy", [problem](const State<Real>& s) {
                       return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1]));

@@ -14,7 +14,7 @@ using slider_crank::Minimal;
 using slider_crank::Redundant;
 using slider_crank::SwitchedTorque;
 
-// Magnitudes over the first two seconds: the crank ends at 40 rad/s, forces at some newton.
+// Typical magnitudes over the first two seconds. The crank reaches 40 rad/s, forces reach a few newtons.
 constexpr double kAngle = 1, kAngleRate = 10, kForce = 1;
 constexpr const char* kNever = "inf";
 
@@ -67,7 +67,7 @@ void makeAbsolute(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene
   scene.start.u[6] = d.L1 + d.L2;
 }
 
-// Stretched, at rest: theta = phi = 0.
+// The start is stretched and at rest: theta = phi = 0.
 template <class Real>
 Scene<Real> make(const Settings& settings) {
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
@@ -86,7 +86,7 @@ Scene<Real> make(const Settings& settings) {
   } else {
     makeRedundant(torque, d, scene);
   }
-  scene.start.d.setOnes();  // torque on
+  scene.start.d.setOnes();  // the torque is on
   completeStart(scene);
   scene.t_end = 2;
   return scene;

@@ -8,12 +8,12 @@
 
 namespace irk::slider_crank {
 
-/// The crank's torque and its switch, for all three. d = (1 while it is on), where it is ever
-/// switched off.
+/// The torque on the crank and its switch, for all three sets of coordinates. d = (1 while the torque is on, 0
+/// otherwise); if it is never switched off, d is empty.
 template <class Real>
 struct SwitchedTorque {
   Real torque;     // N m
-  bool switched;   // whether it is ever switched off
+  bool switched;   // whether the torque is ever switched off
   Real off_at;     // s
   Real smoothing;  // s
 
@@ -40,7 +40,7 @@ struct SwitchedTorque {
   std::string switchName(Index) const { return "torque off"; }
 };
 
-/// u = (theta, phi), z = (lambda): 0 = L1 sin theta + L2 sin phi.
+/// Two angles with one constraint, u = (theta, phi), z = (lambda): 0 = L1 sin theta + L2 sin phi.
 template <class Real>
 struct Redundant : SwitchedTorque<Real> {
   Data<Real> d;
@@ -62,7 +62,7 @@ struct Redundant : SwitchedTorque<Real> {
   }
 };
 
-/// u = (theta); the rod follows: sin phi = -(L1 / L2) sin theta, cos phi > 0.
+/// One angle without constraints, u = (theta). The rod follows: sin phi = -(L1 / L2) sin theta, cos phi > 0.
 template <class Real>
 struct Minimal : SwitchedTorque<Real> {
   Data<Real> d;
@@ -77,7 +77,7 @@ struct Minimal : SwitchedTorque<Real> {
     const Real ratio = d.L1 / d.L2;
     const T sin_phi = -ratio * sin_theta;
     const T cos_phi = sqrt(1 - sin_phi * sin_phi);
-    // phi' = slope theta', and the constraint's second derivative for phi''.
+    // phi' = slope theta'; phi'' follows from the second derivative of the constraint.
     const T slope = -ratio * (cos_theta / cos_phi);
     const T phi_rate = slope * p.v[0];
     const T phi_acc = (ratio * (sin_theta * p.v[0] * p.v[0] - cos_theta * p.a[0]) +
@@ -89,7 +89,7 @@ struct Minimal : SwitchedTorque<Real> {
   }
 };
 
-/// Three bodies, u = (x1, y1, theta, x2, y2, phi, x3, y3): constant M, seven constraints. The
+/// Three bodies, u = (x1, y1, theta, x2, y2, phi, x3, y3), with a constant M and seven constraints. The
 /// slider is a point mass.
 template <class Real>
 struct Absolute : SwitchedTorque<Real> {
@@ -118,13 +118,13 @@ struct Absolute : SwitchedTorque<Real> {
     using std::sin;
     const auto sin1 = d.L1 / 2 * sin(u[2]), cos1 = d.L1 / 2 * cos(u[2]);
     const auto sin2 = d.L2 / 2 * sin(u[5]), cos2 = d.L2 / 2 * cos(u[5]);
-    g[0] = u[0] - cos1;  // crank at the origin
+    g[0] = u[0] - cos1;  // the crank turns about the origin
     g[1] = u[1] - sin1;
-    g[2] = u[0] + cos1 - u[3] + cos2;  // crank's tip is the rod's start
+    g[2] = u[0] + cos1 - u[3] + cos2;  // the tip of the crank is the start of the rod
     g[3] = u[1] + sin1 - u[4] + sin2;
-    g[4] = u[3] + cos2 - u[6];  // rod's end is the slider
+    g[4] = u[3] + cos2 - u[6];  // the end of the rod is the slider
     g[5] = u[4] + sin2 - u[7];
-    g[6] = u[7];  // slider on its line
+    g[6] = u[7];  // the slider stays on its line
   }
 };
 

@@ -1,4 +1,4 @@
-// The rigid slider-crank's data, its tree of crank and rod. Internal to the crank scenes.
+// Data of the rigid slider-crank, and the equations of its tree of crank and rod. Internal to the crank scenes.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct Data {
   Real J2() const { return m2 * L2 * L2 / 12; }
 };
 
-/// Parameters of the same names.
+/// The scene parameters for Data, with the same names as its members.
 inline std::vector<Parameter> bodyParameters() {
   return {positiveParameter("L1", "m", "crank length", "0.1"),
           positiveParameter("L2", "m", "rod length, more than L1 for full turns", "0.3"),
@@ -38,8 +38,8 @@ struct Angles {
   T sin_theta, cos_theta, sin_phi, cos_phi;
 };
 
-/// f - M a of the tree of crank and rod with the slider's mass at the rod's end and no applied
-/// force: u = (theta, phi).
+/// The rows f - M a for u = (theta, phi): the tree of crank and rod, with the mass of the slider at the end of the
+/// rod and without applied forces.
 template <class T>
 struct TreeRows {
   T theta, phi;

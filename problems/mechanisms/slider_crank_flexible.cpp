@@ -1,7 +1,7 @@
 // Slider-crank with an elastic rod: Simeon (1998), problem "crank" of the IVP test set.
 //
-// u = (phi1, phi2, x3, q1, q2, q3, q4): angles of crank and rod, slider, lateral sine modes q1, q2,
-// longitudinal q3 (middle) and q4 (end). The crank turns at the constant rate omega. Letters are
+// u = (phi1, phi2, x3, q1, q2, q3, q4): angles of crank and rod, position of the slider, lateral sine modes q1, q2,
+// longitudinal displacements q3 (middle) and q4 (end). The crank turns at the constant rate omega. The letters are
 // those of the source; B is its skew matrix, c.q a dot product.
 #include <cmath>
 
@@ -22,7 +22,7 @@ template <class Real>
 class FlexibleSliderCrank {
  public:
   explicit FlexibleSliderCrank(const RodData<Real>& data) : d_(data) {
-    const Real pi = decimal<Real>("3.1415927");  // the reference solution's program has no more
+    const Real pi = decimal<Real>("3.1415927");  // no more digits than the program of the reference solution
     const Real FM = d_.rho * d_.b * d_.h * d_.l2, FK = d_.E * d_.b * d_.h / d_.l2;
     const Real slender2 = d_.h * d_.h / (d_.l2 * d_.l2);
     const Real pi2 = pi * pi, pi3 = pi2 * pi, pi4 = pi2 * pi2;
@@ -32,7 +32,7 @@ class FlexibleSliderCrank {
     K33_ = FK * 16 / 3;
     K34_ = -FK * 8 / 3;
     K44_ = FK * 7 / 3;
-    // rho times B, c1, c2, c12, c21; rho FB = FM.
+    // B, c1, c2, c12, c21, each times rho; rho FB = FM.
     B13_ = -16 * FM / pi3;
     B14_ = (8 / pi3 - 1 / pi) * FM;
     B24_ = FM / (2 * pi);
@@ -80,7 +80,7 @@ class FlexibleSliderCrank {
                  2 * d_.l1 * (w2 * (C * c1s + S * c2s));
     r.u[0] = f1 - (d_.J1 + d_.m2 * d_.l1 * d_.l1) * a1 - M12 * a2 - M1q1 * p.a[3] - M1q3 * p.a[5] -
              M1q4 * p.a[6] - d_.l1 * (cos1 * z[0] + sin1 * z[1]) - z[2];
-    // q'.B q' vanishes: B is skew.
+    // q'.B q' vanishes because B is skew.
     const T f2 = half * (w11 * S) + d_.l1 * (w11 * (S * c1q - C * c2q)) - 2 * (w2 * (c12s + sMq));
     r.u[1] = f2 - M12 * a1 - (d_.J2 + qMq + 2 * c12q) * a2 - M2q1 * p.a[3] - M2q2 * p.a[4] -
              M2q3 * p.a[5] - M2q4 * p.a[6] - rod * (cos2 * z[0] + sin2 * z[1]);
@@ -113,7 +113,8 @@ class FlexibleSliderCrank {
   Real B13_, B14_, B24_, c1_3_, c1_4_, c2_1_, c12_3_, c12_4_, c21_1_, c21_2_;
 };
 
-// The test set's start, made consistent: its printed x3(0) and phi2'(0) are rounded to 9 digits.
+// The start of the test set, made consistent: x3(0) and phi2'(0) are computed, since the printed values are rounded
+// to 9 digits.
 template <class Real>
 void setStart(const RodData<Real>& d, State<Real>& s) {
   s.u[5] = decimal<Real>("0.103339863e-4");
