@@ -36,7 +36,7 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 }  // namespace
 
 std::string numberText(double x) {
-  if (std::isnan(x)) return "nan";  // without a sign
+  if (std::isnan(x)) return "nan";  // std::to_chars may write a sign
   std::array<char, 32> text;
   const auto written = std::to_chars(text.data(), text.data() + text.size(), x);
   return {text.data(), written.ptr};

@@ -59,7 +59,7 @@ bool ConsistentStart<Real>::factorize() {
   return dense_lu_.isInvertible();
 }
 
-// dw = D0^-1 r
+// dw_ = D0^-1 r_
 template <class Real>
 void ConsistentStart<Real>::solve() {
   if (D_.pattern->full) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kDistance = 0.01;
 constexpr int kCloser = 6;
 
-/// Finds the rows of each direction at one point by halving intervals of directions.
+/// Finds the rows of each direction at one point by splitting intervals of directions.
 template <class Real>
 class RowSearch {
  public:
