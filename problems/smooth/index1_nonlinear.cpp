@@ -1,4 +1,4 @@
-// A nonlinear DAE of index 1 after Hairer, Lubich & Roche (LNM 1409, 1989); y = (exp t, exp -2t),
+// A nonlinear DAE of index 1 after Hairer, Lubich & Roche (LNM 1409, 1989). Its solution is y = (exp t, exp -2t),
 // z = exp 2t.
 #include <array>
 

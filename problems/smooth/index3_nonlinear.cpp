@@ -1,5 +1,5 @@
-// A nonlinear DAE of index 3 after Jay (Appl. Numer. Math. 17, 1995, section 7); y = z = (exp 2t,
-// exp -t), w = exp t. z enters y' nonlinearly: y and z are not positions and velocities.
+// A nonlinear DAE of index 3 after Jay (Appl. Numer. Math. 17, 1995, section 7). Its solution is
+// y = z = (exp 2t, exp -t), w = exp t. z enters y' nonlinearly: y and z are not positions and velocities.
 #include <array>
 
 #include "problems/smooth/exponential_dae.h"

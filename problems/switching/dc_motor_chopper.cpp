@@ -1,6 +1,6 @@
 // A DC motor whose current is held in a band by a chopper with hysteresis.
 //
-// u = phi, x = i.
+// u = phi, angle of the rotor; x = i, current.
 #include <cmath>
 
 #include "problems/support/build.h"

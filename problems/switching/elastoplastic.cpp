@@ -19,7 +19,7 @@ template <class Real>
 struct Elastoplastic {
   Real m, k, Fy;   // kg, N/m, N
   Real P0, Omega;  // N, rad/s
-  Real smoothing;  // part of Fy
+  Real smoothing;  // relative to Fy
 
   Sizes sizes() const { return {.nu = 1, .nx = 1, .discrete = 2, .switches = 3}; }
   template <class T>
