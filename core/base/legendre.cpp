@@ -41,8 +41,8 @@ const Table<Real>& table() {
   return kTable;
 }
 
-// The integral of P_k from 0 to x, from the values p of P_{k-1} and P_{k+1} at x; for k = 0 P_0 / 2 takes the place of
-// the term with P_{k-1}.
+// The integral of P_k from 0 to x, from the values p of P_{k-1} and P_{k+1} at x. For k = 0, P_0 / 2 takes the place
+// of the term with P_{k-1}.
 template <class Real>
 Real integral(Index k, const Vec<Real>& p) {
   const Real up = table<Real>().at(k + 1).xi * p[k + 1];
