@@ -10,8 +10,8 @@
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
-#include "experiments/runs/trajectory.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/trajectory.h"
 
 namespace irk::claims {
 namespace {

@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "experiments/base/failure.h"
+#include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
-#include "experiments/runs/block_names.h"
 
 namespace irk::store {
 namespace {

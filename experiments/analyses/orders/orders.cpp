@@ -10,12 +10,12 @@
 #include "experiments/analyses/orders/theory.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/run_spec.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/analysis.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
-#include "experiments/runs/fields.h"
 
 namespace irk {
 namespace {
