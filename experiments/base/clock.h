@@ -1,4 +1,4 @@
-// The thread's CPU clock: what a run costs whatever else the machine does.
+// Clocks: the thread's CPU clock, which other load on the machine does not disturb, and wall time.
 #pragma once
 
 #include <ctime>
@@ -11,7 +11,7 @@ inline double threadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Seconds of a clock that never goes back: for progress, and where several threads work on one run.
+/// Seconds of a monotonic clock: for progress, and for runs on which several threads work.
 inline double wallSeconds() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

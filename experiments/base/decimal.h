@@ -11,7 +11,8 @@
 
 namespace irk {
 
-/// All digits of a decimal text. Throws std::runtime_error in multiprecision if it is no number.
+/// The number that a decimal text stands for, with all its digits. In multiprecision throws std::runtime_error if the
+/// text is no number.
 template <class Real>
 Real decimalNumber(const std::string& text) {
   if constexpr (std::is_same_v<Real, double>) {
@@ -21,8 +22,8 @@ Real decimalNumber(const std::string& text) {
   }
 }
 
-/// The decimal number that was meant by a double: the shortest one that rounds to it. So an end
-/// time of 0.3 is 3/10 in every precision, as the scenes' parameters are.
+/// The shortest decimal number that rounds to this double, as a Real. An end time of 0.3 is thus 3/10 in every
+/// precision, as the scenes' parameters are.
 template <class Real>
 Real decimalNumber(double x) {
   return decimalNumber<Real>(fmt::format("{}", x));

@@ -28,7 +28,7 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
-// Not the fault of what was asked for.
+// Whether the system is at fault (a full disk, no memory), not the user's input.
 bool isFault(const std::error_code& code) {
   return code == std::errc::no_space_on_device || code == std::errc::io_error ||
          code == std::errc::file_too_large || code == std::errc::too_many_files_open;

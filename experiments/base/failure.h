@@ -1,4 +1,4 @@
-// How the program ends in bad days: one line on standard error and an exit status.
+// Errors that end the program: one line on standard error and an exit status.
 #pragma once
 
 #include <iosfwd>
@@ -7,17 +7,17 @@
 
 namespace irk {
 
-/// What was asked for could not be done, though the input is fit: exit status 1. Misuse is status 2.
+/// The input is valid but the work could not be done: exit status 1. (Misuse means bad input: status 2.)
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// `irk: text` as one line; control characters are written as escapes.
+/// Prints `irk: text` as one line; control characters are escaped.
 void printErrorLine(std::ostream& err, std::string_view text);
 
-/// Inside a catch block: prints the line of the exception that is being handled and returns the exit status.
-/// Misuse and files that cannot be used are 2; a full disk, no memory, and everything else 1.
+/// Call inside a catch block. Prints one line about the exception and returns the exit status: 2 for Misuse and for
+/// files that cannot be used; 1 for a full disk, exhausted memory and everything else.
 int reportException(std::ostream& err);
 
 }  // namespace irk

@@ -1,4 +1,4 @@
-// Text inside pages of HTML.
+// HTML escaping and placeholders.
 #pragma once
 
 #include <string>

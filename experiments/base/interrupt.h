@@ -1,15 +1,15 @@
-// Ctrl-C: the first one asks everything to stop after the current step, the second one kills.
+// Ctrl-C: the first one asks the program to stop after the current step, the second one kills it.
 #pragma once
 
 #include <atomic>
 
 namespace irk {
 
-/// Set by SIGINT and SIGTERM while an InterruptScope lives. The process' one piece of global state:
-/// a signal handler can reach nothing else.
+/// Set by SIGINT and SIGTERM while an InterruptScope exists. It is the only global state of the process: a signal
+/// handler can reach nothing else.
 const std::atomic<bool>& interruptFlag();
 
-/// Takes the signals over, and gives them back at its end. Do not nest.
+/// Handles SIGINT and SIGTERM while it exists; the destructor restores the previous handlers. Do not nest.
 class InterruptScope {
  public:
   InterruptScope();

@@ -1,11 +1,11 @@
-// The middle of a sample.
+// The median of a sample.
 #pragma once
 
 #include <vector>
 
 namespace irk {
 
-/// The mean of the two middle values of an even number; NaN of nothing.
+/// For an even number of values, the mean of the two middle ones; NaN for an empty sample.
 double median(std::vector<double> values);
 
 }  // namespace irk

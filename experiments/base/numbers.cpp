@@ -8,7 +8,7 @@
 namespace irk {
 
 double cellNumber(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);  // std::from_chars reads none
+  if (text.starts_with('+')) text.remove_prefix(1);  // std::from_chars accepts no plus sign
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
   const bool number = error == std::errc() && end == text.data() + text.size();

@@ -1,4 +1,4 @@
-// Numbers in tables and keys.
+// Numbers in table cells, and hashes for keys.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace irk {
 
-/// A cell of a table: NaN for `nan` and for text that is no number.
+/// The number in a table cell; NaN for `nan` and for text that is no number.
 double cellNumber(std::string_view text);
 
-/// FNV-1a, 64 bits: stable across machines, unlike std::hash.
+/// The FNV-1a hash, 64 bits. Unlike std::hash it is the same on every machine.
 std::uint64_t fnv1a(std::string_view bytes);
 std::string hexText(std::uint64_t x);
 

@@ -58,7 +58,7 @@ void Progress::show() {
 
 std::string Progress::text() const {
   const std::size_t done = made_ + skipped_;
-  // As many threads as until now, and whatever else slows them.
+  // Wall time per second of run time so far: it accounts for the number of threads and for other load.
   const double pace = time_.spent() > 0 ? (wallSeconds() - start_) / time_.spent() : 0;
   const double left = pace * time_.left();
   return fmt::format("{}: {}/{} runs, {} %, about {} left", label_, done, total_,

@@ -1,4 +1,4 @@
-// One line about how far a study is and how long it will take.
+// Progress of a study: one line with the finished runs and the time that is left.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace irk {
 
-/// On a terminal the line is rewritten in place; elsewhere a new line every ten seconds.
-/// Not thread-safe: call it from within a critical section.
+/// On a terminal the line is rewritten in place; elsewhere a new line is printed every ten seconds. Not thread-safe:
+/// call it inside a critical section.
 class Progress {
  public:
   Progress(std::ostream& out, std::string label);
@@ -18,11 +18,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// A run to come; for kinds see TimeLeft.
+  /// Announces a run. For `kind` see TimeLeft.
   void expect(const std::string& kind);
-  /// A run that was made now, and how long it took.
+  /// A run has been executed; it took this long.
   void finished(const std::string& kind, double seconds);
-  /// A run that is there already, or that need not be made.
+  /// A run is stored already or need not be made.
   void skipped(const std::string& kind);
 
  private:

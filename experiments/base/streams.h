@@ -1,4 +1,4 @@
-// Where the program speaks, and the exit status that it ends with.
+// The program's output streams and exit statuses.
 #pragma once
 
 #include <iosfwd>

@@ -1,4 +1,4 @@
-// How long the rest of many runs will take, where runs of different kinds last differently long.
+// Estimates the time that many runs of different lengths still need.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace irk {
 
-/// Seconds are those of the runs themselves, whatever the number of threads. Not thread-safe.
+/// Counts the seconds of the runs themselves, regardless of the number of threads. Not thread-safe.
 class TimeLeft {
  public:
-  /// Runs to come. A kind is what tells how long a run lasts: its scene and tolerance, say.
+  /// Announces runs. Runs of one `kind` (scene and tolerance, say) take about the same time.
   void expect(const std::string& kind, std::size_t runs = 1);
-  /// One of them has been made.
+  /// One announced run has been made.
   void made(const std::string& kind, double seconds);
-  /// Some of them need not be made.
+  /// Some announced runs need not be made.
   void dropped(const std::string& kind, std::size_t runs = 1);
 
-  /// Of the runs to come. A kind of which none was made yet counts as the mean of all that were.
+  /// Seconds of the runs to come. A kind without finished runs counts with the mean over all finished runs.
   double left() const;
-  /// Of the runs that were made.
+  /// Seconds of the finished runs.
   double spent() const { return spent_; }
 
  private:
