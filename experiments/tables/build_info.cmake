@@ -1,12 +1,12 @@
-# Run at build time: writes OUT with today's commit, and touches it only when something changed.
+# Runs at build time: writes OUT with the current commit, and touches it only when something has changed.
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty
                 OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT COMMIT)
   set(COMMIT unknown)
 endif()
 
-# The fingerprint of all sources that decide the numbers of a row: rows of another one are stale. Neither compiler
-# nor flags are in it; they belong to a row's environment.
+# A fingerprint of all sources that determine the numbers of a row; rows with another fingerprint are stale. Compiler
+# and flags are not included; they belong to a row's environment.
 set(deciding ${SOURCE_DIR}/experiments/study/series_rules.cpp)
 foreach(folder core tableaus problems experiments/runs)
   file(GLOB_RECURSE found ${SOURCE_DIR}/${folder}/*.cpp ${SOURCE_DIR}/${folder}/*.h)

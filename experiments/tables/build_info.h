@@ -1,4 +1,4 @@
-// What this program was built from: generated at build time by build_info.cmake.
+// Version, commit, sources and compiler of this program; generated at build time by build_info.cmake.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@ namespace irk {
 struct BuildInfo {
   std::string_view version;   ///< of the project
   std::string_view commit;    ///< git describe --always --dirty; `unknown` outside a repository
-  std::string_view code;      ///< fingerprint of the sources that decide the numbers of a run
+  std::string_view code;      ///< fingerprint of the sources that determine the numbers of a run
   std::string_view compiler;  ///< id and version
   std::string_view flags;
-  std::string_view source_dir;  ///< where plots/ is looked for when IRK_HOME is not set
+  std::string_view source_dir;  ///< searched for plots/ when IRK_HOME is not set
 };
 
 const BuildInfo& buildInfo();

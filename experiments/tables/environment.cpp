@@ -111,7 +111,7 @@ std::filesystem::path homeFolder() {
   }
   const fs::path sources = buildInfo().source_dir;
   if (isHome(sources)) return sources;
-  // The tree was moved: the program lies below it, in build/release.
+  // The source tree was moved: search upwards from the program, which lies in build/release.
   std::error_code error;
   fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (int up = 0; up < 3 && !error; ++up, folder = folder.parent_path()) {

@@ -1,4 +1,4 @@
-// Where and when numbers were made: the head of tables, and the rows of environments.csv.
+// Where, when and by which program numbers were computed: heads of tables, and the rows of environments.csv.
 #pragma once
 
 #include <filesystem>
@@ -9,23 +9,23 @@
 
 namespace irk {
 
-/// study, version, commit, compiler, flags, cpu, threads, date.
+/// The entries study, version, commit, compiler, flags, cpu, threads, date.
 TableHead environmentHead(const std::string& study, int threads);
 
-/// Of environments.csv: environment (its id), commit, version, host, cpu, cores, memory_gb, compiler, flags, libraries,
-/// first_date.
+/// The columns of environments.csv: environment (its id), commit, version, host, cpu, cores, memory_gb, compiler,
+/// flags, libraries, first_date.
 std::vector<std::string> environmentColumns();
-/// Those of this program on this machine. The id is a hash of all but the date.
+/// The row of this program on this machine. Its id is a hash of all cells except the date.
 const TableRow& thisEnvironment();
-/// Name of the processor.
+/// The name of the processor.
 const std::string& processorName();
 std::string hostName();
 
-/// Now, UTC, ISO 8601.
+/// The current time, UTC, in ISO 8601.
 std::string dateText();
 
-/// The folder with plots/: IRK_HOME, else the sources this was built from, else a folder above the program; never
-/// the working folder, whose scripts anybody may have written. Throws Misuse if there is none.
+/// The folder that contains plots/: IRK_HOME, else the sources of this build, else a folder above the program. The
+/// working folder is never used: anybody may have written scripts there. Throws Misuse if there is none.
 std::filesystem::path homeFolder();
 
 }  // namespace irk

@@ -32,7 +32,7 @@ class Reader {
 
   bool isComment() const { return text_[at_] == '#'; }
 
-  /// The rest of the line, nothing if the line has no end.
+  /// The rest of the line; nullopt if the line has no end.
   std::optional<std::string_view> rest() {
     const auto end = text_.find('\n', at_);
     if (end == std::string_view::npos) return cutShort();
@@ -42,7 +42,7 @@ class Reader {
     return found;
   }
 
-  /// One row, nothing if it has no end.
+  /// The next row; nullopt if it has no end.
   std::optional<TableRow> row() {
     TableRow cells(1);
     while (at_ < text_.size()) {
@@ -67,7 +67,7 @@ class Reader {
     return std::nullopt;
   }
 
-  // Behind an opening quote: up to the closing one; a doubled quote is one character.
+  // Reads behind an opening quote up to the closing one; a doubled quote stands for one character.
   bool quotedPart(std::string& cell) {
     while (at_ < text_.size()) {
       const char c = text_[at_++];

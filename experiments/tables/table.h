@@ -1,4 +1,4 @@
-// CSV tables that explain themselves: a head of `# key: value` lines, then columns by name.
+// CSV tables with a head of `# key: value` lines; columns are found by name.
 #pragma once
 
 #include <cstdio>
@@ -19,25 +19,25 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<TableRow> rows;
 
-  /// Throws Misuse naming the nearest column.
+  /// The column's index. Throws Misuse for an unknown name, naming the nearest column.
   std::size_t column(std::string_view name) const;
   bool hasColumn(std::string_view name) const;
 };
 
-/// One line, without its end. RFC 4180: cells with commas, quotes or line ends are quoted.
+/// One CSV line without its line end. RFC 4180: cells with commas, quotes or line ends are quoted.
 std::string csvLine(const TableRow& row);
 
-/// A last row that is cut short (no line end, or too few cells) is dropped: an interrupted program
-/// may leave one. Throws Misuse with file and line for other damage, or if it cannot be read.
+/// Drops a last row that is cut short (no line end, or too few cells), as an interrupted program may leave one.
+/// Throws Misuse with file and line for other damage, and if the file cannot be read.
 Table readTable(const std::filesystem::path& path);
 
-/// Writes beside the target and renames, so that no reader ever sees half a table.
+/// Writes to a file beside the target and renames it, so that readers never see a partial table.
 void writeTable(const std::filesystem::path& path, const Table& table);
 
-/// Appends row by row and flushes each: an interrupt loses no finished row. Not thread-safe.
+/// Appends rows and flushes after each: an interrupt loses no finished row. Not thread-safe.
 class RowWriter {
  public:
-  /// Starts the file with what `table` holds already.
+  /// Starts the file with the head, columns and rows of `table`.
   RowWriter(const std::filesystem::path& path, const Table& table);
   void append(const TableRow& row);
 
