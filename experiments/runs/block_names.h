@@ -6,13 +6,13 @@
 
 namespace irk {
 
-/// The last column of runs.csv and of tables made from it: the blocks that a run or a series is in, separated by blanks.
-/// It is written when tables are exported and is no part of a run's key: a block can get another name.
+/// The last column of runs.csv and of tables made from it: the blocks that contain the run or series, separated by
+/// blanks. It is written on export and is not part of a run's key, so blocks can be renamed.
 inline constexpr std::string_view kBlockColumn = "block";
 
-/// Whether `name` is one of the names.
+/// Whether the list `names` contains `name`.
 bool hasBlock(std::string_view names, std::string_view name);
-/// Adds those of `more` that are not there yet.
+/// Adds the names in `more` that `names` does not contain yet.
 void addBlocks(std::string& names, std::string_view more);
 
 }  // namespace irk

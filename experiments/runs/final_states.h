@@ -1,4 +1,4 @@
-// Final states of a study's runs, beside their rows: states.csv.
+// The final states of a study's runs: states.csv.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace irk {
 
-/// u, v, x, z of a scene, one after the other.
+/// The components u, v, x, z of a scene, one after the other.
 Vec<double> componentsOf(const RunRecord& record);
 
-/// Numbers as text, separated by blanks, and back.
+/// Numbers as text, separated by blanks; `readStates` reads it back.
 std::string vectorText(const Vec<double>& y);
 Vec<double> parseVector(const std::string& text);
 
-/// The states in an exported states.csv, by key.
+/// The states of an exported states.csv by the keys of their runs.
 std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file);
 
 }  // namespace irk

@@ -1,4 +1,4 @@
-// The diagrams of a scene's solution, as plots/scene_solution.gp reads them from a trajectory's head.
+// The diagrams of a scene's solution. plots/scene_solution.gp reads them from the head of a trajectory.
 #pragma once
 
 #include "experiments/tables/table.h"
@@ -6,9 +6,9 @@
 
 namespace irk {
 
-/// `time: t in s` and `panels: "label|columns|factor" ...`, where a label has the unit of its columns times the factor.
-/// The entry's panels, of them the columns that the scene has with its settings; without any, one panel for each of the
-/// first components and outputs.
+/// The head entries `time: t in s` and `panels: "label|columns|factor" ...`; a label names the unit of its columns
+/// times the factor. Uses the entry's panels, without the columns that the scene lacks with its settings; an entry
+/// without panels gets one for each of the first components and outputs.
 TableHead panelHead(const SceneEntry& entry, const Scene<double>& scene);
 
 }  // namespace irk

@@ -28,7 +28,7 @@ class RungeKutta {
   const RunSpec& spec() const { return setup_.spec; }
   const Scene<Real>& scene() const { return setup_.scene; }
   const std::string& family() const { return setup_.methods.members.front().family; }
-  /// 0: a family's, by the tolerance.
+  /// 0 for a family: the order controller chooses the stages.
   Index stages() const { return isFamily(setup_.spec.method) ? 0 : setup_.stages(); }
   Solution<Real> integrate(const State<Real>& start, const Real& t_end,
                            const Monitor<Real>& monitor) {
@@ -70,7 +70,8 @@ class PeerMethod {
   PeerIntegrator integrator_;
 };
 
-// Asked before each step: whether the caller or the time limit ends a run that began at `start`.
+// The function is called before each step and tells whether the caller or the time limit ends the run, which began at
+// `start`.
 std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
   return [&watch, start, limit] {
     if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
@@ -154,7 +155,7 @@ class Prepared final : public PreparedRun {
                      .counters = solution.counters,
                      .switches = {},
                      .cpu_s = seconds};
-    // A state that violates its constraints is a final state as well: its error tells by how much.
+    // A state that violates its constraints is a final state as well; its error shows how large the violation is.
     if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
       record.errors = errorsOf(scene_, references_, state);
     }
@@ -177,7 +178,7 @@ class Prepared final : public PreparedRun {
   Outcome last_ = Outcome::kSuccess;
 };
 
-// A setting `X/h` has a value only where the step is the same throughout.
+// A setting `X/h` has a value only if the step is constant.
 void requireKnownStep(const RunSpec& spec) {
   if (spec.options.step.control == StepControl::kFixed) return;
   for (const auto& [name, value] : spec.settings) {

@@ -1,4 +1,4 @@
-// RunSpec -> RunRecord: a pure function but for the times.
+// Executes a RunSpec and returns a RunRecord: a pure function except for the times.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@
 
 namespace irk {
 
-/// A change of the discrete state.
+/// A change of the mode.
 struct SwitchEvent {
   double t;
   std::string name;  ///< of the switching function
@@ -39,10 +39,10 @@ struct RunRecord {
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
 };
 
-/// A chattering run has no end of them.
+/// Limit of recorded switches: a chattering run has no end of them.
 constexpr std::size_t kMostRecordedSwitches = 1000;
 
-/// An accepted step, or the start: NaN and 0 where there is no step.
+/// An accepted step, or the start, where h and error are NaN and the iterations 0.
 struct AcceptedStep {
   double t;  ///< at its end
   double h;
@@ -51,44 +51,44 @@ struct AcceptedStep {
   std::span<const double> values;  ///< the components and outputs of PreparedRun::columns
 };
 
-/// What the caller says and wants to hear while a run goes on. All optional.
+/// The caller's stop flag and callbacks during a run. All are optional.
 struct Watch {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const AcceptedStep&)> accepted;
-  /// A change of the discrete state.
+  /// Called at each change of the mode.
   std::function<void(double t, const std::string& name)> switched;
 };
 
-/// Scene, tableau and integrator of a spec, built once and run as often as wanted. One per thread.
+/// Scene, tableau and integrator of a spec: built once, run as often as wanted. Use one object per thread.
 class PreparedRun {
  public:
   virtual ~PreparedRun() = default;
   virtual RunRecord execute(const Watch& watch) = 0;
-  /// Nothing but the integration, for timing.
+  /// Runs the integration only, for timing.
   virtual void integrate() = 0;
-  /// Names of the components u, v, x, z and of the scene's outputs.
+  /// The names of the components u, v, x, z and of the scene's outputs.
   virtual std::vector<std::string> columns() const = 0;
 };
 
-/// Throws Misuse for everything that can never work.
+/// Throws Misuse for every spec that can never work.
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
 
 /// Throws Misuse as `prepare`.
 RunRecord execute(const RunSpec& spec, const Watch& watch = {});
 
-/// Where an integration ended.
+/// The end of an integration.
 struct FinalState {
   Outcome outcome = Outcome::kSuccess;
   std::string detail;   ///< of a failure, in one line
   State<double> state;  ///< the last accepted one, in the scene's unknowns
 };
 
-/// The integration of a spec in double precision with an implicit Runge-Kutta method, but from
-/// `start`, a state of the scene that may differ from its own start. Ends at the spec's t_end. Throws
-/// Misuse as `prepare`, and for a peer.
+/// Integrates a spec in double precision with an implicit Runge-Kutta method, starting at `start`, a state of the
+/// scene that may differ from the scene's own start, up to the spec's t_end. Throws Misuse as `prepare`, and for a
+/// peer.
 FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch = {});
 
-/// For sweeps: `make()`, or a record with outcome `refused` if it throws Misuse.
+/// For sweeps: returns `make()`, or a record with outcome `refused` if `make` throws Misuse.
 RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make);
 
 }  // namespace irk

@@ -10,7 +10,7 @@
 namespace irk {
 namespace {
 
-// References are given at times like 0.3, which a run reaches up to round-off.
+// References are given at times such as 0.3, which a run reaches up to round-off.
 constexpr double kSameTime = 1e-12;
 
 void raise(double& largest, double error) {
@@ -23,7 +23,7 @@ double relativeError(const Real& value, const Real& reference, double scale) {
   return std::abs(static_cast<double>(Real(value - reference))) / magnitude;
 }
 
-// The most accurate reference of every component at time t.
+// The most accurate reference of each component at time t.
 std::map<std::string, const Reference*> bestAt(const std::vector<Reference>& references, double t) {
   std::map<std::string, const Reference*> best;
   for (const Reference& reference : references) {
@@ -34,7 +34,7 @@ std::map<std::string, const Reference*> bestAt(const std::vector<Reference>& ref
   return best;
 }
 
-// Which group component i belongs to.
+// The error of the group (u, v, x or z) that contains component i.
 double& group(RunErrors& errors, const Sizes& n, Index i) {
   if (i < n.nu) return errors.u;
   if (i < 2 * n.nu) return errors.v;

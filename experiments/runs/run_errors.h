@@ -1,4 +1,4 @@
-// Errors of a final state against what is known about it.
+// Errors of a final state against exact or reference values.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace irk {
 
-/// What an error was taken against.
+/// The source of the values that an error refers to.
 enum class ReferenceKind {
   kNone,   ///< nothing is known at the state's time: errors are NaN
   kExact,  ///< Scene::exact
@@ -18,8 +18,8 @@ enum class ReferenceKind {
 /// `none`, `exact`, `file`.
 std::string_view referenceName(ReferenceKind kind);
 
-/// Largest relative error |y - ref| / max(|ref|, scale) per group of components, and over all
-/// components and outputs with a reference. NaN where nothing is known.
+/// The largest relative error |y - ref| / max(|ref|, scale) per group of components, and over all components and
+/// outputs with a reference. NaN without a reference.
 struct RunErrors {
   double all = std::numeric_limits<double>::quiet_NaN();
   double u = all, v = all, x = all, z = all;
@@ -32,8 +32,8 @@ struct RunErrors {
 template <class Real>
 Vec<Real> components(const State<Real>& s);
 
-/// Against Scene::exact if it knows anything at the state's time, else against references at that
-/// time. The references must be those of the scene's settings.
+/// Compares with Scene::exact if it knows any component at the state's time, else with the references at that time.
+/// The references must belong to the scene's settings.
 template <class Real>
 RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references,
                    const State<Real>& state);

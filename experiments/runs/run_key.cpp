@@ -1,4 +1,4 @@
-// What decides the numbers of a run, as one text and as a key.
+// Everything that determines the numbers of a run, as one text and as a key.
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -14,7 +14,7 @@
 namespace irk {
 namespace {
 
-// A hash of A, b and c, rounded to double as every user of the tableau sees them.
+// A hash of A, b and c, rounded to double as all users of the tableau see them.
 std::uint64_t tableauHash(const Tableau<double>& tableau) {
   std::string bytes;
   const auto append = [&bytes](const auto& numbers) {
@@ -36,8 +36,8 @@ std::string hashedCoefficients(const std::string& method, int max_stages, OrderC
   return hexText(fnv1a(all));
 }
 
-// What a run's method is made of: a file's contents, the numbers of tableaus; nothing of a peer. A method that cannot
-// be made has none either: its run is refused.
+// The coefficients of a run's method: a file's contents or hashes of tableaus. Empty for a peer, and for a method
+// that cannot be made, whose run is refused.
 std::string coefficients(const RunSpec& spec) {
   if (findPeer(spec.method)) return "";
   if (std::filesystem::is_regular_file(spec.method)) return hexText(fnv1a(readInputFile(spec.method)));

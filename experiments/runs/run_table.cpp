@@ -12,14 +12,14 @@
 namespace irk {
 namespace {
 
-// These fields stand before the derived columns, all others of specFields() after them.
+// These fields stand before the derived columns; all others of specFields() follow them.
 constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
                                         "error_x", "error_z", "drift"};
 constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all",
                                        "cpu_environment"};
-// Which code made a row, where, when, and when it was asked for anew (--fresh).
+// The code that made a row, its machine and date, and the date of a --fresh request.
 constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
 
 void append(std::vector<std::string>& to, std::span<const std::string_view> names) {
@@ -30,7 +30,7 @@ bool isIn(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// In the order of their columns.
+// The fields behind the derived columns, in the order of the columns.
 std::vector<std::string_view> laterFields() {
   std::vector<std::string_view> names;
   for (const auto& field : specFields()) {

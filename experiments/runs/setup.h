@@ -1,4 +1,4 @@
-// What a run is made of, from its spec: the one place where scene, system, methods and options come together.
+// Builds scene, system, methods and options of a run from its spec. This is the only place that combines them.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace irk {
 
-/// A value: copies share the system, which is immutable (but for `first_order`: one per thread).
+/// Copies share the system, which is immutable (except with `first_order`: use one per thread).
 template <class Real>
 struct Setup {
   RunSpec spec;  ///< resolved
@@ -22,22 +22,23 @@ struct Setup {
   Index stages() const { return methods.members[methods.start].stages(); }
   /// Throws Misuse for combinations that cannot work.
   Integrator<Real> integrator() const { return integrator(methods, spec.options); }
-  /// The same system with other methods and options.
+  /// An integrator of the same system with other methods and options.
   Integrator<Real> integrator(const Methods<Real>& others, const IntegratorOptions& options) const {
     return {system, others, options, scale};
   }
 };
 
-/// Magnitudes of a system's components from those of its scene: 1 for unknowns that only the formulation has; cut off
-/// where it has eliminated some.
+/// Magnitudes of a system's components from those of its scene: 1 for unknowns that the formulation adds; cut off
+/// where it eliminates unknowns.
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system);
 
-/// Throws Misuse for everything that can never work: unknown ids, settings out of range, a peer as method, a family
-/// without a number of stages where the order is fixed, a scalar that the scene does not have.
+/// Throws Misuse for every spec that can never work: unknown ids, settings out of range, a peer as method, a family
+/// without a number of stages at fixed order, a scalar that the scene does not support.
 template <class Real>
 Setup<Real> makeSetup(const RunSpec& spec);
 
-/// The scene of a spec with its settings, those over the step (`lambda=-1e8/h`) included. Throws Misuse as makeScene.
+/// The scene of a spec with its settings, including those that depend on the step (`lambda=-1e8/h`). Throws Misuse as
+/// makeScene.
 template <class Real>
 Scene<Real> sceneOf(const RunSpec& spec);
 

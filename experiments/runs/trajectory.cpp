@@ -14,10 +14,10 @@
 namespace irk {
 namespace {
 
-// More rows than a figure has pixels only make it slow.
+// More rows than a figure has pixels only slow it down.
 constexpr std::size_t kMostRows = 2000;
 
-// The columns before the components. A row stands for the steps since the row before it.
+// The columns before the components. A row summarizes the steps since the previous row.
 constexpr std::string_view kStepColumns[] = {"t", "h", "error", "newton_iterations", "switches"};
 
 struct Row {
@@ -26,7 +26,7 @@ struct Row {
   std::vector<double> values;
 };
 
-// The step that shows most: the smallest, with the largest error.
+// Combines two rows: the end of the second, the smallest step and the largest error.
 Row merged(const Row& a, const Row& b) {
   return {b.t,
           std::fmin(a.h, b.h),
@@ -36,13 +36,13 @@ Row merged(const Row& a, const Row& b) {
           b.values};
 }
 
-// Keeps rows by their time, not their number: small steps at switches are most of the rows and show
-// least.
+// Keeps rows at equal distances in time, not every n-th row: most rows are small steps at switches, which show
+// little.
 std::vector<Row> thinned(const std::vector<Row>& rows) {
   if (rows.size() <= kMostRows) return rows;
   const double spacing = (rows.back().t - rows.front().t) / static_cast<double>(kMostRows);
   std::vector<Row> kept{rows.front()};
-  bool open = false;  // the last row still takes steps in
+  bool open = false;  // the last row still absorbs the next steps
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (open) {
       kept.back() = merged(kept.back(), rows[i]);

@@ -1,4 +1,4 @@
-// Options of `irk solve` that the chosen run would not look at.
+// Refuses options of `irk solve` that have no effect on the chosen run.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace irk {
 
-/// Fields of a spec that the integrators of other libraries take; the others are refused with a peer.
+/// The fields of a spec that peers use; all others are refused with a peer.
 const std::vector<std::string>& peerFields();
 
-/// `given`: the fields that the user set one by one, `tol` and `step` among them. Throws Misuse for one that would
-/// change nothing: what it needs, or what a peer takes.
+/// `given` lists the fields that the user set, including `tol` and `step`. Throws Misuse for a field without effect,
+/// naming the reason, or the fields that a peer uses.
 void refuseUnused(const RunSpec& spec, const std::vector<std::string>& given);
 
 }  // namespace irk

@@ -1,7 +1,7 @@
-// SUNDIALS ARKODE with its diagonally implicit Runge-Kutta method of order 5, set up as its manual
-// recommends for stiff systems: modified Newton with a dense solver and the exact Jacobian, rtol
-// and a vector of atol, never past the end, the stages' rates deduced from Newton's result instead
-// of evaluated; all other controls at their defaults. Reynolds et al., ACM TOMS 49 (2023).
+// SUNDIALS ARKODE with its diagonally implicit Runge-Kutta method of order 5, set up as its manual recommends for
+// stiff systems: modified Newton with a dense solver and the exact Jacobian, rtol and a vector of atol, no step
+// beyond the end, stage derivatives deduced from Newton's result instead of evaluated. All other options keep their
+// defaults. Reynolds et al., ACM TOMS 49 (2023).
 #include <arkode/arkode_arkstep.h>
 
 #include "experiments/runs/peers/catalogue.h"
@@ -11,13 +11,13 @@ namespace irk {
 namespace {
 
 constexpr int kOrder = 5;
-// Three iterations, the default, halve the steps of stiff problems more often than their error
+// With the default of 3 iterations, Newton's method halves the steps of stiff problems more often than the error
 // does.
 constexpr int kNewtonIterations = 10;
 
 struct Arkode {
   IRK_SUNDIALS_API(ARKStep)
-  // Once its interpolant has asked for right-hand sides, every later step evaluates them.
+  // Once its interpolant has asked for right-hand sides, ARKODE evaluates them in every later step.
   static constexpr bool kRemembers = true;
   static void* create(SUNContext context, N_Vector y) {
     return ARKStepCreate(nullptr, sundials::OdeCallbacks::rates, 0, y, context);

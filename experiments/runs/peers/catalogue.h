@@ -18,13 +18,13 @@ struct PeerEntry {
   std::unique_ptr<Peer> (*make)(const PeerSetup&);
 };
 
-/// Sorted by id. Ids are stable for ever.
+/// Sorted by id. Ids never change.
 const std::vector<PeerEntry>& peerCatalogue();
 
-/// Null where the id is no peer's.
+/// Returns nullptr if no peer has this id.
 const PeerEntry* findPeer(std::string_view id);
 
-/// Throws Misuse, naming both ids and the reason, for what the peer cannot do.
+/// Throws Misuse for a spec that the peer cannot run, naming both ids and the reason.
 void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scene);
 
 std::unique_ptr<Peer> makeArkode(const PeerSetup& setup);

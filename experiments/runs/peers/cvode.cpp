@@ -1,6 +1,6 @@
-// SUNDIALS CVODE with BDF of orders 1 to 5, set up as its manual recommends for stiff systems:
-// modified Newton with a dense solver and the exact Jacobian, rtol and a vector of atol, never past
-// the end; all other controls at their defaults. Hindmarsh et al., ACM TOMS 31 (2005).
+// SUNDIALS CVODE with BDF of orders 1 to 5, set up as its manual recommends for stiff systems: modified Newton with a
+// dense solver and the exact Jacobian, rtol and a vector of atol, no step beyond the end. All other options keep
+// their defaults. Hindmarsh et al., ACM TOMS 31 (2005).
 #include <cvode/cvode.h>
 
 #include "experiments/runs/peers/catalogue.h"

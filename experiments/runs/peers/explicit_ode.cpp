@@ -12,7 +12,7 @@ ExplicitOde::ExplicitOde(const System<double>& system)
       dual_(sizes_),
       f_(sizes_.nx) {}
 
-// Rows are f - k: at k = 0 they are f.
+// The residual is f - k; at k = 0 it equals f.
 Point<double> ExplicitOde::point(double t, const double* y) const {
   const ConstVec<double> none(nullptr, 0);
   return {t,    none,
@@ -28,7 +28,7 @@ bool ExplicitOde::rates(double t, const double* y, double* f) {
   return rows.allFinite();
 }
 
-// The directions of y, and t as the last one.
+// The directions of differentiation are y and, last, t.
 bool ExplicitOde::jacobian(double t, const double* y, Eigen::Ref<Mat<double>> dfdy,
                            Vec<double>& dfdt) {
   ++jacobian_count_;

@@ -1,4 +1,4 @@
-// y' = f(t, y) with its derivatives, as plain arrays: the face that ODE codes want.
+// y' = f(t, y) with its derivatives, as plain arrays: the interface that ODE codes expect.
 #pragma once
 
 #include "irk/statistics.h"
@@ -6,8 +6,8 @@
 
 namespace irk {
 
-/// f of a system in the formulation `first_order` (nu = nz = 0, rows f - k). Keeps a reference to
-/// the system. One per thread.
+/// The right-hand side f of a system in the formulation `first_order` (nu = nz = 0, residual f - k). Keeps a
+/// reference to the system, which must outlive it. Use one object per thread.
 class ExplicitOde {
  public:
   explicit ExplicitOde(const System<double>& system);
@@ -16,14 +16,14 @@ class ExplicitOde {
   const System<double>& system() const { return system_; }
   void setDiscrete(const Vec<double>& d) { d_ = d; }
 
-  /// f (size) at (t, y). False where it is not finite.
+  /// Writes f(t, y) to `f` (`size` values). Returns false if a value is not finite.
   bool rates(double t, const double* y, double* f);
-  /// df/dy (size x size) and df/dt (size), exact. False where they are not finite.
+  /// Writes df/dy (size x size) and df/dt (size values), both exact. Returns false if a value is not finite.
   bool jacobian(double t, const double* y, Eigen::Ref<Mat<double>> dfdy, Vec<double>& dfdt);
-  /// The switching functions at (t, y).
+  /// Writes the switching functions at (t, y) to `g`.
   void switching(double t, const double* y, double* g) const;
 
-  /// Evaluations since resetCounts.
+  /// Adds the evaluations since resetCounts.
   void count(Counters& counters) const;
   void resetCounts() { rates_count_ = jacobian_count_ = 0; }
 

@@ -1,7 +1,6 @@
-// The GNU Scientific Library's implicit integrators, through its driver, which its manual
-// prescribes for rk4imp and msbdf: the driver gives Newton the tolerance. Control of rtol |y| +
-// atol with an atol per component, the exact Jacobian with df/dt. GSL tells neither Newton
-// iterations nor factorizations.
+// Implicit integrators of the GNU Scientific Library, called through its driver. The manual prescribes the driver for
+// rk4imp and msbdf, because it passes the tolerance on to Newton's method. Control of rtol |y| + atol with an atol
+// per component; exact Jacobian and df/dt. GSL reports neither Newton iterations nor factorizations.
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -14,7 +13,7 @@
 namespace irk {
 namespace {
 
-// HW I (II.4), first guess: the solution moves by a hundredth of its size.
+// The first guess of HW I (II.4): the solution changes by a hundredth of its size.
 double firstStep(const Vec<double>& y, const Vec<double>& f, double length) {
   const double d0 = y.norm(), d1 = f.norm();
   return d0 > 1e-5 && d1 > 1e-5 ? std::min(0.01 * d0 / d1, length) : 1e-6 * length;
@@ -35,7 +34,7 @@ class Gsl final : public Peer {
         dfdt_(ode_.size()),
         dfdy_(ode_.size(), ode_.size()),
         system_{rates, jacobian, static_cast<std::size_t>(ode_.size()), this} {
-    // GSL's own handler ends the program; every call here looks at its status.
+    // GSL's own handler would end the program; every call here checks the returned status instead.
     gsl_set_error_handler_off();
     // atol_i + rtol |y_i|
     driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type, 1, 1, setup.rtol, 1, 0,
@@ -74,7 +73,7 @@ class Gsl final : public Peer {
   std::string message() const override { return gsl_strerror(status_); }
 
  private:
-  // GSL_FAILURE: try a smaller step.
+  // GSL_FAILURE makes GSL try a smaller step.
   static int rates(double t, const double* y, double* f, void* self) {
     return static_cast<Gsl*>(self)->ode_.rates(t, y, f) ? GSL_SUCCESS : GSL_FAILURE;
   }

@@ -1,12 +1,12 @@
-// SUNDIALS IDA, variable-order BDF for F(t, y, y') = 0, y = (u, v, x, z): rows u' - v and the
-// residual with a = v', k = x'. A dense solver with the exact Jacobian dF/dy + cj dF/dy', rtol and
-// a vector of atol, never past the end, as its manual recommends. Multipliers and unknowns of index
-// 2 are kept out of the error test, as the manual recommends, and out of Newton's test too: their
-// increments are those of v over h and never get below the tolerance when h is small (Petzold &
-// Loetstedt, SIAM J. Sci. Stat. Comput. 7, 1986). In exchange Newton is told to be more exact.
-// (With the defaults IDA fails at the first step of slider_crank_flexible at rtol = 1e-8, and needs
-// six times the steps for the pendulum in index 1.) The start is made consistent by the suite
-// instead of IDACalcIC, which knows index 1 only. Hindmarsh et al., ACM TOMS 31 (2005).
+// SUNDIALS IDA, variable-order BDF for F(t, y, y') = 0 with y = (u, v, x, z): the rows are u' - v and the residual
+// with a = v', k = x'. As its manual recommends: a dense solver with the exact Jacobian dF/dy + cj dF/dy', rtol and a
+// vector of atol, no step beyond the end; multipliers and unknowns of index 2 are excluded from the error test.
+//
+// They are excluded from Newton's test, too: their increments are those of v divided by h, which never fall below the
+// tolerance when h is small (Petzold & Loetstedt, SIAM J. Sci. Stat. Comput. 7, 1986). In exchange Newton's tolerance
+// is tightened. (With the defaults IDA fails at the first step of slider_crank_flexible at rtol = 1e-8, and needs six
+// times the steps for the pendulum in index 1.) The suite makes the start consistent; IDACalcIC can do so for index 1
+// only. Hindmarsh et al., ACM TOMS 31 (2005).
 #include <ida/ida.h>
 
 #include "experiments/runs/peers/catalogue.h"
@@ -17,10 +17,10 @@ namespace {
 
 using sundials::kTrySmallerStep;
 
-// Newton's test, default 0.33 of the tolerance and 4 iterations.
+// Limits of Newton's method; IDA's defaults are 0.33 of the tolerance and 4 iterations.
 constexpr double kNewtonTolerance = 0.0033;
 constexpr int kNewtonIterations = 8;
-// An absolute tolerance that no number exceeds.
+// An absolute tolerance so large that the component passes every test.
 constexpr double kNoTest = 1e100;
 
 struct IdaApi {
@@ -99,7 +99,7 @@ class Ida final : public Peer {
             {d_.data(), d_.size()}};
   }
 
-  // Whether there are multipliers or unknowns of index 2; removes them from the norm.
+  // Excludes multipliers and unknowns of index 2 from the norm. Returns whether there are any.
   bool excludeAlgebraic(bool determined, Vec<double>& atol) const {
     bool any = false;
     for (Index i = 0; i < sizes_.nz; ++i) {

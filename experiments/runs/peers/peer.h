@@ -1,5 +1,4 @@
-// What all peers have in common. Peers are the integrators of other libraries that the suite's
-// methods are compared with.
+// The interface of all peers: integrators of other libraries with which the suite's methods are compared.
 #pragma once
 
 #include <memory>
@@ -11,30 +10,30 @@
 
 namespace irk {
 
-/// What a peer integrates, and how accurately. The system outlives the peer.
+/// The system that a peer integrates, and its tolerances. The system must outlive the peer.
 struct PeerSetup {
   const System<double>& system;
   double rtol;
-  Vec<double> atol;  ///< per component of the state (u, v, x, z) as the system orders it
+  Vec<double> atol;  ///< per component of the state (u, v, x, z), in the system's order
   double h;          ///< the first step; 0 = the peer's choice
   double h_max;
   DerivativeSource derivatives;
-  bool determined;  ///< (a, k, z) follow from (u, v, x) at acceleration level; else index 2
+  bool determined;  ///< (a, k, z) follow from (u, v, x) at acceleration level; else the index is 2
   bool locate;      ///< steps end at roots of the switching functions
 };
 
-/// An integrator of a library, step by step, with the library's own step and order control. One per
-/// thread.
+/// One integrator of another library, step by step, with the library's own control of step and order. Use one object
+/// per thread.
 class Peer {
  public:
   virtual ~Peer() = default;
 
-  /// From `state` on, whatever was before; a multistep method begins at order 1 again. Sets state.w
-  /// if the peer needs it; `check` is for that.
+  /// Starts from `state` and discards all history; a multistep method starts with order 1 again. If the peer needs
+  /// state.w, it computes and sets it; `check` applies to that computation.
   virtual StartReport start(State<double>& state, double t_end, StartCheck check) = 0;
 
-  /// One accepted step. It ends at t_end at the latest. Sets t, u, v, x of the state, and w if the
-  /// peer has it.
+  /// Takes one accepted step, which ends at t_end at the latest. Sets t, u, v, x of the state, and w if the peer
+  /// computes it.
   [[nodiscard]] virtual Outcome step(State<double>& state) = 0;
 
   /// Whether the last step ended at a root of switching function i.
@@ -43,14 +42,14 @@ class Peer {
     return false;
   }
 
-  /// A new discrete state without a new start.
+  /// Sets a new mode without a restart.
   virtual void setDiscrete(const Vec<double>& d) = 0;
 
-  /// Adds what the peer has counted since the last start: all but accepted steps. What a library
-  /// does not tell stays 0.
+  /// Adds the peer's counts since the last start, except accepted steps. Counts that a library does not report stay
+  /// 0.
   virtual void count(Counters& counters) const = 0;
 
-  /// What the library said about the last failure.
+  /// The library's message about the last failure.
   virtual std::string message() const = 0;
 };
 

@@ -13,14 +13,14 @@
 namespace irk {
 namespace {
 
-// ODE codes get y' = f(t, y) whatever the scene: without constraints all formulations are one.
+// ODE codes always get y' = f(t, y): without constraints all formulations are equal.
 SystemOptions systemOptions(const PeerEntry& entry, const RunSpec& spec) {
   const auto formulation =
       entry.differential_algebraic ? spec.formulation : Formulation::kFirstOrder;
   return {formulation, spec.scaling, spec.discontinuity};
 }
 
-// Whether D0 at acceleration level is regular: y' = f(t, y) exists.
+// Whether D0 at acceleration level is regular, so that y' = f(t, y) exists.
 bool isDetermined(const Scene<double>& scene, SystemOptions options) {
   options.formulation = Formulation::kFirstOrder;
   try {
@@ -114,7 +114,7 @@ StartReport PeerIntegrator::run(double t_end, const Monitor<double>& monitor) {
 
 StartReport PeerIntegrator::begin(double t_end, StartCheck check) {
   collectCounts();
-  // Libraries refuse an interval within round-off of t.
+  // Libraries refuse an interval that is shorter than round-off of t.
   const double shortest = 100 * std::numeric_limits<double>::epsilon() * std::abs(t_end);
   if (t_end - state_.t <= shortest) state_.t = t_end;
   const StartReport report = peer_->start(state_, t_end, check);
@@ -122,7 +122,7 @@ StartReport PeerIntegrator::begin(double t_end, StartCheck check) {
   return report;
 }
 
-// A peer's counts begin anew with each start.
+// A peer resets its counts at each start, so they are added here before.
 void PeerIntegrator::collectCounts() {
   if (started_) peer_->count(counters_);
   started_ = false;
@@ -158,9 +158,9 @@ StartReport PeerIntegrator::afterStep(double t_end, const Monitor<double>& monit
   return locate ? locatedSwitch(t_end, monitor) : ignoredSwitches(t_end, monitor);
 }
 
-// The switch whose root ended the step, or that is due without one, then a new start. What that
-// switch makes due at once waits for one step: the library's state at a root is interpolated, and
-// functions that should then be 0 are positive by round-off.
+// Performs one switch, the one whose root ended the step or else one that is due, and restarts. Switches that become
+// due by this one wait for the next step: the library interpolates the state at a root, so that by round-off
+// functions that should be 0 there can be positive.
 StartReport PeerIntegrator::locatedSwitch(double t_end, const Monitor<double>& monitor) {
   const SwitchReport report = switches_.evaluate(state_);
   if (report.outcome != Outcome::kSuccess) {
@@ -182,7 +182,7 @@ StartReport PeerIntegrator::locatedSwitch(double t_end, const Monitor<double>& m
   return begin(t_end, StartCheck::kNone);
 }
 
-// A new start only where the state jumps: a jump of the rates is left to the error estimate.
+// Restarts only if the state jumps; jumps of the derivatives are left to the error estimate.
 StartReport PeerIntegrator::ignoredSwitches(double t_end, const Monitor<double>& monitor) {
   const State<double> before = state_;
   const StartReport report = settle(monitor);

@@ -1,4 +1,4 @@
-// A peer behind the face of the suite's own integrator.
+// Runs a peer behind the interface of the suite's own integrator.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace irk {
 
-/// Runs a peer from switch to switch. One integration at a time; reusable; one per thread.
+/// Integrates with a peer from switch to switch. Reusable; use one object per thread.
 class PeerIntegrator {
  public:
-  /// Throws Misuse for what the peer cannot do, naming both ids and the reason.
+  /// Throws Misuse for a spec that the peer cannot run, naming both ids and the reason.
   PeerIntegrator(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec);
 
-  /// As Integrator::integrate. max_steps counts accepted steps: a peer's attempts are its own.
+  /// As Integrator::integrate, but max_steps limits accepted steps: a peer's attempts are not visible.
   [[nodiscard]] Solution<double> integrate(const State<double>& start, double t_end,
                                            const Monitor<double>& monitor = {});
 

@@ -27,7 +27,7 @@ Outcome outcomeOf(int flag) {
   switch (flag) {
     case -1:
       return Outcome::kMaxSteps;
-    case -2:  // more accuracy asked for than the machine has
+    case -2:  // more accuracy requested than the machine has
     case -3:
       return Outcome::kStepTooSmall;
     case -4:

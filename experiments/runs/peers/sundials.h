@@ -1,4 +1,4 @@
-// What the SUNDIALS integrators share: owners of its C objects, set-up, counters, messages.
+// Shared by the SUNDIALS integrators: owners of its C objects, set-up, counters, messages.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -26,7 +26,7 @@ struct Freer {
 template <class Handle, auto Free>
 using Owner = std::unique_ptr<std::remove_pointer_t<Handle>, Freer<Free>>;
 
-/// The context, vectors of n numbers, the dense matrix and its solver, and what the library says.
+/// Owns the context, vectors of n numbers, the dense matrix with its solver, and the library's messages.
 class Workspace {
  public:
   explicit Workspace(Index n);
@@ -36,7 +36,7 @@ class Workspace {
   double* values() { return N_VGetArrayPointer(y_.get()); }
   SUNMatrix matrix() { return matrix_.get(); }
   SUNLinearSolver solver() { return solver_.get(); }
-  /// Another vector of n numbers; it lives as long as this.
+  /// Makes another vector of n numbers; the Workspace owns it.
   N_Vector add(const Vec<double>& values);
   std::string& message() { return message_; }
   const std::string& message() const { return message_; }
@@ -50,15 +50,15 @@ class Workspace {
   std::string message_;
 };
 
-/// The integrators' return values agree in what matters here.
+/// The outcome of an integrator's return value; the three integrators agree on the values used here.
 Outcome outcomeOf(int flag);
 
-/// Throws std::runtime_error with the call's text if a set-up call failed.
+/// Throws std::runtime_error with the call's text if `flag` reports a failed set-up call.
 void require(int flag, const char* call);
 #define IRK_SUNDIALS(call) ::irk::sundials::require(call, #call)
 
-/// Version 6's error handler: keeps the text in the std::string `to`. Later ones belong to
-/// contexts.
+/// The error handler of version 6: stores the text in the std::string `to`. Since version 7 handlers belong to the
+/// context.
 void keepMessage(int code, const char* module, const char* function, char* text, void* to);
 #if SUNDIALS_VERSION_MAJOR < 7
 #define IRK_SUNDIALS_ERROR_HANDLER(prefix) \
@@ -67,7 +67,7 @@ void keepMessage(int code, const char* module, const char* function, char* text,
 #define IRK_SUNDIALS_ERROR_HANDLER(prefix)
 #endif
 
-/// The functions that CVODE, ARKODE and IDA have under the same name after their prefix.
+/// The functions that CVODE, ARKODE and IDA all have, under the same name after their prefix.
 #define IRK_SUNDIALS_API(prefix)                                               \
   IRK_SUNDIALS_ERROR_HANDLER(prefix)                                           \
   static constexpr auto setUserData = prefix##SetUserData;                     \
@@ -89,16 +89,16 @@ void keepMessage(int code, const char* module, const char* function, char* text,
     void operator()(void* memory) const { prefix##Free(&memory); }             \
   };
 
-/// A callback that could not be evaluated.
+/// Returned by a callback that cannot be evaluated: the integrator then tries a smaller step.
 constexpr int kTrySmallerStep = 1;
-/// Return values and tasks, the same in all three.
+/// Return values and tasks; they are equal in all three integrators.
 constexpr int kOneStep = 2, kRootReturn = 2;
 
-/// An integrator's memory, and the parts of a Peer that do not depend on the equation's form.
+/// Owns an integrator's memory and implements what does not depend on the form of the equation.
 template <class Api>
 class Solver {
  public:
-  /// Takes over new memory. `jacobian`, `roots`: the callbacks; their user data is `self`.
+  /// Takes ownership of `memory`. `jacobian` and `roots` are the callbacks; they get `self` as user data.
   template <class Jacobian, class Roots>
   void setUp(void* memory, const PeerSetup& setup, N_Vector atol, Workspace& workspace, void* self,
              Jacobian jacobian, Roots roots) {
@@ -123,7 +123,7 @@ class Solver {
   void* memory() const { return memory_.get(); }
   bool foundRoot(Index i) const { return roots_[static_cast<std::size_t>(i)] != 0; }
 
-  /// After a (re)initialization.
+  /// Call after each (re)initialization.
   void begin(double t_end) {
     t_end_ = t_end;
     IRK_SUNDIALS(Api::setStopTime(memory(), t_end));
@@ -131,7 +131,7 @@ class Solver {
   }
   double end() const { return t_end_; }
 
-  /// After a step that returned `flag`.
+  /// Call after a step that returned `flag`.
   Outcome finish(int flag) {
     if (flag < 0) return outcomeOf(flag);
     roots_.assign(roots_.size(), 0);

@@ -1,4 +1,4 @@
-// What CVODE and ARKODE share: y' = f(t, y), y = the state's x.
+// Shared by CVODE and ARKODE: y' = f(t, y), where y is the state's x.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace irk::sundials {
 
-/// Right-hand side, Jacobian and switching functions as callbacks; user data: an OdeCallbacks*.
+/// Right-hand side, Jacobian and switching functions as callbacks. Their user data is an OdeCallbacks*.
 struct OdeCallbacks {
   ExplicitOde ode;
   Vec<double> dfdt;
@@ -32,9 +32,8 @@ struct OdeCallbacks {
   }
 };
 
-/// Api: as IRK_SUNDIALS_API, and create(context, y), set(memory), reInit(memory, t, y),
-/// advance(memory, t_end, y, t); kRemembers: an integration leaves something behind that reInit
-/// does not remove.
+/// Api has the functions of IRK_SUNDIALS_API and create(context, y), set(memory), reInit(memory, t, y),
+/// advance(memory, t_end, y, t). kRemembers: reInit does not reset everything, so a new integration needs new memory.
 template <class Api>
 class OdePeer final : public Peer {
  public:
