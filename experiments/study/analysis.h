@@ -1,5 +1,5 @@
-// What a study can have computed from its runs: a catalogue. A new analysis is a file of its own and a line in
-// analyses.cpp; the reader of studies, `irk run` and `irk list analyses` take it from there.
+// The catalogue of analyses: tables that a study can have computed from its runs. A new analysis is a file of its own
+// and a line in analyses.cpp; the study reader, `irk run` and `irk list analyses` then know it.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace irk {
 
 struct Study;
 
-/// What an analysis works with. The references are valid while it runs.
+/// The input of an analysis. The references are valid while it runs.
 struct AnalysisInput {
   const Study& study;
   const Table& runs;                    ///< of runs.csv
@@ -25,20 +25,20 @@ struct AnalysisInput {
 
 struct Analysis {
   std::string_view id;
-  /// A study asks for it by `key = true`, or by naming errors: `targets = [1e-4, 1e-6]`.
+  /// The key of a study file that requests it: `key = true`, or a list of errors, `targets = [1e-4, 1e-6]`.
   std::string_view key;
   std::string_view meaning;  ///< one line
   std::string_view reads;    ///< files of results/<study>
   std::string_view writes;   ///< the same, separated by blanks
-  /// Why it takes runs of one method each, and none of variable order; empty where it takes both.
+  /// The reason why it requires runs of one method each and refuses variable order; empty if it accepts both.
   std::string_view one_method = {};
-  /// Another key of the study without which it has nothing to read; empty: none.
+  /// Another key of the study that this analysis requires; empty if none.
   std::string_view needs = {};
-  /// Writes its files. Returns one line for every number that must not be believed.
+  /// Writes the files. Returns one line for every number that must not be trusted.
   std::vector<std::string> (*run)(const AnalysisInput&);
 };
 
-/// In the order in which they are run: one may read what those before it write.
+/// In the order of execution: an analysis may read the files of those before it.
 std::span<const Analysis> analyses();
 
 }  // namespace irk

@@ -1,4 +1,4 @@
-// Which blocks of a study each of its runs is in.
+// Which blocks of a study contain each run.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,11 @@
 
 namespace irk {
 
-/// By key.
+/// Block names by the key of a run.
 using BlockNames = std::unordered_map<std::uint64_t, std::string>;
 
-/// Of all runs; `keys`: those of each series, runKeys (experiments/runner/runner.h). Empty for a study without blocks.
+/// The block names of all runs; `keys` are those of each series, runKeys (experiments/runner/runner.h). Empty for a
+/// study without blocks.
 BlockNames blocksOf(const Study& study, const std::vector<std::vector<std::uint64_t>>& keys);
 
 }  // namespace irk

@@ -10,8 +10,8 @@
 
 namespace irk::audit {
 
-/// A sequence of choices that a text determines. The engine's bits are fixed by the C++ standard; the
-/// distributions of the standard library are not, so the bits are mapped to choices here.
+/// A sequence of random choices that is determined by a text. The C++ standard fixes the engine's bits but not the
+/// results of its distributions, so this class maps bits to choices itself.
 class Dice {
  public:
   /// The same text gives the same choices.
@@ -19,7 +19,7 @@ class Dice {
 
   /// Uniform in [0, 1), 53 bits.
   double uniform();
-  /// Uniform in 0 .. count - 1. count > 0.
+  /// Uniform in 0 .. count - 1. Requires count > 0.
   Index below(Index count);
   /// Uniform in first .. last.
   Index between(Index first, Index last) { return first + below(last - first + 1); }
@@ -27,7 +27,7 @@ class Dice {
   bool chance(double probability) { return uniform() < probability; }
   /// +1 or -1.
   double sign() { return chance(0.5) ? 1 : -1; }
-  /// An index with a probability in proportion to its weight (>= 0, not all zero).
+  /// An index, with probability proportional to its weight (>= 0, not all zero).
   Index weighted(std::span<const double> weights);
 
  private:

@@ -19,7 +19,7 @@
 namespace irk::audit {
 namespace {
 
-constexpr double kWidth = 4;  // settings are multiplied by 1/kWidth .. kWidth
+constexpr double kWidth = 4;  // numeric settings are multiplied by a factor in 1/kWidth .. kWidth
 constexpr int kMostAttempts = 1000;
 
 constexpr Index kStages[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 15, 20};
@@ -43,7 +43,7 @@ std::string chosen(Dice& dice, const Choice (&choices)[N]) {
   return choices[dice.weighted(weights)].id;
 }
 
-// Nothing for a default that is a word ("inf", "vb").
+// The default as a number; nullopt if it is a word ("inf", "vb").
 std::optional<double> defaultNumber(const Parameter& p) {
   char* end = nullptr;
   const double x = std::strtod(p.default_value.c_str(), &end);
@@ -53,7 +53,7 @@ std::optional<double> defaultNumber(const Parameter& p) {
 
 std::string threeDigits(double x) { return fmt::format("{:.3g}", x); }
 
-// Empty: the default stays.
+// A drawn value; empty keeps the default.
 std::string drawnValue(Dice& dice, const Parameter& p, double t_end) {
   if (!p.choices.empty()) {
     return p.choices[static_cast<std::size_t>(dice.below(static_cast<Index>(p.choices.size())))];
@@ -83,7 +83,7 @@ Settings drawnOnce(Dice& dice, const SceneEntry& scene, Discontinuity treatment,
   return settings;
 }
 
-// Nothing where no scene can be made of the settings, or one with nothing to integrate.
+// nullopt if no scene can be made with the settings, or if the scene has nothing to integrate.
 std::optional<Scene<double>> sceneOf(const std::string& id, const Settings& settings) {
   try {
     auto scene = makeScene<double>(id, settings);
@@ -98,7 +98,7 @@ std::optional<Scene<double>> sceneOf(const std::string& id, const Settings& sett
   }
 }
 
-// The first one of the catalogue.
+// The catalogue's first scene of this kind.
 const std::string& sceneOfKind(SceneKind kind) {
   const auto& scenes = sceneCatalogue();
   return std::find_if(scenes.begin(), scenes.end(), [kind](const auto& scene) { return scene.kind == kind; })->id;
@@ -115,11 +115,11 @@ bool canBePrepared(const RunSpec& spec) {
 
 struct MethodChoice {
   std::string family;
-  Index stages;  // 0: the family itself, of variable order
+  Index stages;  // 0: variable order over the whole family
 
   std::string id() const { return stages == 0 ? family : fmt::format("{}_{}", family, stages); }
-  // A member that is refused for the same reasons and costs less to construct: these are properties of the
-  // family, but for its smallest members.
+  // A member with few stages, cheaper to construct. It is refused for the same reasons: they are properties of the
+  // family, except for its smallest members.
   std::string smallId() const {
     return stages == 0 ? family : fmt::format("{}_{}", family, std::min<Index>(stages, 4));
   }
@@ -141,7 +141,7 @@ void set(RunSpec& spec, std::string_view field, std::string_view value) {
   if (!value.empty()) findField(field).set(spec, value);
 }
 
-/// Draws the runs of one audit. Remembers what the draws of a scene have in common.
+/// Draws the runs of one audit. Caches what the draws of a scene share.
 class Drawer {
  public:
   explicit Drawer(const AuditOptions& options) : options_(options) {}
@@ -177,7 +177,7 @@ class Drawer {
     return variants_[key] = variant;
   }
 
-  // The draw has no part that depends on another one, but for the variant of the settings.
+  // All parts are drawn independently of each other, except the variant of the settings.
   std::optional<DrawnRun> drawn(Dice& dice, const SceneEntry& scene) {
     const std::string configuration = chosen(dice, kConfigurations);
     std::string treatment = chosen(dice, kTreatments);
@@ -218,7 +218,7 @@ class Drawer {
     return legal_[what] = canBePrepared(spec);
   }
 
-  // Whether the scene has this formulation and treatment; not given, the treatment is legal.
+  // Whether the scene supports this formulation and treatment. An empty treatment is always legal.
   bool allowsSystem(const std::string& scene, const Settings& settings,
                     const std::string& formulation, const std::string& treatment) {
     RunSpec spec;

@@ -9,9 +9,9 @@
 
 namespace irk::audit {
 
-/// The treatment of switches was left to the spec's default.
+/// The treatment of switches is the spec's default.
 inline constexpr const char* kDefaultTreatment = "default";
-/// The scene declares no switches: there is nothing to treat.
+/// The scene has no switches.
 inline constexpr const char* kNoSwitches = "no switches";
 
 struct DrawnRun {
@@ -19,23 +19,23 @@ struct DrawnRun {
   std::string treatment;  ///< kDefaultTreatment, kNoSwitches, or the id of a Discontinuity
 };
 
-/// `options.runs` legal runs. Run i depends on the seed and i alone, so that a shorter audit is the
-/// beginning of a longer one. What a run leaves to a default is no part of the draw: after a change
-/// of the defaults the same runs are drawn, but for that default.
+/// `options.runs` legal runs. Run i depends only on the seed and on i, so a shorter audit is the beginning of a
+/// longer one. Values that a run leaves at their defaults are not drawn: after a change of a default the same runs
+/// are drawn, with the new default.
 ///
-/// Scenes are drawn with equal chance; then settings (the defaults half of the time, else one of
-/// `options.variants` drawn variants of the scene), configuration, treatment of switches,
-/// formulation, method and tolerance. A combination that is refused is drawn again.
+/// Scenes are drawn with equal probability; then settings (the defaults half of the time, else one of
+/// `options.variants` drawn variants of the scene), configuration, treatment of switches, formulation, method and
+/// tolerance. A combination that is refused is drawn again.
 std::vector<DrawnRun> drawnRuns(const AuditOptions& options);
 
-/// Variant i of the scene's settings: each number with a default other than 0 is multiplied by 4^x, x
-/// uniform in [-1, 1], clipped to its range and rounded to three digits; words are drawn among the
-/// choices; whole numbers stay small. Parameters of the regularisation differ from their defaults in
-/// `smooth` only. Variants that no scene can be made of are drawn again.
+/// Variant i of the scene's settings. Each number with a default other than 0 is multiplied by 4^x, x uniform in [-1,
+/// 1], clipped to its range and rounded to three digits; words are drawn among the choices; integers stay small.
+/// Regularization parameters differ from their defaults only with the treatment `smooth`. Variants of which no scene
+/// can be made are drawn again.
 Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant,
                        Discontinuity treatment);
 
-/// `irk solve ...`, the command that repeats the run.
+/// The command `irk solve ...` that repeats the run.
 std::string commandOf(const DrawnRun& run);
 
 }  // namespace irk::audit

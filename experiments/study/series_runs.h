@@ -1,4 +1,4 @@
-// The runs of a series, made when they are asked for: a study of many runs keeps none of them in memory.
+// The runs of a series, generated on demand: large studies keep no runs in memory.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@
 
 namespace irk {
 
-/// What the runs of a series differ in.
+/// The option in which the runs of a series differ.
 enum class Swept {
   kNothing,     ///< one run, the base
   kTolerances,  ///< rtol = atol
   kStep,        ///< fixed steps, without an estimate of the error
 };
 
-/// Reads as a vector of specs, but each is made anew: hold it by value, or by a reference that keeps it alive.
+/// Reads like a vector of specs, but every access makes a new spec: keep it by value or by a reference that extends
+/// its life.
 class SeriesRuns {
  public:
   class Iterator {

@@ -1,4 +1,4 @@
-// Which runs of a series there have to be: for making them, and for counting what is missing.
+// Which runs a series consists of: for making runs and for counting missing ones.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +12,27 @@
 
 namespace irk {
 
-/// A planned series has usually so many runs.
+/// The usual number of runs in a planned series.
 inline constexpr std::size_t kPlannedRuns = 11;
 
-/// What a run says about the runs after it. `errors` matter in planned series only.
+/// The facts about a run that decide about later runs. `errors` are used by planned series only.
 struct RunFacts {
   std::string outcome;
   GroupErrors errors{};
 };
 
-/// Goes through a series run by run. What a run was decides which one is next: its outcome, and where a StepPlanner
-/// chooses, its errors.
+/// Goes through a series run by run. The outcome of each run, and in planned series its errors, determine the next
+/// run.
 class SeriesWalk {
  public:
   explicit SeriesWalk(const Series& series);
 
-  /// The next run of the series; nothing: there are all.
+  /// The next run of the series; nullopt when there is none left.
   std::optional<std::size_t> next();
-  /// Of the run that `next` gave.
+  /// Records the facts of the run that `next` returned.
   void record(std::size_t run, const RunFacts& facts);
 
-  /// A run that took too long: the runs after it are not made but recorded as it was.
+  /// A run that took too long: later runs are not made but recorded with its outcome.
   std::optional<std::size_t> tooLong() const { return too_long_; }
 
  private:
@@ -42,18 +42,18 @@ class SeriesWalk {
   std::optional<std::size_t> too_long_;
 };
 
-/// How many runs a series will have, as far as is known before they are made.
+/// The expected number of runs of a series, an estimate for planned ones.
 std::size_t expectedRuns(const Series& series);
 
-/// What of a series is there, and what is still to be made.
+/// The runs of a series that are stored, and those still to be made.
 struct SeriesState {
   std::vector<std::size_t> found, missing;
-  std::size_t unplanned = 0;  ///< further runs to come, which only the missing ones will decide: an estimate
+  std::size_t unplanned = 0;  ///< estimate of further runs that will be planned after the missing ones
 };
 SeriesState stateOf(const Series& series, const std::function<std::optional<RunFacts>(std::size_t run)>& facts);
 
-/// What tells how long a run lasts, but for its number of stages: series come in their order. Of planned series the
-/// steps to come are not known.
+/// A text that is equal for runs of about equal length. Stages are left out, because series are made in the order of
+/// their stages; of planned series the step is left out, because it is not known in advance.
 std::string kindOf(const RunSpec& spec, SeriesEnd end);
 
 }  // namespace irk

@@ -6,14 +6,14 @@
 namespace irk {
 namespace {
 
-// Noise of a thousandth does not bend a slope.
+// Errors this far above round-off: their noise of a thousandth does not change a slope.
 constexpr double kAboveRoundOff = 1e3;
-// With error = C h^p (1 + c h) the difference of two consecutive slopes is what the second still
-// misses; each is half the one before.
+// For error = C h^p (1 + c h), the difference of two consecutive slopes equals the remaining error of the second
+// slope; each difference is half the previous one.
 constexpr double kSettled = 0.04;
 constexpr int kSettledProbes = 4;
-// Steps of the measurement: this many over this range, or over that in which the error falls by so
-// many decades: above, errors of high order have not settled.
+// The measured steps: kPoints steps over a factor kRange, or over kDecades decades of the error if that factor is
+// smaller. For high orders, larger errors are not asymptotic.
 constexpr int kPoints = 8;
 constexpr double kRange = 4;
 constexpr double kDecades = 12;
@@ -56,7 +56,7 @@ std::optional<std::size_t> StepPlanner::nextProbe() const {
   return static_cast<std::size_t>(at - steps_.begin());
 }
 
-// From coarse to fine; errors that are numbers only.
+// From coarse to fine; only probes with a finite error.
 std::vector<StepPlanner::Probe> StepPlanner::probesOf(std::size_t group) const {
   std::vector<Probe> probes;
   for (const auto& [index, errors] : runs_) {
@@ -77,7 +77,7 @@ bool StepPlanner::finished(std::size_t group) const {
   return before <= 2 * kSettled && last <= kSettled;
 }
 
-// The step at which the error meets the floor, if a probe went below it; else the last probe's.
+// The step at which the error reaches the floor, or the last probe's step if no probe is below it.
 std::optional<double> StepPlanner::smallestUseful(std::size_t group) const {
   const auto probes = probesOf(group);
   const auto below =
@@ -91,7 +91,7 @@ std::optional<double> StepPlanner::smallestUseful(std::size_t group) const {
   return std::clamp(last.h * std::pow(floor_ / last.error, 1 / slope), below->h, last.h);
 }
 
-// From the slope of the last two probes above the floor.
+// Ratio of the largest to the smallest measured step, from the slope of the last two probes above the floor.
 double StepPlanner::rangeOf(std::size_t group) const {
   auto probes = probesOf(group);
   std::erase_if(probes, [this](const Probe& p) { return p.error <= floor_; });

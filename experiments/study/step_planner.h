@@ -1,4 +1,4 @@
-// Which constant steps an order is measured with: chosen from the errors of the runs made so far.
+// Chooses the constant steps for measuring an order, from the errors of the runs made so far.
 #pragma once
 
 #include <array>
@@ -9,27 +9,26 @@
 
 namespace irk {
 
-/// Errors of u, v, x, z; NaN where nothing is known.
+/// Errors of u, v, x, z; NaN if unknown.
 using GroupErrors = std::array<double, 4>;
 
-/// Plans a series of runs with constant steps h_0 > h_1 > ... First a probe: steps are halved until
-/// every component has settled on a slope or reached round-off. Then, for every component, a
-/// geometric series of steps over the last factor of four before that, for high orders over the last
-/// twelve decades of the error. Deterministic: the plan
-/// depends on errors only.
+/// Plans a series of runs with constant steps h_0 > h_1 > ... It first probes: steps are halved until the slope of
+/// every component has settled or its error has reached round-off. Then it measures each component with a geometric
+/// series of steps over a factor of four above the smallest useful step; for high orders over twelve decades of the
+/// error. The plan depends on errors only, so it is deterministic.
 class StepPlanner {
  public:
   /// steps: the candidates, descending, > 0. epsilon: round-off of the runs' scalar.
   StepPlanner(std::vector<double> steps, double epsilon);
 
-  /// Index of the next run among the candidates; nothing: enough is known.
+  /// Index of the next run among the candidates; nullopt when no further run is needed.
   std::optional<std::size_t> next();
 
-  /// A successful run.
+  /// Records a successful run.
   void record(std::size_t index, const GroupErrors& errors) { runs_[index] = errors; }
-  /// A run that failed at its step; a smaller one may succeed.
+  /// Records a failed run; a smaller step may succeed.
   void recordFailure(std::size_t index) { runs_[index] = kUnknown; }
-  /// Smaller steps are of no use: the run took too long, or the combination is refused.
+  /// Ends the probe because smaller steps are useless: the run took too long, or the combination is refused.
   void endProbe() { probing_ = false; }
 
  private:
@@ -52,7 +51,7 @@ class StepPlanner {
   double floor_;
   bool probing_ = true, planned_ = false;
   std::map<std::size_t, GroupErrors> runs_;
-  std::vector<std::size_t> plan_;  // descending, runs still to be made
+  std::vector<std::size_t> plan_;  // descending; runs still to be made
 };
 
 }  // namespace irk

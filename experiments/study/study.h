@@ -1,4 +1,4 @@
-// A study: which runs, and what to do with them afterwards.
+// A study: its runs, and the analyses of their results.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace irk {
 
 struct Analysis;  // analysis.h
 
-/// When the runs of a series that come later need not be made.
+/// The rule by which later runs of a series are skipped.
 enum class SeriesEnd {
   kAll,         ///< every run is made
   kAsymptotic,  ///< a StepPlanner chooses among them, to measure orders
-  kTooLong,     ///< after one that ran out of steps or time, the harder ones are recorded as such
+  kTooLong,     ///< after a run that hit max_steps or the time limit, harder runs are recorded with its outcome
 };
 
-/// Runs of one method on one scene, from the easiest to the hardest: made in this order.
+/// Runs of one method on one scene, made in order from the easiest to the hardest.
 struct Series {
   SeriesRuns runs;
   SeriesEnd end = SeriesEnd::kAll;
@@ -35,15 +35,15 @@ struct TimingOptions {
   bool wanted = false;
   double min_time_s = 0.02;   ///< > 0. Google Benchmark repeats a run until this much time is spent
   int repetitions = 3;        ///< >= 1; rounds over all runs
-  double once_above_s = 0.5;  ///< > 0. Longer runs are repeated once only, ...
-  double skip_above_s = 3;    ///< > 0. ... and still longer ones keep the accuracy run's time
+  double once_above_s = 0.5;  ///< > 0. Longer runs are measured only once
+  double skip_above_s = 3;    ///< > 0. Still longer runs keep the time of their accuracy run
 };
 
-/// An audit: runs drawn at random instead of blocks (experiments/study/draw.h).
+/// An audit: its runs are drawn at random instead of listed in blocks (experiments/study/draw.h).
 struct AuditOptions {
   int runs = 12000;        ///< > 0
   std::uint64_t seed = 1;  ///< of the draw
-  int variants = 40;       ///< > 0. Drawn settings per scene: runs share their references
+  int variants = 40;       ///< > 0. Drawn settings per scene: runs with equal settings share a reference
   double time_limit = 2;   ///< > 0, CPU seconds of each run
 };
 
@@ -55,27 +55,27 @@ struct Study {
   std::vector<double> targets;            ///< errors at which costs are compared
   bool trajectories = false;              ///< write the solution over time of every run: <scene>.<method>.csv
   bool states = false;                    ///< keep the final states of all runs: states.csv
-  /// Judge every success: audit.csv. The series are the drawn runs, one each.
+  /// Judges every success: audit.csv. The series are the drawn runs, one run each.
   std::optional<AuditOptions> audit;
   TimingOptions timing;
 };
 
 enum class StudyVariant { kFull, kQuick };
 
-/// The specs of all runs by their keys; the study must outlive it.
+/// The specs of all runs by their keys. The study must outlive it.
 class SpecsByKey {
  public:
   explicit SpecsByKey(const Study& study);
-  /// Nothing where the study has no such run.
+  /// nullopt if the study has no such run.
   std::optional<RunSpec> find(const std::string& key) const;
 
  private:
   const Study& study_;
-  std::map<std::string, std::pair<std::size_t, std::size_t>> places_;  // number of the series, and in it
+  std::map<std::string, std::pair<std::size_t, std::size_t>> places_;  // number of the series, and of the run in it
 };
 
-/// N = 2, 4, ... growing by about a tenth, up to `most`: steps t_end / N. Even, because errors of
-/// methods with R(infinity) = -1 alternate.
+/// The numbers of steps N = 2, 4, ... up to `most`, each about a tenth larger than the last: steps t_end / N. They
+/// are even because the errors of methods with R(infinity) = -1 alternate.
 std::vector<int> divisions(int most);
 
 }  // namespace irk

@@ -57,7 +57,7 @@ class FileReader {
 
   enum class Quick { kRefused, kLeftOut };
 
-  /// Overwrites `keys` with what the table holds.
+  /// Sets the keys of `from` in `keys`, replacing earlier values.
   void merge(const toml::table& from, StudyKeys& keys, Quick quick) const {
     for (const auto& [key, node] : from) {
       if (key.str() == "quick") {
@@ -83,7 +83,7 @@ std::vector<std::string> studyKeys() {
   return keys;
 }
 
-// A table of the study itself: `timing.repetitions`. Its table `quick` holds for --quick only.
+// Reads a table of the study itself, such as [timing]. Its table `quick` applies with --quick only.
 void readStudyTable(const FileReader& reader, const std::string& key, const toml::node& node,
                     bool quick, StudyKeys& study) {
   const toml::table& table = reader.table(key, node);
@@ -105,7 +105,7 @@ void readStudyKey(const FileReader& reader, std::string_view key, const toml::no
   study[std::string(key)] = reader.value(key, node);
 }
 
-// Blocks are named by themselves: a name in [defaults] or in a table of --quick would be that of several.
+// A name belongs to one block: in [defaults] or in a --quick table it would name several.
 void refuseName(const FileReader& reader, const toml::table* from, std::string_view where) {
   const auto* name = from ? from->get("name") : nullptr;
   if (name) reader.refuse(*name, fmt::format("name: a [[block]] is named in itself, not in {}", where));
@@ -120,7 +120,7 @@ void refuseNames(const FileReader& reader, const toml::table& root, const toml::
   }
 }
 
-// The block's name, by default its number; figures, claims and the column `block` are told it.
+// The block's name, by default its number. Figures, claims and the column `block` use it.
 void nameBlock(StudyKeys& keys, std::size_t number, const std::string& place, std::vector<std::string>& names) {
   const auto& name = keys.try_emplace("name", StudyValue{{fmt::format("block_{}", number)}, place}).first->second;
   const auto refuse = [&](std::string_view reason) { throw Misuse(fmt::format("{}: name: {}", name.place, reason)); };
@@ -136,7 +136,7 @@ void nameBlock(StudyKeys& keys, std::size_t number, const std::string& place, st
   names.push_back(text);
 }
 
-// The text with strings and comments blanked out, line by line the same.
+// The text with strings and comments replaced by blanks; lines keep their numbers.
 std::string structureOf(std::string_view text) {
   std::string bare(text);
   for (std::size_t at = 0; at < bare.size();) {
@@ -159,9 +159,9 @@ std::string structureOf(std::string_view text) {
   return bare;
 }
 
-// toml++ (3.3) ends the program, or without assertions reads on, at a table without a name (`[` and the end of the
-// line), at some times of day, and in a list at a brace and at blanks beyond ASCII: refused before. A study needs no
-// braces, no times and no lists of lists.
+// Refuses texts at which toml++ (3.3) ends the program, or without assertions reads past the end: a table without a
+// name (`[` and the end of the line), some times of day, and in lists braces and blanks beyond ASCII. A study needs
+// no braces, no times and no lists of lists.
 void refuseUnreadable(std::string_view text, const FileReader& reader) {
   const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
   const auto isForeign = [&](char c) {

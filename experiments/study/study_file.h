@@ -1,13 +1,15 @@
-// TOML text -> lists of texts by key. What the keys mean is the matter of study_reader.cpp.
+// TOML text -> lists of texts by key. The meaning of the keys is in study_reader.cpp.
 //
 //   title = "..."                  orders, trajectories, estimates, energy, phases, profile, scaling = true
 //   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...
-//   [audit]                runs, seed, ... instead of blocks; [audit.quick] the same, --quick only
+//   [audit]                        runs, seed, ... instead of blocks; [audit.quick] the same, --quick only
 //   [defaults]                     keys of every block   [quick]        the same, --quick only
 //   [[block]]                      one sweep             [block.quick]  the same, --quick only
 //
-// In a block: name (letters, digits and _; block_1, block_2, ... if not given), scene, methods or families
-// and stages; one of tolerances, steps, refine_most; fields of a spec. A block has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
+// A block has a name (letters, digits and _; block_1, block_2, ... if not given), scene, methods or families and
+// stages, one of tolerances, steps, refine_most, and fields of a spec. It has up to 200 000 runs, or `most_runs`. No
+// list is empty or contains an item twice.
+// has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
 #pragma once
 
 #include <map>
@@ -19,7 +21,7 @@
 
 namespace irk {
 
-/// A key's value: a list, of one item for a scalar.
+/// The value of a key: a list; a scalar is a list of one item.
 struct StudyValue {
   std::vector<std::string> items;
   std::string place;  ///< `file:line`
@@ -31,7 +33,7 @@ struct StudyFile {
   std::vector<StudyKeys> blocks;  ///< defaults and quick variants merged in; empty for an audit only
 };
 
-/// Every block has a key `name`, and no two the same one. Throws Misuse `file:line: reason`.
+/// Every block gets a key `name`; names are unique. Throws Misuse `file:line: reason`.
 StudyFile parseStudyFile(std::string_view toml, const std::string& file, StudyVariant variant);
 
 }  // namespace irk

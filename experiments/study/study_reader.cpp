@@ -69,7 +69,7 @@ std::vector<double> numbers(const StudyValue& value, std::string_view key,
   return all;
 }
 
-// Each one is both rtol and atol.
+// Each tolerance is used for both rtol and atol.
 std::vector<double> toleranceList(const StudyValue& value) {
   auto tolerances = numbers(value, "tolerances", kPositive);
   RunSpec spec;
@@ -89,7 +89,7 @@ bool flag(const StudyKeys& keys, std::string_view key) {
   return text == "true";
 }
 
-// Numbers and ranges: 3, "1..20".
+// Numbers and ranges such as 3 and "1..20".
 std::vector<Index> stageList(const StudyValue& value) {
   std::vector<Index> stages;
   const auto integer = [&](std::string_view text) {
@@ -121,7 +121,7 @@ const FamilyEntry& findFamily(std::string_view id) {
   throw Misuse(unknownName("family", id, known));
 }
 
-// `methods`, and `families` x `stages` from the smallest member on.
+// The ids in `methods`, or all `families` x `stages`; stages below a family's smallest member are left out.
 std::vector<std::string> methodList(const StudyKeys& keys) {
   std::vector<std::string> methods;
   if (const auto* listed = find(keys, "methods")) {
@@ -153,10 +153,10 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
   return methods;
 }
 
-// All combinations of the block's spec fields.
+// All combinations of the values of the block's spec fields.
 std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   std::vector<RunSpec> specs(1);
-  // A configuration sets fields that others override.
+  // A configuration comes first: it sets fields that other keys override.
   std::vector<std::pair<std::string, StudyValue>> ordered(keys.begin(), keys.end());
   std::stable_partition(ordered.begin(), ordered.end(),
                         [](const auto& key) { return key.first == "configuration"; });
@@ -222,7 +222,7 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
   }
 }
 
-// Keys of a study's table that it does not have.
+// Refuses keys that the study's table does not have.
 void refuseUnknown(const StudyKeys& keys, const std::string& table,
                    const std::vector<std::string>& names) {
   std::vector<std::string> known{table};
@@ -278,7 +278,7 @@ std::vector<const Analysis*> wantedAnalyses(const StudyKeys& keys) {
   return wanted;
 }
 
-// A file's results are in the folder of its name.
+// Results go to a folder named after the study file, so two studies must not share a name.
 void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
   const std::string id = file.stem().string();
   const auto refuse = [&](std::string_view what) {
@@ -297,7 +297,7 @@ void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
 
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
   const StudyFile text = parseStudyFile(toml, file, variant);
-  // A mistake in the other variant is found now, too.
+  // Also parse the other variant, so that its mistakes are found now.
   static_cast<void>(parseStudyFile(toml, file, variant == StudyVariant::kQuick ? StudyVariant::kFull : StudyVariant::kQuick));
   Study study;
   study.id = std::filesystem::path(file).stem();

@@ -8,11 +8,11 @@
 
 namespace irk {
 
-/// A built-in study's id or the path of a TOML file. Throws Misuse with file, line, key and what is allowed, and for a
-/// file with another study whose name is a built-in one's, or that of a folder of results: they would share a folder.
+/// Loads a built-in study by id, or a TOML file by path. Throws Misuse with file, line, key and allowed values; also
+/// for a file that has the name of another built-in study or of a folder of results: they would share a folder.
 Study loadStudy(std::string_view id_or_file, StudyVariant variant);
 
-/// From TOML text; `file` names it in messages.
+/// Parses TOML text; messages call it `file`.
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant);
 
 }  // namespace irk

@@ -18,13 +18,13 @@ const StudyValue* keyOf(const StudyKeys& keys, std::string_view key) {
   return at == keys.end() ? nullptr : &at->second;
 }
 
-// How long the runs of a series are made; one of them.
+// Keys that list the runs of a series; a block has one of them.
 constexpr std::string_view kSeriesKeys[] = {"tolerances", "steps", "refine_most"};
-// Keys of a block that are no fields of a spec.
+// Keys of a block that are not fields of a spec.
 constexpr std::string_view kSweepKeys[] = {"families", "stages",      "methods",  "tolerances",
                                            "steps",    "refine_most", "most_runs", "name"};
 
-// Keys that another key of the block overrides; `fitting`: the one value that says the same.
+// Keys that another key of the block overrides. `fitting` is the only value that does not contradict it.
 struct Overridden {
   std::string_view key, by, fitting;
 };

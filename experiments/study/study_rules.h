@@ -1,4 +1,4 @@
-// What a study cannot ask for.
+// Rules that refuse contradictory or oversized studies.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@
 
 namespace irk {
 
-/// Throws Misuse `file:line: reason` where a series of the block, those of the study from `first` on, has
-/// variable order, with which every step can have another method, and the study wants an analysis of one method.
+/// Checks the block's series, which are those from number `first` on. Throws Misuse `file:line: reason` if one has
+/// variable order, where the method can change at every step, and the study wants an analysis of one method.
 void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t first);
 
-/// Runs of a block unless its key `most_runs` allows more, up to kMostRunsAsked.
+/// The limit of runs per block, and the largest limit that its key `most_runs` can set.
 inline constexpr std::int64_t kMostRuns = 200'000, kMostRunsAsked = 100'000'000;
 
-/// False for the keys that say which methods, tolerances and steps there are: not fields of a spec.
+/// False for keys that select methods, tolerances and steps; they are not fields of a spec.
 bool isSpecKey(std::string_view key);
 
-/// Throws Misuse with file and line for keys of a block of which one would be without effect: `tolerances` and `steps`,
-/// `rtol` beside `tolerances`, `stages` without `families`, ...
+/// Throws Misuse with file and line if one key of a block makes another ineffective: `tolerances` and `steps`, `rtol`
+/// beside `tolerances`, `stages` without `families`, ...
 void refuseContradictions(const StudyKeys& block);
 
-/// Throws Misuse where another library's integrator would repeat its runs over a list of which it takes nothing.
+/// Throws Misuse if a block varies an option that a peer does not use: the peer would repeat equal runs.
 void refusePeersInSweeps(const StudyKeys& block, const std::vector<std::string>& methods);
 
-/// Throws Misuse for a block of more runs than `most`, naming its lists.
+/// Throws Misuse for a block with more than `most` runs, naming its lists.
 void refuseTooMany(const StudyKeys& block, std::size_t methods, std::size_t runs_of_series, std::int64_t most);
 
 }  // namespace irk
