@@ -1,4 +1,4 @@
-// The tables that are exported from a store's rows.
+// Exports tables from the rows of a store.
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
@@ -21,7 +21,7 @@
 namespace irk::store {
 namespace {
 
-// Writes beside the target and renames, so that no reader ever sees half a table.
+// Writes to a file beside the target and renames it, so that readers never see a partial table.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   const std::filesystem::path beside = file.string() + ".new";
   std::ofstream out(beside, std::ios::binary);

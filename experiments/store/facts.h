@@ -1,4 +1,4 @@
-// What a stored row says about the runs after it.
+// The facts of a stored row that decide about later runs of its series.
 #pragma once
 
 #include "experiments/store/rows.h"
@@ -6,7 +6,7 @@
 
 namespace irk::store {
 
-/// With errors only where the series is planned: they have to be read again.
+/// Includes the errors only if the series is planned: they must be read from the file again.
 RunFacts factsOf(const Rows& runs, const Entry& entry, bool planned);
 
 }  // namespace irk::store

@@ -48,7 +48,8 @@ Holder readHolder(const std::filesystem::path& file) {
   return holder;
 }
 
-// Renaming is atomic: of two processes that find a dead one's lock, one gets it. What it got may by then be a new one.
+// Renaming is atomic: of two processes that find a dead holder's lock, only one gets it. The lock that it gets may
+// already be a new one, which it then puts back.
 bool removeDead(const std::filesystem::path& file, const Holder& dead) {
   const std::filesystem::path aside = file.string() + fmt::format(".of_dead.{}.{}", hostName(), getpid());
   if (rename(file.c_str(), aside.c_str()) != 0) return false;
@@ -86,7 +87,7 @@ Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messa
                  folder.string(), holder.process, holder.date);
       continue;
     }
-    // A lock is empty for a moment, before its holder has written who it is; or it has just been removed.
+    // A lock file is empty for a moment, before its holder has written to it, or it has just been removed.
     constexpr int kEmptyAttempts = 10;
     const bool unknown = holder.process == 0 && attempt < kEmptyAttempts;
     const auto who = fmt::format("process {} on {} writes there since {}", holder.process, holder.host, holder.date);

@@ -9,13 +9,13 @@ namespace irk::store {
 
 enum class IfLocked { kRefuse, kWait };
 
-/// Holds `folder`/lock, a file that only one process can create (O_EXCL, also over NFS), with host, process and date of
-/// its holder. The lock saves work that two writers would do twice; rows are safe without it, as no two processes
-/// write to one file.
+/// Holds `folder`/lock, a file that only one process can create (O_EXCL, also over NFS). It contains host, process
+/// and date of its holder. The lock keeps two writers from doing the same work; rows are safe without it, because no
+/// two processes write to the same file.
 class Lock {
  public:
-  /// Throws Failure if another process holds it, or with kWait waits for its end, or for an interrupt. The lock
-  /// of a process of this host that is no more is taken over, with a line on `messages`.
+  /// If another process holds the lock: throws Failure, or with kWait waits until it is free or for an interrupt.
+  /// Takes over the lock of a process of this host that no longer exists, with a line on `messages`.
   Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messages);
   ~Lock();
   Lock(const Lock&) = delete;

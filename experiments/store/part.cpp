@@ -16,7 +16,7 @@
 namespace irk::store {
 namespace {
 
-// The end of the cell that begins at `at`; npos if it is damaged.
+// The end of the cell that begins at `at`; npos if the cell is damaged.
 std::size_t cellEnd(std::string_view line, std::size_t at) {
   if (at == line.size() || line[at] != '"') {
     const auto end = std::min(line.find(',', at), line.size());
@@ -58,7 +58,7 @@ std::string plainCell(std::string_view written) {
   std::string text;
   for (std::size_t i = 1; i + 1 < written.size(); ++i) {
     text += written[i];
-    if (written[i] == '"') ++i;  // a doubled one
+    if (written[i] == '"') ++i;  // a doubled quote is one character
   }
   return text;
 }
@@ -90,7 +90,7 @@ PartReading readPart(const std::filesystem::path& file, const std::vector<std::s
       if (text.starts_with('#')) continue;
       TableRow header = plainRow(cells);
       width = header.size();
-      if (header.back() == kBlockColumn) header.pop_back();  // a table that was exported
+      if (header.back() == kBlockColumn) header.pop_back();  // the table was exported
       if (!whole || header != columns) return reading;
       reading.columns_match = true;
     } else if (!whole || cells.size() != width || !take(cells, start)) {

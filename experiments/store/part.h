@@ -1,4 +1,4 @@
-// Part files: CSV to which one process appends and which nobody ever rewrites.
+// Part files: CSV files to which one process appends, and which are never rewritten.
 #pragma once
 
 #include <cstddef>
@@ -13,45 +13,45 @@
 
 namespace irk::store {
 
-/// The cells of one line of CSV as they are written, with their quotes; false for an unbalanced quote or text behind
-/// a closing one.
+/// Splits a CSV line into its written cells, quotes included. Returns false for an unbalanced quote or for text
+/// behind a closing one.
 bool splitLine(std::string_view line, std::vector<std::string_view>& cells);
-/// A written cell without its quotes.
+/// The value of a written cell, without its quotes.
 std::string plainCell(std::string_view written);
 TableRow plainRow(const std::vector<std::string_view>& cells);
 
-/// A line that cannot be read: an unbalanced quote, another number of cells, or a last line without its end.
+/// A line that cannot be read: an unbalanced quote, a wrong number of cells, or a last line without a line end.
 struct DamagedLine {
-  std::size_t line;  ///< from 1
+  std::size_t line;  ///< counts from 1
   std::string text;
 };
 
 struct PartReading {
-  bool columns_match = false;  ///< false: written by another version; none of its rows is read
+  bool columns_match = false;  ///< false: written by another version; none of its rows are read
   std::vector<DamagedLine> damaged;
 };
 
-/// Calls `take(cells, offset)` for every row, in order; of an exported
-/// table the column of blocks is one cell more; `offset`: bytes before the row. Rows are single lines: damage
-/// to one never spreads. Throws Failure if the file cannot be read.
+/// Calls `take(cells, offset)` for every row in order; `offset` is the number of bytes before the row. A table that
+/// was exported has one cell more, its blocks. Each row is one line, so damage never spreads to other rows. Throws
+/// Failure if the file cannot be read.
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
                      const std::function<bool(const std::vector<std::string_view>& cells,
                                               std::uint64_t offset)>& take);
 
-/// Appends rows to a file of this process' own, which is made with the first one. Each row is one write at the end
-/// of the file, so that a killed process leaves whole rows and at most one cut one. Not thread-safe.
+/// Appends rows to a file that belongs to this process and is created with the first row. Each row is one write at
+/// the end of the file: a killed process leaves complete rows and at most one that is cut short. Not thread-safe.
 class PartWriter {
  public:
-  /// `name`.csv; where that exists, `name`_2.csv and so on.
+  /// The file is `name`.csv; if that exists, `name`_2.csv and so on.
   PartWriter(std::filesystem::path folder, std::string name, std::vector<std::string> columns);
   ~PartWriter();
   PartWriter(const PartWriter&) = delete;
   PartWriter& operator=(const PartWriter&) = delete;
 
-  /// The bytes before the row. Line ends inside cells become blanks. Throws Failure: the disk is full, say; no
-  /// row is written behind a cut one.
+  /// Returns the offset of the row in bytes. Line ends inside cells become blanks. Throws Failure, for example if the
+  /// disk is full; no row is written behind one that is cut short.
   std::uint64_t append(const TableRow& row);
-  /// Empty before the first row.
+  /// Empty before the first row is written.
   const std::filesystem::path& file() const { return file_; }
 
  private:

@@ -44,7 +44,7 @@ std::string contentsOf(const std::filesystem::path& file) {
 
 }  // namespace
 
-// Where the columns are that decide which row counts; npos where a table has none.
+// Indices of the columns that decide which row is valid; npos for a column that a table lacks.
 struct Rows::Columns {
   explicit Columns(const std::vector<std::string>& names) {
     const auto find = [&names](std::string_view name) {
@@ -251,7 +251,7 @@ TableRow Rows::row(const Entry& entry) const {
   if (!splitLine(text, cells) || cells.size() < columns_.size()) {
     throw Failure(fmt::format("{}: a row has changed since it was read", parts_[entry.part].string()));
   }
-  cells.resize(columns_.size());  // without the blocks of an exported table
+  cells.resize(columns_.size());  // drops the block column of an exported table
   return plainRow(cells);
 }
 

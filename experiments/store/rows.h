@@ -1,4 +1,4 @@
-// All rows of one kind that a study has ever been given, and which of them counts.
+// All rows of one kind that a study has stored; for each key one of them is valid.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@
 
 namespace irk::store {
 
-/// What the store knows of a row without reading it again: 40 bytes, whatever the row's length. `code`,
-/// `environment`, `cpu_environment`, `outcome`: as `Rows::name` says; 0 is the empty text.
+/// The part of a row that is kept in memory: 40 bytes regardless of the row's length. `code`, `environment`,
+/// `cpu_environment` and `outcome` are ids for `Rows::name`; 0 is the empty text.
 struct Entry {
   std::uint64_t key = 0, offset = 0;
   std::uint32_t part = 0;
-  std::uint32_t date = 0, remade = 0;  ///< seconds since 1970; 0: none
+  std::uint32_t date = 0, remade = 0;  ///< seconds since 1970; 0 = none
   std::uint16_t repetitions = 0;       ///< of the timing pass
   std::uint16_t code = 0, environment = 0, cpu_environment = 0, outcome = 0;
 };
@@ -32,43 +32,44 @@ struct Entry {
 /// Seconds since 1970 of `2026-01-31T12:00:00Z`; 0 for other text.
 std::uint32_t secondsOf(std::string_view date);
 
-/// What the writer of a folder is called: date, host and process, in the order in which they sort.
+/// The name of a writer in a folder: date, host and process, so that names sort by date.
 std::string writerName();
 
-/// The rows of parts/<name>.*.csv, by their first column, 16 hexadecimal digits or fewer. Of several rows of one key one
-/// counts, by this rule:
-///   1. made by this program's code, before all others;
-///   2. the one asked for anew last (`--fresh`: column `remade`);
-///   3. one that the timing pass has measured (column `cpu_runs`);
-///   4. the later date; of one second the one in the later part, or further down in it.
-/// Reading needs one pass over the parts and keeps one Entry per key. Not thread-safe.
+/// The rows of parts/<name>.*.csv by the key in their first column, 16 hexadecimal digits or fewer. If several rows
+/// have one key, one of them is valid, by these criteria in order:
+///   1. made by this program's code;
+///   2. the latest request to make it again (`--fresh`: column `remade`);
+///   3. measured by the timing pass (column `cpu_runs`);
+///   4. the later date; within one second the row of the later part, or further down in it.
+/// Reading takes one pass over the parts and keeps one Entry per key. Not thread-safe.
 class Rows {
  public:
-  /// `code`: of this program.
+  /// `code` is the fingerprint of this program.
   Rows(std::filesystem::path folder, std::string name, std::vector<std::string> columns, std::string_view code);
   ~Rows();
 
-  /// Reads all parts; where there is none, the exported <name>.csv. kSetAside: what cannot be read is copied to
-  /// parts/<part>.damaged. Each new damage, and parts with other columns, are a line on `messages`. Throws Failure.
+  /// Reads all parts; if there are none, the exported <name>.csv. kSetAside copies unreadable lines to
+  /// parts/<part>.damaged. Reports each new damage, and parts with other columns, with a line on `messages`. Throws
+  /// Failure.
   enum class Damage { kReport, kSetAside };
   void read(Damage damage, std::ostream& messages);
 
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t size() const { return sorted_.size() + added_.size(); }
-  /// Null where there is none. Valid until the next append.
+  /// Returns nullptr if there is no such row. The pointer is valid until the next append.
   const Entry* find(std::uint64_t key) const;
   bool isCurrent(const Entry& entry) const { return entry.code == current_; }
   const std::string& name(std::uint16_t id) const { return names_[id]; }
   TableRow row(const Entry& entry) const;
-  /// As it is written, without its end.
+  /// The row as written, without its line end.
   std::string line(const Entry& entry) const;
 
-  /// On disk when it returns; flushed to the device at the end. Throws Failure.
+  /// The row is in the file when this returns; the destructor flushes it to the device. Throws Failure.
   void append(const TableRow& row);
 
-  /// Every entry, in no order.
+  /// Visits every entry, in unspecified order.
   void forEach(const std::function<void(const Entry&)>& take) const;
-  /// Lines that could not be read.
+  /// The number of lines that could not be read.
   std::size_t damaged() const { return damaged_; }
 
  private:
@@ -87,11 +88,11 @@ class Rows {
   std::vector<std::filesystem::path> parts_;
   std::vector<std::string> names_;
   std::uint16_t current_;
-  std::vector<Entry> sorted_;                       // by key, one each
-  std::unordered_map<std::uint64_t, Entry> added_;  // of keys that sorted_ does not have
+  std::vector<Entry> sorted_;                       // by key, one entry each
+  std::unordered_map<std::uint64_t, Entry> added_;  // keys that sorted_ does not contain
   PartWriter writer_;
   std::size_t damaged_ = 0;
-  mutable std::vector<int> descriptors_;  // of parts_; -1: closed
+  mutable std::vector<int> descriptors_;  // one for each of parts_; -1 = closed
   mutable std::size_t open_ = 0;
 };
 

@@ -22,7 +22,7 @@ constexpr const char* kTables[] = {"runs", "states", "environments"};
 
 std::vector<std::string> stateColumns() { return {"key", "state", "code", "date"}; }
 
-// A name that is not there yet: runs.old.csv, runs.old2.csv, ...
+// The first unused name among runs.old.csv, runs.old2.csv, ...
 std::filesystem::path freeName(const std::filesystem::path& file) {
   std::filesystem::path to;
   for (int i = 1; to.empty() || std::filesystem::exists(to); ++i) {
@@ -61,7 +61,7 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
   for (auto* rows : {&runs_, &states_, &environments_}) rows->read(damage, messages);
 }
 
-// Exports without their parts: copied from elsewhere, or written by a version that had no parts.
+// Handles exported tables without parts: they were copied here, or written by a version that had no parts.
 void Store::adoptFormerTable(std::ostream& messages) {
   const auto file = folder_ / "runs.csv";
   if (hasParts(folder_) || !std::filesystem::is_regular_file(file)) return;

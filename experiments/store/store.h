@@ -1,6 +1,6 @@
-// What is known of one study: parts to which rows are only ever added, and the tables that are exported from them.
+// The stored rows of one study: part files, to which rows are only ever appended, and the tables exported from them.
 //
-//   results/<study>/lock                        who writes here now
+//   results/<study>/lock                        held by the current writer
 //                   parts/runs.<writer>.csv     rows of one process; likewise states and environments
 //                   parts/runs.<writer>.damaged lines that could not be read
 //                   runs.csv, states.csv, environments.csv   for people and gnuplot: the study's runs in its order
@@ -22,11 +22,11 @@
 namespace irk::store {
 
 enum class FinishedRuns { kKeep, kRunAgain };
-/// Of rows that other code has made.
+/// How to treat rows that other code has made.
 enum class StaleRows { kKeep, kRemake };
-/// Which times count: all, or those that were measured on this processor.
+/// The times that are valid: all, or those that were measured on this processor.
 enum class Times { kAll, kHere };
-/// kJoin: a rank of MPI writes parts of its own while rank 0 holds the lock.
+/// kJoin: an MPI rank that writes parts of its own while rank 0 holds the lock.
 enum class Use { kRead, kWrite, kJoin };
 
 struct StoreOptions {
@@ -36,14 +36,15 @@ struct StoreOptions {
   IfLocked if_locked = IfLocked::kRefuse;
 };
 
-/// The head entry of a runs.csv whose times are left out, as they are of several processors; its value says which.
+/// The head entry of a runs.csv whose times are left out because they come from several processors. Its value names
+/// them.
 inline constexpr std::string_view kTimesRefused = "times refused";
 
-/// Not thread-safe.
+/// Reads and writes the rows of one study. Not thread-safe.
 class Store {
  public:
-  /// kWrite takes the folder's lock. A runs.csv of a former version, or without parts, is taken in or kept under another
-  /// name. Throws Failure, std::filesystem::filesystem_error.
+  /// kWrite takes the folder's lock. A runs.csv of a former version, or without parts, is adopted or kept under
+  /// another name. Throws Failure, std::filesystem::filesystem_error.
   Store(std::filesystem::path folder, std::string study, Use use, const StoreOptions& options, std::ostream& messages);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -51,28 +52,30 @@ class Store {
   const Rows& environments() const { return environments_; }
   const StoreOptions& options() const { return options_; }
 
-  /// Null where the run has to be made: there is no row, it is stale and to be remade, or all are to be made again.
+  /// Returns nullptr if the run has to be made: it has no row, its row is stale and to be remade, or --fresh was
+  /// given.
   const Entry* finished(std::uint64_t key) const;
   bool hasState(std::uint64_t key) const { return states_.find(key) != nullptr; }
 
-  /// A run that was made now; the column `remade` is filled in.
+  /// Stores a run that was made now; fills in the column `remade`.
   void addRun(TableRow row);
-  /// The row of a run with other times; a cell of blocks is left out.
+  /// Stores a row with new times; drops its cell of blocks.
   void addTimes(TableRow row);
   void addState(const std::string& key, const std::string& state);
-  /// Takes over what another store has and this one has not. Returns the number of rows of runs.
+  /// Copies the rows of `other` that this store does not have. Returns the number of copied runs.
   std::size_t takeOver(const Store& other);
 
-  /// The processor of an environment; `unknown` if that is not known.
+  /// The processor of an environment; `unknown` if there is none.
   std::string processor(std::string_view environment) const;
-  /// Of the counting row's times: measured on this processor.
+  /// Whether the times of the valid row were measured on this processor.
   bool timedHere(const Entry& entry) const;
 
-  /// What exported tables say of blocks; without any names they have no such column.
+  /// Sets the block names for exported tables; without names these have no block column.
   void nameBlocks(BlockNames names) { blocks_ = std::move(names); }
 
-  /// Writes runs.csv, environments.csv, and states.csv where there are states: the rows of these keys in this order.
-  /// Each is written beside its target and renamed. Returns the refusal of times of several processors, or nothing.
+  /// Writes runs.csv, environments.csv and, if there are states, states.csv: the rows of these keys in this order.
+  /// Each file is written beside its target and renamed. Returns the reason if times of several processors are
+  /// refused, or an empty text.
   std::string exportTables(std::span<const std::uint64_t> keys);
 
  private:
@@ -93,7 +96,7 @@ class Store {
   BlockNames blocks_;
 };
 
-/// `0123456789abcdef` as a number.
+/// The number that the hexadecimal text `0123456789abcdef` stands for.
 std::uint64_t keyNumber(std::string_view key);
 
 }  // namespace irk::store
