@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-// The number of ranks that a launcher has announced: of Open MPI, of MPICH and its relatives.
+// The number of ranks that the launcher announces: Open MPI, or MPICH and its relatives.
 int announcedRanks() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     if (const char* text = std::getenv(name)) return std::atoi(text);

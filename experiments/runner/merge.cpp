@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t kShown = 10;
 
-// The columns that the code alone decides.
+// The columns whose values the code alone determines.
 std::vector<std::string> decidedColumns() {
   std::vector<std::string> columns{"outcome", "error", "error_u", "error_v", "error_x", "error_z", "drift"};
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
   return columns;
 }
 
-/// Looks for the same run in several stores.
+/// Compares the rows of equal runs in several stores.
 class Comparing {
  public:
   Comparing(const std::vector<const Store*>& stores, MergeReport& report) : stores_(stores), report_(report) {}
@@ -44,7 +44,7 @@ class Comparing {
     ++processors_[first->processor(environment)];
   }
 
-  // All but those of the processor with most rows.
+  // The number of rows that do not come from the processor with most rows.
   std::size_t foreign() const {
     std::size_t all = 0, most = 0;
     for (const auto& [processor, rows] : processors_) {

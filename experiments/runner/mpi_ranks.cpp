@@ -20,14 +20,14 @@ constexpr int kAsk = 1, kGive = 2, kDone = 3;  // tags of messages
 constexpr std::int64_t kNothing = -1;
 constexpr auto kNap = std::chrono::milliseconds(1);
 
-/// One call of MPI at a time: MPI_THREAD_SERIALIZED. No call blocks while the lock is held.
+/// Allows one MPI call at a time: MPI_THREAD_SERIALIZED. No call blocks while the lock is held.
 std::mutex& mpiLock() {
   static std::mutex mutex;
   return mutex;
 }
 
-// Waits asleep: a blocking call of MPI would spin on a core that others need. False after an interrupt: the other rank
-// may be no more.
+// Waits by sleeping: a blocking MPI call would keep busy a core that others need. Returns false after an interrupt,
+// because the other rank may have ended.
 bool wait(MPI_Request& request) {
   while (!interruptFlag()) {
     {
@@ -52,7 +52,7 @@ void send(std::int64_t value, int to, int tag) {
   wait(request);
 }
 
-/// Rank 0: a thread answers the others, its own threads take from the same counter.
+/// The queue of rank 0: a thread answers the other ranks; its own threads use the same counter.
 class GivingQueue final : public WorkQueue {
  public:
   GivingQueue(std::size_t count, int others, Ranks::Given given)
@@ -73,7 +73,7 @@ class GivingQueue final : public WorkQueue {
       if (tag == 0) std::this_thread::sleep_for(kNap);
     }
   }
-  // The tag of the message that was answered, 0 if there was none.
+  // Answers one message and returns its tag; 0 if there was none.
   int receiveOne() {
     MPI_Status status;
     std::int64_t ignored = 0;
@@ -99,7 +99,7 @@ class GivingQueue final : public WorkQueue {
   std::thread server_;
 };
 
-/// The other ranks: one question at a time.
+/// The queue of the other ranks: one request at a time.
 class AskingQueue final : public WorkQueue {
  public:
   ~AskingQueue() override { send(0, 0, kDone); }
@@ -144,7 +144,7 @@ class MpiRanks final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
   std::unique_ptr<WorkQueue> queue(std::size_t count, Given given) override {
-    meet();  // the messages of the queue before are all received
+    meet();  // all messages of the previous queue are received
     if (rank_ == 0) return std::make_unique<GivingQueue>(count, count_ - 1, std::move(given));
     return std::make_unique<AskingQueue>();
   }

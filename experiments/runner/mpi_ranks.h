@@ -5,8 +5,8 @@
 
 namespace irk {
 
-/// Initialises MPI; its end finalises it. Throws Misuse where the MPI library cannot be called from several threads
-/// in turn.
+/// Initializes MPI; the destructor finalizes it. Throws Misuse if the MPI library does not support calls from several
+/// threads in turn.
 std::unique_ptr<Ranks> mpiRanks();
 
 }  // namespace irk

@@ -28,7 +28,8 @@
 namespace irk {
 namespace {
 
-// f(i) for what the queue gives, on several threads. Throws the first exception of any of them; then the rest is left.
+// Calls f(i) on several threads for every i of the queue. After an exception all threads stop, and the first
+// exception is rethrown.
 template <class F>
 void inParallel(WorkQueue& queue, int threads, F&& f) {
   std::mutex mutex;
@@ -51,7 +52,7 @@ void inParallel(WorkQueue& queue, int threads, F&& f) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// What the threads of one sweep share.
+/// The state that the threads of one sweep share.
 class Sweep {
  public:
   Sweep(const Study& study, const RunnerOptions& options, store::Store& store, std::ostream& out)
@@ -68,9 +69,9 @@ class Sweep {
     }
   }
 
-  /// Throws the first exception of any thread. All ranks have the same work in the same order.
+  /// Throws the first exception of any thread. All ranks must have the same work in the same order.
   void run(int threads, Ranks& ranks) {
-    // Long ones first, so that no thread is left alone at the end: more stages cost more.
+    // Long series first, so that all threads end at about the same time; more stages cost more.
     const auto stages = [this](std::size_t series) {
       const RunSpec& spec = study_.series[series].runs.front();
       return isFamily(spec.method) ? spec.max_stages : stagesInId(spec.method);
@@ -98,7 +99,7 @@ class Sweep {
                study_.id, stale);
   }
 
-  // Another rank makes it: this one's progress counts its runs as done.
+  // Another rank makes the series: count its runs as done.
   void countAsGiven(std::size_t index) {
     const Series& series = study_.series[index];
     const std::lock_guard lock(mutex_);
@@ -137,7 +138,7 @@ class Sweep {
     return runs.row(*runs.find(keys_[index][*run]));
   }
 
-  // Nothing after an interrupt.
+  // nullopt after an interrupt.
   std::optional<RunFacts> finishedOrMade(const RunSpec& spec, std::uint64_t key, const std::string& kind, bool planned,
                                       const std::optional<TableRow>& too_long) {
     if (interruptFlag()) return {};
@@ -165,7 +166,7 @@ class Sweep {
     return RunFacts{record.outcome, {errors.u, errors.v, errors.x, errors.z}};
   }
 
-  // What the study keeps of a finished run beside its row is there.
+  // Whether the files that the study keeps for a finished run, state and trajectory, exist.
   bool hasSolution(std::uint64_t key, const RunSpec& spec) const {
     if (study_.states && !store_.hasState(key)) return false;
     return !study_.trajectories || std::filesystem::exists(trajectoryPath(store_.folder(), spec));
@@ -183,7 +184,7 @@ class Sweep {
   store::Store& store_;
   const RunKeys keys_;
   const Table columns_{{}, runColumns(), {}};
-  std::vector<std::size_t> work_;  // series
+  std::vector<std::size_t> work_;  // indices of series
   std::mutex mutex_;
   std::optional<Progress> progress_;
 };

@@ -1,4 +1,4 @@
-// Accuracy runs of a study: parallel, resumable, interruptible.
+// Makes the accuracy runs of a study: parallel, resumable, interruptible.
 #pragma once
 
 #include <cstdint>
@@ -22,25 +22,26 @@ struct RunnerOptions {
   store::StoreOptions store;
 };
 
-/// results/<study>, and below it shard_<i>_of_<n> for a part of a study.
+/// results/<study>, and for a shard the folder shard_<i>_of_<n> in it.
 std::filesystem::path studyFolder(const Study& study, const RunnerOptions& options);
 
-/// The number of threads that `jobs` stands for.
+/// The number of threads for the option `jobs`.
 int threadCount(int jobs);
 
-/// The keys of all runs, series by series; none of series that are another shard's.
+/// The keys of all runs, by series; empty for series of other shards.
 using RunKeys = std::vector<std::vector<std::uint64_t>>;
 RunKeys runKeys(const Study& study, const RunnerOptions& options);
-/// One after the other, each once.
+/// All keys in order, each once.
 std::vector<std::uint64_t> inOrder(const RunKeys& keys);
 
-/// Makes the runs that are not in the store yet; each rank a part of them, in a store of its own. Returns the keys of all
-/// runs in the study's order, whatever the number of threads and ranks. After an interrupt there may be fewer. Progress
-/// goes to `progress`. Throws Failure.
+/// Makes the runs that the store lacks; each rank makes a part of them, in a store of its own. Returns the keys of
+/// all runs in the study's order, which does not depend on the number of threads and ranks; after an interrupt there
+/// may be fewer. Writes progress to `progress`. Throws Failure.
 std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
                                     Ranks& ranks, std::ostream& progress);
 
-/// The same alone, with a store of its own, in studyFolder; exports its tables and returns runs.csv.
+/// Like makeRuns, on this process only and with its own store in studyFolder; exports the tables and returns
+/// runs.csv.
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress);
 
 }  // namespace irk

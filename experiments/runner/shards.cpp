@@ -29,7 +29,7 @@ int fromEnvironment(const char* name) {
   return static_cast<int>(parseInteger(name, std::getenv(name), Range::integers(0, kMostShards)));
 }
 
-// i, and n where the environment knows it: else 0.
+// The task's index i and, if the environment has it, their number n, else 0.
 Shard fromArrayJob() {
   if (setting("SLURM_ARRAY_TASK_ID")) {
     const int first = setting("SLURM_ARRAY_TASK_MIN") ? fromEnvironment("SLURM_ARRAY_TASK_MIN") : 1;
@@ -50,7 +50,7 @@ Shard checked(Shard shard, std::string_view text) {
   return shard;
 }
 
-// Of the scene with these settings, one evaluation of the residual and more; each is asked for once.
+// The number of unknowns of a scene with its settings. Finding it builds the scene, so it is cached.
 class Unknowns {
  public:
   double of(const RunSpec& spec) {
@@ -66,7 +66,8 @@ class Unknowns {
   std::map<std::pair<std::string, std::string>, double> known_;
 };
 
-// Steps fall with the tolerance's root of the order; of fixed steps their number is known but for the length.
+// Expected number of steps, proportional to tol^(-1 / (order + 1)). With fixed steps it is 1 / h up to the unknown
+// length of the interval.
 double expectedSteps(const RunSpec& spec, double stages) {
   if (spec.options.step.control == StepControl::kFixed) return 1 / spec.options.step.h;
   const double tol = std::max(spec.options.tolerances.rtol, spec.options.tolerances.atol);
@@ -101,7 +102,8 @@ double expectedCost(const Series& series) {
   const double step = stages * (unknowns.of(first) + 3) * digits;
   double cost = 0;
   for (const auto& spec : series.runs) cost += step * expectedSteps(spec, stages);
-  // What is guessed varies more than what is measured: times of quick studies are shared out best by the root.
+  // The estimates vary more than measured times do. For the times of the quick studies, their square root balances
+  // the shards best.
   return std::sqrt(cost);
 }
 

@@ -17,7 +17,7 @@
 namespace irk {
 namespace {
 
-/// Goes through the series and counts.
+/// Goes through all series and counts their runs.
 class Counting {
  public:
   Counting(const Study& study, const store::Store& store) : study_(study), store_(store) {}

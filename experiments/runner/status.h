@@ -1,4 +1,4 @@
-// How far a study is: irk status.
+// Progress of a study, for `irk status`.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace irk {
 
-/// Stale, foreign and failed runs are finished, too.
+/// Stale, foreign and failed runs also count as finished.
 struct RunCounts {
-  std::size_t planned = 0;   ///< where a StepPlanner chooses the steps: as far as is known
+  std::size_t planned = 0;   ///< an estimate if a StepPlanner chooses the steps
   std::size_t finished = 0;
   std::size_t failed = 0;    ///< any outcome but success
   std::size_t stale = 0;     ///< made by other code
@@ -24,20 +24,20 @@ struct RunCounts {
 };
 
 struct StudyStatus {
-  /// By block, of an audit by scene; in the study's order. A run of two blocks counts in both.
+  /// By block, for an audit by scene, in the study's order. A run in two blocks counts in both.
   std::vector<std::pair<std::string, RunCounts>> parts;
   std::string part = "block";  ///< or `scene`
   RunCounts all;
-  double seconds_left = 0;          ///< of the missing accuracy runs, on one thread, from the times of finished ones
-  std::size_t guessed = 0;          ///< missing runs without a finished one alike: counted as the mean of all finished ones
-  std::size_t to_time = 0;          ///< finished runs that the timing pass has still to measure
+  double seconds_left = 0;          ///< of the missing accuracy runs, on one thread, estimated from finished ones
+  std::size_t guessed = 0;          ///< missing runs without a similar finished one; the overall mean is used
+  std::size_t to_time = 0;          ///< finished runs that still lack timing
   double timing_seconds_left = 0;
 };
 
-/// Of the runs of this shard of the study. Reads only.
+/// Counts the runs of this shard of the study. Only reads.
 StudyStatus statusOf(const Study& study, const RunnerOptions& options, const store::Store& store);
 
-/// A table by block, and the time still needed.
+/// A table by block, and the remaining time.
 std::string textOf(const StudyStatus& status);
 
 }  // namespace irk

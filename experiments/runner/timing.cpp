@@ -20,7 +20,7 @@
 namespace irk {
 namespace {
 
-/// Keeps the seconds per integration; prints nothing.
+/// Stores the seconds per integration; prints nothing.
 class Collector final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -36,17 +36,17 @@ class Collector final : public benchmark::BenchmarkReporter {
 struct Candidate {
   TableRow* row;
   RunSpec spec;
-  double seconds;  // of the accuracy run, wherever it was made
+  double seconds;  // of the accuracy run, on any machine
   int repetitions;
-  std::vector<double> measured;  // by a pass that was interrupted, to begin with
+  std::vector<double> measured;  // starts with the measurements of an interrupted pass
 };
 
-// Runs of about the same length take about the same time to be timed.
+// Timing takes about the same time for runs of about the same length.
 std::string kindOf(const Candidate& candidate) {
   return std::to_string(std::ilogb(candidate.seconds));
 }
 
-// The repetitions that a row has of this processor. Of a row whose times do not count (forgetTiming) none.
+// The row's repetitions that were measured on this processor; empty if its times are not valid (forgetTiming).
 std::vector<double> measuredHere(const store::Store& store, const Table& runs, const TableRow& row) {
   if (store.processor(textAt(runs, row, "cpu_environment")) != processorName()) return {};
   std::vector<double> seconds;
@@ -55,7 +55,7 @@ std::vector<double> measuredHere(const store::Store& store, const Table& runs, c
   return seconds;
 }
 
-// Also where the time does not count, as it was measured elsewhere.
+// The run's length, even if it was measured elsewhere and is not valid as a time.
 double lengthOf(const store::Store& store, const Table& runs, const TableRow& row) {
   const double seconds = numberAt(runs, row, "cpu_s");
   const auto* entry = store.runs().find(store::keyNumber(row.front()));
@@ -68,7 +68,7 @@ std::vector<Candidate> candidates(const Study& study, const store::Store& store,
   std::vector<Candidate> wanted;
   for (auto& row : runs.rows) {
     const auto spec = specs.find(row.front());
-    // What stale rows' counters say, this code's times would not belong to.
+    // Times of this code do not belong to the counters of stale rows.
     const bool stale = textAt(runs, row, "code") != buildInfo().code;
     if (!spec || stale || !succeededAt(runs, row)) continue;
     const double seconds = lengthOf(store, runs, row);
@@ -117,7 +117,7 @@ void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostrea
         RunSpec unlimited = candidate.spec;
         unlimited.time_limit = 0;
         const auto run = prepare(unlimited);
-        // A run so long that it is not repeated within the measurement: what it allocates once is there.
+        // Warm up long runs, which are not repeated within the measurement: the first integration allocates memory.
         if (candidate.repetitions > 1 && candidate.seconds > study.timing.min_time_s) run->integrate();
         candidate.measured.push_back(timeRun(*run, study.timing.min_time_s));
         setTiming(runs, *candidate.row, timingOf(candidate.measured));

@@ -10,16 +10,17 @@
 
 namespace irk {
 
-/// Minimum, median, spread and number of measured times; of an even number the upper median. At least one.
+/// Minimum, median, spread and number of the times (at least one); for an even number the upper median.
 Timing timingOf(std::vector<double> seconds);
 
-/// Seconds of one integration, the mean over at least `min_time_s`. Serial: call it alone.
+/// Seconds of one integration, the mean over at least `min_time_s`. Call it while nothing else runs.
 double timeRun(PreparedRun& run, double min_time_s);
 
-/// Times every successful run of the table that has not been timed as often as asked, here or as the store's options
-/// say anywhere: cpu_s (minimum), cpu_median_s, cpu_spread, cpu_runs, cpu_all. The repetitions are rounds over the whole
-/// study: a machine that is slow for some seconds slows no run in all of them. Each is a new row of the store, so that
-/// after an interrupt only the missing ones are made; at the end the tables are exported again.
+/// Times every successful run of the table that has fewer repetitions than requested (on this processor or on any, as
+/// the store's options say): columns cpu_s (minimum), cpu_median_s, cpu_spread, cpu_runs, cpu_all. Each round of
+/// repetitions covers the whole study, so a machine that is slow for some seconds cannot slow all repetitions of a
+/// run. Every new time is a new row of the store: after an interrupt only the missing ones are measured. Exports the
+/// tables again at the end.
 void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostream& progress);
 
 }  // namespace irk
