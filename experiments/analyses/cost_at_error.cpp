@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations", "jacobians",
                                        "factorizations"};
 
-// From cheap to dear, each point more accurate than all cheaper ones.
+// The lower envelope, from cheap to expensive: each point is more accurate than all cheaper ones.
 std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
   std::erase_if(points, [](const CostPoint& p) { return !(p.error > 0) || !(p.cost > 0); });
   std::sort(points.begin(), points.end(),
@@ -30,7 +30,7 @@ std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
   return best;
 }
 
-// Why a series does not reach an error.
+// The reason why a series does not reach an error.
 std::string causeOf(const Table& runs, const RunSeries& series) {
   bool succeeded = false, known = false;
   for (const auto* run : series.rows) {

@@ -1,4 +1,4 @@
-// cpu_at_error.csv: what each method costs at given errors.
+// cpu_at_error.csv: the cost of each method at given errors.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace irk {
 
-/// The cause of a cost that is unknown since no error is known.
+/// The cause for a series whose errors are unknown.
 inline constexpr std::string_view kNoReference = "no reference";
 
 struct CostPoint {
@@ -16,17 +16,17 @@ struct CostPoint {
   double cost;
 };
 
-/// The cost at which the lower envelope of the points reaches `target`, interpolated in log-log;
-/// the cheapest cost if that is more accurate already; NaN if no point reaches it.
+/// The cost at which the lower envelope of the points reaches `target`, interpolated in log-log scale. If the
+/// cheapest point is more accurate already, its cost; NaN if no point reaches the target.
 double costAtError(std::vector<CostPoint> points, double target);
 
-/// The same for the successful runs of a series: `cost` is a column, the errors are `error`.
+/// The same for the successful runs of a series. `cost` names a column; errors are taken from the column `error`.
 double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost,
                          double target);
 
-/// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians,
-/// factorizations, reached (0 with nan where a series does not get there), cause (why not: `no
-/// reference`, `not accurate enough`, or `no success: ` with the outcome of the last run), block.
+/// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians, factorizations,
+/// reached (0 if the series does not reach the error; its costs are then nan), cause (the reason: `no reference`,
+/// `not accurate enough`, or `no success: ` with the outcome of the last run), block.
 Table costTable(const Table& runs, const std::vector<double>& targets);
 
 }  // namespace irk

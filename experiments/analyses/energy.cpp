@@ -28,7 +28,7 @@ const Scene<mp50>::Output* energyOf(const Scene<mp50>& scene) {
   return found == scene.outputs.end() ? nullptr : &*found;
 }
 
-// What the state stands for: its numbers and what their additions have lost.
+// The exact value of the state: its numbers plus the carries of compensated summation.
 State<mp50> exactly(const State<double>& state) {
   State<mp50> s;
   s.t = state.t;

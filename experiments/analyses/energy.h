@@ -1,4 +1,4 @@
-// energy.csv: what round-off does to a conserved energy over many steps.
+// energy.csv: the effect of round-off on a conserved energy over many steps.
 #pragma once
 
 #include <vector>
@@ -14,14 +14,13 @@ struct EnergyDrift {
   double scatter = 0;  ///< RMS distance from the line
   double largest = 0;  ///< |error|
 };
-/// Least squares through (t_i, error_i); NaN of fewer than three points.
+/// Least squares through (t_i, error_i); NaN for fewer than three points.
 EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>& error);
 
-/// For every run of the study with fixed steps that succeeded, on a scene with the output "energy":
-/// the run again, the error of the energy (in the scene's unit) after every k-th step, k such that about 2000 are
-/// seen. The energy is computed in 50 digits from u + carry, v + carry: the evaluation adds no
-/// round-off of its own. Columns: those of a series, h, t, energy_error, drift, scatter,
-/// largest (the last three of the whole run).
+/// Repeats every successful run of the study that has fixed steps and a scene with the output "energy", and records
+/// the error of the energy (in the scene's unit) after every k-th step, with k such that about 2000 values are
+/// recorded. The energy is computed in 50 digits from u + carry, v + carry, so that its evaluation adds no round-off.
+/// Columns: those of a series, h, t, energy_error, drift, scatter, largest (the last three are of the whole run).
 Table energyTable(const Study& study, const Table& runs);
 
 }  // namespace irk

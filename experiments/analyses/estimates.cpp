@@ -20,8 +20,8 @@ namespace irk {
 namespace {
 
 constexpr int kSamples = 24;      // steps of one run
-constexpr Index kMoreStages = 4;  // of the accurate solution, ...
-constexpr int kSubsteps = 4;      // ... and its steps
+constexpr Index kMoreStages = 4;  // of the accurate solution, beyond those of the method
+constexpr int kSubsteps = 4;      // steps of the accurate solution per sampled step
 constexpr double kRoundOff = 1000 * std::numeric_limits<double>::epsilon();
 
 struct Step {
@@ -29,7 +29,7 @@ struct Step {
   double h;
 };
 
-/// One scene in one formulation, and its steps with any method.
+/// One scene in one formulation; repeats its steps with any method.
 class StepSampler {
  public:
   explicit StepSampler(const RunSpec& spec)
@@ -39,7 +39,7 @@ class StepSampler {
   const System<double>& system() const { return *setup_.system; }
   const Tableau<double>& tableau() const { return setup_.methods.members[setup_.methods.start]; }
 
-  /// The steps that the run takes, some of them.
+  /// A sample of the steps that the run takes.
   std::vector<Step> steps() const {
     std::vector<Step> all;
     State<double> from = setup_.scene.start;
@@ -64,7 +64,7 @@ class StepSampler {
     options.step.estimate = ErrorEstimate::kNone;
     options.step.h = step.h / count;
     options.newton.kind = NewtonKind::kSimplified;
-    options.multipliers = Multipliers::kStages;  // of which the estimate is
+    options.multipliers = Multipliers::kStages;  // the estimate is based on the stages' multipliers
     auto integrator = setup_.integrator(method, options);
     const auto solution = integrator.integrate(step.from, step.from.t + step.h);
     if (solution.outcome != Outcome::kSuccess) return {};
@@ -92,8 +92,7 @@ double largest(const Vec<double>& y, const Vec<double>& scale, const Group& grou
   return most;
 }
 
-// The error of the two half steps over what an estimate makes of their difference to the whole
-// step.
+// Divides the error of the two half steps by the estimate computed from their difference to the whole step.
 void appendStep(const StepSampler& sampler, const Step& step, const TableRow& start, const Table& runs, const TableRow& run, Table& table) {
   const auto& tableau = sampler.tableau();
   const auto accurate = makeTableau<double>("radau_iia_" + std::to_string(tableau.stages() + kMoreStages));
@@ -109,7 +108,7 @@ void appendStep(const StepSampler& sampler, const Step& step, const TableRow& st
     const double size = largest(*exact, scale, group);
     const double difference = largest(*coarse - *fine, scale, group);
     const double error = largest(*fine - *exact, scale, group);
-    // Below round-off of the group neither number means anything.
+    // Below the round-off of the group both numbers are meaningless.
     if (group.count == 0 || !(std::max(difference, error) > kRoundOff * std::max(size, 1.0))) {
       continue;
     }

@@ -11,9 +11,9 @@ namespace {
 constexpr double kBeta = 0.25, kGamma = 0.5;
 constexpr double kStep = 0.01;
 constexpr int kSteps = 100;
-constexpr int kIterations = 60;  // contraction about (h^2 / 4) |da/du|, far below 1/2
+constexpr int kIterations = 60;  // the iteration contracts by about (h^2 / 4) |da/du|, far below 1/2
 
-// a(t, u, v) where the residual is f(t, u, v) - M a with a unit mass matrix.
+// a(t, u, v) for the residual f(t, u, v) - M a with a unit mass matrix.
 Vec<double> acceleration(const System<double>& system, const State<double>& at) {
   State<double> rest = at;
   rest.w.setZero();

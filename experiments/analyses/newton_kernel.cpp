@@ -10,7 +10,7 @@
 namespace irk {
 namespace {
 
-/// A system whose residual costs nothing: what an iteration does around it can be timed alone.
+/// A system with a residual of no cost, for timing the rest of a Newton iteration alone.
 class FreeSystem final : public System<double> {
  public:
   explicit FreeSystem(const System<double>& inner) : inner_(inner) {}
@@ -35,8 +35,8 @@ class FreeSystem final : public System<double> {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// The arithmetic of simplified Newton's test of an increment, core/newton/newton.cpp: contraction, what the
-// iterations that are left can reach, and whether this one is small enough.
+// The arithmetic of simplified Newton's convergence test (core/newton/newton.cpp): the contraction, the error that
+// the remaining iterations can reach, and whether the increment is small enough.
 double newtonTest(double norm) {
   constexpr int kIterationsLeft = 23;
   const double theta = norm / (norm + 1), eta = theta / (1 - theta);
@@ -103,7 +103,7 @@ void NewtonKernel::moveTo(const State<double>& scene_state) {
   begin();
 }
 
-// All that follows from the state and h.
+// Computes everything that follows from the state and h.
 void NewtonKernel::begin() {
   W_ = W0_ = R_ = start_.w.replicate(1, scheme_.s);
   t_.setConstant(start_.t);
@@ -190,7 +190,7 @@ void NewtonKernel::step() {
   norm_.update(start_);
   solvedStep(whole_start_, before_, start_, h_, coarse_);
   if (!doubles_) return;
-  // As `Doubling` does: both halves start from the whole step's stages.
+  // As in `Doubling`: both half steps take their start values from the stages of the whole step.
   solvedStep(half_start_, solved_, start_, h_ / 2, fine_);
   solvedStep(half_start_, solved_, middle_, h_ / 2, fine_);
   const double error = norm_.difference(coarse_, fine_, h_, factor_);

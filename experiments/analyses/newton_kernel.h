@@ -1,4 +1,4 @@
-// The parts of an integration alone, at one state of a scene: for timing each of them.
+// The parts of an integration at one state of a scene, for timing each of them alone.
 #pragma once
 
 #include <memory>
@@ -17,37 +17,37 @@ namespace irk {
 
 class NewtonKernel {
  public:
-  /// `h`: the step that the Newton matrix is made for. Throws Misuse as `prepare`.
+  /// `h` is the step for the Newton matrix. Throws Misuse as `prepare`.
   NewtonKernel(const RunSpec& spec, double h);
-  /// The parts at another state, in the scene's unknowns: a residual at the start may cost less than in
-  /// motion (sin 0 takes a fifth of the time of another sine).
+  /// Moves to another state, given in the scene's unknowns. The residual can cost less at the start than in motion:
+  /// sin 0 takes a fifth of the time of other sines.
   void moveTo(const State<double>& scene_state);
 
-  Index unknowns() const { return rhs_.rows(); }  ///< n, of one stage
+  Index unknowns() const { return rhs_.rows(); }  ///< of one stage
   Index nonzeros() const { return at_.front().pattern->nonzeros(); }  ///< of D0, D1, D2 together
   std::size_t directions() const { return differentiator_.directions(); }  ///< of a Jacobian
-  Index stages() const { return scheme_.implicitStages(); }  ///< that are solved for
+  Index stages() const { return scheme_.implicitStages(); }  ///< stages with unknowns
 
-  void residuals();      ///< r of all stages, in one call as in an iteration
+  void residuals();      ///< r at all stages, in one call as in an iteration
   void jacobian();       ///< D0, D1, D2 at one point
-  /// What every integration does once: the pattern of D0, D1, D2 and they themselves; where it is sparse,
-  /// its analysis and, for every stepper, a new solver with its first factors.
+  /// The work done once per integration: finding the pattern of D0, D1, D2 and evaluating them; if they are sparse,
+  /// also their analysis and, for every stepper, a new solver with its first factorization.
   void firstMatrices();
   void factorize();      ///< the Newton matrix of all stages. Throws Misuse if it is singular
-  void solve();          ///< with its factors, which must be there
-  void iteration();      ///< residuals of all stages and a solve
-  /// What is left of an iteration: the stages' u, v, x, row scaling, the increment, its norm and what
-  /// Newton's test computes from it.
+  void solve();          ///< requires `factorize` before
+  void iteration();      ///< residuals of all stages and one solve
+  /// The rest of an iteration: the stages' u, v, x, row scaling, the increment, its norm, and the arithmetic of
+  /// Newton's test.
   void update();
-  /// What is left of an attempted step: weights, start values, the step's end, switches, the error's norm
-  /// and the next step's size; with step doubling of the whole step and of both halves.
+  /// The rest of an attempted step: weights, start values, the step's end, switches, the error norm and the next step
+  /// size; with step doubling for the whole step and both halves.
   void step();
 
-  /// Evaluations of r, over the plain scalar, in one `jacobian` and in `firstMatrices`.
+  /// Evaluations of r, over the plain scalar, in one call of `jacobian` and of `firstMatrices`.
   std::int64_t residualsPerJacobian() const { return residuals_per_jacobian_; }
   std::int64_t residualsOfFirst() const { return residuals_of_first_; }
   bool sparse() const { return !at_.front().pattern->full; }
-  std::int64_t steppers() const { return doubles_ ? 2 : 1; }  ///< of an attempt
+  std::int64_t steppers() const { return doubles_ ? 2 : 1; }  ///< used by one attempt
 
  private:
   NewtonKernel(const Setup<double>& setup, const RunSpec& spec, double h);
@@ -59,9 +59,9 @@ class NewtonKernel {
                   const State<double>& from, double h, State<double>& end);
 
   std::shared_ptr<const System<double>> system_;
-  std::unique_ptr<const System<double>> free_;  // the same with r = 0
+  std::unique_ptr<const System<double>> free_;  // the same system with r = 0
   Counters counters_;
-  CountingSystem<double> counted_;  // as an integrator sees the system
+  CountingSystem<double> counted_;  // counts evaluations, as in an integrator
   State<double> start_;
   double h_;
   Differentiator<double> differentiator_;
@@ -74,13 +74,13 @@ class NewtonKernel {
   ErrorNorm<double> norm_;
   Switches<double> switches_;
   std::unique_ptr<StepController> controller_;
-  bool doubles_;  // the step
+  bool doubles_;  // whether the estimate is by step doubling
   StartValues<double> whole_start_, half_start_;
-  StagePolynomial<double> before_, solved_;  // the step before, and this one
+  StagePolynomial<double> before_, solved_;  // the previous step and this one
   State<double> middle_, coarse_, fine_;
   Vec<double> row_weights_, factor_, t_;
-  Mat<double> U_, V_, X_;  // of all stages
-  volatile double decided_ = 0;  // keeps what is computed and not used
+  Mat<double> U_, V_, X_;  // at all stages
+  volatile double decided_ = 0;  // keeps the compiler from removing unused results
   Mat<double> ones_, rhs_, W_, W0_, R_;
   std::int64_t residuals_per_jacobian_ = 0, residuals_of_first_ = 0;
 };

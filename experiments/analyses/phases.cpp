@@ -23,10 +23,12 @@
 namespace irk {
 namespace {
 
-// s, of one batch. The thread clock is a system call of about half a microsecond.
+// Seconds per batch. Reading the thread clock is a system call of about half a microsecond.
 constexpr double kLeastBatch = 2e-3;
-// Rounds over the run and all of its parts: a machine that is slow for a while slows none in all rounds.
-// More of them, for this time, where the parts do not cover the run yet: what disturbs only adds time, to a
+// Each round measures the run and all of its parts, so that a machine that is slow for a while does not slow every
+// measurement of one of them. As long as the parts do not cover the run, further rounds follow for up to
+// kMostSeconds: disturbances only add time, and more to a whole run than to its parts, whose code and data stay in
+// the cache.
 // whole run more than to its parts, whose code and data stay in the cache.
 constexpr int kRounds = 5;
 constexpr double kMostSeconds = 10;
@@ -38,7 +40,7 @@ using Parts = std::array<double, kParts.size()>;
 
 bool covers(double covered) { return covered >= kLeastCovered && covered <= kMostCovered; }
 
-/// One run and its parts.
+/// Measures one run and its parts.
 class PhaseMeasurement {
  public:
   PhaseMeasurement(const RunSpec& spec, double h)
@@ -54,14 +56,14 @@ class PhaseMeasurement {
   double runSeconds() const { return run_s_; }
   const Parts& each() const { return each_; }
 
-  /// What each part takes of the run.
+  /// The total time of each part in the run.
   Parts total() const {
     Parts parts = counts();
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i] *= each_[i];
     return parts;
   }
 
-  /// Until the parts cover the run, or it is clear that they do not.
+  /// Measures until the parts cover the run or the time is up.
   void measure() {
     const double start = wallSeconds();
     for (int round = 1; !interruptFlag(); ++round) {
@@ -86,7 +88,7 @@ class PhaseMeasurement {
     return unlimited(spec);
   }
 
-  // In the scene's unknowns, with the accelerations of its start.
+  // The end of the run in the scene's unknowns, with the accelerations of its start.
   static State<double> endOf(const RunSpec& spec, const RunRecord& record) {
     State<double> state = sceneOf<double>(spec).start;
     state.t = record.t;
@@ -113,13 +115,14 @@ class PhaseMeasurement {
     take(solve, [this] { kernel_.solve(); });
     take(update, [this] { kernel_.update(); });
     take(step, [this] { kernel_.step(); });
-    // One Jacobian and the first factors are counted as such; the rest is the pattern and its analysis.
+    // One Jacobian and the first factorizations are counted under their own names; the rest is the search for the
+    // pattern and its analysis.
     const auto factors = static_cast<double>(kernel_.sparse() ? kernel_.steppers() : 0);
     start = std::min(start, begin + std::max(first - jacobian - factors * factorization, 0.0));
   }
 
-  // How often the run did each. Residuals inside difference quotients belong to the Jacobian; those of
-  // consistent start values and of the search for a pattern to the start.
+  // How often the run used each part. Residuals inside difference quotients belong to the Jacobian; those of
+  // consistent start values and of the search for a pattern belong to the start.
   Parts counts() const {
     const Counters& run = counters_;
     const auto number = [](std::int64_t count) { return static_cast<double>(count); };

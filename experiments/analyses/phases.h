@@ -1,4 +1,4 @@
-// phases.csv: what the parts of an integration take of its time.
+// phases.csv: the share of each part of an integration in its time.
 #pragma once
 
 #include <functional>
@@ -11,18 +11,19 @@
 
 namespace irk {
 
-/// For every successful run of the study: the time of each part, measured alone and serially, times
-/// the run's counters; and the time of the whole run, measured next to its parts. Columns: those of a
-/// series, rtol, n; residual_s, jacobian_s, factorization_s, solve_s, update_s, step_s, start_s (one
-/// each: r at one stage; the rest of an iteration, of an attempted step, the start of an integration with its search for a pattern);
-/// share_residual, ... share_start (of their sum); run_s (the whole run); covered (their sum over
-/// run_s). Variable order has no rows: studies with it are refused.
+/// For every successful run of the study: the time of each part, measured alone and serially, multiplied by the run's
+/// counter; and the time of the whole run, measured next to its parts. Columns: those of a series, rtol, n;
+/// residual_s, jacobian_s, factorization_s, solve_s, update_s, step_s, start_s (time of a single one: r at one stage;
+/// the rest of an iteration; the rest of an attempted step; the start of an integration with its search for a
+/// pattern); share_residual, ... share_start (shares of their sum); run_s (the whole run); covered (their sum divided
+/// by run_s). Studies with variable order are refused.
 Table phaseTable(const Study& study, const Table& runs, std::ostream& progress);
 
-/// One line for each row whose parts do not cover 0.9 to 1.1 of the whole run. Such shares are wrong.
+/// One line for each row whose parts cover less than 0.9 or more than 1.1 of the whole run. Such shares are
+/// unreliable.
 std::vector<std::string> uncoveredRuns(const Table& phases);
 
-/// Seconds of one call: the mean over a batch so long that reading the clock takes less than 1 % of it.
+/// Seconds per call: the mean over a batch so long that reading the clock takes less than 1 % of it.
 double batchSeconds(const std::function<void()>& call);
 
 }  // namespace irk

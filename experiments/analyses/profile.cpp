@@ -18,10 +18,10 @@ namespace {
 
 constexpr double kEnd = 1e6;  // where the curves end
 
-// Solver -> problem that it was given -> time; infinity where it does not solve it.
+// Solver -> problem that it was given -> time; infinity if the solver does not solve it.
 using Costs = std::map<std::string, std::map<std::string, double>>;
 
-// Of the problems that some solver solves: the least time.
+// The least time of every problem that some solver solves.
 std::map<std::string, double> bestTimes(const Costs& costs) {
   std::map<std::string, double> best;
   for (const auto& [solver, times] : costs) {
@@ -38,7 +38,7 @@ void appendProfile(const std::string& target, const Costs& costs, Table& table) 
   const auto best = bestTimes(costs);
   const std::string problems = std::to_string(best.size());
   for (const auto& [solver, times] : costs) {
-    std::vector<double> ratios;  // of the problems that it solves
+    std::vector<double> ratios;  // time over best time, of the problems that it solves
     std::size_t given = 0;
     for (const auto& [problem, time] : times) {
       const auto solved = best.find(problem);
@@ -89,7 +89,7 @@ Analysis profileAnalysis() {
           .writes = "profile.csv",
           .needs = "targets",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            // Without times there is nothing to compare, and an older table would not be of these runs.
+            // Without times no profile is written, and an older one must not remain beside these runs.
             if (refusedTimes(in.runs.head).empty()) {
               writeTable(in.folder / "profile.csv", profileTable(readTable(in.folder / "cpu_at_error.csv")));
             } else {

@@ -1,4 +1,4 @@
-// What is computed from runs.csv.
+// Writes all tables that are computed from runs.csv.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace irk {
 
-/// Why a runs.csv has no times: they are of several processors. Empty where it has them.
+/// The reason why a runs.csv has no times: they come from several processors. Empty if it has times.
 std::string refusedTimes(const TableHead& head);
-/// The same of a file, of which only the head is read.
+/// The same for a file; only its head is read.
 std::string refusedTimes(const std::filesystem::path& runs);
 
-/// The files of the study's analyses (experiments/study/analysis.h).
-/// Where the times are of several processors (store::kTimesRefused) there is no profile, and costs have no times.
-/// Returns one line for every number that must not be believed; all tables are written all the same.
+/// Writes the tables of the study's analyses (experiments/study/analysis.h). If times come from several processors
+/// (store::kTimesRefused), it writes no profile, and costs without times. Returns one line for every number that must
+/// not be trusted; all tables are written nevertheless.
 [[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
                                                       const std::filesystem::path& folder,
                                                       std::ostream& progress);

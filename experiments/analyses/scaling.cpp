@@ -22,8 +22,8 @@ namespace irk {
 namespace {
 
 constexpr std::size_t kFirstSteps = 3;    // not counted
-constexpr double kLeastUnknowns = 200;    // of a slope over n
-constexpr std::size_t kLeastPoints = 3;   // of a slope
+constexpr double kLeastUnknowns = 200;    // for a slope over n
+constexpr std::size_t kLeastPoints = 3;   // for a slope
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct StepCost {
@@ -56,7 +56,7 @@ StepCost measure(const RunSpec& spec) {
   return cost;
 }
 
-// x = log of the varied column, y = log of the time.
+// x is the log of the varied column, y the log of the time.
 struct Points {
   std::vector<double> x, y;
 };

@@ -1,4 +1,4 @@
-// Tableaus as tables: one row of properties per method, and the zeros and poles of R(z).
+// Tables of tableaus: one row of properties per method, and the zeros and poles of R(z).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace irk {
 
-/// Column names of both tables are those of TableauProperties and its parts.
+/// The column names of both tables are those of TableauProperties and its parts.
 struct TableauTables {
   /// One row per method: order, stage order, degrees, error constant, stability, conditions.
   Table properties;
@@ -16,10 +16,10 @@ struct TableauTables {
   Table stability;
 };
 
-/// Of ids or files. Throws Misuse as findTableau and analyzeProperties.
+/// The tables for ids or files. Throws Misuse as findTableau and analyzeProperties.
 TableauTables tableauTables(const std::vector<std::string>& methods);
 
-/// All families up to `most` stages.
+/// The ids of all families' members with up to `most` stages.
 std::vector<std::string> familyMembers(int most);
 
 }  // namespace irk

@@ -37,9 +37,9 @@ double centre(std::span<const ErrorPoint> window) {
   return std::sqrt(window.front().h * window.back().h);
 }
 
-// With error = C h^p (1 + c h^q) local slopes are p + q c h^q: the difference of the slopes of the coarse
-// and the fine half, extrapolated to h = 0, is what the fit still misses. Slopes of halves are
-// about 2^(3/2) times as uncertain as that of the whole, their difference four times.
+// For error = C h^p (1 + c h^q) local slopes are p + q c h^q. The difference between the slopes of the coarse and the
+// fine half, extrapolated to h = 0, is therefore the remaining error of the fit. A slope over half the points is
+// about 2^(3/2) times as uncertain as that over all, the difference of two four times.
 double drift(std::span<const ErrorPoint> window, const Slope& whole, int next_power) {
   constexpr double kHalves = 4;
   const std::size_t half = window.size() / 2;
@@ -51,8 +51,8 @@ double drift(std::span<const ErrorPoint> window, const Slope& whole, int next_po
   return (change + kHalves * whole.deviation) * extrapolation;
 }
 
-// An error that is about to change its sign has a stable slope over decades, and a wrong one.
-// Behind the window it then falls below the line, two points in a row; round-off lies above it.
+// Detects a window in which the error is about to change its sign: its slope is stable over decades, but wrong. At
+// finer steps two points in a row then lie below the fitted line; round-off lies above it.
 bool continues(std::span<const ErrorPoint> finer, const Slope& slope) {
   constexpr double kFactor = 2;
   const auto below = [&slope](const ErrorPoint& p) {
@@ -63,7 +63,7 @@ bool continues(std::span<const ErrorPoint> finer, const Slope& slope) {
          }) == finer.end();
 }
 
-// From coarse to fine, errors that are numbers only.
+// Finite positive errors, from coarse to fine.
 std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
   std::erase_if(points, [](const ErrorPoint& p) {
     return !(p.h > 0) || !(p.error > 0) || !std::isfinite(p.error);
@@ -72,9 +72,9 @@ std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
   return points;
 }
 
-// Errors that no longer shrink, although they are small, are noise from where its level is reached
-// on: those points go, and the ones that noise of that level would bend. Larger errors that do not
-// shrink belong to an order of zero or less. Returns the floor below which points have been taken.
+// Removes noise: from the point on where small errors no longer shrink, all points, and the coarser points whose
+// slope this noise would bend. Larger errors that do not shrink are kept, as they belong to an order of zero or less.
+// Returns the error below which points have been removed.
 double removeNoise(std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
   constexpr double kLevel = 3;
   double floor = 50 * options.epsilon;
@@ -127,8 +127,8 @@ OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options)
     return notMeasurable(fmt::format("steps only from {:.1e} to {:.1e}: less than a factor {:g}",
                                      coarsest, finest, options.min_span));
   }
-  // Asymptotic is the fine end: a window must reach into the finest quarter of the range of steps.
-  // Slopes can be stationary before that, at a wrong value.
+  // The asymptotic range is at the fine end, so a window must reach into the finest quarter of the range of steps:
+  // slopes of coarser steps can be constant at a wrong value.
   const double reach = finest * std::pow(coarsest / finest, 0.25);
   OrderFit best = notMeasurable("");
   double best_uncertainty = INFINITY;

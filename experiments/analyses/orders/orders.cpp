@@ -27,7 +27,7 @@ struct Theory {
   std::string source;
 };
 
-// From |h lambda| of this size on a stiff component is at its limit to several digits.
+// For |h lambda| above this, a stiff component agrees with its limit to several digits.
 constexpr double kStiffLimit = 1e3;
 
 Sizes sizesOf(const Table& runs, const TableRow& row) {
@@ -37,7 +37,7 @@ Sizes sizesOf(const Table& runs, const TableRow& row) {
   return makeScene<double>(spec.scene, settingsAtStep(spec)).sizes();
 }
 
-// The setting by which the scene becomes stiff: `-1e8`, or `-1e8/h` where it grows as the step shrinks.
+// The setting that makes the scene stiff: `-1e8`, or `-1e8/h` if the stiffness grows as the step shrinks.
 std::string stiffnessText(const SceneEntry& scene, const std::string& settings) {
   const std::string& name = scene.stiffness.parameter;
   const std::string start = ' ' + name + '=', all = ' ' + settings;
@@ -51,7 +51,7 @@ std::string stiffnessText(const SceneEntry& scene, const std::string& settings) 
   return {};
 }
 
-// What is known of a scene that settings make stiff.
+// The kind of a scene that its settings make stiff.
 std::optional<SystemKind> stiffKind(const SceneEntry& scene, const std::string& settings, double h) {
   const std::string text = stiffnessText(scene, settings);
   const bool test = scene.kind == SceneKind::kStiffTest;
@@ -92,12 +92,13 @@ std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row) {
   return n.constraints < n.nz ? std::nullopt : mechanicalKind(formulation);
 }
 
-// A user's method has the order that its tableau declares, for ordinary differential equations.
+// The theoretical order. For a user's method it is the order that the tableau declares, for ordinary differential
+// equations only.
 Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind,
                  char component) {
   if (!kind) return {};
   const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
-  // Solved anew from u, v and x, z has the order of what determines it.
+  // z is solved again from u, v and x, so its order is that of v.
   const bool consistent = component == 'z' && textAt(runs, row, "multipliers") == "consistent" &&
                           sizesOf(runs, row).constraints > 0;
   const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind,
@@ -117,10 +118,10 @@ std::string verdictText(const OrderFit& fit, double theory) {
   return std::abs(fit.order - theory) <= orderTolerance(theory) ? "agrees" : "differs";
 }
 
-// Farther than this from an integer a slope is that of no order.
+// A slope that differs from every integer by more than this is not an order.
 constexpr double kNoInteger = 0.2;
 
-// What theory says about components of algebraic and stiff systems is a bound for all of them.
+// For algebraic and stiff systems theory gives a bound, which single components can exceed.
 std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
   const bool differs = fit.measurable && std::abs(fit.order - theory) > orderTolerance(theory);
   if (!differs) return fit.reason;
@@ -163,7 +164,7 @@ TableRow orderRow(const Table& runs, const TableRow& run, char component, std::s
 }
 
 void appendOrders(const Table& runs, const std::vector<const TableRow*>& series, Table& orders) {
-  // Asymptotic is the fine end, also for the question what is stiff there.
+  // The fine end of the steps is asymptotic; it also decides whether the system counts as stiff.
   const TableRow& finest = *series.back();
   const auto kind = kindOf(runs, finest);
   for (const char component : {'u', 'v', 'x', 'z'}) {
@@ -186,7 +187,7 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
 using OverZ = std::map<double, std::vector<std::pair<double, const TableRow*>>>;  // by h
 
 void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
-  // The finest step that all of z have in common.
+  // The finest step at which all values of z have runs.
   std::size_t most = 0;
   for (const auto& [h, found] : over_z) most = std::max(most, found.size());
   for (const auto& [h, found] : over_z) {
@@ -204,7 +205,7 @@ void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
   }
 }
 
-// A method of which no run succeeded has rows, too: in the components that the system has.
+// Adds rows for a method without successful runs, one for each group of components of the system.
 void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
   const auto kind = kindOf(runs, run);
   const Sizes n = sizesOf(runs, run);

@@ -26,8 +26,8 @@ Order odeOrder(std::string_view family, Index s) {
   return {};
 }
 
-// Stiffly accurate methods keep their order, the others have that of their stages plus one, where
-// R(infinity) = -1 cancels one loss. HW II (VI.1).
+// Stiffly accurate methods keep their order. The others have order s, or s + 1 if R(infinity) = -1, where errors of
+// successive steps cancel. HW II (VI.1).
 Order index1(std::string_view family, Index s, char component) {
   if (component == 'x') return family == "lobatto_iiib" ? Order() : odeOrder(family, s);
   if (component != 'z') return {};
@@ -56,7 +56,7 @@ Order ofMechanical(const Order& u, const Order& v, const Order& z, char componen
   return component == 'u' ? u : component == 'v' ? v : component == 'z' ? z : Order();
 }
 
-// Linear in lambda: what differs from index 2 in general is that q gains from its quadrature.
+// The system is linear in lambda. The only difference to general index 2 is that q gains order from the quadrature.
 Order mechanical2(std::string_view family, Index s, char component) {
   const Order v = index2(family, s, 'x'), z = index2(family, s, 'z');
   if (family == "gauss") return ofMechanical(pattern(2 * s, s), v, z, component);
@@ -71,7 +71,7 @@ Order projected(std::string_view family, Index s, char component) {
   return mechanical2(family, s, component == 'v' && healed ? 'u' : component);
 }
 
-// One more index-2 system: q' = v - G^T mu is not linear in what GGL adds.
+// Another index-2 system: q' = v - G^T mu is not linear in the multiplier mu that GGL adds.
 Order ggl(std::string_view family, Index s, char component) {
   const bool harmed = family == "gauss" || family == "radau_ia";
   return mechanical2(family, s, component == 'u' && harmed ? 'v' : component);
@@ -101,7 +101,7 @@ Order mechanical3(std::string_view family, Index s, char component) {
   return {};
 }
 
-// The largest error of y and w is that of w.
+// Since errors of y and w are reported together, the order is that of w.
 Order index3(std::string_view family, Index s, char component) {
   return component == 'u' || component == 'v'
              ? Order()
@@ -112,7 +112,7 @@ struct StiffOrder {
   Index h, z;  // error = C h^h |z|^z
 };
 
-// HW II (IV.15) and measured: error of y' = lambda (y - phi) + phi' for z = h lambda -> -infinity.
+// HW II (IV.15) and measurements: error of y' = lambda (y - phi) + phi' for z = h lambda -> -infinity.
 std::optional<StiffOrder> stiffOrder(std::string_view family, Index s) {
   if (family == "gauss") return StiffOrder{evenAbove(s), 0};
   if (family == "radau_ia") return StiffOrder{s, 0};

@@ -1,4 +1,4 @@
-// What theory says about the order of convergence, per family, kind of system and component.
+// Theoretical orders of convergence per family, kind of system and component.
 #pragma once
 
 #include <optional>
@@ -24,22 +24,20 @@ enum class SystemKind {
 
 struct TheoreticalOrder {
   double order;
-  /// `theorem` (HW, HLR, Jay below), `measured` (s <= 5, independent slopes in 60 to 100 digits) or
-  /// `extrapolated` (the pattern of the measured ones, for more stages).
+  /// `theorem` (HW, HLR, Jay below), `measured` (s <= 5, independent slopes in 60 to 100 digits) or `extrapolated`
+  /// (the measured pattern, for more stages).
   std::string_view source;
 };
 
-/// Exponent of the global error of component 'u', 'v', 'x' or 'z' at a fixed time with constant
-/// steps; z at the grid by z1 = (1 - b^T A^-1 1) z0 + b^T A^-1 Z. Nothing where none is known, or
-/// where the family cannot treat algebraic unknowns.
-/// HW: Hairer & Wanner II (1996), IV.5, IV.15, VI.1, VII.4. HLR: Hairer, Lubich & Roche, LNM 1409
-/// (1989), table 4.1 and section 6. Jay, BIT 33 (1993): Lobatto IIIA of index 2, Radau IIA and
-/// Lobatto IIIC of index 3.
+/// Exponent of the global error of component 'u', 'v', 'x' or 'z' at a fixed time with constant steps; z is advanced
+/// by z1 = (1 - b^T A^-1 1) z0 + b^T A^-1 Z. nullopt if no order is known, or if the family cannot treat algebraic
+/// unknowns. HW: Hairer & Wanner II (1996), IV.5, IV.15, VI.1, VII.4. HLR: Hairer, Lubich & Roche, LNM 1409 (1989),
+/// table 4.1 and section 6. Jay, BIT 33 (1993): Lobatto IIIA of index 2, Radau IIA and Lobatto IIIC of index 3.
 std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index s, SystemKind kind,
                                                  char component);
 
-/// Families whose methods are their own adjoints: for differential equations the global error has
-/// even powers of the step only. Hairer, Norsett & Wanner I, II.8 and II.9.
+/// Whether the methods of a family are their own adjoints: for differential equations their global error then has
+/// only even powers of the step. Hairer, Norsett & Wanner I, II.8 and II.9.
 bool isSymmetric(std::string_view family);
 
 }  // namespace irk
