@@ -20,15 +20,15 @@ namespace {
 
 constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
                                         "error_x", "error_z", "drift"};
-// Below so many units of its scalar's round-off an error says nothing: 1.1e-14 in double precision.
+// Errors below this many units of round-off of their scalar are not compared: 1.1e-14 in double precision.
 constexpr double kRoundOff = 50;
-// A test with fewer numbers sees nothing: of four and four, one order in 70 is the most extreme one, of five and
-// five one in 252.
+// A rank test with fewer repetitions cannot be significant: for samples of four and four the most extreme order has
+// probability 1/70, for five and five 1/252.
 constexpr std::size_t kFew = 5;
-// Without a test, minima of few repetitions that differ by more than this are not noise.
+// The factor by which minima of fewer repetitions, which are not tested, must differ.
 constexpr double kFewFactor = 2;
 
-// 1 for equal numbers; infinite where one of them is 0 or unknown.
+// The larger number divided by the smaller: 1 for equal numbers, infinity if one of them is 0 or unknown.
 double factorOf(double a, double b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 1;
   if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
@@ -36,7 +36,7 @@ double factorOf(double a, double b) {
   return std::isfinite(factor) ? factor : std::numeric_limits<double>::infinity();
 }
 
-/// Compares row by row.
+/// Compares two tables row by row.
 class Comparer {
  public:
   Comparer(const Runs& first, const Runs& second, const Limits& limits)
@@ -70,7 +70,7 @@ class Comparer {
   }
 
  private:
-  /// The repetitions of a run in both tables, or their minima where one has too few.
+  /// The repetitions of a run in both tables, or only their minima if one table has too few.
   struct Timed {
     Pair pair;
     std::vector<double> first, second;
@@ -98,7 +98,7 @@ class Comparer {
     return second ? textAt(second_.table, *pair.second, column) : textAt(first_.table, *pair.first, column);
   }
 
-  // False where they differ: of two outcomes nothing else is compared.
+  // Returns false if the outcomes differ: then nothing else is compared.
   bool compareOutcome(const Pair& pair) {
     const auto &a = text(pair, "outcome", false), &b = text(pair, "outcome", true);
     if (a == b) return true;
@@ -107,7 +107,7 @@ class Comparer {
     return false;
   }
 
-  // All counters of a run are one difference: that of the one that has changed most.
+  // All changed counters of a run are reported as one difference, of the size of the largest change.
   void compareCounters(const Pair& pair) {
     std::string what;
     double most = 0;
@@ -126,7 +126,7 @@ class Comparer {
     return kRoundOff * epsilonOf(parseId<ScalarKind>(text(pair, "scalar", false)));
   }
 
-  // As counters. What is below round-off is round-off.
+  // Like counters: one difference per run. Errors below round-off are not compared.
   void compareErrors(const Pair& pair) {
     const double least = roundOff(pair);
     std::string what;
@@ -154,7 +154,7 @@ class Comparer {
     return "unknown";
   }
 
-  // Of the timing pass; empty where the run was not timed.
+  // The repetitions of the timing pass; empty if the run was not timed.
   static std::vector<double> repetitions(const Runs& runs, const TableRow& row) {
     std::vector<double> seconds;
     if (!runs.table.hasColumn("cpu_s") || !runs.table.hasColumn("cpu_runs")) return seconds;
@@ -191,7 +191,7 @@ class Comparer {
     timed_.push_back(std::move(timed));
   }
 
-  // alpha is that of all tests together: each of m runs is tested with alpha / m.
+  // alpha is the level of all tests together: each of m runs is tested with alpha / m.
   void judgeTimes() {
     result_.times.compared = timed_.size();
     if (timed_.empty()) return;

@@ -1,4 +1,4 @@
-// Two tables of runs: what has changed, and what is noise.
+// Compares two tables of runs and separates changes from noise.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,25 @@
 
 namespace irk::compare {
 
-/// From where on two numbers are different.
+/// The limits above which two numbers count as different.
 struct Limits {
   double errors = 2;      ///< >= 1, a factor
-  double times = 0.05;    ///< >= 0: a ratio of 1 + times, or its inverse, is not more than noise
-  double alpha = 0.05;    ///< 0 < alpha < 1: of all times together, how probably noise alone makes a difference
-  double counters = 0;    ///< >= 0, relative: another processor rounds otherwise
+  double times = 0.05;    ///< >= 0: ratios of times up to 1 + times, and down to its inverse, are noise
+  double alpha = 0.05;    ///< 0 < alpha < 1: probability that noise alone gives a difference in any of the times
+  double counters = 0;    ///< >= 0, relative: processors differ in rounding
 };
 
-/// In the order in which a reader wants to know.
+/// In the order of their importance.
 enum class Kind { kMissing, kOutcome, kCounter, kError, kTime };
 
 struct Difference {
   Kind kind;
   std::string run;   ///< scene, settings, method, and what else tells the run from others of its table
-  std::string what;  ///< what has changed, with both values
-  double size;       ///< how much: the worst first
+  std::string what;  ///< the change, with both values
+  double size;       ///< of the change; the largest come first
 };
 
-/// What can be said of times. Ratios are second over first.
+/// A summary of the times. Ratios are second over first.
 struct Times {
   std::size_t compared = 0;      ///< runs with a ratio
   std::size_t few = 0;           ///< of them with fewer than five repetitions
@@ -42,22 +42,22 @@ struct Times {
 struct Comparison {
   std::size_t first = 0, second = 0, both = 0;  ///< runs
   std::vector<Difference> differences;          ///< by kind, the worst of a kind first
-  std::vector<std::string> not_compared;        ///< columns that one table has only
+  std::vector<std::string> not_compared;        ///< columns that only one table has
   Times times;
 };
 
-/// A table of runs and what its ids of environments stand for.
+/// A table of runs and the processors of its environments.
 struct Runs {
   Table table;
   std::map<std::string, std::string> processors;  ///< by id of an environment; may be empty
 };
 
-/// Runs are matched by what was asked for (all fields of a spec that both tables have), not by their keys, which also
-/// hold the program's version. Compared are outcomes, counters, errors, and the times of runs that succeeded in both.
-/// Errors differ by a factor above `errors`; below round-off (1.1e-14 in double) all are the same. Times differ
-/// where the interval of their ratio lies outside 1 +- times; with fewer than five repetitions, of which nothing can be
-/// tested, where their minima differ by a factor above 2. Times of two processors are not compared. Throws Misuse for
-/// a table without outcomes.
+/// Matches runs by all fields of a spec that both tables have, not by their keys, which also contain the program's
+/// version. Compares outcomes, counters, errors, and the times of runs that succeeded in both. Errors are different
+/// if their ratio exceeds `errors`; errors below round-off (1.1e-14 in double) count as equal. Times are different if
+/// the interval of their ratio lies outside 1 +- times; with fewer than five repetitions, which cannot be tested, if
+/// their minima differ by a factor above 2. Times of different processors are not compared. Throws Misuse for a table
+/// without outcomes.
 Comparison compareRuns(const Runs& first, const Runs& second, const Limits& limits);
 
 }  // namespace irk::compare

@@ -1,4 +1,4 @@
-// Where the tables of runs are, and what is printed about two of them.
+// Finds the tables of runs, and prints a comparison of two.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace irk::compare {
 
-/// The runs.csv of a study's folder, under the empty name; of a tree of results all that are below it, by their folders
-/// relative to it. Throws Misuse for a path that is no folder or has none.
+/// For a study's folder its runs.csv, with an empty name; for a tree of results every runs.csv in it, by the folder
+/// relative to the tree. Throws Misuse for a path that is not a folder or contains none.
 std::map<std::string, std::filesystem::path> runsIn(const std::filesystem::path& folder);
 
-/// A runs.csv, with the processors of the environments.csv beside it where there is one.
+/// Reads a runs.csv, and the processors from the environments.csv beside it, if any.
 Runs readRuns(const std::filesystem::path& file);
 
-/// One line of numbers, the differences by kind, of each kind the worst ten, and what was not compared and why.
+/// One line of numbers; then the differences by kind, the ten largest of each; then what was not compared and why.
 std::string textOf(const std::string& study, const Comparison& comparison);
 
 }  // namespace irk::compare

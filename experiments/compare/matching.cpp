@@ -21,7 +21,7 @@ bool isAlwaysNamed(std::string_view field) {
   return std::find(std::begin(kAlwaysNamed), std::end(kAlwaysNamed), field) != std::end(kAlwaysNamed);
 }
 
-// Text that is the same for equal numbers, however many digits they are written with.
+// A text that is the same for equal numbers, regardless of the number of digits in the cell.
 std::string plain(const std::string& cell) {
   const double number = cellNumber(cell);
   return std::isnan(number) ? cell : numberText(number);
@@ -49,7 +49,7 @@ std::string Matching::identity(const TableRow& row, std::size_t Field::*column) 
 }
 
 void Matching::findPairs() {
-  std::map<std::string, std::vector<const TableRow*>> others;  // the last one is the next one
+  std::map<std::string, std::vector<const TableRow*>> others;  // taken from the back
   for (auto row = second_.rows.rbegin(); row != second_.rows.rend(); ++row) {
     others[identity(*row, &Field::second)].push_back(&*row);
   }

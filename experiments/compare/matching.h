@@ -1,4 +1,4 @@
-// Which rows of two tables stand for the same run.
+// Matches rows of two tables that stand for the same run.
 #pragma once
 
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace irk::compare {
 
-/// Rows of two tables, null where one has no such run.
+/// The rows of a run in two tables; null if a table does not have it.
 struct Pair {
   const TableRow* first;
   const TableRow* second;
 };
 
-/// The runs of two tables by the fields of a spec that both have. Numbers are compared as numbers: 0.1 is
-/// 0.10000000000000001, as older tables have it. Rows with equal fields are matched in their order. Keeps references to
-/// the tables.
+/// Matches the runs of two tables by the fields of a spec that both have. Numbers are compared by value: 0.1 equals
+/// 0.10000000000000001, as older tables write it. Rows with equal fields are matched in their order. Keeps references
+/// to the tables, which must outlive it.
 class Matching {
  public:
   Matching(const Table& first, const Table& second);
 
-  /// In the order of the first table, then those of the second one only.
+  /// The runs in the order of the first table, then those that only the second one has.
   const std::vector<Pair>& pairs() const { return pairs_; }
-  /// Scene, settings and method, then `field=value` of the other fields that are not the same in all runs.
+  /// Scene, settings and method, then `field=value` for all other fields that vary between runs.
   std::string nameOf(const Pair& pair) const;
 
  private:
-  /// A field's column in both tables.
+  /// The columns of a field in both tables.
   struct Field {
     std::string name;
     std::size_t first, second;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kMostExact = 400;
 
-// How many of the orders of n + m numbers have the statistic u = 0 .. n m: the coefficients of
-// product_i (1 - q^(m + i)) / (1 - q^i), i = 1 .. n.
+// The numbers of orderings of n + m values with rank statistic u = 0 .. n m: the coefficients of product_i (1 - q^(m
+// + i)) / (1 - q^i), i = 1 .. n.
 std::vector<double> rankCounts(int n, int m) {
   const int most = n * m;
   std::vector<double> counts(static_cast<std::size_t>(most) + 1, 0);
@@ -50,7 +50,7 @@ Ratio ratioOf(const std::vector<double>& a, const std::vector<double>& b, double
   const std::size_t last = ratios.size() - 1;
   const int n = static_cast<int>(a.size()), m = static_cast<int>(b.size());
   const auto below = rankProbabilities(n, m);
-  // The interval begins at the last ratio that may still be left out; the first one is the widest interval.
+  // The number of ratios that the test leaves out at each end; without any the interval contains all ratios.
   std::size_t first = 0;
   while (first + 1 < last - first && below[first + 1] <= alpha / 2) ++first;
   const double median = std::sqrt(ratios[last / 2] * ratios[last - last / 2]);
