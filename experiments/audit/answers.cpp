@@ -23,7 +23,7 @@ std::string versionText() {
   return fmt::format("{} {}", buildInfo().version, buildInfo().commit);
 }
 
-// The rows that this version wrote.
+// The stored rows that this version of the program has written.
 Table foundAnswers(const std::filesystem::path& file, int jobs) {
   Table table{environmentHead("references of the audit", jobs), answerColumns(), {}};
   if (!std::filesystem::exists(file)) return table;

@@ -1,4 +1,4 @@
-// references.csv of an audit: answers that a repeated analysis need not compute again.
+// references.csv of an audit: stored answers, which a repeated analysis need not compute again.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@ using Answers = std::map<Question, Answer>;
 
 std::vector<std::string> answerColumns();
 TableRow answerRow(const Question& question, const Answer& answer);
-/// Of a row that answerRow made.
+/// Parses a row made by answerRow.
 std::pair<Question, Answer> parseAnswer(const Table& table, const TableRow& row);
 
-/// The answers to all questions: those that this version of the program left in `file`, the others
-/// computed by `jobs` threads and appended as they come. After an interrupt: what there is.
+/// The answers to all questions. Uses the answers in `file` that this version of the program has written, computes
+/// the others with `jobs` threads and appends them one by one. After an interrupt some may be missing.
 Answers answersTo(const std::set<Question>& questions, const std::filesystem::path& file, int jobs,
                   std::ostream& progress);
 

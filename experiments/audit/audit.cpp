@@ -22,7 +22,7 @@ const std::vector<std::string> kColumns{
     "outcome",   "detail",    "judgement", "error",        "error_over_tolerance", "error_z",
     "reference", "accuracy",  "kappa",     "remark",       "cpu_s",       "command"};
 
-// Errors in u, v, x and in z.
+// Errors of u, v, x together, and of z.
 struct StateErrors {
   double judged = kUnknown, multipliers = kUnknown;
 };
@@ -85,7 +85,7 @@ Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
   Table table{runs.head, kColumns, {}};
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const auto row = rows.find(specKey(drawn[i].spec));
-    if (row == rows.end()) continue;  // interrupted before
+    if (row == rows.end()) continue;  // not run because of an interrupt
     const auto state = states.find(row->first);
     const auto answer = answers.find(questionOf(drawn[i].spec));
     table.rows.push_back(auditRow(i, drawn[i], runs, *row->second,
@@ -103,7 +103,7 @@ std::string auditRuns(const Study& study, const Table& runs, const std::filesyst
   for (const auto& run : drawn) questions.insert(questionOf(run.spec));
   const Answers answers = answersTo(questions, folder / "references.csv", jobs, progress);
   if (interruptFlag()) {
-    // Runs without their references would count as unjudged, and wrong ones would seem few.
+    // Without their references runs would count as unjudged, and there would seem to be few wrong ones.
     for (const char* table : {"audit.csv", "audit_summary.csv"}) std::filesystem::remove(folder / table);
     return "interrupted: not all references are known, so no run is judged yet\n";
   }

@@ -1,4 +1,4 @@
-// The analysis of an audit: every drawn run judged, and how many are right, failed or wrong.
+// The analysis of an audit: judges every drawn run and counts the right, failed and wrong ones.
 #pragma once
 
 #include <filesystem>
@@ -14,23 +14,22 @@
 
 namespace irk::audit {
 
-/// audit.csv: one row per drawn run that has been made, in the order of the draw; `run` counts from 0.
-/// `states`: final u, v, x, z by the key of the run.
+/// audit.csv: one row per drawn run that has been made, in the order of the draw; `run` counts from 0. `states` has
+/// the final u, v, x, z by the key of the run.
 Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
                  const std::map<std::string, Vec<double>>& states, const Answers& answers);
 
-/// audit_summary.csv: counts of judgements, `by` each of all, configuration, treatment, scene, family,
-/// formulation, configuration and treatment; and by configuration over the runs that have to be
-/// free of wrong ones: switches treated by default, located, or none in the scene (`bar`).
+/// audit_summary.csv: counts of judgements over all runs, and grouped by configuration, treatment, scene, family,
+/// formulation, and configuration with treatment. The group `bar` counts by configuration the runs that must not be
+/// wrong: those whose switches are treated by default or located, and those of scenes without switches.
 Table summaryTable(const Table& audit);
 
-/// Writes references.csv, audit.csv and audit_summary.csv of the study's runs into `folder`; returns the
-/// lines of summaryText. After an interrupt neither audit.csv nor its summary is there; the references found
-/// so far are kept.
+/// Writes references.csv, audit.csv and audit_summary.csv of the study's runs to `folder`; returns the lines of
+/// summaryText. After an interrupt audit.csv and its summary do not exist; the references found so far are kept.
 std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder,
                       int jobs, std::ostream& progress);
 
-/// A few lines: counts by configuration, and the worst wrong successes with their commands.
+/// A few lines: counts by configuration, and the `worst` largest wrong successes with their commands.
 std::string summaryText(const Table& audit, const Table& summary, std::size_t worst);
 
 }  // namespace irk::audit

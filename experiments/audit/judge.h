@@ -1,17 +1,17 @@
-// Whether a run's `success` is right. The protocol, fixed before any data were seen:
+// Judges whether the `success` of a run is right. The protocol was fixed before any data were seen:
 //
-//   error     of a state: the largest |y - ref| / max(|ref|, scale) over the components of u, v and x, scale the
-//             scene's. Multipliers z are reported beside it and judge nothing.
+//   error     of a state: the largest |y - ref| / max(|ref|, scale) over the components of u, v and x, with the
+//             scene's scale. Errors of multipliers z are reported beside it but not judged.
 //   kappa     conditioning: all of u, v, x at the start are perturbed by random signs times 1e-9 max(|y|, scale),
 //             twice, and integrated strictly; kappa is the largest difference at t_end, measured as an
-//             error, over 1e-9. Infinite where a perturbed run fails or is not finite. Where no
-//             step leads away from a perturbed start (hidden constraints forbid it) the run is
-//             perturbed on its way instead: by the tolerance 1e-9.
+//             error, divided by 1e-9. It is infinite if a perturbed run fails or is not finite. If hidden
+//             constraints forbid every step from a perturbed start, the whole run is perturbed instead, by
+//             integrating with the tolerance 1e-9.
 //
-//   ill_conditioned   kappa > 1000: an error of one tolerance in the start alone passes the bar; or
+//   ill_conditioned   kappa > 1000: an error of one tolerance in the start alone exceeds the bar; or
 //                     kappa eps > tolerance: round-off alone does. Set aside, whatever the outcome.
-//   failed            the outcome is no success: an honest failure.
-//   unjudged          a success, but its reference is unknown, or not known to a tenth of the bar.
+//   failed            the outcome is not success: an honest failure.
+//   unjudged          a success whose reference is unknown, or known less accurately than a tenth of the bar.
 //   wrong             a success with an error above the bar, 1000 tolerance + 1e-9.
 //   right             a success with an error up to the bar.
 #pragma once
@@ -28,11 +28,11 @@ inline constexpr double kPerturbation = 1e-9;
 inline constexpr double kLargestKappa = 1000;
 
 enum class Judgement { kRight, kFailed, kWrong, kIllConditioned, kUnjudged };
-/// All of them, in the order of the enum.
+/// The names of all judgements, in the order of the enum.
 std::span<const std::string_view> judgementNames();
 std::string_view nameOf(Judgement judgement);
 
-/// What is known about a run. NaN: unknown.
+/// The facts on which a judgement is based. NaN: unknown.
 struct Evidence {
   bool success = false;
   double tolerance = 0;
@@ -41,14 +41,14 @@ struct Evidence {
   double kappa = error;
 };
 
-/// Errors above it are wrong.
+/// The bar: larger errors are wrong.
 double bar(double tolerance);
 
 Judgement judge(const Evidence& evidence);
 
-/// Largest |y - reference| / max(|reference|, scale) over the components first <= i < last; missing
-/// scales are 1. Components without a reference (NaN) are passed over; infinite where y is not finite;
-/// NaN if no component has a reference. y and reference have the same size.
+/// The largest |y - reference| / max(|reference|, scale) over the components first <= i < last; missing scales are 1.
+/// Components without a reference (NaN) are skipped. Returns infinity if y is not finite, and NaN if no component has
+/// a reference. y and reference must have the same size.
 double scaledDifference(const Vec<double>& y, const Vec<double>& reference,
                         const Vec<double>& scale, Index first, Index last);
 

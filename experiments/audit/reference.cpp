@@ -23,15 +23,15 @@ constexpr const char* kFirstMethod = "radau_iia_7";
 constexpr const char* kFirstFamily = "radau";
 constexpr const char* kOtherMethod = "lobatto_iiic_6";
 constexpr double kTimeLimit = 5;        // CPU seconds of a strict run
-constexpr double kSameTime = 1e-12;     // of a reference's time and t_end, relative
-constexpr double kEnough = 1e-10;       // agreement with which every tolerance can be judged
-constexpr double kSameHistory = 1e-4;   // difference of a run that ignores the switches
-constexpr int kPerturbed = 2;           // perturbed starts
+constexpr double kSameTime = 1e-12;     // relative difference of a reference's time and t_end
+constexpr double kEnough = 1e-10;       // an agreement that suffices to judge every tolerance
+constexpr double kSameHistory = 1e-4;   // difference from a run that ignores the switches
+constexpr int kPerturbed = 2;           // number of perturbed starts
 
-// The next is tried where the strict runs fail or do not agree.
+// Options of the strict runs. The next entry is tried if the runs fail or disagree.
 struct Strictness {
   double tolerance;
-  double steps;  // at least so many over the whole time
+  double steps;  // at least this many steps over the whole interval
 };
 constexpr Strictness kStrictnesses[] = {{1e-12, 100}, {1e-12, 2000}, {1e-11, 500}, {1e-9, 1000}};
 constexpr Strictness kIgnoring{1e-8, 1000};
@@ -76,7 +76,7 @@ class Search {
     return y.size() >= judged() && y.head(judged()).allFinite();
   }
 
-  // The exact state, or that of the references' files.
+  // Uses the exact state, or the state in the reference files.
   void known() {
     if (scene_.exact) {
       const Vec<double> exact = components(scene_.exact(question_.t_end));
@@ -119,11 +119,11 @@ class Search {
         numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
   }
 
-  // Empty after a failure, which `remark_` then names.
+  // Empty after a failure; `remark_` then has the reason.
   Vec<double> integrate(const RunSpec& spec, const State<double>& start) {
     const auto end = integrateFrom(spec, start, watch_);
     started_ = end.state.t > start.t;
-    // A perturbed start need not lie on the constraints.
+    // A perturbed start need not satisfy the constraints.
     if (end.outcome == Outcome::kSuccess || end.outcome == Outcome::kDrift) {
       return components(end.state);
     }
@@ -170,7 +170,7 @@ class Search {
                                             : "";
   }
 
-  // 0 where nothing switches, or where such a run fails, which contradicts nothing.
+  // 0 if the scene has no switches, or if the run fails: a failure contradicts nothing.
   double differenceOfHistory(const Vec<double>& first) {
     if (n_.switches == 0 || question_.smooth) return 0;
     const Vec<double> y = integrate(spec("radau_iia_3", "richardson", "ignore", kIgnoring), scene_.start);

@@ -1,4 +1,4 @@
-// What the audit judges against: the state at t_end that the judged run did not see, and how sensitive it is.
+// The references of the audit: the state at t_end, found independently of the judged run, and its sensitivity.
 #pragma once
 
 #include <atomic>
@@ -11,37 +11,37 @@
 
 namespace irk::audit {
 
-/// The runs of one question share one answer.
+/// Runs with equal questions share one answer.
 struct Question {
   std::string scene, settings;  ///< settings as `settingsText`
   double t_end = 0;
-  bool smooth = false;  ///< the regularised problem, which is another one
+  bool smooth = false;  ///< the regularized problem, which has another solution
 
   auto operator<=>(const Question&) const = default;
 };
 Question questionOf(const RunSpec& spec);
 
-/// States are u, v, x, z of the scene, one after the other; NaN where unknown; empty without any.
+/// States are u, v, x, z of the scene, one after the other; NaN if unknown; empty if there is none.
 struct Answer {
   Vec<double> state;
-  /// Of a computed answer: what the method of the other family found. A run of the first method's
-  /// family is judged by it.
+  /// The state that the other family's method found; empty unless computed. It judges runs of the first method's
+  /// family.
   Vec<double> other;
   std::string source;  ///< `exact`, `file`, `computed`, or empty: none
-  /// How well it is known, measured as an error. NaN without a state.
+  /// The accuracy of the state, measured as an error. NaN without a state.
   double accuracy = std::numeric_limits<double>::quiet_NaN();
-  double kappa = accuracy;  ///< see judge.h; NaN where even the strict run fails
-  std::string remark;       ///< why there is no answer, or what contradicts it
+  double kappa = accuracy;  ///< see judge.h; NaN if the strict run fails
+  std::string remark;       ///< why there is no answer, or why it is doubtful
   double cpu_s = 0;
 
   const Vec<double>& stateFor(const std::string& family) const;
 };
 
-/// Exact or from the references' files where these know all of u, v, x at t_end; else computed: two
-/// strict runs of different families (radau_iia_7, lobatto_iiic_6; index 2, switches located, small
-/// steps) that agree. Where the scene switches, a third one that leaves the switches to its error
-/// estimate must have the same history. Every option is spelled out: a change of defaults changes no
-/// answer. Also integrates the perturbed starts. Interrupted: an answer with the source `interrupted`.
+/// The exact state, or the state of the reference files, if these know all of u, v, x at t_end. Otherwise the state
+/// on which two strict runs of different families agree (radau_iia_7, lobatto_iiic_6; index 2, switches located,
+/// small steps). If the scene switches, a third run that leaves the switches to its error estimate must follow the
+/// same history. All options are given explicitly, so that changed defaults change no answer. Also integrates the
+/// perturbed starts. After an interrupt the answer has the source `interrupted`.
 Answer answerOf(const Question& question, const std::atomic<bool>* stop);
 
 inline constexpr const char* kInterruptedSource = "interrupted";

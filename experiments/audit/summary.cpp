@@ -11,7 +11,7 @@
 namespace irk::audit {
 namespace {
 
-// A way to group the rows of an audit; an empty group leaves a row out.
+// A way to group the rows of an audit; rows with an empty group are left out.
 struct Grouping {
   const char* by;
   std::string (*group)(const Table&, const TableRow&);
@@ -64,7 +64,7 @@ std::vector<const TableRow*> wrongOnes(const Table& audit) {
   for (const auto& row : audit.rows) {
     if (textAt(audit, row, "judgement") == nameOf(Judgement::kWrong)) wrong.push_back(&row);
   }
-  // By how far the error lies above what was asked for.
+  // The ratio of the error to the bar.
   const auto excess = [&](const TableRow* row) {
     return numberAt(audit, *row, "error") / bar(numberAt(audit, *row, "tolerance"));
   };
