@@ -12,15 +12,14 @@ namespace {
 
 constexpr int kMostDigits = 40;
 
-// The exponent of a number in scientific notation. A logarithm is off by one next to a power of
-// ten.
+// The exponent of a number, read from scientific notation: a logarithm is off by one next to a power of ten.
 int exponentOf(const std::string& text) { return std::atoi(text.c_str() + text.find('e') + 1); }
 
 }  // namespace
 
 double roundedUp(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)));
-  // A tolerance of some eps: 3e-20 is not to become 4e-20.
+  // x may be a multiple of the unit up to a few eps: 3e-20 must not become 4e-20.
   const double digit = std::ceil(x / unit * (1 - 1e-12));
   return std::strtod(fmt::format("{:.0e}", digit * unit).c_str(), nullptr);
 }
@@ -32,14 +31,14 @@ AgreedValue agreed(std::span<const mp50> runs, double least) {
 }
 
 std::string decimalText(const mp50& value, double accuracy) {
-  if (abs(value) < mp50(accuracy) / 2) return "0";  // no digit of it is known
+  if (abs(value) < mp50(accuracy) / 2) return "0";  // not even its first digit is known
   constexpr int kGuard = 1;
   const int last =
       exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
   const int first = exponentOf(value.str(kMostDigits, std::ios::scientific));
   const int digits = std::clamp(first - last + 1, 2, kMostDigits);
   const bool plain = first >= -3 && first < digits - 1;
-  // Both count the digits behind the point; 0 would mean all of them.
+  // Both count the digits behind the point; 0 would select all digits.
   return plain ? value.str(digits - 1 - first, std::ios::fixed)
                : value.str(digits - 1, std::ios::scientific);
 }

@@ -1,4 +1,4 @@
-// How many digits several computations of one number agree on.
+// The number of digits on which several computations of one number agree.
 #pragma once
 
 #include <span>
@@ -13,14 +13,14 @@ struct AgreedValue {
   double accuracy;  ///< > 0, absolute, one significant digit
 };
 
-/// The last of `runs` (at least two, the best last); its accuracy is the largest difference between
-/// any two, and not better than `least` (> 0), rounded up.
+/// The last of `runs` (at least two; the best one last). Its accuracy is the largest difference between any two, but
+/// at least `least` (> 0), rounded up.
 AgreedValue agreed(std::span<const mp50> runs, double least);
 
 /// x > 0 rounded up to one significant digit: 2.3e-20 gives 3e-20.
 double roundedUp(double x);
 
-/// The digits that the accuracy states, and one more; at most 40 significant ones.
+/// The digits that the accuracy guarantees and one more; at most 40 significant ones.
 std::string decimalText(const mp50& value, double accuracy);
 
 }  // namespace irk

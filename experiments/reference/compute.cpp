@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::string_view kFirstMethod = "radau_iia_16";
 constexpr std::size_t kRuns = 4;
-// Digits of an exact value: the closed forms lose some of their 50.
+// Accuracy of exact values: the closed forms lose some of their 50 digits.
 constexpr double kExact = 1e-38;
 
-// Components and outputs, at each of a task's times.
+// Values of components and outputs, for each of a task's times.
 using Row = std::vector<mp50>;
 using Rows = std::vector<Row>;
 
@@ -74,7 +74,7 @@ Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times,
   return result;
 }
 
-// What the closed form says at each time; NaN where it says nothing.
+// The values of the closed form at each time; NaN where it gives none.
 Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) {
   Rows rows;
   for (const auto& t : times) {
@@ -127,7 +127,7 @@ class Assembly {
   void addValue(std::size_t i, std::size_t j, const mp50& exact) {
     std::array<mp50, kRuns> values;
     for (std::size_t run = 0; run < kRuns; ++run) values[run] = runs_[run].rows[i][j];
-    if (!isfinite(values.back())) return;  // an output without meaning here
+    if (!isfinite(values.back())) return;  // the output is not defined here
     const auto at = static_cast<Index>(j);
     const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
     const double size = std::max(std::abs(static_cast<double>(values.back())), scale);
@@ -140,7 +140,7 @@ class Assembly {
     computed_.values.push_back(std::move(value));
   }
 
-  // By the exact value, or by none if the integrations contradict it.
+  // Replaces the value by the exact one, or removes it if the integrations contradict it.
   void replace(ReferenceValue& value, const mp50& exact, double size) {
     const auto error = static_cast<double>(mp50(abs(exact - value.value)));
     if (error > value.accuracy) {
@@ -182,7 +182,7 @@ std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
                                   const ReferenceWatch& watch) {
   std::vector<Integrated> runs(kRuns * tasks.size());
   std::mutex mutex;
-  // The last runs of a task have the finer tolerance: the longest first.
+  // The last runs of a task have the finer tolerance and take longest: start with them.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(watch.jobs)
   for (std::size_t turn = 0; turn < runs.size(); ++turn) {
     const std::size_t i = runs.size() - 1 - turn, task = i / kRuns;

@@ -1,4 +1,4 @@
-// A task's values: four integrations, and what they agree on.
+// Computes the reference values of a task from four integrations.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace irk {
 
-/// A number that belongs to a scene with its settings, a time and a component or output.
+/// A value of one component or output, for a scene with its settings and a time.
 struct ReferenceValue {
   std::string scene, settings;  ///< settings as `settingsText`, without defaults
   std::string t;                ///< decimal
@@ -19,32 +19,32 @@ struct ReferenceValue {
   double accuracy = 0;  ///< absolute
   std::string source;
 
-  /// Names the place in messages: `slider_crank torque_off_at=0.5, theta at t = 1`.
+  /// The value's place for messages: `slider_crank torque_off_at=0.5, theta at t = 1`.
   std::string place() const;
 };
 
-/// Whether they are about the same number; times compare as numbers.
+/// Whether both are about the same number; times are compared by value.
 bool samePlace(const ReferenceValue& a, const ReferenceValue& b);
 
 struct ComputedTask {
   std::vector<ReferenceValue> values;  ///< by time, then in the order of components and outputs
-  /// Failed runs (then there are no values), exact solutions that the integration contradicts.
+  /// Failed runs (then there are no values), and exact solutions that the integrations contradict.
   std::vector<std::string> problems;
 };
 
-/// Who watches the computation, and how it is spread over threads.
+/// Progress, threads and stop flag of a computation.
 struct ReferenceWatch {
   int jobs = 1;  ///< threads, > 0
   const std::atomic<bool>* stop = nullptr;
   Progress* progress = nullptr;
 };
 
-/// Announces a task's runs.
+/// Announces a task's runs to `progress`.
 void expectRuns(const ReferenceTask& task, Progress& progress);
 
-/// For each task the values at its `times` (decimal, ascending, from the scene's start on).
-/// Exact ones where the scene knows them, if the integrations agree with them; else what the four
-/// integrations agree on. A stopped computation ends in problems.
+/// For each task the values at its `times` (decimal, ascending, from the scene's start on): exact ones if the scene
+/// knows them and the integrations agree with them, else the digits on which the four integrations agree. A
+/// computation that is stopped reports problems.
 std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
                                   const std::vector<std::vector<std::string>>& times,
                                   const ReferenceWatch& watch);

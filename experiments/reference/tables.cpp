@@ -16,11 +16,11 @@ const std::vector<std::string> kColumns = {"scene", "settings", "t",     "compon
                                            "value", "accuracy", "source"};
 
 mp50 parseDecimal(const std::string& place, const std::string& text) {
-  parseNumber(place, text, kAnyNumber);  // its messages and its idea of a number
+  parseNumber(place, text, kAnyNumber);  // refuses text that is no number, with its message
   return mp50(text);
 }
 
-// Runs know their times as doubles.
+// Runs have double times, so a time must be a double.
 void requireTime(const std::string& place, const std::string& text) {
   const mp50 t = parseDecimal(place, text);
   if (t != decimalNumber<mp50>(static_cast<double>(t))) {
@@ -28,7 +28,7 @@ void requireTime(const std::string& place, const std::string& text) {
   }
 }
 
-// Settings as `settingsText` writes them, defaults left out.
+// The settings as `settingsText` writes them, without defaults.
 std::string canonicalSettings(const std::string& scene, const std::string& text) {
   RunSpec spec;
   findField("scene").set(spec, scene);

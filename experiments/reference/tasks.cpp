@@ -29,8 +29,8 @@ RunSpec referenceSpec(const ReferenceTask& task, std::string_view method, Finene
     options.solver = StageSolverKind::kCoupledDense;
   }
   options.jacobian_point = JacobianPoint::kMiddle;
-  // Thirty digits take a linearly converging iteration many steps. Its error stays four digits
-  // below the tolerance; the default would go down to round-off with this many stages.
+  // A linearly converging iteration needs many steps for thirty digits. Its error may stay four digits below the
+  // tolerance; by default, with this many stages, Newton would iterate to round-off.
   options.newton.max_iterations = 100;
   options.newton.kappa = 1e-4;
   options.newton.residual_tolerance = 1e-35;

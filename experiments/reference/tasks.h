@@ -1,4 +1,4 @@
-// What `irk reference` integrates, and how.
+// The integrations of `irk reference`.
 #pragma once
 
 #include <string>
@@ -9,24 +9,24 @@
 
 namespace irk {
 
-/// One scene with one set of parameters. Every task is integrated by two methods with two
-/// tolerances each, in 50 digits, its switches located.
+/// One scene with one set of parameters. Every task is integrated in 50 digits with switches located, by two methods
+/// with two tolerances each.
 struct ReferenceTask {
   std::string scene;
   ReferenceCase of = {};
   Formulation formulation = Formulation::kIndex2;
-  std::string_view second = "lobatto_iiic_16";  ///< beside radau_iia_16
+  std::string_view second = "lobatto_iiic_16";  ///< the other method is radau_iia_16
 };
 
-/// The finer tolerance over the coarser one.
+/// Ratio of the finer tolerance to the coarser one.
 inline constexpr double kFiner = 1e-3;
 
-/// The reference cases of all scenes, those of a scene one after the other.
+/// The reference cases of all scenes, grouped by scene.
 std::vector<ReferenceTask> referenceTasks();
 
 enum class Fineness { kCoarse, kFine };
 
-/// The run with `method` and one of the two tolerances (or steps), to the scene's end.
+/// The run with `method` and one of the two tolerances (or steps), up to the scene's end.
 RunSpec referenceSpec(const ReferenceTask& task, std::string_view method, Fineness fineness);
 
 }  // namespace irk
