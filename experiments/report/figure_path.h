@@ -1,4 +1,4 @@
-// Paths that become part of gnuplot's commands.
+// Checks paths that become part of gnuplot commands.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace irk {
 
-/// Throws Misuse, naming `option`, for a path with quotes, backslashes, dollar signs or control characters: gnuplot and
-/// the shell inside its scripts would read it as something else.
+/// Throws Misuse, naming `option`, for a path with quotes, backslashes, dollar signs or control characters: gnuplot,
+/// or the shell that its scripts call, would interpret them.
 void requirePlainPath(std::string_view option, const std::string& path);
 
-/// The figure's path without .svg or .png. Throws Misuse, naming `option`, where it names no file or its folder
-/// does not exist.
+/// The figure's path without .svg or .png. Throws Misuse, naming `option`, if it has no file name or its folder does
+/// not exist.
 std::filesystem::path figurePath(std::string_view option, const std::string& path);
 
 }  // namespace irk

@@ -8,13 +8,13 @@
 
 namespace irk {
 
-/// Orders with their verdicts; rows carry the verdict as class.
+/// The table of orders with verdicts; each row has its verdict as HTML class.
 std::string ordersHtml(const std::string& study, const Table& orders);
 
-/// Properties of the families: tableaus.csv.
+/// The table of the families' properties: tableaus.csv.
 std::string tableausHtml(const Table& tableaus);
 
-/// The head of a table of runs, and how its runs ended.
+/// The head of a table of runs, and counts of the runs' outcomes.
 std::string environmentHtml(const std::string& study, const Table& runs);
 
 }  // namespace irk

@@ -33,7 +33,7 @@
 namespace irk {
 namespace {
 
-// Results that are no study's runs, see experiments/analyses/tableau_table.h.
+// A folder of results that does not belong to a study, see experiments/analyses/tableau_table.h.
 constexpr std::string_view kTableaus = "tableaus";
 
 std::filesystem::path figureFolder(const ReportOptions& options) {
@@ -52,7 +52,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return parts;
 }
 
-// What gnuplot has to say, but for curves of which a panel has no row: that is no fault.
+// Forwards gnuplot's messages, except those about curves without points: a panel may lack rows.
 void forwardMessages(std::FILE* file, std::ostream& err) {
   std::rewind(file);
   for (char line[4096]; std::fgets(line, sizeof line, file);) {
@@ -61,7 +61,7 @@ void forwardMessages(std::FILE* file, std::ostream& err) {
   }
 }
 
-// The exit status of `gnuplot -e commands script`, or -1 with errno if it cannot be started.
+// Returns the exit status of `gnuplot -e commands script`, or -1 with errno if it cannot be started.
 int runGnuplot(const std::string& commands, const std::string& script, std::ostream& err) {
   std::string words[] = {"gnuplot", "-e", commands, script};
   char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
@@ -89,7 +89,7 @@ std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) 
                      (figureFolder(options) / figure.name).string(), figure.assignments);
 }
 
-// Inside double quotes.
+// For use inside double quotes of the shell.
 std::string shellQuoted(std::string_view text) {
   std::string quoted;
   for (const char c : text) {
@@ -117,7 +117,7 @@ std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
   return studies;
 }
 
-// `study` has figures and results; without a study: any has results.
+// Requires that `study` has figures and results; with an empty `study`, that any study has results.
 void requireResults(const std::string& study, const std::vector<Figure>& figures,
                     const ReportOptions& options) {
   const auto studies = studiesOf(figures);
@@ -142,7 +142,7 @@ std::string studyTitle(const std::string& id) {
   if (id == kTableaus) return "Tableaus: stability, order stars, conditioning";
   try {
     return loadStudy(id, StudyVariant::kQuick).title;
-  } catch (const Misuse&) {  // not built in: its figures stand in a list of the user's own
+  } catch (const Misuse&) {  // not built in: figures of a study of the user's own
     return id;
   }
 }
@@ -157,7 +157,7 @@ std::string figureHtml(const Figure& figure, const ReportOptions& options) {
       figure.name, escapeHtml(figure.title), escapeHtml(figure.caption), escapeHtml(command));
 }
 
-// Under the title of their study; a study without figures has no heading.
+// The figures, each study's under its title; a study without figures gets no heading.
 std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions& options) {
   std::string html;
   for (const auto& study : studiesOf(figures)) {

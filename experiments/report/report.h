@@ -1,4 +1,4 @@
-// Figures and the report page. Reads tables only; gnuplot draws.
+// Figures and the report page, made from tables only; gnuplot draws the figures.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@ struct Figure {
   std::string study, script, name, title, caption, assignments;
 };
 
-/// Throws Misuse where there is no such folder.
+/// Throws Misuse if the folder does not exist.
 void requireResultsFolder(const std::filesystem::path& results);
 
-/// Throws Misuse with file and line for a line of another form.
+/// Throws Misuse with file and line for a line of any other form.
 std::vector<Figure> readFigures(const std::filesystem::path& file);
 
 struct ReportOptions {
@@ -24,14 +24,14 @@ struct ReportOptions {
   std::filesystem::path home;  ///< the folder with plots/
 };
 
-/// `gnuplot -e commands plots/<script>`; false, with a message on `err`, if that fails.
+/// Runs `gnuplot -e commands plots/<script>`. Returns false, with a message on `err`, if that fails.
 bool drawFigure(const std::string& script, const std::string& commands,
                 const std::filesystem::path& home, std::ostream& err);
 
-/// Draws results/report/figures/<name>.svg and .png for every figure whose study has results;
-/// `study` empty: for all studies. Returns the number of figures that failed, and of studies whose figures lack times
-/// as they are of several processors, each with a message on `err`. Throws Misuse for a study without figures and for
-/// results that are no folder, Failure where nothing that is asked for has results.
+/// Draws results/report/figures/<name>.svg and .png for every figure whose study has results; an empty `study` means
+/// all studies. Returns the number of figures that failed plus the number of studies whose figures lack times because
+/// these come from several processors; each has a message on `err`. Throws Misuse for a study without figures and if
+/// the results are not a folder; Failure if no requested study has results.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
 /// Writes results/report/index.html from plots/report.html and returns its path.
