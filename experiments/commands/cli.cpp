@@ -17,7 +17,7 @@ namespace {
 
 using Action = std::function<int(Streams)>;
 
-// No option and no argument has an empty value; CLI11 would take `--method= x` as `--method x`.
+// Refuses empty values, which no option and no argument has: CLI11 would read `--method= x` as `--method x`.
 void refuseEmpty(const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
@@ -41,7 +41,7 @@ int integer(std::string_view name, std::string_view text, const Range& range) {
   return static_cast<int>(parseInteger(name, text, range));
 }
 
-/// The verbs, their options and what each one does when it is chosen.
+/// The verbs, their options and the function that each verb calls.
 class Program {
  public:
   Program() : app_("Benchmark suite for implicit Runge-Kutta schemes of any order", "irk") {
@@ -63,7 +63,7 @@ class Program {
     requireKnownVerb(app_, arguments, 0);
     requireKnownOption(arguments);
     const std::string help = helpOf(arguments);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 wants them reversed
     try {
       app_.parse(arguments);
     } catch (const CLI::ParseError& error) {
@@ -74,7 +74,8 @@ class Program {
   }
 
  private:
-  // Argument i is one of the parent's verbs, where it has some; so is the next one, of that verb.
+  // Throws Misuse if argument i is not one of the parent's verbs, then checks the next argument with that verb's own
+  // ones.
   static void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments,
                                std::size_t i) {
     const auto verbs = parent.get_subcommands({});
@@ -87,7 +88,7 @@ class Program {
     throw Misuse(unknownName("verb", arguments[i], known));
   }
 
-  // Before a verb; behind it CLI11 names what it does not know.
+  // Checks options before the verb; behind it CLI11 names unknown options.
   static void requireKnownOption(const std::vector<std::string>& arguments) {
     const std::vector<std::string> known{"--help", "-h", "--version"};
     if (arguments.empty() || !arguments.front().starts_with('-')) return;
@@ -133,7 +134,7 @@ class Program {
   void addQuick(CLI::App& sub) {
     sub.add_flag("--quick", quick_, "The small variant of each study, in RESULTS/quick.");
   }
-  // Full and quick results are trees of their own.
+  // Full and quick results are kept in separate trees.
   std::string results() const { return quick_ ? results_ + "/quick" : results_; }
   StudyVariant variant() const { return quick_ ? StudyVariant::kQuick : StudyVariant::kFull; }
 

@@ -8,9 +8,9 @@
 
 namespace irk {
 
-/// Runs `irk arguments...`. Returns the exit status: 0 done; kFailedStatus; kMisuseStatus with one line
-/// `irk: what, where, what is allowed` on `err`; kInterruptedStatus. Throws nothing. Output that cannot be written is
-/// a failure.
+/// Runs `irk arguments...` and returns the exit status: 0 for success; kFailedStatus, also if output cannot be
+/// written; kMisuseStatus with one line `irk: what, where, what is allowed` on `err`; kInterruptedStatus. Never
+/// throws.
 int runProgram(const std::vector<std::string>& arguments, Streams streams);
 
 }  // namespace irk

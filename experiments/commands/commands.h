@@ -1,5 +1,5 @@
-// The verbs of the program. Each returns the exit status: 0 done, 1 failed, 130 interrupted; misuse
-// is thrown.
+// The verbs of the program. Each returns the exit status, 0 for success, 1 for failure, 130 for an interrupt, and
+// throws on misuse.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace irk {
 
 struct SolveOptions {
   std::string scene;
-  /// Spec fields by name, as given.
+  /// Fields of the spec by name, as the user gave them.
   std::vector<std::pair<std::string, std::string>> fields;
   std::vector<std::string> settings;  ///< name=value
   std::string step, tol;              ///< empty: not given
@@ -24,10 +24,10 @@ struct SolveOptions {
 };
 int solveCommand(const SolveOptions& options, Streams streams);
 
-/// The spec behind the options. Throws Misuse.
+/// The spec that the options describe. Throws Misuse.
 RunSpec solveSpec(const SolveOptions& options);
 
-/// The one JSON object of `irk solve --json`.
+/// The JSON object that `irk solve --json` prints.
 std::string solveJson(const RunRecord& record);
 
 struct RunOptions {
@@ -37,7 +37,7 @@ struct RunOptions {
 };
 int runCommand(const RunOptions& options, Streams streams);
 
-/// `run` for every study of the paper, then figures and report. `options.study` is not used.
+/// Runs every study of the paper, then draws figures and report. Ignores `options.study`.
 int paperCommand(const RunOptions& options, Streams streams);
 
 /// `what`: scenes, methods, studies, strategies, numbers, or empty for all. Throws Misuse.
@@ -50,24 +50,24 @@ struct ReferenceOptions {
   std::string out;                  ///< folder of the files; empty: that of the sources, see into_sources
   bool into_sources = false;        ///< write there; checking needs no permission
 };
-/// Computes references. 1: a run failed, an exact solution is contradicted, or (check) a file does
-/// not say what was computed.
+/// Computes references. Returns 1 if a run failed, an exact solution is contradicted, or (check) a file differs from
+/// the computed values.
 int referenceCommand(const ReferenceOptions& options, Streams streams);
 
 int tableauShow(const std::string& id_or_file, int digits, Streams streams);
 int tableauCheck(const std::string& id_or_file, Streams streams);
 int tableauExport(const std::string& id_or_file, Streams streams);
-/// `out`.csv, .svg and .png: regions of stability and order stars of the methods, ids or files.
+/// Writes `out`.csv, .svg and .png: stability regions and order stars of the methods, which are ids or files.
 int tableauPlot(const std::vector<std::string>& methods, const std::string& out, Streams streams);
-/// results/tableaus/: the families up to 20 stages.
+/// Writes results/tableaus/: the families' members up to 20 stages.
 int tableauTable(const std::string& results, Streams streams);
 
 int plotCommand(const std::string& study, const std::string& results, Streams streams);
 int reportCommand(const std::string& results, Streams streams);
-/// The paper's claims and what the results say about them.
+/// Prints the paper's claims and whether the results confirm them.
 int claimsCommand(const std::string& results, Streams streams);
 
-/// How far a study is. Always 0.
+/// Prints the progress of a study. Always returns 0.
 int statusCommand(const RunOptions& options, Streams streams);
 
 struct SlurmOptions {
@@ -88,14 +88,14 @@ struct MergeOptions {
   bool partial = false;  ///< merge although runs are missing or conflict
   store::StoreOptions store;
 };
-/// 1: something is missing or conflicts, and `partial` is not set; then nothing is written.
+/// Returns 1 and writes nothing if runs are missing or conflict and `partial` is not set.
 int mergeCommand(MergeOptions options, Streams streams);
 
 struct CompareOptions {
   std::string first, second;  ///< folders of a study, or of results
   std::string errors = "2", times = "5%", alpha = "0.05", counters = "0%";
 };
-/// 0: no difference beyond noise; 1: there are some.
+/// Returns 0 if there is no difference beyond noise, else 1.
 int compareCommand(const CompareOptions& options, Streams streams);
 
 }  // namespace irk

@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-// `5%` as 0.05.
+// Reads `5%` as 0.05.
 double percentage(std::string_view name, const std::string& text) {
   constexpr Range kPercent = Range::from(0).to(1000);
   if (!text.ends_with('%')) {

@@ -18,7 +18,7 @@ namespace {
 
 std::filesystem::path referenceFolder() { return homeFolder() / "problems" / "reference"; }
 
-// Values of other programs and of other authors' tables.
+// Values computed by other programs or published in tables of other authors.
 std::vector<ReferenceValue> independentValues() {
   const auto file = referenceFolder() / "independent.csv";
   return referenceValues(file.string(), readTable(file));
@@ -33,7 +33,7 @@ std::vector<std::string> scenesWanted(const std::vector<std::string>& given) {
   return scenes;
 }
 
-// The task's own times, those of independent values, and the scene's end.
+// The times of the task, those of independent values, and the scene's end.
 std::vector<std::string> timesOf(const ReferenceTask& task,
                                  const std::vector<ReferenceValue>& independent) {
   const RunSpec spec = referenceSpec(task, "", Fineness::kFine);
@@ -51,7 +51,7 @@ std::vector<std::string> timesOf(const ReferenceTask& task,
   return times;
 }
 
-/// The tasks of one scene and what came out of them.
+/// The tasks of one scene and their results.
 struct SceneReferences {
   std::string scene;
   std::vector<ReferenceValue> values;
@@ -99,7 +99,7 @@ void printSummary(const SceneReferences& references, std::ostream& out) {
   for (const auto& value : references.values) {
     const double size = std::abs(static_cast<double>(value.value));
     const double relative = value.accuracy / size;
-    if (size < value.accuracy || relative <= worst) continue;  // zero has no digits
+    if (size < value.accuracy || relative <= worst) continue;  // a zero has no digits
     worst = relative;
     least = &value;
   }
@@ -116,7 +116,7 @@ void printSummary(const SceneReferences& references, std::ostream& out) {
   out << std::flush;
 }
 
-// Returns the number of differences between a file and what was computed.
+// Returns the number of differences between a file and the computed values.
 std::size_t check(const SceneReferences& references, const std::filesystem::path& file,
                   std::ostream& out) {
   std::vector<ReferenceValue> stated;

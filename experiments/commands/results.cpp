@@ -30,8 +30,8 @@ Stores openAll(const MergeOptions& options, std::ostream& err) {
   return stores;
 }
 
-// The one study that all rows name. Throws Misuse for none, with the first of the notes about what could not be read, and
-// for two.
+// The one study that all rows name. Throws Misuse if they name none (with the first note about unreadable files) or
+// two.
 std::string studyOf(const Stores& stores, const std::string& notes) {
   const auto studies = store::studiesIn(stores);
   if (studies.empty()) {
@@ -46,7 +46,7 @@ std::string studyOf(const Stores& stores, const std::string& notes) {
   return studies.begin()->first;
 }
 
-// n of a folder `shard_<i>_of_<n>`; 0 of another one.
+// The number n in a folder name `shard_<i>_of_<n>`; 0 for other names.
 std::size_t shardsOf(std::filesystem::path folder) {
   if (!folder.has_filename()) folder = folder.parent_path();
   const auto name = folder.filename().string();
@@ -57,7 +57,7 @@ std::size_t shardsOf(std::filesystem::path folder) {
   return shards;
 }
 
-// The commands that make what is missing.
+// The commands that make the missing runs.
 std::string commandsOf(const MergeOptions& options, const Study& made, const store::MergeReport& report) {
   const std::string& study = options.study;
   std::string results = options.results;

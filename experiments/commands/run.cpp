@@ -22,7 +22,7 @@
 namespace irk {
 namespace {
 
-// In the order in which a reader wants them: what is computed, whether it is right, what it costs.
+// Ordered for the reader: first the solutions, then their correctness, then their cost.
 constexpr std::string_view kPaperStudies[] = {"scenes",
                                               "audit",
                                               "order",
@@ -62,7 +62,7 @@ void printSummary(const Study& study, const store::Store& store, const std::vect
   out << '\n';
 }
 
-// Empty, or what all runs were refused for: a study that cannot work.
+// If all runs were refused, the reason for the first one: such a study cannot work. Else empty.
 std::string allRefused(const std::string& study, const store::Store& store, const std::vector<std::uint64_t>& keys) {
   std::size_t runs = 0;
   const store::Entry* first = nullptr;
@@ -79,20 +79,20 @@ std::string allRefused(const std::string& study, const store::Store& store, cons
                      textAt(columns, store.runs().row(*first), "detail"));
 }
 
-// A table of all runs takes some kilobytes of memory for each.
+// Whether a table of all runs is needed; it takes some kilobytes of memory per run.
 bool needsTable(const Study& study) {
   return !study.analyses.empty() || study.audit || study.timing.wanted;
 }
 
-// A rank other than the first: its part of the runs, without a word; the first one joins and tells.
+// Makes this rank's part of the runs and prints nothing; for ranks other than 0, which merges and reports.
 void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
   std::ostream silent(nullptr);
-  ranks.meet();  // the first one has the lock
+  ranks.meet();  // rank 0 holds the lock
   store::Store store(studyFolder(study, options), study.id, store::Use::kJoin, options.store, silent);
   makeRuns(study, options, store, ranks, silent);
 }
 
-// The store after the runs of all ranks.
+// Makes the runs on all ranks, then reads the store again.
 std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ranks,
                                        std::optional<store::Store>& store, std::ostream& err) {
   const auto open = [&] {
@@ -104,7 +104,7 @@ std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& 
   if (ranks.count() > 1) fmt::print(err, "{}: {} ranks; what another one gets counts as done\n", study.id, ranks.count());
   const auto keys = makeRuns(study, options, *store, ranks, err);
   ranks.meet();
-  if (ranks.count() > 1) open();  // with what the others have added
+  if (ranks.count() > 1) open();  // includes the rows of the other ranks
   store->nameBlocks(blocksOf(study, runKeys(study, options)));
   store->exportTables(keys);
   return keys;
@@ -185,7 +185,7 @@ int paperCommand(const RunOptions& options, Streams streams) {
   if (alone->count() > 1) throw Misuse("paper under mpirun: its ranks share the runs of one study, irk run STUDY");
   const InterruptScope interrupts;
   tableauTable(options.runner.results.string(), streams);
-  int worst = 0;  // a study that fails does not keep the others from being run
+  int worst = 0;  // continue with the other studies if one fails
   for (const auto id : kPaperStudies) {
     const int status = runOne(loadStudy(id, options.variant), options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;

@@ -29,8 +29,8 @@ bool given(const SolveOptions& options, std::string_view field) {
 void applyStep(const SolveOptions& options, RunSpec& spec) {
   if (options.step.empty()) return;
   auto& step = spec.options.step;
-  findField("h").set(spec, options.step);
-  if (findPeer(spec.method)) return;  // its first step
+  step.h = parseNumber("step", options.step, kPositive);
+  if (findPeer(spec.method)) return;  // a peer chooses its own first step
   if (!given(options, "control")) step.control = StepControl::kFixed;
   if (step.control != StepControl::kFixed) return;
   if (!given(options, "estimate")) step.estimate = ErrorEstimate::kNone;
@@ -84,7 +84,7 @@ void printRecord(std::ostream& out, const RunRecord& record,
   fmt::print(out, "{:<22} {:.3g}\n", "cpu_s", record.cpu_s);
 }
 
-/// A new folder below the system's temporary one, removed with what is in it.
+/// A new folder inside the system's temporary one; the destructor removes it with its contents.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -104,7 +104,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-// Runs with the solution recorded in a temporary folder, and draws it.
+// Records the solution in a temporary folder and draws it.
 RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot,
                        std::ostream& err, bool& drawn) {
   const auto home = homeFolder();
@@ -146,7 +146,7 @@ RunSpec solveSpec(const SolveOptions& options) {
       if ((field == "configuration") == configuration) findField(field).set(spec, value);
     }
   };
-  set(true);  // other fields override what it sets
+  set(true);  // first: other fields override it
   set(false);
   applyStep(options, spec);
   spec = resolved(spec);

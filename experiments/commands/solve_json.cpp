@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers as numbers (NaN becomes null), of multiprecision runs as text with all digits.
+// Values as JSON numbers (null for NaN); for multiprecision runs as text with all digits.
 Json numbers(const RunRecord& record, const Vec<double>& values, std::size_t& place) {
   Json list = Json::array();
   for (const double value : values) {
@@ -29,7 +29,7 @@ Json settingsObject(const Settings& settings) {
   return object;
 }
 
-// Numbers as numbers, axes and texts as text.
+// Fields with numbers as JSON numbers, all others as text.
 Json specObject(const RunSpec& spec) {
   Json object = Json::object();
   for (const auto& field : specFields()) {
@@ -47,7 +47,7 @@ Json specObject(const RunSpec& spec) {
   return object;
 }
 
-// Of runs that switch: when and what, and what it cost.
+// For runs with switches: their times and names, and their counters.
 void addSwitches(const RunRecord& record, Json& json) {
   const Counters& c = record.counters;
   if (c.switches == 0 && c.discontinuous_iterations == 0) return;
