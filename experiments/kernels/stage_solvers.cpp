@@ -1,5 +1,5 @@
-// The parts of a step, per scene, stage solver, number of stages and number of unknowns, at the start
-// of the scene: residual, Jacobian, factorization, solve, Newton iteration, a whole step.
+// Times the parts of a step at the start of a scene, per scene, stage solver, number of stages and number of
+// unknowns: residual, Jacobian, factorization, solve, Newton iteration, whole step.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-// Above, one dense factorization takes seconds.
+// Beyond these sizes one dense factorization takes seconds.
 constexpr int kMostDense = 400, kMostCoupledDense = 1500;
 
 RunSpec specOf(const SceneEntry& chain, StageSolverKind solver, Storage storage,

@@ -1,5 +1,5 @@
-// The store of results with 1e4, 1e5 and 1e6 rows: appending, reading all parts again (resume), looking a run up by its
-// key, exporting runs.csv. Bytes of a row on disk, and of memory held for a row, as counters. In a folder of TMPDIR.
+// Times the store with 1e4, 1e5 and 1e6 rows: appending, reading all parts again (resume), finding a run by its key,
+// exporting runs.csv. Counters: bytes per row on disk and in memory. Works in a folder in TMPDIR.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t kFewest = 10'000, kMost = 1'000'000;
 
-/// A folder with n rows, made once for each n and removed at the end.
+/// A folder with n rows, made once for each n; the destructor removes it.
 class Folder {
  public:
   explicit Folder(std::int64_t rows)
@@ -109,7 +109,7 @@ void exportRuns(benchmark::State& state) {
   countRows(state);
 }
 
-// What a run costs before it is known to be finished.
+// The cost of computing a run's key, which is needed to see whether it is finished.
 void key(benchmark::State& state) {
   const RunSpec spec = record().spec;
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(specKey(spec));
