@@ -31,7 +31,7 @@ void requireShape(const Tableau<mp80>& tableau) {
   }
 }
 
-/// Largest |sum - expected|, each relative to the magnitude of its sum's terms.
+/// The largest |sum - expected|, each divided by the magnitude of the sum's terms.
 template <class Sum, class Magnitude, class Expected>
 double residual(const Sum& sum, const Magnitude& magnitude, const Expected& expected) {
   const Vec<mp80> error = (sum - expected).cwiseAbs();
@@ -97,7 +97,7 @@ void analyzeStructure(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
   const Mat<mp80> M = bA + bA.transpose() - b * b.transpose();
   analysis.symplecticity_error = maximum(M);
   analysis.symplectic = analysis.symplecticity_error <= analysis.tolerance;
-  // M is at most rounded to the tolerance and its eigenvalues come from double arithmetic.
+  // Rounding may change M by the tolerance, and its eigenvalues are computed in double precision.
   const double slack =
       std::max(analysis.tolerance, toleranceOfDigits(std::numeric_limits<double>::digits10));
   const Eigen::SelfAdjointEigenSolver<Mat<double>> eigen(M.cast<double>(), Eigen::EigenvaluesOnly);

@@ -57,7 +57,7 @@ void checkRowSums(const Subject& subject, Findings& findings) {
                    row + 1, static_cast<double>(subject.tableau.c[row]), error)});
 }
 
-// B(p) is necessary for order p: quadrature is a differential equation.
+// B(p) is necessary for order p, because quadrature is a special differential equation.
 void checkQuadrature(const Subject& subject, Findings& findings) {
   const auto& [tableau, analysis] = subject;
   const int declared = tableau.order;
@@ -96,7 +96,7 @@ double distance(const Mat<mp80>& x, const Mat<mp80>& y) {
   return static_cast<double>((x - y).cwiseAbs().cwiseQuotient(magnitude).maxCoeff());
 }
 
-// B, C and D alone cannot tell the three Lobatto IIIC-like families apart, the coefficients can.
+// Lobatto IIIC, IIIC* and IIID satisfy the same B, C and D; only their coefficients distinguish them.
 void checkFamilyMember(const Subject& subject, const Family& family, Findings& findings) {
   const auto& tableau = subject.tableau;  // no structured binding: clang 14 captures none
   const auto& analysis = subject.analysis;
@@ -152,8 +152,8 @@ void checkFamily(const Subject& subject, Findings& findings) {
 void checkProof(const Subject& subject, Findings& findings) {
   const auto& [tableau, analysis] = subject;
   const int declared = tableau.order;
-  if (declared > analysis.p) return;  // contradicted, which checkQuadrature says
-  const bool of_family = findFamily(tableau.family) != nullptr;  // whose order theory knows
+  if (declared > analysis.p) return;  // checkQuadrature reports this contradiction
+  const bool of_family = findFamily(tableau.family) != nullptr;  // its order is known from theory
   if (declared > analysis.proven_order) {
     add(findings, Verdict::kUnproven, Place::kOrder, "order",
         fmt::format("order {} is not proven by B, C, D, which reach {}; it may be true", declared,
@@ -174,7 +174,7 @@ std::string residualsText(const Vec<double>& residuals) {
   return text;
 }
 
-// Necessary and sufficient, where B, C, D only suffice; blind beyond the largest trees.
+// Rooted trees give necessary and sufficient conditions (B, C, D only sufficient ones), up to the largest trees.
 void checkTrees(const Subject& subject, Findings& findings) {
   const int declared = subject.tableau.order;
   const auto [order, residuals] = treeConditions(subject.tableau, subject.analysis);
@@ -194,7 +194,7 @@ void checkTrees(const Subject& subject, Findings& findings) {
   }
 }
 
-// In the order of their printing; the first contradiction is the one that a file is refused for.
+// In the order of printing. A file is refused because of its first contradiction.
 constexpr Check kChecks[] = {checkWeights, checkRowSums, checkQuadrature, checkStageOrder,
                              checkFamily,  checkProof,   checkTrees};
 

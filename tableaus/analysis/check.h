@@ -1,4 +1,4 @@
-// Does a tableau keep what it declares?
+// Checks a tableau against its own declarations.
 #pragma once
 
 #include <string>
@@ -14,18 +14,18 @@ namespace tableaus {
 enum class Verdict {
   kHolds,
   kNote,           ///< no contradiction, but worth knowing
-  kUnproven,       ///< declared order beyond what B, C and D prove; it may still be true
-  kContradiction,  ///< the tableau is not what it says
+  kUnproven,       ///< the declared order exceeds what B, C and D prove; it may still be true
+  kContradiction,  ///< the tableau contradicts its declaration
 };
 
-/// The part of a tableau that a finding is about; a file reader turns it into a line.
+/// The part of a tableau that a finding is about; the file reader maps it to a line.
 enum class Place { kFamily, kOrder, kStageOrder, kRow, kWeights };
 
 struct Finding {
   Verdict verdict;
   Place place;
   Index row;         ///< of A, for Place::kRow
-  std::string name;  ///< "sum of b", "row sums", "B", "C", "family", "order", "trees"
+  std::string name;  ///< short name of the check: "sum of b", "row sums", "B", "C", "family", "order", "trees"
   std::string text;  ///< a sentence with the numbers
 };
 
@@ -35,12 +35,13 @@ struct TableauReport {
   std::string id;
   TableauAnalysis analysis;
   std::vector<tableaus::Finding> findings;
-  bool ok;           ///< no contradiction
-  std::string text;  ///< all of it, for printing
+  bool ok;           ///< whether there is no contradiction
+  std::string text;  ///< all findings, for printing
 };
 
-/// Checks sum b = 1, row sums (unless stage order 0 is declared), B(p), C(q), the family's numbers
-/// and coefficients if it is one of the suite's, whether B, C, D prove the order, and which one the
+/// Checks sum b = 1, row sums (unless stage order 0 is declared), B(p), C(q), orders and coefficients of a family of
+/// the suite, whether B, C, D prove the order, and the order by rooted trees. Real: double, mp50, mp80. Throws Misuse
+/// as analyzeTableau.
 /// rooted trees give. Real: double, mp50, mp80. Throws Misuse as analyzeTableau.
 template <class Real>
 TableauReport checkTableau(const Tableau<Real>& tableau,

@@ -41,8 +41,8 @@ NodesAndWeights nodesAndWeights(const Tableau<mp80>& tableau, double tolerance) 
   return result;
 }
 
-/// Looks for the permutation of the stages that makes a method its own adjoint, stage by stage;
-/// only equal nodes leave a choice.
+/// Searches stage by stage for the permutation of the stages that makes a method its own adjoint. There is a choice
+/// only between equal nodes.
 class SymmetrySearch {
  public:
   SymmetrySearch(const Tableau<mp80>& tableau, double tolerance)

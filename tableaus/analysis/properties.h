@@ -1,5 +1,4 @@
-// What a tableau is, whatever it declares: its structure, stability and conditioning, and the
-// sentences that say so.
+// Structure, stability and conditioning of a tableau, regardless of what it declares, as values and as text.
 #pragma once
 
 #include <string>
@@ -14,7 +13,7 @@ namespace irk {
 enum class StageKind {
   kExplicit,            ///< A strictly lower triangular
   kSinglyDiagonal,      ///< lower triangular, one value on the diagonal: SDIRK
-  kSinglyDiagonalRest,  ///< the same but for an explicit first stage: ESDIRK
+  kSinglyDiagonalRest,  ///< the same with an explicit first stage: ESDIRK
   kDiagonal,            ///< lower triangular: DIRK
   kFull,
 };
@@ -34,18 +33,17 @@ struct TableauProperties {
   TableauAnalysis analysis;
   StageKind kind;
   NodesAndWeights quadrature;
-  /// Equal to its adjoint, with a permutation of the stages: c_i + c_i' = 1, b_i = b_i', a_i'j' +
-  /// a_ij = b_j. Geometric Numerical Integration (Hairer, Lubich, Wanner), V.2.
+  /// Equal to its adjoint for a permutation of the stages: c_i + c_i' = 1, b_i = b_i', a_i'j' + a_ij = b_j. GNI, V.2.
   bool symmetric;
   StabilityFunction R;
   Stability stability;
   Spectrum spectrum;  ///< of A
 };
 
-/// The time grows with s^3: a second at 40 stages.
+/// The time of the analysis grows with s^3 and is a second at 40 stages.
 inline constexpr Index kMostAnalyzedStages = 40;
 
-/// In 80 digits. Throws Misuse as analyzeTableau, and for more stages than kMostAnalyzedStages.
+/// Computed in 80 digits. Throws Misuse as analyzeTableau, and for more than kMostAnalyzedStages stages.
 TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double tolerance);
 
 /// One indented line per property.

@@ -7,9 +7,9 @@
 namespace irk {
 namespace {
 
-constexpr int kTimeLeaf = 1;  // its place in the list
+constexpr int kTimeLeaf = 1;  // index in the list
 
-/// Appends all trees of one order: every multiset of smaller trees, written descending, once.
+/// Appends all trees of one order: every multiset of smaller trees once, in descending order.
 class Grafting {
  public:
   Grafting(std::vector<RootedTree>& trees, int order)
@@ -18,8 +18,7 @@ class Grafting {
   void run() { graft(order_ - 1, smaller_ - 1, order_); }
 
  private:
-  // `density` is gamma(t) = order(t) gamma(t_1) ... gamma(t_m) of what is grafted so far,
-  // HNW I, II.2, Definition 2.10.
+  // `density` is gamma(t) = order(t) gamma(t_1) ... gamma(t_m) of the trees grafted so far, HW I, Definition II.2.10.
   void graft(int vertices, int largest, double density) {
     if (vertices == 0) {
       trees_.push_back({order_, density, children_});
@@ -44,8 +43,8 @@ class Grafting {
   std::vector<int> children_;
 };
 
-/// Per tree what its parent multiplies by, (A Phi(t))_i, and the same of magnitudes: every subtree
-/// is one matrix-vector product, however often it occurs.
+/// Stores for each tree the factor (A Phi(t))_i that a parent multiplies by, and the same for magnitudes: each
+/// subtree costs one matrix-vector product, however often it occurs.
 class Weights {
  public:
   explicit Weights(const Tableau<mp80>& tableau)
@@ -58,7 +57,7 @@ class Weights {
     grafted_abs_.push_back(tableau_.c.cwiseAbs().cast<double>());
   }
 
-  /// The residual of its condition; `is_child` if later trees need it.
+  /// Returns the residual of the tree's condition. `is_child` tells whether later trees contain it.
   double append(const RootedTree& tree, bool is_child) {
     const Index s = tableau_.stages();
     Vec<mp80> phi = Vec<mp80>::Ones(s);
@@ -108,7 +107,7 @@ TreeConditions treeConditions(const Tableau<mp80>& tableau, const TableauAnalysi
     }
     double& worst = conditions.residuals[trees[i].order - 1];
     const double residual = weights.append(trees[i], trees[i].order < max_order);
-    if (!(residual <= worst)) worst = residual;  // also if it is not a number
+    if (!(residual <= worst)) worst = residual;  // also if it is NaN
   }
   while (conditions.order < max_order &&
          conditions.residuals[conditions.order] <= analysis.tolerance) {

@@ -9,11 +9,11 @@
 namespace irk {
 namespace {
 
-constexpr double kLargestCondition = 1e38;  // its square is what 80 digits resolve
+constexpr double kLargestCondition = 1e38;  // 80 digits resolve its square
 
 mp80 magnitude(const mp80& re, const mp80& im) { return sqrt(re * re + im * im); }
 
-/// Of the 2 x 2 block [a b; c d].
+/// Appends the eigenvalues of the 2 x 2 block [a b; c d].
 void appendPair(const mp80& a, const mp80& b, const mp80& c, const mp80& d,
                 std::vector<Eigenvalue>& values) {
   const mp80 centre = (a + d) / 2, half = (a - d) / 2;
@@ -54,8 +54,8 @@ double smallestGap(const std::vector<Eigenvalue>& values) {
   return largest == 0 ? 0 : static_cast<double>(gap / largest);
 }
 
-// A pair p +- i q has the unit eigenvectors (p +- i q) / sqrt(|p|^2 + |q|^2). They are sqrt(2) (p,
-// q), so scaled, times a unitary matrix: a real matrix of the same condition.
+// A pair of eigenvectors p +- i q is normalized to (p +- i q) / sqrt(|p|^2 + |q|^2). Equally scaled, sqrt(2) (p, q)
+// is a real matrix of the same condition, because it differs by a unitary factor.
 Mat<mp80> realUnitEigenvectors(const Eigen::EigenSolver<Mat<mp80>>& eigen) {
   Mat<mp80> V = eigen.pseudoEigenvectors();
   const auto D = eigen.eigenvalues();
@@ -97,7 +97,7 @@ std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending) {
   const mp80 scale = pow(abs(ascending[0] / ascending[n]), mp80(1) / n);
   Mat<mp80> companion = Mat<mp80>::Zero(n, n);
   companion.diagonal(-1).setOnes();
-  mp80 power = 1;  // of the scale
+  mp80 power = 1;  // powers of `scale`
   for (Index k = 0; k < n; ++k, power *= scale) {
     companion(k, n - 1) = -ascending[k] * power;
   }
@@ -111,8 +111,8 @@ Spectrum spectrum(const Mat<mp80>& matrix, double tolerance) {
   const Eigen::EigenSolver<Mat<mp80>> eigen(matrix);
   if (eigen.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not end");
   Spectrum result;
-  // The diagonal of a triangular matrix is exact: the iteration would split the s equal eigenvalues
-  // of an SDIRK method by the s-th root of its rounding.
+  // For a triangular matrix take the diagonal, which is exact. The QR iteration would spread the s equal eigenvalues
+  // of an SDIRK method by the s-th root of its rounding errors.
   const Mat<mp80> above = matrix.triangularView<Eigen::StrictlyUpper>();
   if (above.isZero(0)) {
     for (const mp80& value : matrix.diagonal()) result.values.push_back({value, 0});

@@ -1,4 +1,4 @@
-// Eigenvalues of small real matrices in 80 digits, and how well eigenvectors are conditioned.
+// Eigenvalues of small real matrices in 80 digits, and the condition of their eigenvectors.
 #pragma once
 
 #include <complex>
@@ -9,31 +9,32 @@
 
 namespace irk {
 
-/// re + i im. Pairs stand together, the positive im first.
+/// The number re + i im. The two of a complex pair are neighbours, the one with positive im first.
 struct Eigenvalue {
   mp80 re, im;
 
   std::complex<double> rounded() const;
 };
 
-/// The n eigenvalues of a real n x n matrix, n >= 0. Throws std::runtime_error if the QR iteration
-/// does not end (none is known).
+/// The n eigenvalues of a real n x n matrix, n >= 0. Throws std::runtime_error if the QR iteration does not converge
+/// (no such matrix is known).
 std::vector<Eigenvalue> eigenvalues(const Mat<mp80>& matrix);
 
-/// The real zeros and pairs of zeros of a_0 + a_1 x + ... + a_n x^n, with a_0 and a_n not zero: the
-/// eigenvalues of its companion matrix, x scaled so that |a_0| = |a_n|.
+/// The zeros, real ones and complex pairs, of a_0 + a_1 x + ... + a_n x^n with a_0 and a_n not zero: the eigenvalues
+/// of its companion matrix, with x scaled so that |a_0| = |a_n|.
 std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending);
 
 struct Spectrum {
   std::vector<Eigenvalue> values;
   double gap;  ///< smallest |lambda_i - lambda_j|, over the largest |lambda|; 1 if n = 1
-  /// 2-norm, of the matrix of unit eigenvectors; inf from 1e38 on, where 80 digits cannot tell.
+  /// The condition of the matrix of unit eigenvectors in the 2-norm; inf from 1e38 on, which 80 digits do not
+  /// resolve.
   double eigenvector_condition;
-  bool repeated;   ///< gap <= sqrt(tolerance): rounding splits a double eigenvalue by so much
-  bool defective;  ///< repeated, and its eigenvectors coincide to the same measure
+  bool repeated;   ///< gap <= sqrt(tolerance), the distance by which rounding splits a double eigenvalue
+  bool defective;  ///< repeated, with eigenvectors that coincide within the same limit
 };
 
-/// Of a real n x n matrix, n >= 1, with coefficients right to `tolerance`.
+/// For a real n x n matrix, n >= 1, with coefficients accurate to `tolerance`.
 Spectrum spectrum(const Mat<mp80>& matrix, double tolerance);
 
 }  // namespace irk

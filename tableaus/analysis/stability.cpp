@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAngleAccuracy = 1e-7;  // degrees
 
-/// sum_k value_k x^k, and what rounding its terms may do to it, in units of the tolerance.
+/// The polynomial sum_k value_k x^k, and bounds for rounding errors of its terms, in units of the tolerance.
 struct RayPolynomial {
   Vec<mp80> value, magnitude;
 };
@@ -48,15 +48,15 @@ mp80 evaluate(const Vec<mp80>& polynomial, const mp80& x) {
   return value;
 }
 
-/// Coefficients that are rounding become zero, and so does what rounding may do to them.
+/// Sets coefficients within their rounding error to zero, together with that error.
 void clean(RayPolynomial& F, double tolerance) {
   for (Index k = 0; k < F.value.size(); ++k) {
     if (abs(F.value[k]) <= tolerance * F.magnitude[k]) F.value[k] = F.magnitude[k] = 0;
   }
 }
 
-/// Positive x, ascending, between which the sign of the polynomial can change. Pairs close to the
-/// axis are double zeros that rounding split, or nearly so: one point more does no harm.
+/// Positive x, ascending, at which the polynomial can change its sign. Pairs close to the real axis count, too: they
+/// may be double zeros that rounding has split, and an additional point does no harm.
 std::vector<mp80> positiveZeros(const Vec<mp80>& polynomial) {
   constexpr double kNearAxis = 1e-3;
   Index low = 0, high = polynomial.size() - 1;
@@ -76,7 +76,7 @@ double alphaOf(const StabilityFunction& R, double tolerance) {
   const auto holds = [&](double alpha) {
     return stableRadius(R, -cos(alpha * degree), tolerance) == kInfinity;
   };
-  double unstable = 90;  // or not known to be stable
+  double unstable = 90;  // unstable, or not known to be stable
   for (const auto& pole : R.poles) {
     const double angle = std::abs(std::arg(-pole)) / static_cast<double>(degree);
     unstable = std::min(unstable, angle);

@@ -31,8 +31,8 @@ Mat<mp80> krylovBasis(const Mat<mp80>& A, const Vec<mp80>& x, double tolerance) 
   return Q;
 }
 
-// What the start vector does not reach or the weights do not see cancels in R: common factors of N
-// and D, as those of reducible methods, and zero eigenvalues of A that are no growth at infinity.
+// Reduces A to the subspace that the vector 1 reaches and b observes; the rest cancels in R. This removes common
+// factors of N and D, as reducible methods have them, and zero eigenvalues of A that do not make R grow at infinity.
 Realization minimalRealization(const Tableau<mp80>& tableau, double tolerance) {
   const auto& A = tableau.A;
   const Vec<mp80> ones = Vec<mp80>::Ones(tableau.stages());
@@ -44,14 +44,14 @@ Realization minimalRealization(const Tableau<mp80>& tableau, double tolerance) {
   return {QP.transpose() * A * QP, QP.transpose() * ones, QP.transpose() * tableau.b};
 }
 
-/// prod (1 - z lambda), ascending.
+/// The coefficients of prod (1 - z lambda), ascending.
 Vec<mp80> productOfFactors(const std::vector<Eigenvalue>& values) {
   const auto n = static_cast<Index>(values.size());
   Vec<mp80> product = Vec<mp80>::Zero(n + 1);
   product[0] = 1;
   Index degree = 0;
   for (const auto& [re, im] : values) {
-    if (im < 0) continue;  // comes with its pair
+    if (im < 0) continue;  // included with its conjugate
     const mp80 linear = im == 0 ? -re : -2 * re, quadratic = im == 0 ? 0 : re * re + im * im;
     degree += im == 0 ? 1 : 2;
     for (Index k = degree; k > 0; --k) {
@@ -62,7 +62,7 @@ Vec<mp80> productOfFactors(const std::vector<Eigenvalue>& values) {
   return product;
 }
 
-/// A polynomial with the eigenvalues that it is made of.
+/// A polynomial and the eigenvalues that define it.
 struct Factored {
   Vec<mp80> coefficients;
   std::vector<Eigenvalue> values;
@@ -75,8 +75,8 @@ Factored factored(const Mat<mp80>& matrix) {
   return {productOfFactors(values), values};
 }
 
-// Without common factors at most one of N and D has less than the full degree. What is missing is
-// rounding, compared with the other's coefficient of the same power.
+// Without common factors at most one of N and D has less than full degree. Its missing coefficients are rounding
+// errors, judged relative to the coefficient of the same power in the other polynomial.
 void dropLeadingZeros(Factored& less, const Factored& full, double tolerance) {
   Index n = less.coefficients.size() - 1;
   while (n > 0 && abs(less.coefficients[n]) <= tolerance * abs(full.coefficients[n])) --n;
@@ -90,8 +90,8 @@ std::vector<std::complex<double>> reciprocals(const std::vector<Eigenvalue>& val
   return result;
 }
 
-/// What coefficients right to 1, relative, leave uncertain of b^T A^(q-1) 1, to first order:
-/// sum_j |b^T A^j| |A| |A^(q-2-j) 1|, and |b^T| |A^(q-1) 1| for b.
+/// The uncertainty of b^T A^(q-1) 1, to first order, for coefficients with relative error 1: sum_j |b^T A^j| |A|
+/// |A^(q-2-j) 1|, and |b^T| |A^(q-1) 1| for b.
 class Uncertainty {
  public:
   explicit Uncertainty(const Tableau<mp80>& tableau)
@@ -100,7 +100,7 @@ class Uncertainty {
     b_abs_ = b_abs_.cwiseAbs().eval();
     right_.push_back(Vec<double>::Ones(b_abs_.size()));
   }
-  /// For q = 1, 2, ...
+  /// Returns the uncertainties for q = 1, 2, ... one after the other.
   double next() {
     double sum = b_abs_.dot(right_.back().cwiseAbs());
     for (std::size_t j = 0; j + 1 < right_.size(); ++j) {
@@ -117,9 +117,8 @@ class Uncertainty {
   std::vector<Vec<double>> left_, right_;  ///< A^T^j b and A^j 1
 };
 
-// e^z - R(z) has the coefficients 1/q! - b^T A^(q-1) 1. The smallest that a method of order q - 1
-// is known to have are those of Pade approximations, about 2^-q / q!: where the digits do not reach
-// them, nothing can be said.
+// e^z - R(z) has the coefficients 1/q! - b^T A^(q-1) 1. The smallest known error constants of methods of order q - 1
+// are those of Pade approximations, about 2^-q / q!; if the digits do not resolve these, the order is undecided.
 void findOrder(const Tableau<mp80>& tableau, double tolerance, StabilityFunction& R) {
   const int most = static_cast<int>(2 * tableau.stages()) + 1;
   Uncertainty uncertainty(tableau);
@@ -156,7 +155,7 @@ double StabilityFunction::atInfinity() const {
 
 StabilityFunction stabilityFunction(const Tableau<mp80>& tableau, double tolerance) {
   const auto [A, e, b] = minimalRealization(tableau, tolerance);
-  // Rounding of A and b by `tolerance` changes ratios of determinants by its condition, about s^2.
+  // Rounding A and b by `tolerance` changes a ratio of determinants by tolerance times its condition, about s^2.
   const double negligible = tolerance * static_cast<double>(A.rows() * A.rows());
   Factored D = factored(A), N = factored(A - e * b.transpose());
   const Factored full_D = D;

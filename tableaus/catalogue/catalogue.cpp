@@ -49,7 +49,7 @@ bool looksLikeFile(std::string_view text) {
   return text.find('/') != std::string_view::npos || text.ends_with(".txt");
 }
 
-/// A member of a family, nothing for files and unknown ids.
+/// The member of a family; nullopt for files and unknown ids.
 std::optional<MemberId> memberOf(std::string_view id_or_file) {
   const auto member = splitId(id_or_file);
   const bool known = member && !looksLikeFile(id_or_file) && findFamily(member->family);
@@ -127,13 +127,14 @@ template <class Real>
 Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
   const auto member = memberOf(id);
   if (!member && !isFamily(id)) {
-    static_cast<void>(makeTableau<Real>(id));  // says what is wrong with an id or a file
+    static_cast<void>(makeTableau<Real>(id));  // throws with the reason for an invalid id or file
     throw Misuse(fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
                              "a file is one method; use one of the families",
                              id));
   }
   const Family& family = familyOf(member ? member->family : id);
-  // Their estimate would not see forces that change with time: EmbeddedEstimate.
+  // Members of stage order 0 are left out: their estimate would not see forces that change with time, see
+  // EmbeddedEstimate.
   Index least = family.minStages();
   while (family.orders(least).q < 1) ++least;
   const Index given = member ? stagesOf(id, *member) : least;

@@ -1,5 +1,4 @@
-// The verbs of `irk tableau`: text about a tableau given by id or file. No multiprecision header
-// needed.
+// The texts of `irk tableau` about a tableau given by id or file. Needs no multiprecision header.
 #pragma once
 
 #include <string>
@@ -9,11 +8,11 @@
 
 namespace irk {
 
-/// The tableau as it stands in books, with its orders; 1 <= digits <= 75 significant digits.
+/// The tableau in the layout of textbooks, with its orders; 1 <= digits <= 75 significant digits.
 /// Throws Misuse as makeTableau; also for digits out of range.
 std::string showTableau(std::string_view id_or_file, int digits);
 
-/// A file that contradicts itself is reported, not refused; throws Misuse if it cannot be parsed.
+/// A file that contradicts itself is reported, not refused. Throws Misuse if it cannot be parsed.
 TableauReport checkTableau(std::string_view id_or_file);
 
 /// The text of a tableau file with 50 digits. Throws Misuse as makeTableau.

@@ -1,4 +1,4 @@
-// Where a tableau comes from: an id's construction or a file, in the precision that it was made in.
+// Finds a tableau by id or file, in the precision in which it was constructed or read.
 #pragma once
 
 #include <string_view>
@@ -7,10 +7,10 @@
 
 namespace irk {
 
-/// makeTableau before rounding, with source and digits. Throws Misuse as makeTableau.
+/// As makeTableau, but without rounding and with source and digits. Throws Misuse as makeTableau.
 TableauFile findTableau(std::string_view id_or_file);
 
-/// The same without the check of a file against its own header: for reports about it.
+/// As findTableau, but a file is not checked against its own header: for reports about it.
 TableauFile findUncheckedTableau(std::string_view id_or_file);
 
 }  // namespace irk

@@ -11,7 +11,7 @@
 namespace irk {
 namespace {
 
-// In units of round-off: far above the construction's (1e8 at s = 100), far below any coefficient.
+// In units of round-off: far above the construction's error (1e8 at s = 100), far below any coefficient.
 constexpr double kZeroThreshold = 1e15;
 
 bool hasLeftEnd(Quadrature quadrature) {
@@ -22,7 +22,7 @@ bool hasRightEnd(Quadrature quadrature) {
   return quadrature == Quadrature::kRadauRight || quadrature == Quadrature::kLobatto;
 }
 
-// An end that is a node puts its factor into the weight of the other nodes' polynomial.
+// If an end is a node, its factor belongs to the weight function of the polynomial whose zeros are the other nodes.
 template <class Real>
 Vec<Real> quadratureNodes(Quadrature quadrature, Index s) {
   const int left = hasLeftEnd(quadrature) ? 1 : 0;
@@ -63,7 +63,7 @@ Real cornerSize(Quadrature quadrature, Index s) {
   return Real(1) / (quadrature == Quadrature::kLobatto ? 2 * (s - 1) : 4 * s - 2);
 }
 
-/// X of Hairer & Wanner II, IV.5: integration in the basis W, last row and column by family.
+/// X of HW II, IV.5: integration in the basis W; the last row and column depend on the family.
 template <class Real>
 Mat<Real> integrationMatrix(const Family& family, Index s) {
   Mat<Real> X = Mat<Real>::Zero(s, s);

@@ -1,4 +1,4 @@
-// The eight families: what theory says of each, and one construction for all of them.
+// The eight families: their theoretical orders, and one construction for all of them.
 #pragma once
 
 #include <string>
@@ -15,34 +15,33 @@ struct SimplifyingOrders {
   int p, q, r;
 };
 
-/// Quadrature that a family stands on; the ends 0 and 1 that are nodes distinguish them.
+/// The quadrature of a family. The kinds differ in which of the ends 0 and 1 are nodes.
 enum class Quadrature { kGauss, kRadauLeft, kRadauRight, kLobatto };
 
-/// A family as data: its quadrature and the last row and column of its matrix X.
+/// A family as data: its quadrature, and the last row and column of its matrix X.
 struct Family {
   std::string id, title;
   Quadrature quadrature;
   int p_gap, q_gap, r_gap;  ///< p = 2s - p_gap, q = s - q_gap, r = s - r_gap
-  int above, below;         ///< 1 or 0: X_{s-1,s} and X_{s,s-1} are kept or zero
-  int corner;               ///< -1, 0, 1: sign of what is added at X_ss
+  int above, below;         ///< 1 keeps X_{s-1,s} or X_{s,s-1}, 0 sets it to zero
+  int corner;               ///< -1, 0, 1: sign of the term added to X_ss
 
   Index minStages() const { return quadrature == Quadrature::kLobatto ? 2 : 1; }
   SimplifyingOrders orders(Index s) const;
 };
 
-/// All families in theory's order.
+/// All families, in the order of tableaus/README.md.
 const std::vector<Family>& families();
 
-/// Null if no family has this id.
+/// Returns nullptr if no family has this id.
 const Family* findFamily(std::string_view id);
 
-/// Throws Misuse that names the nearest family.
+/// Throws Misuse for an unknown id, naming the nearest family.
 const Family& familyOf(std::string_view id);
 
-/// The s-stage member; throws Misuse, naming the range, unless minStages() <= s <= kMaxStages.
-/// Hairer & Wanner II, IV.5 in the orthonormal Legendre basis W: A = W X D^-1 W^T diag(b).
-/// All but 20 digits of Real (mp80, mp130) are right at least; coefficients that are zero are exactly
-/// zero.
+/// The s-stage member. Throws Misuse, naming the range, unless minStages() <= s <= kMaxStages. HW II, IV.5 in the
+/// orthonormal Legendre basis W: A = W X D^-1 W^T diag(b). At most the last 20 digits of Real (mp80, mp130) are
+/// wrong; coefficients that are zero are exactly zero.
 template <class Real = mp80>
 Tableau<Real> constructFamily(const Family& family, Index s);
 

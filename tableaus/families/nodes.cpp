@@ -5,7 +5,7 @@
 namespace irk {
 namespace {
 
-// The start values carry 14 digits, near the ends with a constant of about n^2 per Newton step:
+// The start values have 14 digits; near the ends each Newton step squares the error and multiplies it by about n^2:
 // 1e-14, 1e-24, 1e-44, 1e-84, 1e-164.
 constexpr int kNewtonSteps = 5;
 

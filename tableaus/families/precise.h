@@ -1,4 +1,4 @@
-// The precision that coefficients are constructed, read and analysed in.
+// The precision in which coefficients are constructed, read and analysed.
 #pragma once
 
 #include "irk/multiprecision.h"
@@ -13,7 +13,7 @@ using mp80 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<
 using mp130 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<130>,
                                             boost::multiprecision::et_off>;
 
-/// Digits that tableau files are written with and that the suite's own files promise.
+/// The number of digits in tableau files that the program writes, and in the files of tableaus/data.
 inline constexpr int kFileDigits = 50;
 
 }  // namespace irk

@@ -33,7 +33,7 @@ int lineOf(const TableauFile& file, const Finding& finding) {
   return 0;
 }
 
-/// One line per row, columns as wide as their widest number.
+/// One line per row; columns are as wide as their widest number.
 std::string blockText(const Mat<mp80>& block) {
   const auto number = [](const mp80& x) { return x.str(kFileDigits); };
   std::string text;

@@ -1,12 +1,12 @@
-// Tableau files: text that carries coefficients, what they claim to be, and where they came from.
+// Tableau files: text with coefficients, declared properties and the source.
 //
 //   # any comment
-//   family: radau_iia        one of the suite's, or any other name; `user` if left out
+//   family: radau_iia        one of the suite's, or any other name; default `user`
 //   stages: 2
 //   order: 3
-//   stage_order: 2           left out: the family's, or the largest q with C(q)
+//   stage_order: 2           default: the family's, or the largest q with C(q)
 //   source: where the numbers came from
-//   digits: 50               that the coefficients are right to; 15 if left out
+//   digits: 50               accuracy of the coefficients; default 15
 //   A
 //   5/12  -1/12
 //   0.75   0.25
@@ -26,7 +26,7 @@
 
 namespace irk {
 
-/// A file's content; lines count from 1, 0 stands for a key that was left out.
+/// The content of a file. Line numbers count from 1; 0 stands for a missing key.
 struct TableauFile {
   Tableau<mp80> tableau;
   std::string source;
@@ -35,26 +35,24 @@ struct TableauFile {
   std::vector<int> row_lines;  ///< s, of A
 };
 
-/// Reads the text as it is, whether or not the numbers keep what the header says. `name` is used in
-/// messages and as id. Throws Misuse `name:line: reason` for text that is cut short, has wrong
-/// counts, values that are no finite numbers, unknown or repeated keys, or anything after the last
-/// block.
+/// Parses the text without checking the coefficients against the header. `name` is used in messages and as id. Throws
+/// Misuse `name:line: reason` for text that is cut short, wrong counts, values that are no finite numbers, unknown or
+/// repeated keys, and anything after the last block.
 TableauFile parseTableau(std::string_view text, const std::string& name);
 
-/// The file at `path`, parsed; also throws Misuse if it cannot be read.
+/// Parses the file at `path`; also throws Misuse if it cannot be read.
 TableauFile openTableau(const std::string& path);
 
-/// The file at `path`, parsed and checked: throws Misuse `path:line: reason` for the first
-/// contradiction.
+/// Parses and checks the file at `path`: throws Misuse `path:line: reason` for the first contradiction.
 TableauFile readTableau(const std::string& path);
 
-/// Against its own header and digits.
+/// Checks a file's coefficients against its header and digits.
 TableauReport checkTableau(const TableauFile& file);
 
-/// The text of a file. Numbers with kFileDigits significant digits.
+/// The text of a file, with kFileDigits significant digits per number.
 std::string writeTableau(const TableauFile& file);
 
-/// A member of a family as file content, made by the construction.
+/// A member of a family as the content of a file, with constructed coefficients.
 TableauFile constructedFile(std::string_view family, Index s);
 
 }  // namespace irk

@@ -1,4 +1,4 @@
-// The reader's first half: from text to numbers.
+// Parses the text of a tableau file into numbers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace irk {
 namespace {
 
-constexpr int kMinDigits = 15;  // a double's, and what a file has that does not say
-constexpr int kMaxDigits = 75;  // five less than the reader's own arithmetic
+constexpr int kMinDigits = 15;  // as a double has; the default of the key `digits`
+constexpr int kMaxDigits = 75;  // five less than mp80
 constexpr std::size_t kMaxNumberLength = 200;
 
 const std::vector<std::string>& headerKeys() {
@@ -99,7 +99,7 @@ class Parser {
     throw Misuse(fmt::format("{}:{}: {}", name_, line, reason));
   }
 
-  /// Start of the current line, short enough for a message.
+  /// The start of the current line, short enough for a message.
   std::string shown() const {
     constexpr std::size_t kShown = 30;
     const std::string& text = lines_[position_].text;
@@ -178,7 +178,7 @@ class Parser {
     return decimal(word.substr(0, slash), line) / denominator;
   }
 
-  // Three digits of exponent: no value overflows, and none takes long to read.
+  // The exponent has at most three digits: no value overflows, and none takes long to read.
   mp80 decimal(const std::string& word, int line) const {
     static const std::regex form(R"([+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?)");
     if (word.size() > kMaxNumberLength || !std::regex_match(word, form)) {

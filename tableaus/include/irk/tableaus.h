@@ -9,7 +9,7 @@
 
 namespace irk {
 
-/// One family: `id` + "_" + s names its s-stage member.
+/// A family; `id` + "_" + s is the id of its s-stage member.
 struct FamilyEntry {
   std::string id;     ///< gauss, radau_ia, radau_iia, lobatto_iiia, ...
   std::string title;  ///< "Radau IIA"
@@ -17,22 +17,21 @@ struct FamilyEntry {
   std::string order;  ///< "2s-1", for lists
 };
 
-/// All families, sorted as theory.md lists them.
+/// All families, in the order of tableaus/README.md.
 const std::vector<FamilyEntry>& familyCatalogue();
 
-/// `radau_iia_5` or the path of a tableau file. Constructed in multiprecision, rounded once to Real
-/// (double, mp50, mp100). Throws Misuse: unknown family (names the nearest), s out of range, bad file,
-/// a file with fewer digits than Real, any file for mp100.
+/// The tableau `radau_iia_5`, or that of a file given by path; constructed in multiprecision and rounded once to Real
+/// (double, mp50, mp100). Throws Misuse for an unknown family (naming the nearest), s out of range, a bad file, a
+/// file with fewer digits than Real, and for any file with mp100.
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file);
 
-/// Whether it is the id of a family, without a number of stages.
+/// Whether `id` is the id of a family, without a number of stages.
 bool isFamily(std::string_view id);
 
-/// For variable order: the members of a family of stage order 1 at least, up to `max_stages`. Of an id as
-/// `radau_iia_5` that member is
-/// the first used, and in any case there; of a family's id that with the number of stages next to
-/// `first`. Throws Misuse as makeTableau, and for a tableau file.
+/// The methods for variable order: the members of a family with stage order >= 1 and up to `max_stages` stages. For
+/// an id such as `radau_iia_5` that member is used first, and is always included; for a family's id the member whose
+/// number of stages is nearest to `first`. Throws Misuse as makeTableau, and for a tableau file.
 template <class Real>
 Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first);
 
