@@ -1,5 +1,5 @@
-# Can `success` be believed? Shares of runs that are right, honest failures, wrong successes or set aside, as
-# stacked bars, with the number of wrong ones beside each bar.
+# Reliability of `success`: stacked bars with the shares of right runs, honest failures, wrong successes and runs set
+# aside, and the number of wrong ones beside each bar.
 #   gnuplot -e "data='results/audit'; out='audit'" audit.gp
 # Reads audit_summary.csv.
 load system('dirname "'.ARG0.'"')."/style.gp"
@@ -11,11 +11,11 @@ colour(k) = int(word(part_colours, k))
 share(k) = k == 4 ? (column("ill_conditioned") + column("unjudged")) / column("runs") \
                   : column(word(parts, k)) / column("runs")
 below(k) = k == 1 ? 0 : sum [j = 1 : k - 1] share(j)
-# A share that is too small to be seen is drawn as wide as a line.
+# A share too small to be visible is drawn with the width of a line.
 least = 0.006
 upTo(k) = below(k) + (k == 3 && column("wrong") > 0 && share(k) < least ? least : share(k))
 
-# Panels: what is compared, its title, and where it stands (fractions of the figure).
+# Panels: the grouping, its title, and its position (fractions of the figure).
 groupings = "scene configuration treatment family"
 titles = "'by scene' 'by configuration' 'by treatment of switches' 'by family of methods'"
 lefts = "0.035 0.515 0.515 0.515"

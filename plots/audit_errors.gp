@@ -1,7 +1,7 @@
-# What the tolerance is worth: error over tolerance of every judged success, over the tolerance, with the bar
+# Meaning of the tolerance: error divided by tolerance for every judged success, over the tolerance, with the bar
 # above which a success is wrong; one panel per configuration.
 #   gnuplot -e "data='results/audit'; out='audit_errors'" audit_errors.gp
-# Reads audit.csv. Marks are spread about their tolerance, which is a power of ten.
+# Reads audit.csv. Tolerances are powers of ten; marks are spread around them so that they do not overlap.
 load system('dirname "'.ARG0.'"')."/style.gp"
 file = data.'/audit.csv'
 configurations = "default paper embedded variable"
@@ -9,7 +9,7 @@ of(i) = is("configuration", word(configurations, i)) && (is("judgement", 'right'
 undefine N_*
 stats file using (of(1) || of(2) || of(3) || of(4) ? 1 : NaN) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(file) }
-# Errors of exactly zero, and infinite ones, stand at the edges.
+# Errors of exactly zero and infinite errors are drawn at the edges.
 low = 1e-7; high = 1e14
 clipped(r) = r < low ? low : r > high ? high : r
 golden = 0.6180339887
@@ -22,7 +22,7 @@ wrong(promise) = is("judgement", 'wrong') && promised(0) == promise ? ratio(0) :
 bar(t) = (1000 * t + 1e-9) / t
 good = 0x0072B2; bad = 0xC8102E
 
-# Counted before there are axes, which would leave the counts out of range.
+# Count before axes are set, because their ranges would exclude the counts.
 array successes[4]; array wrongs[4]; array broken[4]
 do for [i = 1 : 4] {
   stats file using (of(i) ? 1 : 0) name "A" nooutput

@@ -1,8 +1,9 @@
-# What an error costs at best: the least cost over all numbers of stages, one curve per family (or per value of
-# another column), one panel per scene.
+# The least cost of an error over all numbers of stages: one curve per family (or per value of another column), one
+# panel per scene.
 #   gnuplot -e "data='results/families'; out='families'; cases='block=pendulum block=crank'" best_cost.gp
-# Reads cpu_at_error.csv. Options: cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, quoted if with blanks), by (a column), values
-# (those shown), cost (cpu_s, residuals, ...), titles (quoted words, one per case).
+# Reads cpu_at_error.csv. Options: cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, in quotes if they
+# contain blanks), by (a column), values (the values to show), cost (cpu_s, residuals, ...), titles (quoted words, one
+# per case).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("cases")) cases = ''
 if (!exists("by")) by = 'family'

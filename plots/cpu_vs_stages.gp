@@ -1,9 +1,9 @@
-# CPU time at a fixed error against the number of stages: one line per error, one panel per case.
-# A number of stages that did not reach an error stands above the lines.
+# CPU time at a fixed error against the number of stages: one line per error, one panel per case. A mark above the
+# lines stands for a number of stages that did not reach the error.
 #   gnuplot -e "data='results/cpu_time'; out='cpu'; cases='block=crank block=crank_torque_off'" cpu_vs_stages.gp
-# Reads cpu_at_error.csv. Options: cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, quoted if with blanks,
-# one panel each), family,
-# cost (a column: cpu_s, residuals, newton_iterations), titles (quoted words, one per case).
+# Reads cpu_at_error.csv. Options: cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, in quotes if they
+# contain blanks; one panel each), family, cost (a column: cpu_s, residuals, newton_iterations), titles (quoted words,
+# one per case).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("cases")) cases = ''
 if (!exists("family")) family = 'radau_iia'
@@ -17,7 +17,7 @@ caseTitle(i) = (words(titles) >= i ? word(titles, i).': ' : '') \
 row(case) = isCase(case) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
 reached(case, error) = at(case, error) && !absent(cost) ? column(cost) : outside
-# A line joins neighbours that both reach the error: a vector from the row before to this one.
+# A line joins neighbours that both reach the error; it is drawn as a vector from the previous row to this one.
 from(case, error) = ($0 == 0 ? (this_y = 0) : 0, !at(case, error) ? outside : \
   (last_x = this_x, last_y = this_y, this_x = column("stages"), this_y = absent(cost) ? 0 : column(cost), \
    last_y > 0 && this_y > 0 ? last_x : outside))
@@ -41,7 +41,7 @@ do for [i = 1 : n] {
 if (tried == 0) { eval absence(cases." in ".file) }
 exponents = sorted(collected)
 count = words(exponents)
-target(k) = 10 ** real(word(exponents, count + 1 - k))   # the coarsest first
+target(k) = 10 ** real(word(exponents, count + 1 - k))   # the largest error first
 errorColour(k) = stageColour(1 + (k - 1) * 19.0 / (count > 1 ? count - 1 : 1))
 errorPoint(k) = int(word("6 4 9 7 5 11 13 15", (k - 1) % 8 + 1))
 errorDash(k) = k <= 3 ? 5 - k : 1

@@ -1,6 +1,6 @@
 # The error of a conserved energy over time: one panel per scene and method, one line per summation.
 #   gnuplot -e "data='results/round_off'; out='energy'; cases='SCENE:METHOD SCENE:METHOD'" energy.gp
-# Reads energy.csv. Options: cases (scene:method), titles, unit (what the axes count: 1e-16 as it is).
+# Reads energy.csv. Options: cases (scene:method), titles, unit (the axes show multiples of it, e.g. 1e-16).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("cases")) cases = ''
 if (!exists("titles")) titles = ""

@@ -1,7 +1,7 @@
-# Error against step size at fixed steps, one panel per family, with the slopes that theory predicts.
+# Error against step size for fixed steps, one panel per family, with the slopes of the theoretical orders.
 #   gnuplot -e "data='results/order'; out='error'; block='nonlinear'; families='radau_iia gauss'" error_vs_step.gp
 # Reads runs.csv, and orders.csv for the window of the fit. Options: block or scene and settings, formulation, scalar,
-# component ('x': column error_x; '': column error), families (one panel each), stages_shown.
+# component ('x' selects the column error_x, '' the column error), families (one panel each), stages_shown.
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("formulation")) formulation = ''
 if (!exists("scalar")) scalar = ''
@@ -30,7 +30,7 @@ stages = sorted(collected)
 stage(k) = int(word(stages, k))
 if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
 
-# The predicted slope through the middle of the points that the fit used.
+# The theoretical slope, drawn through the middle of the points that the fit used.
 fit_row(family, s) = ofCase(0) && is("power_of", 'h') && has("formulation", formulation) \
                      && has("component", component) && is("family", family) && column("stages") == s
 slots = n * words(stages) + 1
@@ -55,7 +55,7 @@ fittedIn(i, k) = k == 0 ? "" : fittedIn(i, k - 1).when(fitted(slot(i, k)), sprin
 linesIn(i, k) = k == 0 ? "" : linesIn(i, k - 1).when(Count[slot(i, k)] > 0, sprintf("%d ", k))
 predicted(m, family, s) = fitted(m) && row(family, s) && column("h") >= 0.999 * Lower[m] \
   && column("h") <= 1.001 * Upper[m] ? Level[m] * column("h") ** Slope[m] : NaN
-interval(i, k) = 1 + Count[slot(i, k)] / 24   # marks, of many points
+interval(i, k) = 1 + Count[slot(i, k)] / 24   # draws a mark only at some of the points if there are many
 seriesTitle(i, k) = sprintf("%s%s", word(stages, k), \
   Fitted[slot(i, k)] == Fitted[slot(i, k)] ? sprintf(": %.2f", Fitted[slot(i, k)]) : "")
 

@@ -1,5 +1,5 @@
-# How much larger the true error of a step is than its estimate: the part of all steps above a ratio, one curve
-# per group of components, one panel per kind of estimate.
+# Ratio of the true error of a step to its estimate: the fraction of all steps above a ratio, one curve per group of
+# components, one panel per kind of estimate.
 #   gnuplot -e "data='results/estimate'; out='ratio'" estimate_ratio.gp
 # Reads estimates.csv. Options: estimates (columns; one panel each), titles (quoted words), safety (a line).
 load system('dirname "'.ARG0.'"')."/style.gp"
@@ -22,7 +22,7 @@ do for [i = 1 : n] { do for [g = 1 : 4] {
   Count[(i - 1) * 4 + g] = N_sum
 } }
 
-# Summed up from the largest ratio downwards: gnuplot sums from the left, so that the axis is minus the logarithm.
+# Sums from the largest ratio downwards. gnuplot sums from left to right, so the axis is minus the logarithm.
 tic_list = ''
 do for [x = -2 : 4] { tic_list = tic_list.sprintf("%s'10^{%d}' %d", x == -2 ? '' : ', ', x, -x) }
 margin_left = 0.085; margin_right = 0.02; margin_bottom = 0.27; gap_x = 0.03

@@ -1,9 +1,10 @@
-# Where a method works: digits of accuracy over stages and step (or tolerance, or stiffness), one panel per
-# family. A run that failed has no colour and a mark that says why; a grey column is a method that there is not.
+# Where a method works: correct digits over stages and step (or tolerance, or stiffness), one panel per family. A
+# failed run has no colour and a mark for its cause; a grey column is a method that does not exist.
 #   gnuplot -e "data='results/failure_constraints'; out='map'; block='usual_steps'; only='formulation=index3'" failure_map.gp
-# Reads runs.csv. Options: block or scene, only (quoted words column=value, which all rows must have), y (h, rtol, or a
-# parameter of the scene: the magnitude of its number in the column settings, y_default where there is none), y_label, panel_by (a column), panels (its values
-# shown, in this order), quantity (error, error_u, ...), quantity_label, y_min, y_max.
+# Reads runs.csv. Options: block or scene; only (quoted words column=value that all rows must have); y (h, rtol, or a
+# parameter of the scene: the magnitude of its number in the column settings, or y_default where it is missing);
+# y_label; panel_by (a column); panels (its values to show, in this order); quantity (error, error_u, ...);
+# quantity_label; y_min; y_max.
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("only")) only = ''
 if (!exists("y")) y = 'h'
@@ -17,7 +18,7 @@ if (!exists("y_min")) y_min = 0
 if (!exists("y_max")) y_max = 1e300
 file = data.'/runs.csv'
 
-# Causes: name in the table, mark, words.
+# Causes of failure: name in the table, mark, label.
 causes = "newton_failed step_too_small max_steps timeout singular not_finite inconsistent_start chattering stalled drift inaccurate refused"
 cause_points = "2 1 8 10 4 6 12 3 14 9 13 0"
 cause_titles = "'Newton fails' 'step too small' 'too many steps' 'too slow' 'singular' 'not finite' 'inconsistent start' 'chattering' 'steps stay tiny' 'drift' 'errors add up' 'not allowed'"
@@ -27,14 +28,14 @@ causePoint(k) = k > 0 ? int(word(cause_points, k)) : 0
 equals(pair) = strstrt(pair, '=')
 holds(pair) = is(pair[1 : equals(pair) - 1], pair[equals(pair) + 1 : strlen(pair)])
 allowed(d) = words(only) == 0 ? 1 : (sum [i = 1 : words(only)] holds(word(only, i))) == words(only)
-# The number behind "name=" in the settings; a parameter at its default is not there.
+# The number behind "name=" in the settings; settings omit parameters at their defaults.
 scientific(x) = (exponent = strstrt(x, 'e'), exponent == 0 ? real(x) : real(x[1 : exponent - 1]) * 10.0 ** int(x[exponent + 1 : strlen(x)]))
 behind(name) = (found = strstrt(' '.strcol("settings"), ' '.name.'='), found == 0 ? y_default : \
   scientific(word(strcol("settings")[found + strlen(name) + 1 : strlen(strcol("settings"))], 1)))
 level(d) = y eq 'h' || y eq 'rtol' ? column(y) : abs(behind(y))
 row(d) = ofScene(0) && allowed(0) && level(0) >= y_min && level(0) <= y_max
 good(d) = row(0) && succeeded(0) && !absent(quantity)
-# An error of 100 % and more is no digit; below round-off there are 16.
+# An error of 100 % or more has no correct digit; one below round-off counts as 16.
 digits(d) = column(quantity) <= 1e-16 ? 16 : column(quantity) >= 1 ? 0 : -log10(column(quantity))
 
 undefine N_*
@@ -54,13 +55,13 @@ seen = collected
 n = words(panels)
 panelTitle(i) = panel_by eq 'family' ? familyTitle(word(panels, i)) : panel_by.' '.word(panels, i)
 
-# A cell per pair of stages and level: their numbers in the sorted lists.
+# Each pair of stages and level has a cell; its coordinates are the positions in the sorted lists.
 stageNumber(d) = sum [k = 1 : words(stages)] (int(word(stages, k)) == column("stages") ? k : 0)
 levelNumber(d) = sum [k = 1 : words(levels)] (abs(real(word(levels, k)) - log10(level(0))) < 1e-5 ? k : 0)
 inPanel(i) = row(0) && is(panel_by, word(panels, i))
 levelText(x) = abs(x - floor(x + 0.5)) < 1e-4 ? sprintf("10^{%d}", floor(x + 0.5)) \
   : sprintf("%.2g·10^{%d}", 10 ** (x - floor(x)), floor(x))
-# Labels of two digits need the room of two cells; the last one is always there.
+# A label of two digits needs the width of two cells; the last label is always drawn.
 crowded = words(stages) > 9
 stage_tics = "set xtics ("; do for [k = 1 : words(stages)] {
   text = crowded && strlen(word(stages, k)) > 1 && (words(stages) - k) % 2 ? '' : word(stages, k)
@@ -70,7 +71,7 @@ level_tics = "set ytics ("; do for [k = 1 : words(levels)] {
   level_tics = level_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', levelText(real(word(levels, k))), k) }
 level_tics = level_tics.")"
 
-# Numbers of stages without any row in a panel: the family has no such method.
+# Numbers of stages without any row in a panel: the family has no such member.
 absent_stages = ""
 do for [i = 1 : n] {
   collected = ""
@@ -83,7 +84,7 @@ absent_colour = 0xe4e4e4
 columns = n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4
 lines = (n + columns - 1) / columns
 width = columns == 1 ? 560 : columns == 2 ? 860 : 1080
-# Room for the longest label of the levels, and for the axis' name left of it.
+# Room for the longest label of the levels, and for the name of the axis left of it.
 longest = 0
 do for [k = 1 : words(levels)] { length = strlen(levelText(real(word(levels, k)))); longest = length > longest ? length : longest }
 margin_left = (44.0 + 7.5 * longest) / width; margin_right = columns == 1 ? 0.16 : 0.09

@@ -21,7 +21,7 @@ theory(family, k) = !row(family, k) ? NaN : !absent("theory") ? column("theory")
 remember(d) = absent("theory") ? 0 : collect(strcol("family").':'.strcol("component"))
 differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
 unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
-place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, not on top of each other
+place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, so that marks do not overlap
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }

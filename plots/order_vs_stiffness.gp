@@ -1,19 +1,20 @@
-# Order reduction: observed order against the stiffness, one panel per family, one line per number of stages.
-# Grey bars: what theory predicts, where it does. A line is broken where the order is not measurable: there a
+# Order reduction: observed order against the stiffness, one panel per family, one line per number of stages. Grey
+# bars show the theoretical orders where they are known. Where the order is not measurable the line is broken, and a
 # triangle stands on the axis.
 #   gnuplot -e "data='results/order'; out='order_reduction'; parameter='lambda'" order_vs_stiffness.gp
-# Reads orders.csv. Options: block or scene, parameter (the setting that is the stiffness), parameter_default, stages_shown.
+# Reads orders.csv. Options: block or scene, parameter (the setting that is the stiffness), parameter_default,
+# stages_shown.
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("parameter")) parameter = 'lambda'
 if (!exists("parameter_default")) parameter_default = '-1e8'
 if (!exists("stages_shown")) stages_shown = '1 2 3 4 5'
 file = data.'/orders.csv'
 
-wide(settings) = strstrt(settings, '/h') > 0   # stiffness over step: no single stiffness
+wide(settings) = strstrt(settings, '/h') > 0   # the setting is divided by the step: no single stiffness
 chosen(d) = ofScene(0) && is("component", 'x') && !wide(strcol("settings")) \
             && position(stages_shown, sprintf("%d", column("stages")))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
-# gnuplot reads no exponents in text: mantissa and exponent apart.
+# gnuplot reads no exponents in text, so mantissa and exponent are read separately.
 textOf(settings) = settings eq '' ? parameter_default : settings[strlen(parameter) + 2 : *]
 magnitude(text) = text[1:1] eq '-' ? text[2:*] : text
 valueOf(text) = strstrt(text, 'e') == 0 ? text + 0 \
@@ -33,7 +34,7 @@ stats file using (chosen(0) ? (collect(sprintf("%.6f", log10(stiffness(0)))), 0)
 levels = sorted(collected)
 levelNumber(d) = sum [k = 1 : words(levels)] (abs(real(word(levels, k)) - log10(stiffness(0))) < 1e-5 ? k : 0)
 
-# Lines `stiffness,order,theory,not measurable` in $D: a block for each number of stages of one family.
+# Writes lines `stiffness,order,theory,not measurable` to $D, one block per number of stages of one family.
 array orders[words(levels)]
 array theories[words(levels)]
 array lost[words(levels)]
@@ -62,7 +63,7 @@ do for [format in formats] {
     set format y when((i - 1) % columns == 0, '%g')
     set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 0.3,0
     set xlabel when(i > n - columns, 'stiffness |λ| in 1/s') offset 0,0.5
-    set xrange [*:*]; set yrange [*:*]   # stats counts what the ranges let through
+    set xrange [*:*]; set yrange [*:*]   # stats uses only values inside the ranges
     collected = ""
     stats file using (chosen(0) && is("family", f) ? (collect(sprintf("%d", column("stages"))), 1) : NaN) nooutput
     here = sorted(collected)
@@ -70,7 +71,7 @@ do for [format in formats] {
     do for [k in here] {
       dummy = clear(0)
       stats file using (row(f, int(k)) ? take(levelNumber(0)) : NaN) nooutput
-      # A block without a single valid point would be a warning: its first one lies outside of the panel.
+      # gnuplot warns about blocks without a valid point, so each block starts with a point outside the panel.
       print sprintf("%g,%g,%g,0", X_min, outside, outside)
       print ""
       do for [j = 1 : words(levels)] {

@@ -1,7 +1,7 @@
-# Quantities over the step size at fixed steps, one curve per formulation and scaling of the constraints.
+# Quantities over the step size for fixed steps, one curve per formulation and scaling of the constraints.
 #   gnuplot -e "data='results/small_steps'; out='small'; block='known_multiplier'; quantities='error_z error_v'" over_step.gp
-# Reads runs.csv. Options: block or scene, method, newton, quantities (columns, or iterations = Newton iterations per step;
-# one panel each), by (two columns, whose pairs are the curves).
+# Reads runs.csv. Options: block or scene, method, newton, quantities (columns, or iterations for Newton iterations
+# per step; one panel each), by (two columns; each pair of their values is a curve).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("method")) method = 'radau_iia_3'
 if (!exists("newton")) newton = ''
@@ -23,7 +23,7 @@ n = words(quantities)
 count = words(curves)
 first(c) = c[1 : strstrt(c, ':') - 1]
 second(c) = c[strstrt(c, ':') + 1 : strlen(c)]
-# One colour per formulation, dashed and hollow where the constraints are not scaled.
+# One colour per formulation; dashed lines and hollow marks without scaling of the constraints.
 colours = "index3 0xD55E00 index2 0x0072B2 index1 0x009E73 ggl 0xCC79A7 index2_projected 0xE69F00"
 colourOf(c) = position(colours, first(c)) ? int(word(colours, position(colours, first(c)) + 1)) : 0x000000
 off(c) = second(c) eq 'off'

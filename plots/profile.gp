@@ -1,6 +1,6 @@
-# Performance profiles (Dolan and More): on which part of the problems a solver takes at most so many times
-# the time of the best one: of those that the study gives to the solver. One panel per target error; the legend says how
-# many problems each solver was given, of how many, over all errors.
+# Performance profiles (Dolan and More): the fraction of the problems given to a solver on which its time is at most a
+# ratio times that of the best solver. One panel per target error. The legend gives the number of problems given to
+# each solver and of all problems, over all errors.
 #   gnuplot -e "data='results/work_precision'; out='profile'; targets='-4 -8'" profile.gp
 # Reads profile.csv. Options: targets (powers of ten, or all), integrators (in this order).
 load system('dirname "'.ARG0.'"')."/style.gp"
@@ -20,7 +20,7 @@ curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
 curveDash(k) = (k - 1) % 4 + 1
 at(i, k) = ofTarget(i) && strcol("integrator") eq word(integrators, k)
 targetTitle(i) = word(targets, i) eq 'all' ? 'all errors' : 'error 10^{'.word(targets, i).'}'
-# Over all errors: "45/60" of a solver that was given 45 of 60 problems.
+# Over all errors: "45/60" for a solver that was given 45 of 60 problems.
 collected = ""
 stats file using (strcol("target_error") eq 'all' ? \
   (collect(strcol("integrator").'='.strcol("given").'/'.strcol("problems")), 1) : 0) name "N" nooutput

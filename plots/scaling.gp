@@ -1,4 +1,4 @@
-# The time of a step over the number of unknowns: one panel per method, one curve per way to solve.
+# The time of a step over the number of unknowns: one panel per method, one curve per way of solving.
 #   gnuplot -e "data='results/scaling'; out='scaling'; scene='SCENE'" scaling.gp
 # Reads scaling.csv. Options: block or scene, methods (one panel each), ways (solver:storage:threads, quoted words).
 load system('dirname "'.ARG0.'"')."/style.gp"

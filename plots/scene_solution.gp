@@ -6,8 +6,8 @@ if (!exists("method")) method = 'radau_iia_5'
 if (!exists("file_name")) file_name = scene.'.'.method
 file = data.'/'.file_name.'.csv'
 
-# A panel is "label|columns|factor", the factor for values in another unit; a column a:b is b over a at equal
-# scales (an orbit). The program writes the scene's panels and the label of its time into the table's head.
+# A panel is "label|columns|factor", with a factor for conversion to another unit; a column a:b draws b over a with
+# equal scales (an orbit). The program writes the scene's panels and the label of the time axis into the table's head.
 fromHead(key) = system("sed -n 's/^# ".key.": //p' '".file."' 2>/dev/null")
 if (!exists("panels")) panels = fromHead('panels')
 time_label = fromHead('time')

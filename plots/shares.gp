@@ -1,5 +1,5 @@
-# What the parts of an integration take of its time, over the number of unknowns: one panel per number of
-# stages, one row per stage solver.
+# The share of each part of an integration in its time, over the number of unknowns: one panel per number of stages,
+# one row per stage solver.
 #   gnuplot -e "data='results/phases'; out='phases'; scene='SCENE'" shares.gp
 # Reads phases.csv. Options: block or scene, derivatives, solvers (one row of panels each), methods (one column each).
 load system('dirname "'.ARG0.'"')."/style.gp"

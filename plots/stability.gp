@@ -1,9 +1,9 @@
-# Regions of stability |R(z)| <= 1 and order stars |R(z)| > |e^z|, one panel per family, or per view of some methods.
+# Stability regions |R(z)| <= 1 and order stars |R(z)| > |e^z|, one panel per family, or per view of some methods.
 #   gnuplot -e "data='results/tableaus'; out='regions'; families='gauss radau_iia'; stages='1 2 3'" stability.gp
 #   gnuplot -e "table='mine.csv'; out='mine'; views='region star'" stability.gp
-# Reads stability.csv, the zeros and poles of R(z) = prod (1 - z / zero) / prod (1 - z / pole); `table` is another such file.
-# Options: families and stages (panels and curves), or views (panels: region, star; all methods of the table), view
-# (region or star, with families), columns, extent (of the window, from 0).
+# Reads stability.csv, the zeros and poles of R(z) = prod (1 - z / zero) / prod (1 - z / pole); `table` names another
+# file of this form. Options: families and stages (panels and curves), or views (panels: region, star; all methods of
+# the table), view (region or star, with families), columns, extent (of the window, from 0).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("table")) table = data.'/stability.csv'
 if (!exists("families")) families = ''
@@ -21,11 +21,11 @@ collected = ""
 stats table using (row = int($0) + 1, collect(strcol("method")), M[row] = strcol("method"), \
   W[row] = strcol("root") eq 'zero' ? 1 : -1, Q[row] = column("re") + {0,1} * column("im"), abs(Q[row])) name "Root" nooutput
 all = collected
-set datafile separator whitespace; unset datafile columnheaders   # of the blocks below
+set datafile separator whitespace; unset datafile columnheaders   # for the blocks below
 first(m) = (found = 0, sum [i = 1:rows] (found == 0 && M[i] eq m ? (found = i, 0) : 0), found)
 last(m) = (found = 0, sum [i = 1:rows] (M[i] eq m ? (found = i, 0) : 0), found)
 
-# log|R(z)|, by the factors of R: no cancellation.
+# log|R(z)| as a sum over the factors of R, which avoids cancellation.
 from = 1; to = 1
 logR(z) = sum [i = from:to] W[i] * log(abs(1 - z / Q[i]) + 1e-300)
 stagesOf(m) = int(system("echo '".m."' | sed 's/.*_//'"))
@@ -43,7 +43,8 @@ baseName(m) = m[strstrt(m, '/') ? strlen(system("dirname '".m."'")) + 2 : 1 : st
 curveTitle(m) = families eq '' ? baseName(m) : 's = '.sprintf("%d", stagesOf(m))
 panelTitle(p) = families ne '' ? familyTitle(word(families, p)) : viewOf(p) eq 'star' ? 'order star: |R| > |e^z| shaded' : 'stability: |R| ≤ 1 shaded'
 
-# The upper half plane of each method, its contour, and, for the shading, how many have a point inside.
+# For each method the upper half plane and its contour; for the shading, the number of methods that contain each
+# point.
 width = families eq '' ? 161 : 101; rise = (width + 1) / 2
 array Count[width * rise]
 set xrange [-extent : extent]; set yrange [0 : extent]

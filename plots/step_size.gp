@@ -1,6 +1,6 @@
 # The step size over time, one curve per method; lines mark the discontinuities.
 #   gnuplot -e "data='results/steps'; out='steps'; cases='SCENE SCENE_NAME_VALUE'" step_size.gp
-# Reads <case>.<method>.csv. Options: cases (files without method; one panel each), titles (quoted words),
+# Reads <case>.<method>.csv. Options: cases (file names without the method; one panel each), titles (quoted words),
 # methods, marks (quoted words, one per case: times of discontinuities).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("cases")) cases = ''

@@ -1,11 +1,11 @@
-# The style of every figure: fonts, colours, marks, panels, and the choice of rows by column name.
-# Each script starts with  load here."/style.gp"  and draws everything once per output format.
+# The style of all figures: fonts, colours, marks, panels, and the selection of rows by column name. Each script
+# begins with  load here."/style.gp"  and draws everything once per output format.
 
 set encoding utf8
 set datafile separator ','
 set datafile commentschars '#'
 set datafile columnheaders
-set datafile missing NaN        # a row that a filter turns into NaN does not break a line
+set datafile missing NaN        # a row that a filter sets to NaN does not break a line
 
 # --- Output: out.svg and out.png of the same size in points, the PNG with twice the pixels.
 if (!exists("data")) data = 'results'
@@ -17,7 +17,7 @@ open(format, width, height) = sprintf( \
                     ."linewidth 2 pointscale 2 enhanced background 'white'", width, height) \
   . sprintf("; set output '%s.%s'", out, format)
 
-# --- Axes, grid. `eval bare` leaves only the key, for a legend below several panels.
+# --- Axes, grid. `eval bare` removes everything but the key, for a legend below several panels.
 ink = 0x333333
 framed = "set border 3 lw 1 lc rgb 0x666666; set tics scale 0.6 textcolor rgb ink; " \
          ."set xtics nomirror; set ytics nomirror; " \
@@ -33,14 +33,14 @@ set style textbox opaque border lc rgb 0xcccccc
 
 decades(axis) = sprintf("set logscale %s; set format %s '10^{%%L}'; set m%stics 1", axis, axis, axis)
 
-# On a logarithmic axis of less than two decades the decades alone are too few labels: 1, 2, 5 then.
+# A logarithmic axis of less than two decades has too few labels at the decades alone; it gets labels at 1, 2, 5.
 label125(m, e) = m == 1 ? sprintf("10^{%d}", e) : sprintf("%d·10^{%d}", m, e)
 tics125(axis, low, high) = (tics = '', sum [e = int(floor(log10(low))) : int(ceil(log10(high)))] sum [k = 1 : 3] \
   (strlen(tics = tics.sprintf("%s'%s' %g", strlen(tics) ? ', ' : '', label125(int("125"[k:k]), e), int("125"[k:k]) * 10.0 ** e))), \
   sprintf("set %stics (%s) nomirror", axis, tics))
 logTics(axis, low, high) = high / low < 99 ? tics125(axis, low, high) : sprintf("set %stics autofreq nomirror", axis)
 
-# --- Families: one colour (Okabe and Ito, distinct to colour-blind eyes), mark and dash each.
+# --- Families: each has its colour (Okabe and Ito, distinguishable by colour-blind readers), mark and dash.
 families_known = "gauss radau_ia radau_iia lobatto_iiia lobatto_iiib lobatto_iiic lobatto_iiics lobatto_iiid"
 family_titles  = "'Gauss' 'Radau IA' 'Radau IIA' 'Lobatto IIIA' 'Lobatto IIIB' 'Lobatto IIIC' 'Lobatto IIIC*' 'Lobatto IIID'"
 family_colours = "0x0072B2 0xE69F00 0xD55E00 0x009E73 0x56B4E9 0xCC79A7 0x8C6D1F 0x555555"
@@ -52,7 +52,7 @@ familyColour(f) = known(f) ? int(word(family_colours, known(f))) : 0x000000
 familyPoint(f) = known(f) ? int(word(family_points, known(f))) : 6
 familyDash(f) = known(f) % 2 + 1
 
-# --- Stages: the more, the darker, from orange over violet and blue to black; hollow marks turn into filled ones.
+# --- Stages: more stages are darker, from orange over violet and blue to black; hollow marks turn into filled ones.
 stage_shades = "0xF59E2A 0xE2553D 0xBE2A78 0x7B2FBE 0x2F4BCB 0x14307A 0x101018 0x101018"
 shadeAt(s) = 6.0 * (s > 20 ? 1 : log(s) / log(20))
 channel(a, b, w, shift) = int((1 - w) * ((a >> shift) & 255) + w * ((b >> shift) & 255)) << shift
@@ -66,20 +66,20 @@ marked(s) = position(stages_marked, sprintf("%d", s))
 stagePoint(s) = marked(s) ? int(word(stage_points, marked(s))) : 1
 stageDash(s) = s <= 3 ? 5 - s : 1   # 1, 2, 3: dash-dot, dots, dashes; more: solid
 
-# --- What did not work is red and crossed, everywhere.
+# --- Failures are red and crossed in all figures.
 failure_colour = 0xB00020
 failure_point = 2
 
-# --- Rows. In `using`:  has("scene", scene) ? column("h") : NaN ; an empty wish accepts every row. A cell
-# without a value is empty or nan; column() cannot ask for it, because missing NaN drops the row first.
+# --- Rows. In `using`:  has("scene", scene) ? column("h") : NaN ; an empty value accepts every row. A cell without a
+# value is empty or nan; column() cannot detect it, because `missing NaN` drops the row first.
 absent(name) = strcol(name) eq "" || strcol(name) eq 'nan'
 is(name, value) = value eq "" ? absent(name) : strcol(name) eq value
 has(name, wish) = wish eq "" || strcol(name) eq wish
 positive(x) = x > 0 ? x : NaN      # logarithmic axes
 succeeded(dummy) = strcol("outcome") eq "success"
 
-# Distinct values, in order of appearance (words) or ascending (numbers;
-# their words without exponents, which gnuplot cannot read).
+# Distinct values: words in order of appearance, numbers ascending (as words without exponents, which gnuplot cannot
+# read).
 collected = ""
 collect(item) = (position(collected, item) ? 0 : strlen(collected = collected." ".item))
 smallest(list, above) = (low = 1e300, sum [i = 1:words(list)] \
@@ -88,10 +88,10 @@ ascending(list, above, n) = n == 0 ? "" : \
   sprintf("%.10g ", smallest(list, above)).ascending(list, smallest(list, above), n - 1)
 sorted(list) = ascending(list, -1e300, words(list))
 
-number(word) = strlen(word) ? int(word) : 1   # gnuplot reads the body of an empty iteration, too
+number(word) = strlen(word) ? int(word) : 1   # gnuplot evaluates the body of an empty iteration, too
 
-# --- Which runs: those of a block of the study, whose name is in the column block, of a scene, or of both. Nothing
-# said: all. A scene without a block is meant with exactly these settings.
+# --- Which runs: those of a block (its name is in the column block), of a scene, or of both; by default all. A scene
+# without a block selects runs with exactly the given settings.
 if (!exists("block")) block = ''
 if (!exists("scene")) scene = ''
 if (!exists("settings")) settings = ''
@@ -103,7 +103,7 @@ ofCase(d) = ofScene(0) && (block.scene eq '' || (block ne '' ? has("settings", s
 sceneTitle(scene, settings) = settings eq "" ? scene : scene." (".settings.")"
 caseName = block eq '' ? sceneTitle(scene, settings) : 'block '.block.(scene eq '' ? '' : ', '.scene)
 
-# The same as one word, for several panels: 'block=NAME', 'block=NAME:SCENE', 'SCENE' or 'SCENE:SETTINGS'.
+# The same selection as one word, for several panels: 'block=NAME', 'block=NAME:SCENE', 'SCENE' or 'SCENE:SETTINGS'.
 colon(case) = strstrt(case, ':')
 before(case) = colon(case) ? case[1 : colon(case) - 1] : case
 behindColon(case) = colon(case) ? case[colon(case) + 1 : strlen(case)] : ''
@@ -118,7 +118,7 @@ nameOf(case) = !hasBlock(case) ? sceneTitle(sceneOf(case), shortSettings(case)) 
 
 when(condition, text) = condition ? text : ''
 
-# For marks that only some rows have, with fixed ranges: the other rows fall outside the panel.
+# For marks that only some rows have, with fixed ranges: other rows get a position outside the panel.
 outside = -1e9
 
 # --- Panels: panel k = 1, 2, ... of a grid; margins as fractions of the figure.
@@ -133,13 +133,13 @@ panel(k, columns, rows) = sprintf( \
   panelLeft(k, columns), panelLeft(k, columns) + cellWidth(columns), \
   panelTop(k, columns, rows), panelTop(k, columns, rows) - cellHeight(rows))
 
-# A legend of one or more rows below the panels, `height` of the figure high; a plot of keyentries follows.
+# A legend of one or more rows below the panels, with `height` as fraction of the figure; plot keyentries after it.
 legend(height) = sprintf("unset logscale; set format '%%g'; set lmargin at screen 0; set rmargin at screen 1; " \
   ."set bmargin at screen 0; set tmargin at screen %.3f; set xrange [0:1]; set yrange [0:1]; " \
   ."set key at screen 0.5, screen %.3f center center horizontal samplen 2.2 width 1; ", height, 0.5 * height) \
   .bare
 
-# Rows of which none can be drawn give a figure that says so; no rows at all give none.
+# If no row can be drawn, the figure says so; without any row there is no figure.
 nothing(what) = sprintf("unset border; unset tics; unset key; unset grid; unset logscale; set xrange [0:1]; " \
   ."set yrange [0:1]; set label 1 'no run succeeded: %s' at 0.5,0.5 center noenhanced; plot 2 notitle; " \
   ."unset label 1; set border; set tics", what)

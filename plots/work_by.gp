@@ -1,11 +1,12 @@
-# Work against accuracy, one curve per value of a column: a switch of the Jacobian, a formulation, a method.
-# The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
+# Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error
+# decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
-#   variant (a column, whose values are the curves), variants (those shown, in this order),
-#   cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, quoted if with blanks; one panel each), titles (quoted words, one per case),
+#   variant (a column; its values are the curves), variants (the values to show, in this order),
+#   cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, in quotes if they contain blanks; one panel each),
+#   titles (quoted words, one per case),
 #   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...),
-#   only (quoted words column=value, which all rows must have), columns (of panels).
+#   only (quoted words column=value that all rows must have), columns (of panels).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("variant")) variant = 'jacobian'
 if (!exists("variants")) variants = ''
@@ -34,7 +35,7 @@ caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
 costOf(i) = words(cases) > 1 ? word(costs, 1) : word(costs, i)
 caseTitle(i) = words(titles) >= i ? word(titles, i) : nameOf(caseOf(i))
 
-# Ranges, over all panels for the errors and per panel for the costs.
+# Ranges: for the errors over all panels, for the costs per panel.
 tried = 0; rows = 0; failures = 0; coarsest = 1e-300; finest = 1e300; top = 1
 array Least[panels]; array Most[panels]
 do for [i = 1 : panels] {
@@ -63,10 +64,10 @@ if (tried == 0) { eval absence(cases." in ".file) }
 if (words(variants) == 0) { variants = collected }
 count = words(variants)
 name(k) = word(variants, k)
-# Numbers stand in tables with all their digits.
+# Tables write numbers with all their digits; labels are shortened.
 shortName(name) = strlen(name) > 10 && name[1:2] eq '0.' ? sprintf("%.3g", real(name)) : name
-coarsest = coarsest > 1 ? 1 : coarsest   # an error of 100 % and more: no digit is right
-# Each curve its own colour, mark and dash.
+coarsest = coarsest > 1 ? 1 : coarsest   # an error of 100 % or more has no correct digit
+# Each curve has its own colour, mark and dash.
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
 curve_points = "7 5 9 11 4 6 8 10 13 12"
 curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))

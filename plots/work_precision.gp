@@ -1,5 +1,5 @@
 # Work against accuracy: CPU time or counters over the error reached, one line per number of stages.
-# The error falls to the right. A failed run stands above the lines, at the tolerance it was asked for.
+# The error decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested.
 #   gnuplot -e "data='results/cpu_time'; out='work'; block='crank'; family='radau_iia'" work_precision.gp
 # Reads runs.csv. Options: block or scene and settings, family, formulation, stages_shown,
 # quantity (error, error_u, error_v, error_x, error_z), costs ('cpu_s', or several counters: one panel each).
@@ -53,10 +53,10 @@ do for [format in formats] {
     eval decades("x"); eval decades("y")
     do for [i = 1 : n] {
       c = word(costs, i)
-      set xrange [*:*]; set yrange [*:*]   # stats counts what the ranges let through
+      set xrange [*:*]; set yrange [*:*]   # stats uses only values inside the ranges
       stats file using (chosen(0) && error(0) > 0 ? positive(column(c)) : NaN) name "C" nooutput
       set mytics (C_max / C_min < 1e3 ? 10 : 1)
-      # Failures: a strip above all lines, the fewest stages lowest.
+      # Failures: a strip above all lines, fewer stages lower.
       strip = C_max * (C_max / C_min) ** 0.06
       level(k) = strip * (C_max / C_min) ** (0.02 * k)
       set xrange [2 * (E_max > T_max ? E_max : T_max) : finest / 2]
