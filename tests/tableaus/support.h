@@ -16,7 +16,7 @@ inline std::string memberId(const std::string& family, Index s) {
   return fmt::format("{}_{}", family, s);
 }
 
-/// The message that `action` refuses with; empty if it does not.
+/// The message with which `action` refuses; empty if it does not refuse.
 template <class Action>
 std::string refusal(const Action& action) {
   try {
@@ -32,7 +32,7 @@ inline testing::AssertionResult contains(const std::string& text, const std::str
   return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
 }
 
-/// Largest |x - y|.
+/// The largest |x - y|.
 template <class Real>
 double largestDifference(const Mat<Real>& x, const Mat<Real>& y) {
   return static_cast<double>((x - y).cwiseAbs().maxCoeff());

@@ -26,8 +26,8 @@ TEST(RootedTrees, AreAsManyAsKnown) {
   EXPECT_EQ(trees.size(), 1205u);
 }
 
-// With leaves of two kinds: [t t], [t u], [u u], [[t]], [[u]] of order 3; u alone is no tree, but
-// listed.
+// With two kinds of leaves the trees of order 3 are [t t], [t u], [u u], [[t]], [[u]]; u alone is in the list but is
+// no tree.
 TEST(RootedTrees, TimeIsASecondKindOfLeaf) {
   const auto trees = rootedTrees(4, Leaves::kUnknownsAndTime);
   EXPECT_EQ(countOfOrder(trees, 1), 2);
@@ -57,8 +57,8 @@ TEST(RootedTrees, BushyAndTallOnesHaveDensitiesNAndNFactorial) {
   }
 }
 
-// HNW I, II.2: alpha(t) = n! / (gamma(t) sigma(t)) monotonic labellings, (n-1)! in all of order n.
-// sigma, the symmetry, is counted here.
+// HW I, II.2: alpha(t) = n! / (gamma(t) sigma(t)) monotonic labellings, (n-1)! in all of order n. The symmetry sigma
+// is counted here.
 TEST(RootedTrees, MonotonicLabellingsAddUp) {
   const auto trees = rootedTrees(kMaxTreeOrder);
   std::vector<double> symmetry(trees.size(), 1), sums(kMaxTreeOrder, 0);
@@ -94,7 +94,7 @@ TEST(TreeConditions, HoldUpToTheLargestTreesForManyStages) {
   }
 }
 
-// b^T A c = 1/2 sum b c^2 is not 1/6: quadrature of order 3, method of order 2.
+// b^T A c = 1/2 sum b c^2 is not 1/6: the quadrature has order 3, the method order 2.
 TEST(TreeConditions, SeeWhatQuadratureDoesNot) {
   Tableau<mp80> tableau{"", "user", Mat<mp80>::Zero(2, 2), Vec<mp80>(2), Vec<mp80>(2), 3, 1};
   tableau.b << mp80(1) / 4, mp80(3) / 4;
@@ -150,7 +150,7 @@ TEST(TreeConditions, FalseOrdersAreContradictedAndLowOnesNoted) {
   EXPECT_TRUE(report.ok);
   EXPECT_EQ(report.findings.back().verdict, Verdict::kNote);
 
-  // Nodes and weights are those of Gauss: B, C, D alone only leave order 4 unproven.
+  // Nodes and weights are those of Gauss: B, C, D alone cannot disprove order 4, they only leave it unproven.
   auto overstated = parseTableau(kCrouzeix, "mine");
   overstated.tableau.order = 4;
   report = checkTableau(overstated);

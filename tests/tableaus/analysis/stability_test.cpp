@@ -18,7 +18,7 @@ TableauProperties propertiesOf(const Tableau<mp80>& tableau) {
   return analyzeProperties(tableau, roundingTolerance<mp80>());
 }
 
-/// Rows of A, then b; c is the row sums.
+/// Makes a tableau from the rows of A, then b; c is the row sums.
 Tableau<mp80> method(const std::vector<std::vector<mp80>>& rows) {
   const auto s = static_cast<Index>(rows.size()) - 1;
   Tableau<mp80> tableau{"mine", "user", Mat<mp80>(s, s), Vec<mp80>(s), Vec<mp80>(s), 1, 0};
@@ -136,7 +136,7 @@ TEST(StabilityFunction, LimitsOfTheory) {
   }
 }
 
-// A singular A of another kind: the trapezoidal rule with its first stage doubled.
+// A singular A of another kind: the trapezoidal rule with its first stage repeated.
 TEST(StabilityFunction, LimitWithARepeatedExplicitStage) {
   const mp80 quarter = mp80(1) / 4, half = mp80(1) / 2;
   const auto R =
@@ -144,7 +144,7 @@ TEST(StabilityFunction, LimitWithARepeatedExplicitStage) {
   EXPECT_EQ(R.atInfinity(), -1);
 }
 
-// Two equal stages: the second is seen by nobody.
+// Two equal stages: the method reduces to the implicit midpoint rule, so N and D have a common factor.
 TEST(StabilityFunction, CommonFactorsCancel) {
   const mp80 half = mp80(1) / 2;
   const auto R = stabilityFunction(method({{half, 0}, {0, half}, {half, half}}), 5e-48);
@@ -165,7 +165,7 @@ TEST(StabilityFunction, RoundedToDoubleKeepsItsDegrees) {
   }
 }
 
-// Theory: A-stable all but Lobatto IIIC*, L-stable those with R(inf) = 0.
+// Theory: all families but Lobatto IIIC* are A-stable; those with R(inf) = 0 are L-stable.
 TEST(Stability, OfTheFamilies) {
   for (const auto& family : families()) {
     const bool a_stable = family.id != "lobatto_iiics";
@@ -182,7 +182,7 @@ TEST(Stability, OfTheFamilies) {
   }
 }
 
-// Explicit methods of s = p <= 4 stages: HNW / HW II, Table IV.2.1.
+// Explicit methods with s = p <= 4 stages: HW II, Table IV.2.1.
 TEST(Stability, IntervalsOfExplicitMethods) {
   const mp80 half = mp80(1) / 2, third = mp80(1) / 3, sixth = mp80(1) / 6;
   const auto rk4 = propertiesOf(method({{0, 0, 0, 0},
@@ -224,8 +224,8 @@ TEST(Stability, OfTwoStageSdirk) {
   EXPECT_NEAR(other.R.atInfinity(), 1 + std::sqrt(3.0), 1e-14);
 }
 
-// Alexander's L-stable method with a wrong sign: R(inf) = 0 still, but the imaginary axis is not
-// stable. Angles just above alpha are unstable somewhere, just below nowhere.
+// Alexander's L-stable method with a wrong sign: still R(inf) = 0, but unstable on the imaginary axis. Rays just
+// above alpha are unstable somewhere, rays just below nowhere.
 TEST(Stability, AngleAgreesWithSampling) {
   const mp80 gamma("0.435866521508458999416019451194"), tau = (1 + gamma) / 2;
   const mp80 b1 = -(6 * gamma * gamma - 16 * gamma + 1) / 4;
@@ -252,7 +252,7 @@ TEST(Stability, AngleAgreesWithSampling) {
   EXPECT_GT(largest(alpha + 0.1), 1);
 }
 
-// theory.md: unit eigenvectors of Gauss, 2-norm.
+// Condition of the unit eigenvectors of Gauss in the 2-norm.
 TEST(Spectrum, ConditionOfEigenvectors) {
   const auto conditionOf = [](Index s) {
     return spectrum(constructFamily(familyOf("gauss"), s).A, 5e-48).eigenvector_condition;
@@ -272,7 +272,7 @@ TEST(Spectrum, RepeatedEigenvaluesWithAndWithoutEigenvectors) {
   sdirk.diagonal().setConstant(mp80(1) / 3);
   EXPECT_TRUE(spectrum(sdirk, 5e-48).defective);
   EXPECT_EQ(spectrum(sdirk, 5e-48).gap, 0);
-  // Not triangular, and rounded to double: both eigenvalues are 1.
+  // Not triangular, and rounded to double; both eigenvalues are 1.
   Mat<mp80> full(2, 2);
   full << 3, 4, -1, -1;
   full(0, 0) += mp80(1e-16);

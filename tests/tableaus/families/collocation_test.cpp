@@ -1,5 +1,5 @@
-// The construction against an independent one: nodes from Rodrigues' formula, coefficients from
-// Vandermonde systems, with 200 digits because these lose about 0.72 s of them.
+// The construction against an independent one: nodes from Rodrigues' formula, coefficients from Vandermonde systems,
+// in 200 digits because these lose about 0.72 s of them.
 #include <Eigen/LU>
 
 #include "tests/tableaus/support.h"
@@ -10,7 +10,7 @@ namespace {
 using wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<200>,
                                            boost::multiprecision::et_off>;
 
-// The digits of the construction but five.
+// All digits of the construction except five.
 template <class Precise>
 constexpr double kTolerance = 1e-75;
 template <>
@@ -61,7 +61,7 @@ wide newtonCorrection(const Polynomial& p, const wide& x) {
   return value / slope;
 }
 
-/// Moves every node onto its zero; expects that it hardly had to.
+/// Moves every node to its zero and expects only a tiny change.
 Vec<wide> polishedNodes(const Family& family, Index s, Vec<wide> c, double tolerance) {
   const Polynomial p = nodePolynomial(family, s);
   for (wide& x : c) {
@@ -141,7 +141,7 @@ TEST(Collocation, VandermondeSystemsGiveTheSameTableaus) {
   }
 }
 
-// Rounded once: half a unit in the 101st digit of coefficients below 1.
+// Rounded once: half a unit in the 101st digit for coefficients below 1.
 TEST(Collocation, Mp100CarriesHundredDigitsOfThem) {
   for (const Family& family : families()) {
     for (const Index s : {2, 11, 20}) {

@@ -9,8 +9,8 @@
 namespace irk {
 namespace {
 
-// The construction's round-off is 1e-79; the smallest residual of a condition that must fail is
-// that of B(2s+1), Gauss: about 16^-s, 1e-48 at s = 40.
+// The construction's round-off is 1e-79. The smallest residual of a condition that must be violated is that of
+// B(2s+1) for Gauss: about 16^-s, 1e-48 at s = 40.
 constexpr double kConstructionTolerance = 1e-70;
 
 double largest(const Vec<double>& residuals, int conditions) {
@@ -36,7 +36,7 @@ TEST(Families, FulfilBCDOfTheoryAndNoMore) {
   }
 }
 
-// theory.md's table, written out once more: B, C, D of the five-stage members.
+// The table of families in tableaus/README.md, written out once more: B, C, D of the five-stage members.
 TEST(Families, OrdersOfFiveStages) {
   const int expected[][3] = {{10, 5, 5}, {9, 4, 5}, {9, 5, 4}, {8, 5, 3},
                              {8, 3, 5},  {8, 4, 4}, {8, 4, 4}, {8, 4, 4}};
@@ -50,7 +50,7 @@ TEST(Families, OrdersOfFiveStages) {
   }
 }
 
-// A rounding error of half an ulp per coefficient moves a condition by at most about an eps.
+// A rounding error of half an ulp per coefficient changes a condition by at most about an eps.
 TEST(Families, RoundedToDoubleKeepResidualsBelow6e16) {
   for (const Family& family : families()) {
     for (Index s = family.minStages(); s <= 40; s += s < 10 ? 1 : 6) {
@@ -139,7 +139,7 @@ Vec<mp50> column(std::initializer_list<mp50> values) {
   return filled<Vec<mp50>>(static_cast<Index>(values.size()), 1, values);
 }
 
-// Hairer & Wanner II, tables IV.5.2, IV.5.4, IV.5.6.
+// HW II, tables IV.5.2, IV.5.4, IV.5.6.
 TEST(Families, EqualTheSurdsOfTheBooks) {
   const mp50 r3 = sqrt(mp50(3)), r6 = sqrt(mp50(6)), one = 1;
   expectKnown({"gauss_2", square(2, {one / 4, one / 4 - r3 / 6, one / 4 + r3 / 6, one / 4}),
@@ -158,8 +158,7 @@ TEST(Families, EqualTheSurdsOfTheBooks) {
                column({(4 - r6) / 10, (4 + r6) / 10, 1})});
 }
 
-// Hairer & Wanner II, tables IV.5.8 to IV.5.12; IIIC* and IIID: Chan, BIT 30 (1990), and their
-// mean.
+// HW II, tables IV.5.8 to IV.5.12; IIIC* and IIID: Chan, BIT 30 (1990), and their mean.
 TEST(Families, EqualTheFractionsOfTheBooks) {
   const mp50 one = 1;
   const Vec<mp50> b = column({one / 6, 2 * one / 3, one / 6}), c = column({0, one / 2, 1});

@@ -1,4 +1,4 @@
-// Five ways of damaging the 3-stage Radau IIA tableau that integration tests are mostly blind to.
+// Five damaged versions of the 3-stage Radau IIA tableau that most integration tests do not detect.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -36,8 +36,8 @@ void shiftWithinRow(Tableau<Real>& tableau) {
   tableau.A(0, 1) -= Real(kDamage);
 }
 
-/// P = I + w v^T with v orthogonal to 1 and c, w to b: P 1 = 1, P c = c, b^T P = b^T, so that the
-/// row sums, B and R(z) stay.
+/// P = I + w v^T with v orthogonal to 1 and c, w orthogonal to b: then P 1 = 1, P c = c, b^T P = b^T, so row sums, B
+/// and R(z) do not change.
 template <class Real>
 void transformSimilarly(Tableau<Real>& tableau) {
   const Eigen::Matrix<Real, 3, 1> ones(1, 1, 1), b = tableau.b, c = tableau.c;
@@ -78,7 +78,7 @@ TYPED_TEST(Damaged, EachIsCaughtByItsFamily) {
   }
 }
 
-// No family to compare with: B, C, D against the declared orders alone.
+// No family is given for comparison: B, C, D are checked against the declared orders alone.
 TYPED_TEST(Damaged, EachIsCaughtByBCD) {
   for (const auto& damage : this->damages) {
     auto tableau = makeTableau<TypeParam>("radau_iia_3");
@@ -175,7 +175,7 @@ TEST(Check, UnderstatedOrderIsNoted) {
   EXPECT_EQ(verdictOn(report, "order"), Verdict::kNote);
 }
 
-// B, C, D of the three are the same: only the coefficients tell them apart.
+// The three families have the same B, C, D: only the coefficients distinguish them.
 TEST(Check, LobattoFamiliesAreNotMistakenForEachOther) {
   for (const auto given : {"lobatto_iiic", "lobatto_iiics", "lobatto_iiid"}) {
     for (const auto claimed : {"lobatto_iiic", "lobatto_iiics", "lobatto_iiid"}) {

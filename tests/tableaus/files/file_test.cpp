@@ -11,7 +11,7 @@
 namespace irk {
 namespace {
 
-/// A file in the temporary folder that lives as long as the object.
+/// A file in the temporary folder; the destructor removes it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
@@ -34,7 +34,7 @@ std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Line numbers matter: the refusals below name them.
+// The refusals below name line numbers of this text.
 const std::vector<std::string> kRadau2 = {
     "# Ehle's method",    // 1
     "family: radau_iia",  // 2

@@ -1,4 +1,4 @@
-// Tableau files that are almost right.
+// Mutated tableau files.
 #include <gtest/gtest.h>
 
 #include "core/base/input_file.h"
@@ -9,7 +9,7 @@
 namespace irk::test {
 namespace {
 
-// A tableau or a misuse of one line that names the file.
+// Reading gives a tableau, or a misuse of one line that names the file.
 TEST(TableauFile, SurvivesMutatedTexts) {
   const std::string folder = IRK_SOURCE_DIR "/tableaus/data/";
   const std::string seeds[] = {readInputFile(folder + "gauss_2.txt"), readInputFile(folder + "lobatto_iiic_3.txt"),
