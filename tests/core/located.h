@@ -1,4 +1,4 @@
-// What tests of located switches share.
+// Shared by tests of located switches.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Values for tests of every field: made from what the field says of itself, so that a new field is tested by itself.
+// Test values for every field, derived from the field's own description, so that new fields are tested automatically.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace irk {
 
-/// At the bounds of a range, inside and outside of it.
+/// Values at the bounds of a range, inside and outside of it.
 inline std::vector<double> probes(const Range& range) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double middle = std::isfinite(range.most - range.least) ? (range.least + range.most) / 2 : 0.5;
@@ -33,14 +33,7 @@ inline std::vector<double> illegalValues(const Range& range) {
   return all;
 }
 
-/// As the field's setter reads it.
-template <class Spec>
-std::string textOf(const Field<Spec>& field, double x) {
-  const bool integer = field.kind == FieldKind::kInteger && std::isfinite(x) && x == std::floor(x);
-  return integer ? std::to_string(static_cast<std::int64_t>(x)) : numberText(x);
-}
-
-/// Of axes every id but the default, of numbers some that are legal; nothing of texts.
+/// For axes all ids but the default, for numbers some legal values; nothing for texts.
 template <class Spec>
 std::vector<std::string> otherValues(const Field<Spec>& field) {
   std::vector<std::string> values;
@@ -54,7 +47,7 @@ std::vector<std::string> otherValues(const Field<Spec>& field) {
   return values;
 }
 
-/// Does the text hold all of these?
+/// Whether the text contains all parts.
 inline bool containsAllOf(const std::string& text, const std::vector<std::string>& parts) {
   return std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return text.find(part) != text.npos; });
 }

@@ -1,4 +1,4 @@
-// Small problems with exact solutions, independent of problems/: what the core is tested on.
+// Small problems with exact solutions for the tests of core; independent of problems/.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace irk::test {
 
-/// y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t; y = phi. Nonlinear and non-autonomous: no damaged
-/// tableau passes it (theory.md).
+/// y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t, with the solution y = phi. Nonlinear and non-autonomous, so every
+/// damaged tableau loses order.
 struct Riccati {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
   template <class T>
@@ -20,7 +20,7 @@ struct Riccati {
   }
 };
 
-/// Pendulum of length 1 in Cartesian coordinates, g = 9.81, with one multiplier.
+/// A pendulum of length 1 in Cartesian coordinates, g = 9.81, with one multiplier.
 struct CartesianPendulum {
   Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 1, .constraints = 1}; }
   template <class T>

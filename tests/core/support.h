@@ -1,4 +1,4 @@
-// Short forms that the core's tests share.
+// Abbreviations for the tests of core.
 #pragma once
 
 #include <cmath>

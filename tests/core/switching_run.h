@@ -1,4 +1,4 @@
-// Runs with switches, as the tests of core see them.
+// Runs with switches, for the tests of core.
 #pragma once
 
 #include <vector>

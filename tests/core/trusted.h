@@ -1,4 +1,4 @@
-// Systems whose results are easily wrong.
+// Systems for which integrators easily return wrong results.
 #pragma once
 
 #include <gtest/gtest.h>

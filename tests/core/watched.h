@@ -1,4 +1,4 @@
-// Systems and step controllers that tell what an option does.
+// Systems and step controllers that record the effects of options.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ Taken taken(const P& problem, const State<double>& start, double t_end,
   return all;
 }
 
-/// A mass that depends on u, v, x and z, a constraint force whose direction depends on x and z.
+/// A mass that depends on u, v, x and z, and a constraint force whose direction depends on x and z.
 struct Coupled {
   Sizes sizes() const { return {.nu = 2, .nx = 1, .nz = 1, .constraints = 1}; }
   template <class T>

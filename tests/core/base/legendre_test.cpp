@@ -10,7 +10,7 @@
 namespace irk::test {
 namespace {
 
-// Coefficients from a table and, beyond it, computed.
+// Checks tabulated coefficients and, beyond the table, computed ones.
 TEST(Legendre, AgreesWithTheStandardLibrary) {
   Vec<double> p(45);
   for (const double x : {0.0, 0.3, 0.77, 1.0}) {
@@ -23,7 +23,7 @@ TEST(Legendre, AgreesWithTheStandardLibrary) {
   }
 }
 
-// Against quadrature: four panels of a Gauss method of order 40.
+// Compares with quadrature: four panels of a Gauss method of order 40.
 TEST(Legendre, IntegralsAreThoseOfQuadrature) {
   const auto gauss = makeTableau<double>("gauss_20");
   constexpr Index kStages = 40;

@@ -35,7 +35,7 @@ TEST(SmallSize, ProductsOfEverySize) {
   }
 }
 
-// Both the unrolled and the general loops; rows in an order that needs pivots.
+// Covers the unrolled and the general loops; the rows are ordered so that pivoting is needed.
 TEST(SmallInverse, RealAndComplexAgainstEigen) {
   for (Index n = 1; n <= kSmallInverse; ++n) {
     Mat<double> re = Mat<double>::Random(n, n), im = Mat<double>::Random(n, n);

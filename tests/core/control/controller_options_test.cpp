@@ -24,8 +24,8 @@ StepOptions controlled(StepControl control) {
   return o;
 }
 
-// HW II (IV.8.25): h_new = 0.9 h eps^(-1/(p+1)) (h / h_old) (eps_old / eps)^(1/(p+1)), where that
-// is less than without the two ratios.
+// HW II (IV.8.25): h_new = 0.9 h eps^(-1/(p+1)) (h / h_old) (eps_old / eps)^(1/(p+1)), if that is less than the value
+// without the two ratios.
 double gustafsson(int p, double error, double h, double error_before, double h_before) {
   const double root = 1.0 / (p + 1);
   const double trend = h / h_before * std::pow(error_before / error, root);
@@ -36,8 +36,7 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
   struct Step {
     double error, h;
   };
-  // Steps that shrink and grow, errors that fall and grow: each ratio upside down gives another
-  // number.
+  // Steps and errors that shrink and grow: inverting either ratio would change the result.
   const Step sequences[][3] = {{{0.5, 0.1}, {0.3, 0.07}, {0.6, 0.09}},
                                {{0.2, 0.1}, {0.7, 0.12}, {0.9, 0.05}},
                                {{0.9, 0.02}, {0.5, 0.015}, {0.8, 0.03}}};
@@ -58,8 +57,8 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
   }
 }
 
-// Errors below 1e-2 count as 1e-2 for the trend (ERRACC of RADAU), and a changed order brings its
-// own past.
+// In the ratio of errors, errors below 1e-2 count as 1e-2 (ERRACC of RADAU). After a change of order the history of
+// the new order is used.
 TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
   auto controller = makeController(controlled(StepControl::kPredictive), 3);
   (void)controller->decide(1e-9, 0.1);
@@ -86,7 +85,7 @@ TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
   EXPECT_GT(controller->decide(1e-6, 0.05).h, 0.1) << "a restart knows of no failure";
 }
 
-// The later source: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
+// The later source of the paper's controller: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
 TEST(Hotint, HasItsOwnExponentAndSafety) {
   const auto fresh = [](int p) { return makeController(controlled(StepControl::kHotint), p); };
   EXPECT_NEAR(fresh(2)->decide(0.05, 0.1).h, 0.1 * std::sqrt(10.0), 1e-13);
@@ -96,7 +95,7 @@ TEST(Hotint, HasItsOwnExponentAndSafety) {
   const auto rejected = fresh(2)->decide(8, 0.1);
   EXPECT_FALSE(rejected.accept);
   EXPECT_NEAR(rejected.h, 0.1 / 4, 1e-15);
-  // No gamma: the same decision whatever came before.
+  // No gamma: the decision does not depend on history.
   const auto controller = fresh(2);
   (void)controller->decide(0.9, 0.2);
   EXPECT_NEAR(controller->decide(0.05, 0.1).h, 0.1 * std::sqrt(10.0), 1e-13);

@@ -1,4 +1,4 @@
-// The paper's controller, number by number: section 6.
+// The paper's step-size controller (section 6), checked number by number.
 #include <gtest/gtest.h>
 
 #include <cmath>

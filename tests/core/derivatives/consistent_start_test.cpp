@@ -11,7 +11,7 @@
 namespace irk::test {
 namespace {
 
-/// x' = z and an equation that z has to satisfy, x being what the equation is about.
+/// x' = z with an equation for z that depends on x.
 enum class Equation { kSquare, kRoot, kNone };
 struct Algebraic {
   Equation equation;
@@ -40,7 +40,8 @@ Found start(Equation equation, double x, double z, bool w_required = true) {
   return found;
 }
 
-// Newton for a square root stays on its side of 0; with the derivatives of these starts kept it would not.
+// Newton's method for a square root converges to the root on the side of its start value. With derivatives kept from
+// these starts it would not.
 TEST(ConsistentStart, KeptDerivativesDoNotLeadToAnotherRoot) {
   for (const double z : {0.01, 0.3, 0.9, 1.0, 30.0}) {
     const auto found = start(Equation::kSquare, 1, z);
@@ -64,7 +65,7 @@ TEST(ConsistentStart, FailuresNameThePlaceAndKeepWhatIsGiven) {
   EXPECT_EQ(nan.state.z()[0], 0.7);
 }
 
-// Without a root, but with a residual that start values may have: at the end that is no solution.
+// An equation without a root, whose residual is small enough for start values. At the end of a run it is no solution.
 TEST(ConsistentStart, AtTheEndOnlyWhatConvergesCounts) {
   const auto system = makeSystem<double>(Algebraic{Equation::kSquare}, {});
   State<double> state(system->sizes());

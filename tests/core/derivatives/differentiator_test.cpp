@@ -1,4 +1,4 @@
-// D0, D1, D2: automatic against differences, and beyond one chunk of directions.
+// D0, D1, D2: automatic differentiation against differences, also for more directions than one chunk.
 #include <gtest/gtest.h>
 
 #include "core/derivatives/differentiator.h"
@@ -8,7 +8,7 @@
 namespace irk::test {
 namespace {
 
-/// A chain of nu nonlinear oscillators with nx filters and a coupled mass: every block is alive.
+/// A chain of nu nonlinear oscillators with nx filters and a coupled mass: no block of D0, D1, D2 is zero.
 struct Chain {
   Index nu, nx;
   Sizes sizes() const { return {.nu = nu, .nx = nx, .nz = 0, .constraints = 0}; }
@@ -56,7 +56,7 @@ void expectNear(const Linearization<double>& a, const Linearization<double>& b, 
 TEST(Linearization, SourcesAgreeAtTwoHundredUnknowns) {
   const auto system = makeSystem<double>(Chain{160, 40});
   const auto automatic = linearize(*system, DerivativeSource::kAutomatic);
-  // eps^(2/3) and eps^(1/2) times second and third derivatives of order one.
+  // Errors are eps^(2/3) and eps^(1/2) times second and third derivatives of order one.
   expectNear(automatic, linearize(*system, DerivativeSource::kCentral), 1e-9);
   expectNear(automatic, linearize(*system, DerivativeSource::kForward), 1e-6);
 }

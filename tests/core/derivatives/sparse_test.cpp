@@ -28,7 +28,7 @@ Linearization<double> linearize(const System<double>& system, const State<double
   return D;
 }
 
-// Off the special points in which scenes start.
+// Moves a state away from the special points at which scenes start.
 State<double> moved(State<double> s) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> either_way(-1, 1);
@@ -49,7 +49,7 @@ Mat<double> dense(const Pattern& p, const Vec<double>& values) {
   return M;
 }
 
-// Column by column, without a pattern.
+// Differentiates column by column, without a pattern.
 Mat<double> columns(const System<double>& system, const State<double>& at, int matrix) {
   const Sizes n = system.sizes();
   PointBuffers<Dual<double>> p(n);
@@ -94,7 +94,8 @@ TEST(Sparse, AJacobianTakesAsManyDirectionsWhateverN) {
   // D0 is diagonal; D1 and D2 have five diagonals.
   EXPECT_EQ(directions(sceneOf("beam_chain", "m", 200)), 11u);
   EXPECT_EQ(directions(sceneOf("beam_chain", "m", 4000)), 11u);
-  // A node and its two neighbours: 3 x 2 columns of M, 3 x 4 of the stiffness. Greedy may take more.
+  // A node and its two neighbours have 3 x 2 columns of M and 3 x 4 of the stiffness. Greedy colouring may need more
+  // colours.
   const std::size_t small = directions(sceneOf("ancf_pendulum", "elements", 50));
   EXPECT_GE(small, 18u);
   EXPECT_LE(small, 24u);
@@ -163,8 +164,8 @@ TEST(Sparse, APatternThatASwitchChangesIsSeen) {
   EXPECT_EQ(dense(*D.pattern, D.d2), columns(*system, s, 2));
 }
 
-// A coupling that is there close to the start only: the first look, nearby, does not see it, the check
-// of the evaluation does.
+// A coupling that exists only close to the start. The first search for the pattern, near the start, misses it; the
+// check at evaluation finds it.
 struct NarrowContact {
   Index m = 40;
   Sizes sizes() const { return {.nu = m, .nx = 0, .nz = 0, .constraints = 0}; }

@@ -8,7 +8,7 @@
 namespace irk::test {
 namespace {
 
-/// x' = -1e6 (x - cos t): what it starts off by is gone at once.
+/// x' = -1e6 (x - cos t): a deviation of the start from cos t decays at once.
 struct Relaxing {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
   template <class T>
@@ -18,8 +18,8 @@ struct Relaxing {
   }
 };
 
-// Filtered once the estimate of a step over the transient is about what the start is off by, 20
-// tolerances, although the step has no such error.
+// In a step over the transient, the estimate filtered once is about the deviation of the start, 20 tolerances,
+// although the error of the step is much smaller.
 TEST(EmbeddedEstimate, OfAFirstStepOverATransientRejectsNothing) {
   for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
     IntegratorOptions o = adaptive(1e-4);

@@ -1,4 +1,4 @@
-// The embedded estimate against the formulas of HW II (IV.8) written down for y' = f(t, y).
+// The embedded estimate against the formulas of HW II (IV.8) for y' = f(t, y).
 #include "core/estimates/embedded.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace irk::test {
 namespace {
 
-/// The oscillators of second order as a system of first order, x = (u, v).
+/// The second-order oscillators as a first-order system, x = (u, v).
 struct FirstOrderOscillators {
   Sizes sizes() const { return {.nu = 0, .nx = 4, .nz = 0, .constraints = 0}; }
   template <class T>
@@ -28,7 +28,7 @@ struct FirstOrderOscillators {
   }
 };
 
-// At t = 0 every other derivative of the solution vanishes.
+// A start at t > 0: at t = 0 every other derivative of the solution is zero.
 State<double> movingRiccati() {
   State<double> start = riccatiStart<double>();
   start.t = 0.7;
@@ -36,7 +36,7 @@ State<double> movingRiccati() {
   return start;
 }
 
-/// One step and its estimate.
+/// Takes one step and estimates its error.
 template <class P>
 class OneStep {
  public:
@@ -84,8 +84,8 @@ class OneStep {
   State<double> start_, end_;
 };
 
-// A real eigenvalue's system is one of the stages' own: its factors serve. Where the stages are solved
-// coupled, or all eigenvalues are complex, the estimate has its own; the numbers are the same.
+// The system of a real eigenvalue is also one of the stages' systems, so the estimate reuses its factors. If the
+// stages are coupled, or all eigenvalues are complex, the estimate factorizes its own; the numbers are the same.
 TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
   for (const char* method : {"radau_iia_3", "radau_iia_5", "radau_iia_4"}) {
     OneStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05,
@@ -137,8 +137,9 @@ TEST(EmbeddedEstimate, WeightIsTheRealEigenvalueOfRadauIIA) {
   const auto weight = [](const char* method) {
     return EmbeddedEstimate<double>::weight(Scheme<double>(makeTableau<double>(method)));
   };
-  // Bauer and Fike: an eigenvalue of A, |A| about 1, is off by at most eps times the condition of the
-  // eigenvectors (9, 95, 1170; irk tableau check), its inverse by its square times that; 4 for the QR steps.
+  // Bauer and Fike: an eigenvalue of A, with |A| about 1, has an error of at most eps times the condition of the
+  // eigenvectors (9, 95, 1170; irk tableau check); its inverse that times its square. The factor 4 is for the QR
+  // steps.
   const auto expect = [&](const char* method, double inverse, double condition) {
     const double bound = 4 * std::numeric_limits<double>::epsilon() * condition * inverse * inverse;
     EXPECT_NEAR(1 / weight(method), inverse, bound) << method;
@@ -148,8 +149,8 @@ TEST(EmbeddedEstimate, WeightIsTheRealEigenvalueOfRadauIIA) {
   expect("radau_iia_7", 8.936832788405216, 1170);
 }
 
-// Both linearize the step's start, but for the slip of u, which the second-order form feeds into the
-// residual itself: they agree up to its square.
+// Both forms linearize at the start of the step. They differ only in the error of u, which the second-order form
+// passes through the residual itself, so they agree up to its square.
 TEST(EmbeddedEstimate, SecondOrderSystemsHaveTheEstimateOfTheirFirstOrderForm) {
   const auto start = integrate<double>(Oscillators{}, oscillatorsStart<double>(), 0.1,
                                        makeTableau<double>("radau_iia_5"), fixedSteps(0.01))
@@ -190,7 +191,7 @@ TEST(EmbeddedEstimate, RefusesASingularA) {
                Misuse);
 }
 
-// Radau IA with one stage lies at c = 0 with a = 1: neither it nor its estimate sees a force that grows from 0.
+// Radau IA with one stage has c = 0 and a = 1: neither the method nor its estimate sees a force that grows from 0.
 TEST(EmbeddedEstimate, RefusesStageOrderZero) {
   IntegratorOptions o = adaptive(1e-6);
   o.step.estimate = ErrorEstimate::kEmbedded;

@@ -1,4 +1,4 @@
-// Errors of many steps: they add up, and a result that they may spoil is no success.
+// The errors of many steps add up; if their sum may spoil the result, the run is not a success.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ TEST(ErrorSum, IsAboveItsBarAfterAThousandTolerances) {
   EXPECT_FALSE(sum.aboveBar());
 }
 
-// 1e-9, as an absolute error, is right at any tolerance.
+// An absolute error of 1e-9 is accepted at any tolerance.
 TEST(ErrorSum, AllowsRoundOffAtTightTolerances) {
   ErrorSum sum({1e-13, 1e-13, NormKind::kMixed});
   sum.begin();
@@ -47,8 +47,8 @@ TEST(ErrorSum, AllowsRoundOffAtTightTolerances) {
   EXPECT_TRUE(sum.aboveBar());
 }
 
-// What the factor asks for: N steps whose estimates, multiplied by it, reach the tolerance, err by some hundred
-// tolerances together, whatever N.
+// If N steps have estimates that reach the tolerance after multiplication by the factor, their errors add up to some
+// hundred tolerances, for every N.
 TEST(ErrorSum, OfStepsUnderAccumulationStaysBelowTheBar) {
   const Tolerances tolerances{1e-8, 1e-8, NormKind::kMixed};
   const Accumulation accumulation(1, tolerances);
@@ -58,7 +58,7 @@ TEST(ErrorSum, OfStepsUnderAccumulationStaysBelowTheBar) {
   EXPECT_LT(sum, 500);
 }
 
-// Errors far below the tolerance are not asked to be smaller still, however many they are.
+// Errors far below the tolerance are not reduced further, however many there are.
 TEST(ErrorSum, AsksNothingOfSmallErrors) {
   const Accumulation accumulation(10, {1e-8, 1e-8, NormKind::kMixed});
   EXPECT_EQ(accumulation.factor(100'000, 3), 10);
@@ -66,7 +66,7 @@ TEST(ErrorSum, AsksNothingOfSmallErrors) {
   EXPECT_LE(accumulation.factor(100'000, 300), 300);
 }
 
-// A rejected error that a shorter step does not lower is accepted, one that it lowers is not.
+// A rejected error is accepted if a shorter step does not reduce it, and not if it does.
 TEST(ErrorSum, IsNotControlledByStepsThatDoNotHelp) {
   Accumulation accumulation(1, {1e-8, 1e-8, NormKind::kMixed});
   EXPECT_EQ(accumulation.asked(0.5, 10, 1, 0.1), 5);

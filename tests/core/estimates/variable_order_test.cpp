@@ -80,8 +80,8 @@ TEST(VariableOrder, AnIntegratorUsedAgainBeginsWithItsFirstMember) {
   }
 }
 
-// Ten revolutions, begun with three stages: their few steps must not make the error. Before estimates
-// were compared as RADAU compares them it was 300 times that of nine stages throughout.
+// Ten revolutions, started with three stages: the first few steps must not dominate the error. Before estimates were
+// compared as in RADAU, the error was 300 times that of nine stages throughout.
 TEST(VariableOrder, LowMembersErrAsLittleAsHighOnes) {
   const Scene<double> scene = makeScene<double>("kepler", {});
   const double revolutions = 20 * std::acos(-1.0);
@@ -98,8 +98,8 @@ TEST(VariableOrder, LowMembersErrAsLittleAsHighOnes) {
   EXPECT_LT(nine, 1e-9);
 }
 
-// Robertson's first step of HW's guess is too long for Newton seven times: that is no reason to begin with
-// fewer stages, which take half as many steps again.
+// For Robertson's problem, Newton's method fails seven times with the first step of HW's guess. That must not make
+// the integration begin with fewer stages, which take half as many steps again.
 TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
   const Scene<double> scene = makeScene<double>("robertson", {});
   const auto end = [&](const Methods<double>& methods, OrderControl order) {

@@ -1,4 +1,4 @@
-// A step allocates nothing: malloc is counted from the second step to the end.
+// Steps allocate nothing: the test counts calls of malloc from the second step to the end.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 bool counting = false;
 long allocations = 0, allocations_of_klu = 0;
 
-// KLU allocates where it chooses pivots anew, through SuiteSparse's own allocator.
+// KLU allocates when it chooses new pivots, through SuiteSparse's own allocator.
 bool isKlu(void* caller) {
   Dl_info info;
   if (dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return false;
@@ -23,8 +23,7 @@ bool isKlu(void* caller) {
 }
 }  // namespace
 
-// Eigen's aligned memory, operator new and the containers all end in malloc (glibc), which is
-// interposed here.
+// Eigen's aligned memory, operator new and the containers all call malloc (glibc), which is replaced here.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" void* malloc(std::size_t size) {
   if (counting) ++(isKlu(__builtin_return_address(0)) ? allocations_of_klu : allocations);
@@ -85,7 +84,7 @@ TEST(Allocation, StepsAllocateNothing) {
                           makeTableau<double>("radau_iia_5"), fixedSteps(0.01)), 0);
 }
 
-// Whole adaptive runs: dense up to s n = 300, sparse at any size.
+// Complete adaptive runs: dense up to s n = 300, sparse for any size.
 TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
   struct Case {
     int elements;
@@ -116,7 +115,7 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
   }
 }
 
-// Orders change, and nothing is allocated for it.
+// Changes of order allocate nothing either.
 TEST(Allocation, VariableOrderAllocatesNothingAfterTheFirstStep) {
   IntegratorOptions o = adaptive(1e-9);
   o.order = OrderControl::kVariable;

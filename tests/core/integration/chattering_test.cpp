@@ -1,4 +1,4 @@
-// Switches that no mode survives: chattering, named.
+// Switches without a valid mode: the outcome is `chattering`.
 #include <gtest/gtest.h>
 
 #include "tests/core/switching_run.h"
@@ -6,7 +6,7 @@
 namespace irk::test {
 namespace {
 
-/// x' = 1 - 2 sigma with sigma = [x > 0]: after x reaches 0 it can only slide, and no mode does.
+/// x' = 1 - 2 sigma with sigma = [x > 0]: once x reaches 0 it can only slide, for which there is no mode.
 struct Sliding {
   Sizes sizes() const {
     return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
@@ -44,7 +44,8 @@ TEST(Chattering, IsNamed) {
 
   const Result iterated = run(problem, start, 1, Discontinuity::kIterate, adaptive(1e-6));
   EXPECT_EQ(iterated.solution.outcome, Outcome::kChattering);
-  // The stage equations of the plain law have no solution there: a failure, not a wrong answer.
+  // There the stage equations of the discontinuous law have no solution: the run must fail, not return a wrong
+  // result.
   IntegratorOptions options = adaptive(1e-6);
   options.step.max_steps = 2000;
   const Result ignored = run(problem, start, 1, Discontinuity::kIgnore, options);
@@ -93,7 +94,7 @@ TEST(Chattering, SwitchesInEveryStepAreNoted) {
   EXPECT_EQ(located.solution.counters.chattering, 0);
 }
 
-/// Both modes declare themselves invalid at once.
+/// From t = 0.5 on the switch of each mode is due at once.
 struct NoMode : Sliding {
   template <class T>
   void switching(const Point<T>& p, T* g) const {

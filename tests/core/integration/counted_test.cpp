@@ -15,7 +15,7 @@
 namespace irk::test {
 namespace {
 
-/// x' = -rate x, and 1.8 times (or another factor) as fast from t = 0.09 on.
+/// x' = -rate x, and from t = 0.09 on faster by a factor of 1.8 (or another one).
 struct Faster {
   double factor = 1.8;
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
@@ -25,9 +25,9 @@ struct Faster {
   }
 };
 
-// Two steps of the midpoint rule, h = 0.1. The first one takes an iteration; in the second one the
-// kept matrix 1 + 500 stands for 1 + 900, so that residuals shrink by 400/501 = 0.798 until a new
-// Jacobian is made. The paper's (3.2) and (3.4), iteration by iteration.
+// Two steps of the midpoint rule, h = 0.1. The first one needs one iteration. In the second one the kept matrix is 1
+// + 500 instead of 1 + 900, so residuals shrink by 400/501 = 0.798 until the Jacobian is evaluated again. This
+// follows the paper's (3.2) and (3.4), iteration by iteration.
 TEST(PapersNewton, FollowsItsRules) {
   State<double> start(Faster{}.sizes());
   start.x[0] = 1;
@@ -60,8 +60,8 @@ TEST(PapersNewton, FollowsItsRules) {
   EXPECT_EQ(run(1e-2, 0.81, 3, 25).newton_restarts, 0) << "just below it";
 }
 
-// With 2.5 times the rate increments grow by 1.5: Newton fails, and starts again with a new
-// Jacobian. All of its iterations belong to the step.
+// With 2.5 times the rate increments grow by 1.5: Newton fails and starts again with a new Jacobian. The step counts
+// all of its iterations.
 TEST(Counted, IterationsOfStepsAreThoseOfTheRun) {
   State<double> start(Faster{}.sizes());
   start.x[0] = 1;
@@ -81,8 +81,7 @@ TEST(Counted, IterationsOfStepsAreThoseOfTheRun) {
   }
 }
 
-// Weights atol scale + rtol |y|, powers of h by index, the mean over (u, v, x, z): number by
-// number.
+// Checks each number: weights atol scale + rtol |y|, powers of h by index, the mean over (u, v, x, z).
 TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   const auto system = makeSystem<double>(CartesianPendulum{}, {Formulation::kIndex3});
   Vec<double> scale(5);
@@ -98,7 +97,7 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   const double h = 0.5;
   ErrorNorm<double> mixed(*system, {0.01, 0.1, NormKind::kMixed}, scale);
   mixed.update(y);
-  // z times h^2; v is a result, and of index 2 all the same.
+  // z is multiplied by h^2; v is integrated, but has index 2 all the same.
   const double e[] = {1 / (0.1 + 0.1), 2 / (0.2 + 0.2), 3 / (0.3 + 0.3), 4 / (0.4 + 0.4),
                       1.25 / (0.5 + 0.5)};
   double sum = 0;
@@ -131,8 +130,7 @@ TEST(ErrorNorms, WeighEveryComponentByItself) {
   }
 }
 
-// 2^q - 1 by the order q of each component: HW II, tables VII.4.1 and VII.6.1 for the stages'
-// orders.
+// Factors 2^q - 1 with the order q of each component; HW II, tables VII.4.1 and VII.6.1 for the orders of the stages.
 TEST(RichardsonFactors, AreOfTheComponentsOrders) {
   const auto orders = [](const char* method, Formulation formulation, ErrorEstimate estimate) {
     const auto system = makeSystem<double>(CartesianPendulum{}, {formulation});
@@ -161,8 +159,7 @@ struct Decay {
   }
 };
 
-// Simplified Newton evaluates s residuals per iteration; the residual test needs one more set per
-// solve.
+// Simplified Newton evaluates s residuals per iteration; the residual test needs one more set of s per solve.
 TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
   State<double> start(Decay{}.sizes());
   start.x[0] = 1;
@@ -196,7 +193,7 @@ TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
   }
 }
 
-// Doubling: a step and two halves, whose two step sizes keep a factorization each.
+// Step doubling solves one step and two half steps; it keeps a factorization for each of the two step sizes.
 TEST(Counted, DoublingSolvesThreeTimes) {
   State<double> start(Decay{}.sizes());
   start.x[0] = 1;
@@ -219,7 +216,7 @@ TEST(Counted, DoublingSolvesThreeTimes) {
   }
 }
 
-// Stages over threads: the same bits, the same counts.
+// Stages on several threads give the same bits and the same counts.
 TEST(Threads, OfOneIntegrationChangeNothing) {
   for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
     IntegratorOptions o = adaptive(1e-8);

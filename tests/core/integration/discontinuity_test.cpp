@@ -1,4 +1,4 @@
-// Switches: every mode on systems with exact switching times, and every way in which they go wrong.
+// Switches: all treatments on systems with exact switching times, and all ways in which switches can go wrong.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace irk::test {
 namespace {
 
-/// Free fall from height 1 with g = 2 on a linear spring: flight s = 1 - t^2, contact at t = 1 with
-/// velocity -2; then m s'' = -k s - 2, until s = 0 again.
+/// Free fall from height 1 with g = 2 on a linear spring: flight s = 1 - t^2, contact at t = 1 with velocity -2; then
+/// m s'' = -k s - 2, until s = 0 again.
 struct Bounce {
   double k = 400;
   double ground = 0;  ///< what the switching function returns instead, to damage it
@@ -44,7 +44,7 @@ State<double> height(const Bounce& problem, double u) {
   return s;
 }
 
-// From the spring's equation with s(0) = 0, s'(0) = -2: s = -c + c cos wt - (2/w) sin wt, c = 2/k.
+// Follows from the spring's equation with s(0) = 0, s'(0) = -2: s = -c + c cos wt - (2/w) sin wt, c = 2/k.
 double contactTime(double k) {
   const double w = std::sqrt(k);
   return (2 * std::acos(-1.0) - 2 * std::atan2(2 / w, 2 / k)) / w;
@@ -63,14 +63,14 @@ TEST(Locate, FindsSwitchesToRoundOff) {
     EXPECT_EQ(r.events[1].index, 1);
     EXPECT_EQ(r.solution.counters.located_events, 2) << method;
     EXPECT_EQ(r.solution.counters.switches, 2) << method;
-    // Flight at speed 2 again.
+    // Flight with speed 2 again.
     const double flight = 3 - r.events[1].t;
     EXPECT_NEAR(r.solution.state.u[0], 2 * flight - flight * flight, 1e-8) << method;
   }
 }
 
-// `ignore` and `smooth` leave the kinks to step doubling, which does not see one that lies before
-// the first stage of a whole step and of its first half: there the error may be far above tol.
+// `ignore` and `smooth` leave the kinks to step doubling. It does not detect a kink before the first stage of both
+// the whole step and its first half, so the error may be far above tol.
 TEST(Modes, ConvergeWithTheTolerance) {
   const Bounce problem;
   const double flight = 2 - contactTime(problem.k);
@@ -112,12 +112,12 @@ TEST(Locate, FixedStepsAreSplit) {
 
 TEST(Locate, SwitchAtTheStartHappensThere) {
   const Bounce problem;
-  State<double> start = height(problem, -1e-3);  // pressed in, but said to fly
+  State<double> start = height(problem, -1e-3);  // in contact, but in the mode of flight
   const Result r = run(problem, start, 0.01, Discontinuity::kLocate, adaptive(1e-8));
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_GE(r.events.size(), 1u);
   EXPECT_EQ(r.events[0].t, 0);
-  // Exactly on the switching surface, moving in.
+  // Exactly on the switching surface, moving into the spring.
   start = height(problem, 0);
   start.v[0] = -1;
   const Result on = run(problem, start, 0.01, Discontinuity::kLocate, adaptive(1e-8));
@@ -148,7 +148,7 @@ struct Pulse {
   }
 };
 
-// On the switching surface at the start, due at once: g = t.
+// The start lies on the switching surface and the switch is due at once: g = t.
 TEST(Locate, SwitchDueRightAfterTheStart) {
   const Pulse problem{0.2, 0};
   const State<double> start(problem.sizes());

@@ -1,5 +1,4 @@
-// Located events against exact solutions: which one comes first, and that what follows one is a new
-// start.
+// Located events against exact solutions: the order of events, and a consistent restart after each.
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
@@ -12,8 +11,8 @@
 namespace irk::test {
 namespace {
 
-/// Two clocks: switch i is due from t_i on. The rate is 1 before, 2 or 3 after the one that came
-/// first, and 4 or 5 after both: the end tells which it was.
+/// Two clocks: switch i is due from t_i on. The rate is 1 at first, 2 or 3 after the first event (depending on which
+/// it is), and 4 or 5 after both, so the result shows which event came first.
 struct Clocks {
   double at[2];
   Sizes sizes() const {
@@ -58,7 +57,7 @@ TEST(Events, TheEarlierOfTwoInOneStepComesFirst) {
         ASSERT_EQ(r.events.size(), 2u) << low << " " << high;
         EXPECT_EQ(r.events[0].index, swapped ? 1 : 0) << low << " " << high;
         EXPECT_EQ(r.events[1].index, swapped ? 0 : 1) << low << " " << high;
-        // The resolution: 1e-5 of the tolerance, or of 1e-3 without one.
+        // The resolution of the location: 1e-5 of the tolerance, or of 1e-3 if there is none.
         EXPECT_NEAR(r.events[0].t, low, 1e-8) << low << " " << high;
         EXPECT_NEAR(r.events[1].t, high, 1e-8) << low << " " << high;
         EXPECT_NEAR(r.solution.state.x[0], problem.end(1), 1e-7) << low << " " << high;
@@ -76,7 +75,7 @@ TEST(Events, BothAtTheSameTimeBothHappen) {
   EXPECT_NEAR(r.solution.state.x[0], problem.end(1), 1e-8);
 }
 
-/// Due where sin(w t + phase) > 0, once: two upward crossings in the first step.
+/// Due once, when sin(w t + phase) > 0; the first step contains two upward crossings.
 struct Wave {
   double w, phase;
   Sizes sizes() const {
@@ -105,7 +104,7 @@ TEST(Events, TheFirstOfTwoCrossingsOfOneFunction) {
     options.step.h = 1;
     const Result r =
         run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
-    // Due at once where it starts above 0.
+    // Due at once if it starts above 0.
     const double at = std::sin(-4 * pi * first) > 0 ? 0 : first;
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
     ASSERT_EQ(r.events.size(), 1u) << first;
@@ -114,8 +113,7 @@ TEST(Events, TheFirstOfTwoCrossingsOfOneFunction) {
   }
 }
 
-/// A point mass on a floor that returns half of the speed: a `jump` of v, twice differentiable
-/// flight.
+/// A point mass on a floor that returns half of the speed: v jumps; the flight between is smooth.
 struct Ball {
   Sizes sizes() const {
     return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
@@ -155,7 +153,7 @@ TEST(Events, AJumpHappensAtItsEvent) {
   }
 }
 
-/// x' = 1, from t = 0.55 on 5.
+/// x' = 1, and 5 from t = 0.55 on.
 struct Kink {
   Sizes sizes() const {
     return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
@@ -174,8 +172,8 @@ struct Kink {
   }
 };
 
-// Lobatto IIIA takes its first stage from the start: a rate of before the event would be an error
-// of h b_1 4 = 0.03.
+// The first stage of Lobatto IIIA is the start of the step: a rate from before the event would cause an error of h
+// b_1 4 = 0.03.
 TEST(Events, WhatFollowsStartsWithConsistentRates) {
   const Kink problem;
   const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate,
@@ -185,8 +183,8 @@ TEST(Events, WhatFollowsStartsWithConsistentRates) {
   EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-9);
 }
 
-// The rates are constant but for the event, so that start values are exact where nothing of before
-// the event is extrapolated: each solve then takes one iteration.
+// The rates are constant except at the event. Start values are therefore exact, and each solve takes one iteration,
+// unless values from before the event are extrapolated.
 TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
   const Kink problem;
   for (const auto predictor :
@@ -200,13 +198,13 @@ TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
     EXPECT_EQ(r.solution.counters.newton_iterations, r.solution.counters.solves);
     const auto attempts = r.solution.counters.newton_iterations / 3;  // of Richardson: h, h/2, h/2
     EXPECT_EQ(r.solution.counters.newton_iterations % 3, 0);
-    // Without the event as many iterations per attempt.
+    // Without the event every attempt needs the same number of iterations.
     EXPECT_LE(attempts, r.solution.counters.steps_accepted + 6) << idOf(predictor);
     EXPECT_EQ(r.solution.counters.newton_restarts, 0);
   }
 }
 
-/// On for t in (0.5, 0.5 + width): due inside a step, at neither end.
+/// On for t in (0.5, 0.5 + width): due inside a step, but at neither end.
 struct Blink {
   double width;
   Sizes sizes() const {
@@ -228,7 +226,7 @@ struct Blink {
   }
 };
 
-// `iterate` looks at the modes at the ends of a step, and at its stages.
+// `iterate` checks the modes at the ends of a step and at its stages.
 TEST(Iterate, SeesAModeThatComesAndGoes) {
   for (const double width : {0.2, 0.1}) {
     const Blink problem{width};
@@ -241,8 +239,8 @@ TEST(Iterate, SeesAModeThatComesAndGoes) {
   }
 }
 
-// After a rejection with a switch in the step the next one ends at 0.98 of the way to it: what is
-// left shrinks by 50 each time.
+// After a rejection because of a switch the next step ends at 0.98 of the way to it: the remaining distance shrinks
+// by 50 each time.
 TEST(Iterate, ComesCloseToASwitchInFewSteps) {
   const Kink problem;
   IntegratorOptions options = located(1e-6);

@@ -1,4 +1,4 @@
-// Runs end as they should: successes, failures by name, refusals, counters, equivalences.
+// Complete runs: successes, failures by name, refusals, counters, equivalences.
 #include <gtest/gtest.h>
 
 #include "irk/multiprecision.h"
@@ -7,7 +7,7 @@
 namespace irk::test {
 namespace {
 
-// Paper, section 2: 2-stage Lobatto IIIA in K-form is Newmark's method with beta 1/4, gamma 1/2:
+// The paper, section 2: 2-stage Lobatto IIIA in K-form is Newmark's method with beta 1/4, gamma 1/2:
 //   u1 = u0 + h v0 + h^2/4 (a0 + a1),  v1 = v0 + h/2 (a0 + a1),  r(u1, v1, a1) = 0.
 struct Duffing {
   Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0}; }
@@ -66,8 +66,8 @@ TEST(Integrator, MultiprecisionGoesBelowDouble) {
   EXPECT_LT(std::abs(static_cast<double>(mp50(s.state.x[0] - exact))), 1e-35);
 }
 
-// A linear problem with constant coefficients: one Jacobian, one factorization, and per step one
-// iteration of the paper's Newton, which leaves a residual of round-off.
+// A linear problem with constant coefficients needs one Jacobian, one factorization, and per step one iteration of
+// the paper's Newton method, after which the residual is at round-off.
 struct Linear {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
   template <class T>

@@ -1,4 +1,4 @@
-// Observed orders, two-sided, on problems that can fail.
+// Observed orders with two-sided bounds, on problems that damaged tableaus fail.
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace irk::test {
 namespace {
 
-// Over mp50 every slope has its asymptotic range; over double it drowns in round-off from order 8 on.
+// In mp50 every slope has an asymptotic range; in double it disappears in round-off from order 8 on.
 double riccatiOrder(const Tableau<mp50>& tableau, const std::vector<int>& counts) {
   std::vector<double> h, error;
   for (const int n : counts) {
@@ -35,7 +35,7 @@ TEST(Order, TwentyAndNineteenAtTenStages) {
   EXPECT_NEAR(riccatiOrder(makeTableau<mp50>("radau_iia_10"), {10, 14, 20}), 19, 0.3);
 }
 
-// theory.md: nothing but a nonlinear non-autonomous problem catches all five.
+// Only a nonlinear non-autonomous problem detects all five damaged tableaus.
 TEST(Order, DamagedTableausLoseTheirOrder) {
   const auto good = makeTableau<mp50>("radau_iia_3");
   EXPECT_NEAR(riccatiOrder(good, {40, 80}), 5, 0.2);
@@ -81,8 +81,8 @@ PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<mp50>&
   return {slope(h, q), slope(h, v), slope(h, lambda)};
 }
 
-// theory.md: pendulum, index 2: Radau IIA has 2s - 1 for q and v, s for lambda; from q and v at the end
-// lambda follows with their order.
+// tableaus/README.md, pendulum in index 2: the orders of Radau IIA are 2s - 1 for q and v, s for lambda. A lambda
+// that is solved from q and v at the end has their order.
 TEST(Order, RadauIiaOnTheIndexTwoPendulum) {
   auto options = fixedSteps(0.5 / 12);
   options.multipliers = Multipliers::kConsistent;
@@ -99,7 +99,7 @@ TEST(Order, RadauIiaOnTheIndexTwoPendulum) {
   }
 }
 
-/// x' = z, 0 = x - sin t: index 2, and z no multiplier of a position constraint.
+/// x' = z, 0 = x - sin t has index 2, but z is no multiplier of a position constraint.
 struct PrescribedPath {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 1, .constraints = 0}; }
   template <class T>
@@ -128,7 +128,7 @@ TEST(Order, UnknownsThatDoNotFollowAtTheEndStayThoseOfTheStages) {
   EXPECT_EQ(kept.detail, "multipliers of the stages: dr/d(a, k, z) is singular at t = 1");
 }
 
-/// y' = t^(d-1): the quadrature of the method.
+/// y' = t^(d-1) applies the method's quadrature.
 struct Monomial {
   int degree;
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }

@@ -10,7 +10,7 @@
 namespace irk::test {
 namespace {
 
-/// x' = -rate (x - 1), and a million times as fast from t = 0.5 on.
+/// x' = -rate (x - 1), with a rate a million times larger from t = 0.5 on.
 struct Stiffening {
   Sizes sizes() const {
     return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
@@ -31,8 +31,8 @@ struct Stiffening {
   }
 };
 
-// With the Jacobian of the mode before Newton's increments grow by h 1e6: it would fail, and be
-// started again with a new one.
+// With the Jacobian of the previous mode Newton's increments would grow by h 1e6; it would fail and start again with
+// a new Jacobian.
 TEST(Events, TheJacobianIsOfTheNewMode) {
   const Stiffening problem;
   for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
@@ -58,7 +58,7 @@ struct Step {
   int iterations;
 };
 
-/// A driven oscillator whose spring has another stiffness from t = 0.5 on.
+/// A driven oscillator whose spring stiffness changes at t = 0.5.
 struct Spring {
   double factor;
   Sizes sizes() const {
@@ -110,9 +110,9 @@ SpringRun springRun(const Spring& problem, const State<double>& start,
   return run;
 }
 
-// After an event nothing of before it decides: not the polynomial, the Jacobian, Newton's
-// contraction, nor the controller's memory of errors and steps. The same steps as of an integration
-// that begins there.
+// After an event nothing from before it may be used: neither the polynomial, the Jacobian, Newton's contraction nor
+// the controller's history of errors and steps. The steps must equal those of an integration that begins at the
+// event.
 TEST(Events, ARestartIsANewStart) {
   for (const auto control : {StepControl::kPredictive, StepControl::kPaper, StepControl::kHotint}) {
     for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
@@ -128,12 +128,12 @@ TEST(Events, ARestartIsANewStart) {
         const auto after = std::find_if(whole.steps.begin(), whole.steps.end(),
                                         [](const Step& s) { return s.t > 0.5 + 1e-6; });
         ASSERT_NE(after, whole.steps.end());
-        if (whole.attempts_of_first != 1) continue;  // rejected: the fresh run does not know of it
+        if (whole.attempts_of_first != 1) continue;  // rejected: the fresh run cannot know this
         ++compared;
         options.step.h = after->h;
         const SpringRun fresh = springRun(problem, whole.event, options);
         const std::vector<Step> rest(after, whole.steps.end());
-        // Only that errors of many steps add up goes on: from the fiftieth on.
+        // Only the sum of errors over many steps continues; it has an effect from the fiftieth step on.
         const std::size_t common = std::min({fresh.steps.size(), rest.size(), std::size_t{20}});
         ASSERT_GE(common, std::min(rest.size(), std::size_t{20})) << idOf(control) << idOf(estimate);
         for (std::size_t i = 0; i < common; ++i) {
@@ -148,7 +148,7 @@ TEST(Events, ARestartIsANewStart) {
   }
 }
 
-// Also a step that ends at an event is recorded with its own size.
+// A step that ends at an event is recorded with its own size, too.
 TEST(Events, StepsAddUp) {
   for (const bool fixed : {false, true}) {
     IntegratorOptions options = fixed ? fixedSteps(0.17) : located(1e-7);
@@ -164,7 +164,7 @@ TEST(Events, StepsAddUp) {
   }
 }
 
-/// A nonlinear pendulum; due below a level, once.
+/// A nonlinear pendulum; its switch is due once, below a level.
 struct Passing {
   double level;
   Sizes sizes() const {
@@ -185,9 +185,9 @@ struct Passing {
   }
 };
 
-// Re-solving a step to its switch takes about four attempts with two factorizations each; a wrong
-// slope, or a guess in the wrong half of the step, takes half as many again and more. The first step after
-// the restart has to follow (a, k) at its start: one attempt more.
+// Solving a step again up to its switch takes about four attempts with two factorizations each. A wrong slope, or a
+// guess in the wrong half of the step, would take at least half as many again. The first step after the restart takes
+// one more attempt, because (a, k) at its start change.
 TEST(Events, AreFoundInFewAttempts) {
   std::int64_t more = 0, events = 0;
   for (const double tol : {1e-4, 1e-8}) {
@@ -212,8 +212,8 @@ TEST(Events, AreFoundInFewAttempts) {
   EXPECT_LE(more, 14 * events);
 }
 
-/// x' = x, from 1; due where x reaches `level`, and where t reaches `at`. The steps' dense output
-/// is of low order: which of the two comes first only solved steps tell.
+/// x' = x, x(0) = 1; one switch is due at x = `level`, the other at t = `at`. The dense output has low order, so only
+/// solved steps show which one comes first.
 struct Race {
   double level, at;
   bool swapped;
@@ -250,7 +250,7 @@ TEST(Events, OfARaceAreOrderedBySolvedSteps) {
             const Result r = run(problem, start, 1.5, Discontinuity::kLocate, options, method);
             ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
             ASSERT_EQ(r.events.size(), 2u);
-            // That of the clock is known to round-off, however inexact the steps are.
+            // The switch of the clock is located to round-off, regardless of the error of the steps.
             const auto clock =
                 static_cast<std::size_t>(r.events[0].index == (swapped ? 0 : 1) ? 0 : 1);
             EXPECT_NEAR(r.events[clock].t, problem.at, 1e-7)

@@ -9,7 +9,7 @@
 namespace irk::test {
 namespace {
 
-/// A ball whose velocity jumps: v -> -0.8 v at the floor.
+/// A ball whose velocity jumps at the floor: v -> -0.8 v.
 struct Jumping {
   Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
   template <class T>
@@ -34,7 +34,7 @@ TEST(Success, JumpsOfTheStateAreLocatedOrRefused) {
   const Jumping ball;
   State<double> start(ball.sizes());
   start.u[0] = 1;
-  // Falls for sqrt(0.2), rises with 0.8 sqrt(20) for the rest.
+  // It falls for sqrt(0.2), then rises with 0.8 sqrt(20) for the rest.
   const double fall = std::sqrt(0.2), left = 1 - fall;
   const double height = 0.8 * std::sqrt(20.0) * left - 5 * left * left;
   for (const auto& options : {adaptive(1e-8), embedded(1e-8)}) {
@@ -47,8 +47,8 @@ TEST(Success, JumpsOfTheStateAreLocatedOrRefused) {
   }
 }
 
-// Gauss' methods with an even number of stages determine velocities of index 3 with order s - 2 only, and
-// multipliers not at all.
+// In index 3, Gauss methods with an even number of stages have order s - 2 for velocities and do not determine
+// multipliers.
 TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
   for (const char* method : {"gauss_2", "gauss_3", "gauss_4", "gauss_5", "radau_iia_3", "radau_iia_5",
                              "lobatto_iiic_4", "radau_ia_4"}) {
@@ -70,7 +70,8 @@ TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
   EXPECT_EQ(radau.outcome, Outcome::kSuccess) << radau.detail;
 }
 
-// At the end of an integration in index 2 multipliers follow from (u, v): Gauss' own are off by far.
+// At the end of an integration in index 2 multipliers are solved from (u, v), because those of Gauss methods are far
+// off.
 TEST(Success, MultipliersFollowFromTheState) {
   for (const char* method : {"gauss_5", "gauss_7", "radau_iia_3", "lobatto_iiid_4"}) {
     const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
@@ -82,10 +83,10 @@ TEST(Success, MultipliersFollowFromTheState) {
   }
 }
 
-/// A constraint that an index-1 formulation leaves quadratically: the bar stands still but for a push that
-/// the formulation does not see.
+/// If the positions violate their constraints at the end, the outcome is `drift`.
 TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
-  // Many revolutions at a loose tolerance with two differentiations: the mass leaves its circle by kilometres.
+  // Index 1 differentiates the constraint twice; over many revolutions at a loose tolerance the mass moves kilometres
+  // away from its circle.
   for (const char* method : {"radau_iia_2", "gauss_2"}) {
     const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1000,
                                      makeTableau<double>(method), embedded(1e-2), Formulation::kIndex1);
@@ -105,8 +106,8 @@ TEST(Success, NoDriftWhereTheToleranceIsKept) {
   }
 }
 
-/// A transistor stage with a singular capacitance matrix: C (y1' - y2') and two algebraic rows, in volts
-/// and amperes; g(v) = 1e-6 (exp(v / 0.026) - 1). HW II, IV.1 and p. 376, reduced.
+/// A transistor stage with a singular capacitance matrix, C (y1' - y2'), and two algebraic rows, in volts and
+/// amperes; g(v) = 1e-6 (exp(v / 0.026) - 1). Reduced from HW II, IV.1 and p. 376.
 struct Transistor {
   Sizes sizes() const { return {.nx = 5}; }
   template <class T>
@@ -125,7 +126,7 @@ struct Transistor {
   }
 };
 
-// Round-off of the residual over h lies above what Newton is asked for; halving the step makes it worse.
+// Round-off of the residual divided by h exceeds Newton's tolerance, and halving the step makes it worse.
 TEST(Success, SingularMatricesInFrontOfRatesAreSolved) {
   State<double> start(Transistor{}.sizes());
   start.x << 0, 3, 3, 6, 0;
@@ -157,7 +158,7 @@ TEST(StallDetector, SeesStepsThatStaySmallAndNoOthers) {
   EXPECT_GE(attemptsUntilStall(1), 50000);
   EXPECT_LE(attemptsUntilStall(1), 52000);
   EXPECT_EQ(attemptsUntilStall(2), 0);  // grows out of it
-  // Within reach: 1e5 steps of 1e-5.
+  // Steps of 1e-5 can reach the end: 1e5 steps.
   StallDetector detector;
   detector.begin(0);
   for (int i = 1; i < 100000; ++i) {

@@ -1,4 +1,4 @@
-// A success is right: every way in which a run was called so although its result was wrong.
+// A success must be right: each test is a case in which a run with a wrong result was called a success.
 #include <gtest/gtest.h>
 #include <cmath>
 
@@ -10,8 +10,8 @@
 namespace irk::test {
 namespace {
 
-/// A ball on an elastic floor without gravity: it hits the floor at t = 1 with speed 1, and leaves it half
-/// a period of its contact later with the opposite speed.
+/// A ball on an elastic floor without gravity: it hits the floor at t = 1 with speed 1, and leaves it half a period
+/// of the contact later with the opposite speed.
 struct Elastic {
   double k = 1e8;
   Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
@@ -36,8 +36,8 @@ struct Elastic {
   double heightAt(double t) const { return t - 1 - std::acos(-1.0) / std::sqrt(k); }
 };
 
-// The step before the contact is long, and L-stable methods damp the fast motion in one such step, in
-// the whole step as in its halves: the ball would stay on the floor.
+// The step before the contact is long. L-stable methods damp the fast motion in one step of this size, both in the
+// whole step and in its halves: the ball would stay on the floor.
 TEST(Success, FastMotionThatStartsAtASwitchIsFollowed) {
   for (const double k : {1e4, 1e6, 1e8, 1e10}) {
     const Elastic ball{k};
@@ -55,7 +55,7 @@ TEST(Success, FastMotionThatStartsAtASwitchIsFollowed) {
   }
 }
 
-// Without location every step with a switch is bounded by what the wrong mode does over it.
+// Without location, the error of a step with a switch is bounded by the effect of the wrong mode over the step.
 TEST(Success, ContactInsideOneStepIsSeenWithoutLocation) {
   const Elastic ball{1e6};
   for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate}) {
@@ -72,7 +72,7 @@ TEST(Success, ContactInsideOneStepIsSeenWithoutLocation) {
   }
 }
 
-/// x' = d: on while t - 0.5 lies within `width`; a parabola that is above 0 for that long only.
+/// x' = d, where d is 1 while |t - centre| < `width`; the switching function, a parabola, is positive only then.
 struct Blink {
   double centre = 0.53, width = 1e-3;
   Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 2}; }
@@ -92,7 +92,7 @@ struct Blink {
   }
 };
 
-// A hundredth of the distance between two samples, at both ends of a step as well.
+// The pulse lasts a hundredth of the distance between two samples; it also occurs at both ends of a step.
 TEST(Success, SwitchThatComesAndGoesBetweenTwoSamplesIsFound) {
   for (const double centre : {0.002, 0.03, 0.06, 0.3, 0.53, 0.77, 0.94, 0.97, 0.998}) {
     const Blink problem{centre, 1e-3};
@@ -108,8 +108,8 @@ TEST(Success, SwitchThatComesAndGoesBetweenTwoSamplesIsFound) {
   }
 }
 
-/// On between `on` and `off`; the switching function is the least of a steep and a flat one, as that of a slider which
-/// yields while it moves: a corner without a maximum that a parabola through samples could show.
+/// On between `on` and `off`. The switching function is the minimum of a steep and a flat line, as for a slider that
+/// yields while it moves: a corner, whose maximum a parabola through samples does not find.
 struct Tent {
   double on, off, up, down;
   Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 1}; }
@@ -143,7 +143,7 @@ TEST(Success, CornerThatRisesAboveZeroNextToAnEndOfAStepIsFound) {
   }
 }
 
-/// Two switching functions whose roots lie in one step: each adds its own rate.
+/// Two switches in one step; each of them adds its own rate.
 struct Pair {
   double first, second;
   Sizes sizes() const { return {.nx = 1, .discrete = 2, .switches = 2}; }
@@ -191,8 +191,8 @@ struct Undeclared {
   }
 };
 
-// 2^p - 1 is 131071 with nine stages: only where the halves show that order. (Gauss' stages do not reach the
-// ends of a step: what jumps there, and is not declared, no estimate sees.)
+// With nine stages 2^p - 1 is 131071; the estimate may divide by it only if the halves show that order. (The stages
+// of Gauss methods do not include the ends of a step, so no estimate detects an undeclared jump there.)
 TEST(Success, DoublingSeesAJumpThatNobodyDeclares) {
   for (const double at : {0.0123, 0.3, 0.5123, 0.77, 0.9}) {
     const Undeclared problem{at};

@@ -1,5 +1,5 @@
-// The sparse factors against dense ones, where pivots are off the diagonal and where they have to change;
-// solved together against one by one.
+// Sparse LU factors against dense ones, with pivots off the diagonal and with changing pivots; systems solved
+// together against systems solved one by one.
 #include "core/linear/interleaved_lu.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::complex<double> entry<std::complex<double>>(std::minstd_rand& random) {
   return {re, entry<double>(random)};
 }
 
-// [[K, G^T], [G, 0]]: a band K of 12 and three constraints, zeros on a part of the diagonal; rows
+// The matrix [[K, G^T], [G, 0]]: a band K of 12 and three constraints, with zeros on part of the diagonal and rows
 // scaled from 1e-6 to 1e6.
 template <class T>
 Mat<T> saddle(unsigned seed) {
@@ -42,7 +42,7 @@ Mat<T> saddle(unsigned seed) {
   return A;
 }
 
-// A matrix whose values are set from dense ones, in the pattern of those that are not zero.
+// A matrix with the pattern of a dense matrix's nonzeros and its values.
 template <class T>
 class Filled {
  public:
@@ -88,7 +88,8 @@ void solvesAndRenews() {
   ASSERT_EQ(sparse.factorize(A), Outcome::kSuccess);
   EXPECT_EQ(sparse.lu->pivotings(), 1);
   expectSolves(*sparse.lu, A, 1e-9);
-  // Nearby values keep the pivots; other ones ask for new pivots or do with the old, and solve.
+  // Nearby values keep the pivots. Other values either need new pivots or can use the old ones; both solve the
+  // system.
   const Mat<T> near = 1.01 * A;
   ASSERT_EQ(sparse.factorize(near), Outcome::kSuccess);
   EXPECT_EQ(sparse.lu->pivotings(), 1);
@@ -127,7 +128,7 @@ TEST(SparseLu, SaysSingularAndNotFiniteAndRecovers) {
   expectSolves(*sparse.lu, A, 1e-13);
 }
 
-// KLU's own rule: no entry of L above 1 / 0.001.
+// KLU's own rule: pivots of another matrix are used only if no entry of L exceeds 1 / 0.001.
 TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
   Mat<double> A(2, 2), like(2, 2), unlike(2, 2), beyond(2, 2);
   A << 1, 0.5, 0.5, 2;
@@ -146,7 +147,7 @@ TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
   expectSolves(*third.lu, unlike, 1e-14);
   ASSERT_EQ(fourth.factorize(beyond, &first.lu->pivots()), Outcome::kSuccess);
   EXPECT_EQ(fourth.lu->pivotings(), 1);
-  // With pivots of its own that serve: the others only where they are preferred.
+  // If its own pivots serve, the other ones are used only on request.
   ASSERT_EQ(third.factorize(like, &first.lu->pivots()), Outcome::kSuccess);
   EXPECT_FALSE(third.lu->pivots() == first.lu->pivots());
   ASSERT_EQ(third.factorize(like, &first.lu->pivots(), true), Outcome::kSuccess);
@@ -154,7 +155,7 @@ TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
   expectSolves(*third.lu, like, 1e-12);
 }
 
-// Real and complex matrices of one pattern with the first one's pivots, more than one group of lanes.
+// Real and complex matrices of one pattern with the pivots of the first one, in more than one group of lanes.
 TEST(InterleavedLu, AgreesWithSolvesOneByOne) {
   using Complex = std::complex<double>;
   const Mat<double> A = saddle<double>(1);
@@ -208,7 +209,7 @@ TEST(InterleavedLu, RefusesDifferentPivotsAndFollowsTheirChanges) {
   InterleavedLu together(*first.analysis(), 2);
   EXPECT_FALSE(together.assign(both, {}));
   EXPECT_FALSE(together.assign(both, {})) << "nothing has changed";
-  // The second's pivots for both.
+  // Both use the pivots of the second matrix.
   std::copy(swapped.data(), swapped.data() + 4, both[0].values());
   ASSERT_EQ(both[0].factorize(&both[1].pivots()), Outcome::kSuccess);
   EXPECT_EQ(both[0].pivotings(), 1);

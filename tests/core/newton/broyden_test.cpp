@@ -1,4 +1,4 @@
-// Broyden's updates against the matrices that they stand for, and what they save.
+// Broyden's updates against explicitly updated matrices, and the work that they save.
 #include "core/newton/broyden.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace irk::test {
 namespace {
 
-// F(x) = 0 in six unknowns, mildly nonlinear; (1, ..., 6)/6 is its root.
+// F(x) = 0 in six unknowns, mildly nonlinear, with the root (1, ..., 6)/6.
 Vec<double> residual(const Vec<double>& x) {
   const Index n = x.size();
   Vec<double> f(n);
@@ -24,7 +24,7 @@ Vec<double> residual(const Vec<double>& x) {
   return f;
 }
 
-// B := B + (F_new - F_old - B s) s^T W / (s^T W s), written down.
+// The update, written out: B := B + (F_new - F_old - B s) s^T W / (s^T W s).
 TEST(Broyden, AgreesWithTheUpdatedMatrices) {
   constexpr Index kRows = 3, kStages = 2, kSize = kRows * kStages;
   const Vec<double> squares = (Vec<double>(kRows) << 1.0, 4.0, 0.25).finished();
@@ -50,7 +50,7 @@ TEST(Broyden, AgreesWithTheUpdatedMatrices) {
     B += (next - f - B * step) * dual.transpose() / dual.dot(step);
     f = next;
   }
-  // Superlinear: the simplified iteration contracts by 0.4.
+  // Convergence is superlinear; the simplified iteration contracts by 0.4.
   EXPECT_LT(residual(x).norm(), 1e-5);
 }
 

@@ -15,7 +15,7 @@
 namespace irk::test {
 namespace {
 
-/// Where the residual was evaluated, over double and over dual numbers. x' = t, u'' = sin u.
+/// Records the points at which the residual is evaluated, over double and dual numbers. x' = t, u'' = sin u.
 struct Asked {
   double t, u, k;
   bool dual;
@@ -89,8 +89,7 @@ TEST(JacobianPointOption, IsWhereTheDerivativesAreAsked) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(each[each.size() - 3 + i].t, nodes[i] * h, 1e-14);
 }
 
-// k of the first residuals of the second step. The first step's stages have k = c_i h, its end k =
-// h.
+// Checks k in the first residuals of the second step. In the first step the stages have k = c_i h, the end k = h.
 TEST(PredictorOption, IsWhereNewtonStarts) {
   const double h = 0.25;
   const auto second = [&](Predictor predictor) {
@@ -103,7 +102,7 @@ TEST(PredictorOption, IsWhereNewtonStarts) {
     found.resize(2);  // the two stages of the first iteration
     return found;
   };
-  // A last step that is shorter: 0.4 of the one before.
+  // The last step is shorter: 0.4 of the previous one.
   IntegratorOptions o = oneStep(h);
   o.predictor = Predictor::kExtrapolated;
   int shorter = 0;
@@ -145,7 +144,7 @@ Linearization<double> termsOf(JacobianTerms terms, DerivativeSource source, doub
   return D;
 }
 
-// By hand, rows (u0, u1, x, z): D0 by (a0, a1, k, z), D1 by (v0, v1, x, .), D2 by (u0, u1, ., .).
+// Matrices derived by hand, rows (u0, u1, x, z): D0 by (a0, a1, k, z), D1 by (v0, v1, x, .), D2 by (u0, u1, ., .).
 TEST(JacobianTermsOption, LeaveOutWhatTheySay) {
   const double m = 1 + 0.3 * 0.6 + 0.2 * 0.4 + 0.7 * 0.5 + 0.05 * 1.5, a = 2;
   for (const auto source : {DerivativeSource::kAutomatic, DerivativeSource::kCentral}) {
@@ -164,7 +163,7 @@ TEST(JacobianTermsOption, LeaveOutWhatTheySay) {
       EXPECT_NEAR(D.dense2()(0, 0), -1.5 - (u ? 0 : 0.3 * a), tolerance) << idOf(terms);
       EXPECT_NEAR(D.dense2()(0, 1), 3, tolerance) << idOf(terms);
       EXPECT_NEAR(D.dense2()(1, 0), 10 * 0.6, tolerance) << idOf(terms);
-      // Evaluated once: at another u it stays.
+      // The constant stiffness is evaluated once and does not change with u.
       const double at = terms == JacobianTerms::kConstantStiffness ? 0.6 : 0.8;
       EXPECT_NEAR(later, 10 * at, 10 * tolerance) << idOf(terms);
       EXPECT_NEAR(D.dense2()(3, 0), 0.4, tolerance) << "d/du of u.v";
@@ -173,7 +172,7 @@ TEST(JacobianTermsOption, LeaveOutWhatTheySay) {
   }
 }
 
-/// Algebraic unknowns in the constraints' rows: z[1] in its own equation, x too.
+/// Algebraic unknowns in the rows of the constraints: z[1] in its own equation, and x.
 struct Algebraic {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 2, .constraints = 0}; }
   template <class T>
@@ -208,8 +207,7 @@ TEST(JacobianTermsOption, NoConstraintXzDropsTheAlgebraicRows) {
   }
 }
 
-/// An oscillator whose mass depends strongly on u and v: without those terms Newton contracts more
-/// slowly.
+/// An oscillator whose mass depends strongly on u and v: Newton contracts more slowly if these terms are left out.
 struct HeavyMass {
   Sizes sizes() const { return {.nu = 1, .nx = 1, .nz = 0, .constraints = 0}; }
   template <class T>
@@ -223,7 +221,7 @@ TEST(JacobianTermsOption, CostIterationsNotAccuracy) {
   State<double> start(HeavyMass{}.sizes());
   start.u[0] = 1;
   start.x[0] = 0.5;
-  // Fixed steps: Newton iterates to round-off, whatever its matrix.
+  // With fixed steps Newton iterates to round-off, regardless of its matrix.
   const auto with = [&](JacobianTerms terms) {
     IntegratorOptions o = fixedSteps(0.01);
     o.newton.kind = NewtonKind::kSimplified;

@@ -1,4 +1,4 @@
-// The table of options: every one is legal by default, and what its range does not hold is refused.
+// The table of options: all defaults are legal, and values outside a range are refused.
 #include "core/options/option_fields.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(OptionFields, AreNamedOnceAndExplained) {
   }
 }
 
-// Two lines of the table that read or set the same member would change each other.
+// Detects two lines of the table that read or set the same member.
 TEST(OptionFields, EachOneReadsBackAndLeavesTheOthersAlone) {
   const IntegratorOptions defaults;
   for (const auto& field : optionFields()) {

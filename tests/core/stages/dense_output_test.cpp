@@ -11,7 +11,7 @@
 namespace irk::test {
 namespace {
 
-// u'' = 1 + t^(s-1), x' = 2 - t^(s-1) and z = t^(s-1) from t = 0: all that s stages can hold.
+// u'' = 1 + t^(s-1), x' = 2 - t^(s-1) and z = t^(s-1) from t = 0: the highest powers that s stages represent exactly.
 struct Powers {
   Index s;
   double h;
@@ -32,8 +32,8 @@ struct Powers {
   }
 };
 
-// Both ways to the points inside a step, and the points between them; one object for several numbers of
-// stages, as with variable order.
+// Tests both interfaces for points inside a step, with one object for several numbers of stages, as in variable
+// order.
 TEST(DenseOutput, PolynomialsOfTheStagesAreExact) {
   const Sizes sizes{.nu = 1, .nx = 1, .nz = 1};
   DenseOutput<double> dense(sizes);

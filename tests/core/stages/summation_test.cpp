@@ -32,7 +32,7 @@ State<double> afterManySteps(Summation summation) {
 }
 
 TEST(Summation, CompensatedKeepsWhatAdditionsLose) {
-  // 1000 + 0.1 * 100, the decimal 0.1 as a double: to half an ulp of 1010.
+  // 1000 + 0.1 * 100, with 0.1 as a double, to half an ulp of 1010.
   const double exact = 1010, ulp = 1010 * std::numeric_limits<double>::epsilon();
   const auto compensated = afterManySteps(Summation::kCompensated);
   const auto plain = afterManySteps(Summation::kPlain);

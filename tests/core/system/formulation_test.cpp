@@ -1,4 +1,4 @@
-// Orders per formulation and component, drift, and what leaving out terms of the Jacobian changes.
+// Orders per formulation and component, drift, and the effect of omitted terms of the Jacobian.
 #include <gtest/gtest.h>
 
 #include "irk/multiprecision.h"
@@ -7,7 +7,7 @@
 namespace irk::test {
 namespace {
 
-/// theory.md: M = diag(1, 2), x^2 + y^2 (1 + 0.3 x) = 1, gyroscopic and nonlinear forces.
+/// M = diag(1, 2), x^2 + y^2 (1 + 0.3 x) = 1, gyroscopic and nonlinear forces.
 struct Mechanical {
   Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 1, .constraints = 1}; }
   template <class T>
@@ -30,7 +30,7 @@ State<Real> mechanicalStart() {
   return s;
 }
 
-// What the last step leaves of the multiplier.
+// Uses the multiplier that the last step's stages give.
 IntegratorOptions withStages(IntegratorOptions options) {
   options.multipliers = Multipliers::kStages;
   return options;
@@ -49,7 +49,7 @@ struct OrderCase {
   double q, v, lambda;
 };
 
-// theory.md, "Mechanical systems".
+// The table "Mechanical systems" of tableaus/README.md.
 TEST(Formulation, OrdersPerComponent) {
   const auto reference = mechanical("radau_iia_10", 12, Formulation::kIndex2);
   ASSERT_EQ(reference.outcome, Outcome::kSuccess) << reference.detail;
@@ -125,8 +125,8 @@ std::vector<std::int64_t> counted(const Solution<double>& s) {
   return all;
 }
 
-// With a constant M its derivatives vanish: not one iteration may differ. (`no_mass` differentiates
-// at a = 0 in passes of their own, so that evaluations over dual numbers are not compared.)
+// With a constant M its derivatives vanish, so no iteration may change. (`no_mass` differentiates at a = 0 in
+// separate passes, so evaluations over dual numbers are not compared.)
 TEST(JacobianTerms, ChangeNothingWithConstantMass) {
   IntegratorOptions options = adaptive(1e-8);
   const auto run = [&](JacobianTerms terms) {

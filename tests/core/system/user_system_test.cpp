@@ -1,4 +1,4 @@
-// What a user's system and start may not be, and what good ones still are.
+// Invalid systems and starts of a user are refused; valid ones are not.
 #include "irk/system_check.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::string misuseOf(const std::function<void()>& f) {
   return "no misuse";
 }
 
-/// A problem that says nothing but its sizes.
+/// A problem with nothing but its sizes.
 struct Sized {
   Sizes n;
   Sizes sizes() const { return n; }
@@ -64,7 +64,7 @@ TEST(UserSystem, SizesThatCannotBeAreRefused) {
   }
 }
 
-/// A start of other sizes; which part of it.
+/// Gives one part of a start a wrong size.
 struct Reshaped {
   const char* part;
   void (*reshape)(State<double>&);
@@ -80,7 +80,7 @@ constexpr Reshaped kReshaped[] = {{"u", [](State<double>& s) { s.u.conservativeR
                                   {"carry", [](State<double>& s) { s.carry.resize(0); }},
                                   {"u", [](State<double>& s) { s = State<double>(); }}};
 
-// Each of them was read beyond its end.
+// In each case memory was once read beyond its end.
 TEST(UserSystem, StartsOfOtherSizesAreRefused) {
   for (const auto formulation : {Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl, Formulation::kFirstOrder,
                                  Formulation::kIndex2Projected}) {
@@ -96,7 +96,7 @@ TEST(UserSystem, StartsOfOtherSizesAreRefused) {
   }
 }
 
-// With v infinite 200 000 attempts were made.
+// With an infinite v, 200 000 attempts were once made.
 TEST(UserSystem, StartsThatAreNotFiniteEndBeforeTheFirstStep) {
   struct Damage {
     const char* place;
@@ -132,7 +132,7 @@ TEST(UserSystem, TimesAreFiniteAndInOrder) {
   EXPECT_EQ(integrator.integrate(riccatiStart<double>(), 0.0).outcome, Outcome::kSuccess) << "no time at all";
 }
 
-/// sqrt(x) - k: no number for x < 0.
+/// sqrt(x) - k is not defined for x < 0.
 struct Root {
   Sizes sizes() const { return {.nx = 1}; }
   template <class T>
@@ -151,7 +151,7 @@ TEST(UserSystem, AnEvaluationThatIsNoNumberAtTheStartIsNamed) {
   EXPECT_EQ(s.counters.steps_accepted + s.counters.steps_rejected_error + s.counters.steps_rejected_newton, 0);
 }
 
-/// Made by hand, not from a problem.
+/// A System written by hand, not made from a problem.
 class Handmade : public System<double> {
  public:
   Sizes n{.nx = 1};
@@ -207,7 +207,7 @@ TEST(UserSystem, GoodSystemsOfEveryScalarAndFormulationPass) {
   }
   EXPECT_EQ((integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 0.1, makeTableau<mp50>("gauss_3"), fixedSteps(0.1)).outcome),
             Outcome::kSuccess);
-  // Beyond the range of double, but a number.
+  // A finite number beyond the range of double.
   State<mp50> start(Riccati{}.sizes());
   start.x[0] = mp50("1e400");
   EXPECT_EQ(notFinite(start), "");
