@@ -1,4 +1,4 @@
-// Texts that are almost right: what readers of files have to survive.
+// Mutated texts for testing the readers of files.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace irk::test {
 
-/// Good texts, changed in one to three places at random: a piece inserted, some characters erased, any byte inserted, a
-/// part doubled. The same texts on every machine.
+/// Valid texts with one to three random changes: a piece inserted, some characters erased, any byte inserted, a part
+/// doubled. The texts are the same on every machine.
 class Mutations {
  public:
   Mutations(std::span<const std::string> seeds, std::span<const std::string> pieces, unsigned seed)

@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a study file. A Misuse is a right answer, everything else ends the program.
+// libFuzzer target: any bytes as a study file. Throwing Misuse is correct; anything else aborts.
 #include <cstddef>
 #include <cstdint>
 #include <string>

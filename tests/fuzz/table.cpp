@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a table of results. A Misuse is a right answer, everything else ends the program.
+// libFuzzer target: any bytes as a table of results. Throwing Misuse is correct; anything else aborts.
 #include <unistd.h>
 
 #include <cstddef>
