@@ -26,7 +26,7 @@ inline Verdict verdict(std::string_view id, const ResultTables& tables) {
 
 inline std::string text(double x) { return std::to_string(x); }
 
-/// Runs of one method with cost = scale * error^(-1/4), all else as given.
+/// Adds runs of one method with cost = scale * error^(-1/4); `cells` gives all other columns.
 inline void addSeries(Table& table, const std::map<std::string, std::string>& cells, double scale) {
   for (const double error : {1e-2, 1e-4, 1e-6, 1e-8, 1e-11}) {
     TableRow row;
@@ -40,7 +40,7 @@ inline void addSeries(Table& table, const std::map<std::string, std::string>& ce
       } else if (column == "error") {
         row.push_back(fmt::format("{}", error));
       } else {
-        row.push_back(fmt::format("{}", cost));  // every kind of cost
+        row.push_back(fmt::format("{}", cost));  // for every kind of cost
       }
     }
     table.rows.push_back(std::move(row));

@@ -1,4 +1,4 @@
-// Other legal values of every field of a run.
+// Other legal values for every field of a run.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace irk {
 
-/// Values that differ from those of `spec`, a run of slider_crank. Only texts need a line here.
+/// Values that differ from those of `spec`, a run of slider_crank. Only fields of text need a line here.
 inline std::vector<std::string> otherValues(const SpecField& field, const RunSpec& spec) {
   static const std::map<std::string, std::vector<std::string>> texts = {
       {"scene", {"pendulum"}}, {"settings", {"torque_off_at=0.25"}}, {"method", {"gauss_4"}}};

@@ -1,4 +1,4 @@
-// The program, called as its user would: arguments in, exit status and output out.
+// Calls the program as a user does: arguments in, exit status and output out.
 #pragma once
 
 #include <sstream>

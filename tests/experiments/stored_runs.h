@@ -1,4 +1,4 @@
-// Stores with rows made up, and what is expected of them.
+// Stores with synthetic rows, and checks of their contents.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ t_end = 0.5
 methods = ["radau_iia_2", "radau_iia_3", "gauss_2"]
 tolerances = [1e-3, 1e-4, 1e-5]
 )";
-/// A study's folder, and rows made up for it.
+/// A study's folder with synthetic rows.
 class StoredRuns : public testing::Test {
  protected:
   Study study(const std::string& toml = kToml) const { return parseStudy(toml, "small.toml", StudyVariant::kFull); }
@@ -49,7 +49,7 @@ class StoredRuns : public testing::Test {
   Store reader(const std::string& tree = "results") {
     return Store(folder(tree), "small", Use::kRead, {}, told_);
   }
-  // Of the one part there is.
+  // Changes the only part of the folder.
   void changePart(const std::string& tree, const std::function<void(Table&)>& change) const {
     const auto parts = partsOf(folder(tree));
     ASSERT_EQ(parts.size(), 1u);
@@ -57,7 +57,7 @@ class StoredRuns : public testing::Test {
     change(part);
     writeTable(parts.front(), part);
   }
-  // As if the first `rows` rows had been made and timed on another machine.
+  // Marks the first `rows` rows as made and timed on another machine.
   void moveToOtherMachine(const std::string& tree, std::size_t rows) const {
     changePart(tree, [rows](Table& part) {
       for (std::size_t i = 0; i < rows; ++i) {
@@ -72,7 +72,7 @@ class StoredRuns : public testing::Test {
     writeTable(folder(tree) / "parts" / "environments.0.csv", environments);
   }
 
-  // By the last `run`, as its progress says; it is silent about nothing.
+  // The number of runs that the last `run` reports as made; 0 if it reports nothing.
   int made() const {
     const std::string told = told_.str();
     const auto at = told.find(" runs made");
@@ -99,7 +99,7 @@ inline std::string failureOf(const std::function<void()>& f) {
   return {};
 }
 
-// Equal but for times, dates and where it was made.
+// Equal except for times, dates and origin.
 inline void expectSame(const Table& a, const Table& b) {
   const auto comparison = compare::compareRuns({a, {}}, {b, {}}, {.times = 10});
   EXPECT_TRUE(comparison.differences.empty()) << compare::textOf("", comparison);

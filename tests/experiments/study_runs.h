@@ -1,4 +1,4 @@
-// Small studies, made for one test.
+// Small studies for single tests.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct StudyRuns {
   Table runs;
 };
 
-/// The study of a TOML text and its runs, made by two threads in a folder that is removed.
+/// The study of a TOML text and its runs, made with two threads in a temporary folder.
 inline StudyRuns runsOf(std::string_view toml) {
   const TemporaryFolder folder;
   RunnerOptions options;
@@ -50,7 +50,7 @@ inline std::string contentsOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Whole lines in the parts, without those of the columns.
+/// The number of complete rows in the parts, without the lines of column names.
 inline std::ptrdiff_t rowsInParts(const std::filesystem::path& folder) {
   std::ptrdiff_t rows = 0;
   for (const auto& part : partsOf(folder)) {

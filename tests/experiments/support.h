@@ -1,4 +1,4 @@
-// What several tests of this folder need.
+// Shared by the tests of this folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace irk {
 
-/// A folder of this test's own, removed with all that is in it.
+/// A folder of this test; the destructor removes it with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -30,7 +30,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the Misuse that f throws; a failure if it throws none.
+/// The message of the Misuse that f throws; the test fails if it throws none.
 inline std::string misuseOf(const std::function<void()>& f) {
   try {
     f();

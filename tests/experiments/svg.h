@@ -1,4 +1,4 @@
-// Reads figures back: the curves of a gnuplot SVG, in the units of the labels at its axes.
+// Reads the curves of a gnuplot SVG figure, in the units of the labels on its axes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,13 +36,13 @@ struct SvgLabel {
 };
 
 struct SvgPanel {
-  std::map<int, SvgCurve> curves;  ///< by their place in the plot command, from 1
+  std::map<int, SvgCurve> curves;  ///< by position in the plot command, from 1
   std::vector<SvgLabel> x, y;
 };
 
 enum class Axis { kLinear, kLogarithmic };
 
-/// `0.5`, `10^-3`, `2·10^-3`, `25 %`; NaN for words.
+/// The value of a label such as `0.5`, `10^-3`, `2·10^-3`, `25 %`; NaN for words.
 inline double labelNumber(std::string text) {
   double factor = 1;
   if (const auto dot = text.find("·"); dot != text.npos) {
@@ -65,10 +65,10 @@ class Svg {
     for (std::string line; std::getline(in, line); text_ += line + '\n') read(line);
   }
 
-  /// How often a text is in the file.
+  /// The number of occurrences of a text in the file.
   int occurrences(const std::string& text) const { return count(text_, text.c_str()); }
 
-  /// Panels are 'a', 'b', ... in the order in which they are drawn.
+  /// Panels are called 'a', 'b', ... in the order of drawing.
   const SvgPanel& panel(char letter) const {
     static const SvgPanel nothing;
     const auto found = panels_.find(letter);
@@ -81,8 +81,7 @@ class Svg {
     return found == curves.end() ? nothing : found->second;
   }
 
-  /// Pixels of a panel as numbers of its axes. A panel without labels of its own has those of the
-  /// one before it.
+  /// Converts pixels of a panel to numbers on its axes. A panel without labels uses those of the previous one.
   std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, Axis x,
                                 Axis y) const {
     std::vector<SvgPoint> all;
@@ -99,7 +98,7 @@ class Svg {
     return numbers(letter, curve(letter, number).line, x, y);
   }
 
-  /// The curves of a panel that have marks, in their order.
+  /// The curves of a panel that have marks, in order.
   std::vector<int> marked(char letter) const {
     std::vector<int> numbers;
     for (const auto& [number, curve] : panel(letter).curves) {
@@ -108,7 +107,7 @@ class Svg {
     return numbers;
   }
 
-  /// The label next to a place on an axis, of axes that name their cells.
+  /// The label nearest to a position on an axis whose labels name cells.
   std::string labelX(char letter, double pixel) const {
     return nearest(labels(letter, &SvgPanel::x), pixel);
   }
@@ -193,7 +192,7 @@ class Svg {
     static const std::regex mark(
         "<use xlink:href='#gpPt[0-9]+' transform='translate\\((-?[0-9.]+),(-?[0-9.]+)\\)");
     static const std::regex box("<polygon fill = '([^']*)'[^>]*points = '([^']*)'");
-    // With a title in a key inside the panel: its sample is the first line and the last mark.
+    // If the key is inside the panel, a titled curve has a sample there: its first line and its last mark.
     if (line.find("<text>") != line.npos) with_sample_ = first_line_ = true;
     for (std::sregex_iterator i(line.begin(), line.end(), mark), end; i != end; ++i) {
       inside_->marks.push_back({std::stod((*i)[1]), std::stod((*i)[2])});
@@ -201,7 +200,7 @@ class Svg {
     for (std::sregex_iterator i(line.begin(), line.end(), box), end; i != end; ++i) {
       inside_->boxes.emplace_back((*i)[1], points((*i)[2]));
     }
-    // A path may go on over several lines.
+    // A path may continue over several lines.
     std::size_t from = 0;
     if (!in_path_) {
       const auto path = line.find("<path ");
@@ -222,8 +221,7 @@ class Svg {
     if (end != line.npos) in_path_ = false;
   }
 
-  // A label stands on two lines: its place, with the tick before it where ticks are drawn, and its
-  // text.
+  // A label takes two lines: its position (after the tick, if ticks are drawn) and its text.
   void readLabel(const std::string& line) {
     static const std::regex place(
         "<g transform=\"translate\\((-?[0-9.]+),(-?[0-9.]+)\\)\".*text-anchor=\"(middle|end)\"");
@@ -231,7 +229,7 @@ class Svg {
     std::smatch found;
     if (std::regex_search(line, found, place)) {
       to_ = found[3] == "middle" ? &x_ : &y_;
-      constexpr double kBaseline = 3.9;  // of the font below the tick's middle
+      constexpr double kBaseline = 3.9;  // of the font, below the middle of the tick
       pixel_ = to_ == &x_ ? std::stod(found[1]) : std::stod(found[2]) - kBaseline;
       if (to_ == &y_ && std::regex_search(line, found, tick)) pixel_ = std::stod(found[2]);
       return;
@@ -269,7 +267,7 @@ class Svg {
   bool in_path_ = false, with_sample_ = false, first_line_ = false;
 };
 
-/// Points in the same order, as far as pixels tell: `tolerance` relative.
+/// Compares points in the same order, with the accuracy of pixels: `tolerance` is relative.
 inline void expectPoints(const std::vector<SvgPoint>& seen, const std::vector<SvgPoint>& expected,
                          const std::string& what, double tolerance = 5e-3) {
   ASSERT_EQ(seen.size(), expected.size()) << what;

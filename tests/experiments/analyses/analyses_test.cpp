@@ -1,4 +1,4 @@
-// The catalogue of analyses, and how a study asks for them.
+// The catalogue of analyses, and the keys with which a study requests them.
 #include "experiments/study/analysis.h"
 
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ TEST(CostAtError, InterpolatesTheLowerEnvelope) {
   EXPECT_TRUE(std::isnan(costAtError({}, 1)));
 }
 
-// Every series has a row for every error, and says why where there is no cost.
+// Every series has a row for every error, with a cause if there is no cost.
 TEST(CostAtError, SaysWhyThereIsNone) {
   Table runs;
   runs.columns = {"scene", "outcome", "error", "cpu_s", "residuals", "newton_iterations", "jacobians",

@@ -1,4 +1,4 @@
-// Which runs are made, and what they cost: on made-up rows with another number in every column.
+// The runs of a series, and their costs, from synthetic rows with a different number in every column.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(CostTable, TakesEachCostFromItsColumnAndSuccessesOnly) {
   };
   add("gauss_2", "success", 1e-2, 1);
   add("gauss_2", "success", 1e-4, 4);
-  add("gauss_2", "max_steps", 1e-5, 0.001);  // cheap and good, but no success
+  add("gauss_2", "max_steps", 1e-5, 0.001);  // cheap and accurate, but no success
   add("gauss_3", "success", 1e-6, 7);
   const Table costs = costTable(runs, {1e-4, 1e-5});
   ASSERT_EQ(costs.rows.size(), 4u);
@@ -51,7 +51,7 @@ TEST(CostTable, TakesEachCostFromItsColumnAndSuccessesOnly) {
   expect(3, "gauss_3", 1e-5, 7);
 }
 
-// After a run that took too many steps harder ones are not made, but where all are asked for.
+// After a run with too many steps harder ones are skipped, unless all runs are requested.
 TEST(SeriesEnds, DecideWhichRunsAreMade) {
   Study study = parseStudy(R"(
 [[block]]

@@ -1,4 +1,4 @@
-// The table of energies: times, errors and the fit, each in its own column.
+// The table of energies: times, errors and the fit are in their own columns.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-// error(h) at h = 1/N, N refined by a quarter.
+// error(h) at h = 1/N; each N is a quarter larger than the last.
 template <class F>
 std::vector<ErrorPoint> series(int most, F&& error) {
   std::vector<ErrorPoint> points;
@@ -38,12 +38,12 @@ TEST(OrderFit, TellsNeighbouringOrdersApart) {
 }
 
 TEST(OrderFit, LeavesRoundOffOut) {
-  // A level of 1e-12 with some spread: without the window the slope would come out near 3.
+  // Noise around 1e-12: without a window above it the slope would be near 3.
   const auto fit = fitOrder(series(
       3000, [](double h) { return std::pow(h, 5) + 1e-12 * (1 + 0.5 * std::sin(1e4 * h)); }));
   ASSERT_TRUE(fit.measurable) << fit.reason;
   EXPECT_NEAR(fit.order, 5, 0.05);
-  // Above the noise: h^5 = 1e-11.
+  // The window ends above the noise: h^5 = 1e-11.
   EXPECT_GE(fit.h_min, std::pow(1e-11, 0.2));
 }
 
@@ -85,7 +85,7 @@ TEST(OrderFit, SaysWhyThereIsNone) {
   EXPECT_FALSE(narrow.measurable);
   EXPECT_NE(narrow.reason.find("less than a factor 2"), std::string::npos) << narrow.reason;
 
-  // Slopes that never settle.
+  // Slopes that never become constant.
   const auto curved = fitOrder(series(50, [](double h) { return std::exp(-2 / h); }));
   EXPECT_FALSE(curved.measurable) << curved.order;
 }
@@ -101,19 +101,19 @@ TEST(OrderFit, ErrorsThatStayOrGrowHaveOrdersToo) {
 }
 
 TEST(OrderFit, SmallErrorsThatGrowAreRoundOff) {
-  // A step of 1e-16 per division: order -1 of nothing but noise, from 1e-13 on.
+  // Round-off of 1e-16 per step: below 1e-13 there is only noise, with order -1.
   const auto fit = fitOrder(series(3000, [](double h) { return 1e-15 / h; }));
   EXPECT_FALSE(fit.measurable) << fit.order;
 }
 
 TEST(OrderFit, NoiseIsNoMeasurement) {
   const auto fit = fitOrder(series(200, [](double h) {
-    return h * h * (1 + 0.9 * std::sin(1e4 * h));  // a level, no slope
+    return h * h * (1 + 0.9 * std::sin(1e4 * h));  // a constant order of magnitude without a slope
   }));
   EXPECT_TRUE(!fit.measurable || std::abs(fit.order - 2) < 0.3) << fit.order;
 }
 
-// h^20 (1 + 0.12 h^2) over a factor of two: read as 1 + c h the slope misses more than is allowed.
+// h^20 (1 + 0.12 h^2) over a factor of two: fitted with 1 + c h, the remaining error of the slope exceeds the limit.
 TEST(OrderFit, EvenPowersAreNearerToTheirLimit) {
   std::vector<ErrorPoint> points;
   for (int k = 0; k <= 8; ++k) {

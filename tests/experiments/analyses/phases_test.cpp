@@ -33,9 +33,9 @@ void expectShares(const Table& table) {
   }
 }
 
-// The parts are measured one by one, the run as a whole: together they are the run, also where three
-// unknowns make a residual of some nanoseconds. The study asks for 0.9 to 1.1; other programs on the
-// machine must not fail a test, so that it asks for less, and more than once.
+// Parts are measured one by one, the run as a whole; their sum must equal the run, even if three unknowns make a
+// residual of some nanoseconds. The study requires 0.9 to 1.1. Because other programs on the machine must not fail a
+// test, this test requires less and tries several times.
 TEST(Phases, PartsCoverTheRun) {
   const auto [study, runs] = runsOf(R"(
 phases = true
@@ -65,7 +65,7 @@ methods = "gauss_2"
   ADD_FAILURE() << "the parts of a run do not make up the run";
 }
 
-// Parts that were forgotten, or counted twice, are told.
+// Forgotten parts and parts that count twice are reported.
 TEST(Phases, WhatIsNotCoveredIsNamed) {
   Table table;
   table.columns = {"scene", "settings", "method", "solver", "derivatives", "rtol", "covered"};
@@ -79,7 +79,7 @@ TEST(Phases, WhatIsNotCoveredIsNamed) {
   EXPECT_TRUE(containsAll(lines[2], {"nan"}));
 }
 
-// A call of nanoseconds: read around each call, the clock alone would take half a microsecond.
+// A call of nanoseconds: reading the clock around each call would take half a microsecond.
 TEST(Phases, TheClockDoesNotCount) {
   volatile int calls = 0;
   EXPECT_LT(batchSeconds([&calls] { calls = calls + 1; }), 5e-8);

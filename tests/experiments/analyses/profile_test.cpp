@@ -10,8 +10,8 @@
 namespace irk {
 namespace {
 
-// Two problems; `variable` takes 1 and 4, `cvode_bdf` 2 and 2 with another formulation 8, `paper`
-// solves only the second, in 6.
+// Two problems. `variable` takes 1 and 4; `cvode_bdf` takes 2 and 2 (8 with another formulation); `paper` solves only
+// the second one, in 6.
 TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
   Table costs;
   costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};
@@ -33,8 +33,8 @@ TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
   EXPECT_EQ(curves.size(), 3);
 }
 
-// A curve ends at 1 where a solver solves all that it was given; two of three problems were given to
-// `narrow`, and it solves both. No solver solves "d"; nothing is known of "e".
+// The curve of a solver that solves all given problems ends at 1. `narrow` was given two of the three problems and
+// solves both. No solver solves "d"; "e" has no reference.
 TEST(Profile, DividesByTheProblemsThatASolverWasGiven) {
   Table costs;
   costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};

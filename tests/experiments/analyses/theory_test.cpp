@@ -1,4 +1,4 @@
-// The tables of measured orders, typed in as they stand, against the formulas.
+// Compares the formulas with the tables of measured orders, copied by hand.
 #include "experiments/analyses/orders/theory.h"
 
 #include <gtest/gtest.h>

@@ -23,7 +23,7 @@
 namespace irk::audit {
 namespace {
 
-// Bits and choices are part of the study: other ones would be another audit.
+// The random bits and choices are part of the study: other ones would be another audit.
 TEST(AuditDice, AreTheSameOnEveryMachine) {
   Dice dice("1 run 0");
   EXPECT_EQ(dice.uniform(), 0x1.675a664420499p-1);  // by another implementation of MT19937-64
@@ -76,7 +76,7 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
       EXPECT_TRUE(name != "elements" || std::stoi(value) <= 4) << value;
       EXPECT_TRUE(!name.starts_with("smoothing") || treatment == "smooth" || treatment == kNoSwitches);
     }
-    // What is left open is the default, whatever that is.
+    // Options that are not drawn have their defaults, whatever these are.
     if (treatment == kDefaultTreatment || treatment == kNoSwitches) {
       RunSpec configured;
       findField("configuration").set(configured, spec.configuration);
@@ -93,7 +93,7 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
   for (const auto* id : {"gauss_20", "radau_iia_1", "lobatto_iiid_4", "radau_ia"}) {
     EXPECT_TRUE(methods.contains(id)) << id;
   }
-  EXPECT_GT(with_settings, 700);  // half of the runs, of the scenes that have parameters
+  EXPECT_GT(with_settings, 700);  // half of the runs, for scenes with parameters
 }
 
 TEST(AuditDraw, CommandsRepeatTheRuns) {

@@ -40,7 +40,7 @@ TEST(Audit, StudyDrawsInsteadOfBlocks) {
 
 constexpr const char* kSmall = "title = 'small'\n[audit]\nruns = 60\ntime_limit = 0.5\n";
 
-/// One small audit for all tests of this suite.
+/// One small audit, shared by all tests of this suite.
 class SmallAudit : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -108,7 +108,7 @@ TEST_F(SmallAudit, FindsADamagedResult) {
   const Answers answers = answersTo(questions, folder() / "references.csv", 2, quiet);
   EXPECT_EQ(quiet.str().find("runs made"), std::string::npos) << "all of them are known";
   const Table table = auditTable(drawn, *runs_, states, answers);
-  // The first component of the right runs is moved by `bars` times what is allowed.
+  // Moves the first component of all right runs by `bars` times the bar.
   const auto moved = [&](double bars) {
     auto other = states;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -125,7 +125,7 @@ TEST_F(SmallAudit, FindsADamagedResult) {
   int checked = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     EXPECT_EQ(same.rows[i], table.rows[i]);
-    // A magnitude is known to less than the bar where the bar is less than 1.
+    // An error of several bars is detected only if the bar is below 1.
     const bool sharp = numberAt(table, table.rows[i], "tolerance") <= 1e-4;
     if (!sharp || textAt(table, table.rows[i], "judgement") != "right") continue;
     EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << commandOf(drawn[i]);
@@ -139,7 +139,7 @@ TEST_F(SmallAudit, FindsADamagedResult) {
 TEST_F(SmallAudit, GoesOnWhereItWas) {
   const Table again = run();
   EXPECT_EQ(again.rows, runs_->rows) << "nothing is made again: times are the same";
-  // A run whose state is lost is made again.
+  // A run whose state is missing is made again.
   const auto parts = partsOf(folder(), "states");
   ASSERT_EQ(parts.size(), 1u);
   Table states = readTable(parts.front());
@@ -152,7 +152,7 @@ TEST_F(SmallAudit, GoesOnWhereItWas) {
   EXPECT_EQ(vectorText(found.at(lost[0])), lost[1]);
 }
 
-// Without their references, wrong runs would count as unjudged ones.
+// Without their references wrong runs would count as unjudged.
 TEST_F(SmallAudit, InterruptedLeavesNoCounts) {
   TemporaryFolder copy;
   std::filesystem::copy(folder(), copy.path(), std::filesystem::copy_options::recursive);

@@ -130,7 +130,7 @@ TEST(AuditReference, KnowsTheConditioning) {
   // x' = 20 x grows by e^20.
   EXPECT_GT(answer("dahlquist", "lambda_re=20 lambda_im=0").kappa, kLargestKappa);
   EXPECT_GT(answer("kepler", "").kappa, kLargestKappa);
-  // Hidden constraints: no step leaves a perturbed start.
+  // Hidden constraints forbid every step from a perturbed start.
   EXPECT_LT(answer("index2_nonlinear", "").kappa, kLargestKappa);
   EXPECT_LT(answer("index3_nonlinear", "").kappa, kLargestKappa);
 }
@@ -166,7 +166,7 @@ TEST(Run, IntegratesFromAnotherStart) {
   EXPECT_THROW((void)integrateFrom(spec, scene.start), Misuse);
 }
 
-// A table of made-up judgements.
+// A table of synthetic judgements.
 Table judgements(const std::vector<std::vector<std::string>>& rows) {
   return {{}, {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command"}, rows};
 }

@@ -1,4 +1,4 @@
-// What tests of the audit share.
+// Shared by the tests of the audit.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@
 
 namespace irk::audit {
 
-// A word of the command line that starts an option, and what follows it.
+// Parses the options of a command line and their values.
 inline SolveOptions parsed(const std::string& command) {
   std::istringstream in(command);
   std::string irk, solve, option, value;

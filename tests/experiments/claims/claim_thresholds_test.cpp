@@ -1,4 +1,4 @@
-// Claims C1, C2, C3 and C9 on made-up tables, on both sides of every threshold.
+// Claims C1, C2, C3 and C9 on synthetic tables, on both sides of every threshold.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -54,7 +54,7 @@ ResultTables highOrderTables(double order, const std::vector<Costs>& costs,
   Table table = costTable();
   for (std::size_t i = 0; i < costs.size(); ++i) {
     const char* place = kSmoothBlocks[i];
-    // Where more is asked for than the smallest common error, nothing else counts.
+    // Only costs at the smallest common error count; these, at a larger error, must not.
     addCost(table, place, "radau_iia", 2, "1e-2", 1e-3);
     addCost(table, place, "gauss", high_stages, "1e-2", 1e3);
     addCost(table, place, "gauss", high_stages, "1e-10", costs[i].high);
@@ -89,7 +89,7 @@ TEST(ClaimThresholds, HighOrders) {
   EXPECT_EQ(said("C1", highOrderTables(20, {})), kUnknown);
 }
 
-// --- C2: up to about 10 stages are faster; then round-off.
+// --- C2: schemes of up to about 10 stages are faster; beyond that round-off dominates.
 
 ResultTables manyStageTables(const std::vector<int>& fastest, int few_failed, int many_failed) {
   Table table = costTable();
@@ -130,7 +130,7 @@ TEST(ClaimThresholds, ManyStages) {
   EXPECT_EQ(said("C2", manyStageTables({}, 0, 1)), kUnknown);
 }
 
-// --- C3 and C9: doubling, and what happens at the jump of the slider-crank.
+// --- C3 and C9: step doubling, and the step at the jump of the slider-crank.
 
 struct JumpRun {
   double step_factor, error_factor;
@@ -147,7 +147,7 @@ void putSteps(ResultTables& results, const std::vector<JumpRun>& jumps) {
     Table steps = columns({"t", "h"});
     for (const double t : {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8})
       steps.rows.push_back({text(t), "0.1"});
-    // Around the jump, and far from it a smaller one that does not count.
+    // A small step at the jump, and a smaller one far from it that does not count.
     steps.rows.push_back({"0.5", fmt::format("{}", 0.1 / jump.step_factor)});
     steps.rows.push_back({"0.44", "1e-9"});
     steps.rows.push_back({"0.56", "1e-9"});
@@ -204,7 +204,7 @@ TEST(ClaimThresholds, StepDoubling) {
   EXPECT_EQ(said("C3", no_jump), kUnknown);
 }
 
-// gain: cost of two stages over that of five and more.
+// `gain`: the cost with two stages divided by the cost with five and more.
 ResultTables jumpTables(double smooth, double discontinuous, const std::vector<JumpRun>& jumps) {
   Table table = costTable();
   const auto add = [&](const char* place, double gain) {

@@ -56,7 +56,7 @@ TEST(Measures, CostsAreComparedAtEqualErrors) {
   const auto ratios = compareCosts(runs, "norm", "mixed", "absolute", "cpu_s");
   ASSERT_EQ(ratios.all.size(), comparedErrors().size());
   for (const double ratio : ratios.all) EXPECT_NEAR(ratio, 1.5, 1e-12);
-  // What only one of the two reaches is counted, not compared.
+  // Errors that only one of the two reaches are counted, not compared.
   const Table coarse = where(runs, [&](const TableRow& row) {
     return textAt(runs, row, "norm") == "mixed" || numberAt(runs, row, "error") > 1e-7;
   });

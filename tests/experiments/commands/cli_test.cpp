@@ -76,7 +76,7 @@ TEST(Cli, AnExactSolutionIsAReference) {
   EXPECT_EQ(nlohmann::json::parse(run.out)["reference"], "exact");
 }
 
-// z = h lambda is known for fixed steps only; the names of the components do not depend on it.
+// z = h lambda is known for fixed steps only; the names of components do not depend on it.
 TEST(Cli, ASettingOverTheStepIsSolvedAndPrinted) {
   const auto run = program({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1",
                                "--method", "radau_iia_3"});
@@ -183,7 +183,7 @@ TEST(Cli, ADamagedTableauFileIsStatusTwo) {
   EXPECT_TRUE(containsAll(not_a_number.err, {"method.txt:", "nan"}));
 }
 
-// Alexander's SDIRK of order 3, and the same with the wrong sign at one place.
+// Alexander's SDIRK method of order 3, and the same with one wrong sign.
 TEST(Cli, ATableauCheckSaysWhatIsTrue) {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "method.txt";

@@ -37,7 +37,7 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   const Ended same =
       program({"compare", results("whole") + "/small", results("merged") + "/small", "--times", "1000%"});
   EXPECT_EQ(same.status, 0) << same.out;
-  // In the study's order, whatever that of the folders.
+  // Runs are in the order of the study, regardless of the order of the folders.
   const Table a = runs("whole"), b = runs("merged");
   for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_EQ(a.rows[i].front(), b.rows[i].front());
 }
@@ -81,12 +81,12 @@ TEST_F(Verbs, MergeSaysWhatIsMissing) {
   arguments.emplace_back("--partial");
   EXPECT_EQ(program(arguments).status, 0);
   EXPECT_EQ(runs("merged").rows.size(), 2u);
-  // Rows that are there count: the rest is made where they were merged.
+  // Merged rows count: the remaining runs are made in the folder with the merged ones.
   EXPECT_EQ(run("merged").status, 0);
   EXPECT_EQ(runs("merged").rows.size(), 8u);
 }
 
-// The commands that it prints, run as they are, make what is missing.
+// The printed commands, executed without change, make the missing runs.
 TEST_F(Verbs, MergePrintsCommandsThatWork) {
   std::vector<std::string> arguments{"run", study(), "--quick", "--results", results("parts"), "--shard", "1/2"};
   ASSERT_EQ(program(arguments).status, 0);

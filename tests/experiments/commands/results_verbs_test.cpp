@@ -54,7 +54,7 @@ TEST_F(Verbs, ASecondWriterIsStatusOne) {
   EXPECT_TRUE(containsAll(status.out, {"8 runs to make", "4711"}));
 }
 
-// The chain of a paper: run, plot, claims, report.
+// The verbs of a paper in their order: run, plot, claims, report.
 TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
   ASSERT_EQ(run().status, 0);
   std::filesystem::rename(results() + "/small", results() + "/drift");
@@ -118,8 +118,8 @@ TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
   EXPECT_EQ(program({"report", "--results", results()}).status, 1);
 }
 
-// The first signal ends the run after the step it is in; what was finished is kept, and the same
-// command goes on from there.
+// The first signal ends the run after its current step. Finished runs are kept, and the same command continues from
+// there.
 TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
   std::ofstream(study())
       << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
@@ -157,7 +157,7 @@ TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
   EXPECT_EQ(same, kept.rows.size()) << "with their times: not made again";
 }
 
-// `paper` takes minutes even when it is quick: here it is stopped after its first tables.
+// `paper` takes minutes even with --quick; this test stops it after its first tables.
 TEST_F(Verbs, PaperStopsWhenInterrupted) {
   std::atomic<bool> done = false;
   std::thread signal([&] {
@@ -183,8 +183,7 @@ TEST_F(Verbs, PaperRefusesMisuse) {
   EXPECT_EQ(program({"paper", "order"}).status, 2) << "takes no study";
 }
 
-// What `paper` runs: every study can be loaded in both variants, with something to do, and the
-// quick one has not more.
+// Every study that `paper` runs can be loaded in both variants and has runs; the quick variant does not have more.
 TEST(Studies, LoadInBothVariants) {
   for (const auto& entry : builtinStudies()) {
     const Study full = loadStudy(entry.id, StudyVariant::kFull);

@@ -1,4 +1,4 @@
-// A folder with a small study, for tests of verbs.
+// A folder with a small study, for the tests of verbs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 
 namespace irk {
 
-// Scenes and formulations as of the built-in study `drift`, whose figures then can be drawn from it.
+// The scenes and formulations are those of the built-in study `drift`, so that its figures can be drawn.
 inline constexpr char kSmall[] = R"(
 title = "Small"
 targets = [1e-2, 1e-4]
@@ -37,7 +37,7 @@ scene = "pendulum"
 t_end = 0.5
 )";
 
-/// A temporary folder with a study's file and results.
+/// A temporary folder with a study file and results.
 class Verbs : public testing::Test {
  protected:
   void SetUp() override { std::ofstream(study()) << kSmall; }

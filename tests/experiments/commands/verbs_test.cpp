@@ -1,5 +1,5 @@
-// The verbs that work on studies, each with success and without: run, merge, compare, plot, report,
-// claims, paper. In folders of their own, on studies of seconds.
+// The verbs that work on studies, each with success and failure: run, merge, compare, plot, report, claims, paper.
+// Each test has its own folder and a study of seconds.
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <atomic>
@@ -67,7 +67,7 @@ TEST_F(Verbs, OneThreadAndSeveralMakeTheSame) {
   EXPECT_TRUE(containsAll(same.out, {"8 runs and 8 runs: 0 differences"}));
 }
 
-// What the limits are: tests/experiments/compare/compare_test.cpp.
+// The limits themselves are tested in tests/experiments/compare/compare_test.cpp.
 TEST_F(Verbs, CompareSeesADifference) {
   ASSERT_EQ(run().status, 0);
   const auto changed = [&](const std::string& column, const char* cell) {

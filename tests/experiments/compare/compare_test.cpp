@@ -1,4 +1,4 @@
-// Comparing results: the statistics, the model of noise on tables made by hand, and the verb.
+// The comparison of results: statistics, the model of noise on synthetic tables, and the verb.
 #include "experiments/compare/compare.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 // --- Statistics.
 
-// Of two and two numbers there are six orders, with U = 0, 1, 2, 2, 3, 4.
+// Two and two numbers have six orderings, with U = 0, 1, 2, 2, 3, 4.
 TEST(Ratio, ProbabilitiesOfRanksAreThoseOfAllOrders) {
   const auto two = rankProbabilities(2, 2);
   const double expected[] = {1 / 6.0, 2 / 6.0, 4 / 6.0, 5 / 6.0, 1};
@@ -30,7 +30,8 @@ TEST(Ratio, ProbabilitiesOfRanksAreThoseOfAllOrders) {
   EXPECT_NEAR(rankProbabilities(5, 5)[2], 4 / 252.0, 1e-15);  // 1, 1 and 2 orders
 }
 
-// The normal approximation takes over without a jump: both sides of the limit at the same distance from the mean.
+// The normal approximation continues the exact values without a jump: at both sides of the limit, at the same
+// distance from the mean.
 TEST(Ratio, ManyNumbersHaveNearlyTheNormalDistribution) {
   const auto exact = rankProbabilities(20, 20), normal = rankProbabilities(20, 21);
   EXPECT_NEAR(exact[200 - 74], normal[210 - 76], 3e-3);
@@ -50,7 +51,8 @@ TEST(Ratio, IsTheMedianWithAllOfTheRangeForFewNumbers) {
   EXPECT_NEAR(two.level, 1 - 2 / 6.0, 1e-15);
 }
 
-// P(U <= 2) = 4/252 and P(U <= 3) = 7/252 of five and five: at 5 % two ratios are left out at each end, three are not.
+// For samples of five and five P(U <= 2) = 4/252 and P(U <= 3) = 7/252: at 5 % two ratios are left out at each end,
+// but not three.
 TEST(Ratio, TheIntervalLeavesOutWhatTheTestDoes) {
   const std::vector<double> a{1, 1, 1, 1, 1}, b{1, 2, 3, 4, 5};  // each ratio five times
   const Ratio wide = ratioOf(a, b, 0.05);
@@ -60,7 +62,7 @@ TEST(Ratio, TheIntervalLeavesOutWhatTheTestDoes) {
   EXPECT_NEAR(ratioOf(a, b, 1e-9).level, 1 - 2 / 252.0, 1e-12) << "all of the range";
 }
 
-// Samples of one distribution: 1 is outside of at most alpha of the intervals, and of not much fewer.
+// Samples of one distribution: at most a fraction alpha of the intervals excludes 1, and not many fewer.
 TEST(Ratio, TheIntervalHasItsLevel) {
   std::mt19937 random(1);
   std::lognormal_distribution<double> times(0, 0.1);
@@ -89,7 +91,7 @@ std::string repetitions(double seconds, int count) {
   return all;
 }
 
-// Six successful runs of two methods with `count` repetitions each, one percent apart.
+// Six successful runs of two methods, each with `count` repetitions one percent apart.
 Runs someRuns(int count = 5) {
   Runs runs;
   runs.table.head = {{"cpu", "Processor X"}};
@@ -197,7 +199,7 @@ TEST(Compare, ErrorsDifferByAFactorAboveRoundOff) {
   }
 }
 
-// Three runs of six three times slower: those three, the worst first.
+// Three of six runs are three times slower: these three are reported, the largest change first.
 TEST(Compare, ThreeRunsThreeTimesSlowerAreADifference) {
   for (const int count : {1, 3, 5, 9}) {
     Runs other = someRuns(count);
@@ -211,7 +213,7 @@ TEST(Compare, ThreeRunsThreeTimesSlowerAreADifference) {
   }
 }
 
-// Twelve percent: seen where the repetitions tell it from noise, unless it is allowed.
+// A change of twelve percent is reported if the repetitions separate it from noise, unless it is allowed.
 TEST(Compare, SmallChangesOfTimesNeedRepetitions) {
   Runs other = someRuns();
   for (std::size_t row = 0; row < 6; ++row) setTime(other, row, 0.0112);
@@ -223,7 +225,7 @@ TEST(Compare, SmallChangesOfTimesNeedRepetitions) {
   EXPECT_TRUE(compareRuns(few, few_slower, {}).differences.empty());
 }
 
-// One distribution of times with 20 % of noise, 200 runs: alpha is that of all of them.
+// 200 runs with times from one distribution with 20 % of noise: alpha is the level of all of them together.
 TEST(Compare, NoiseIsNoDifference) {
   std::mt19937 random(7);
   std::lognormal_distribution<double> noise(0, 0.2);
@@ -240,8 +242,8 @@ TEST(Compare, NoiseIsNoDifference) {
     }
     return runs;
   };
-  // Of seven and seven, one order in 1716 separates the two samples wholly: 200 runs have such a one with 12 %, if
-  // that is more than 5 % apart.
+  // For samples of seven and seven one ordering in 1716 separates them completely: among 200 runs that happens with
+  // probability 12 %, if it is a difference of more than 5 %.
   EXPECT_LE(compareRuns(noisy(), noisy(), {}).differences.size(), 1u);
 }
 

@@ -42,7 +42,7 @@ TEST(Agreement, WritesTheDigitsThatItStatesAndOneMore) {
   EXPECT_EQ(decimalText(mp50("9.99999"), 1e-2), "10.000");
   EXPECT_EQ(decimalText(mp50(0), 1e-30), "0");
   EXPECT_EQ(decimalText(mp50("-2.7e-50"), 1e-38), "0") << "round-off";
-  // Fifty digits are not all good.
+  // Not all of the fifty digits are correct.
   EXPECT_EQ(decimalText(mp50(1) / 3, 1e-60).size(), std::string("0.").size() + 40);
 }
 
@@ -129,9 +129,8 @@ TEST(Compute, AStoppedRunIsNoValue) {
   EXPECT_TRUE(containsAll(computed[0].problems[0], {"kaps", "lobatto_iiic_16", "interrupted"}));
 }
 
-// Not exact: what is stated comes from the four runs alone. At 1e-12 it has to agree with what was
-// found at 1e-28 within the accuracy that it states, and to state about as many digits as asked
-// for.
+// A task without exact solution: its values come from the four runs alone. The value at tolerance 1e-12 must agree
+// with that at 1e-28 within its stated accuracy, and state about as many digits as requested.
 TEST(Compute, StatesWhatTheRunsAgreeOn) {
   ReferenceTask coarse{"mechanical_dae"}, fine = coarse;
   coarse.of.tolerance = 1e-12;

@@ -1,4 +1,4 @@
-// A figure drawn from a made-up table, and its curves.
+// Draws a figure from a synthetic table and reads its curves.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,10 +23,10 @@ using Cells = std::map<std::string, std::string>;
 
 inline std::string exact(double x) { return fmt::format("{}", x); }
 
-/// A folder with tables, and the figures that are drawn from it.
+/// A folder with tables and the figures drawn from them.
 class Drawing {
  public:
-  /// Rows by column; what a row does not give is `other`.
+  /// Writes rows by column; columns that a row does not give get `other`.
   void put(const std::string& name, const std::vector<std::string>& columns,
            const std::vector<Cells>& rows, const std::string& other = "nan") {
     Table table{{{"study", "made_up"}}, columns, {}};
@@ -95,7 +95,7 @@ inline const std::vector<std::string> kRunColumns = {"key",
                                               "cpu_spread",
                                               "detail"};
 
-// Of run i: in every column another number, that falls or grows in another way with i.
+// A value for run i that differs between columns, and increases or decreases differently with i.
 inline double numberOf(const std::string& column, int i) {
   const auto place =
       std::find(kRunColumns.begin(), kRunColumns.end(), column) - kRunColumns.begin();

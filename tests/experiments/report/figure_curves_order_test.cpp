@@ -85,7 +85,7 @@ TEST(FigureCurves, EstimateRatio) {
   add("v", 4, 0.2);
   drawing.put("estimates.csv", {"t", "group", "doubling", "richardson"}, rows);
   const Svg svg = drawing.draw("estimate_ratio.gp", "");
-  // Largest first: half of the steps lie above it.
+  // Sorted from the largest: half of the steps lie above it.
   expectPoints(svg.line('a', 1, kLog, kLog), {{2, 0.5}, {1, 1}}, "doubling u", 2e-2);
   expectPoints(svg.line('a', 2, kLog, kLog), {{4, 0.5}, {0.5, 1}}, "doubling v", 2e-2);
   expectPoints(svg.line('b', 1, kLog, kLog), {{20, 0.5}, {10, 1}}, "richardson u", 2e-2);
@@ -111,7 +111,7 @@ TEST(FigureCurves, FailureMap) {
   add(2, "0.01", "1e-4", "success", "1e-12", "1e-3");
   add(3, "0.1", "1e-3", "newton_failed", "nan", "nan");
   add(3, "0.01", "1e-4", "success", "1e-3", "1e-6");
-  rows.push_back({{"scene", "pendulum"},  // of two numbers of stages this family has one
+  rows.push_back({{"scene", "pendulum"},  // this family has only one of the two numbers of stages
                   {"settings", ""},
                   {"family", "lobatto_iiia"},
                   {"stages", "3"},
@@ -224,7 +224,7 @@ TEST(FigureCurves, OrderVsStiffness) {
   add("lambda=-1e8/h", 2, "11");  // no single stiffness
   drawing.put("orders.csv", kOrderColumns, rows);
   const Svg svg = drawing.draw("order_vs_stiffness.gp", "scene='prothero_robinson'");
-  // Curves of two numbers of stages each: theory's bars, the lines, the triangles.
+  // For each of two numbers of stages: the bars of theory, the lines, the triangles.
   expectPoints(svg.line('a', 1, kLog, kLin), {{4e7, 3}, {2.5e8, 3}}, "theory", 2e-2);
   expectPoints(svg.marks('a', 3, kLog, kLin), {{1e2, 3.9}, {1e4, 2.5}, {1e8, 2.1}}, "s = 2", 1e-2);
   expectPoints(svg.marks('a', 4, kLog, kLin), {{1e2, 5.9}, {1e8, 4.4}}, "s = 3", 1e-2);

@@ -169,7 +169,7 @@ TEST(FigureCurves, SceneSolution) {
   near('b', 1, {{0, 0}, {1, 1}, {3, 9}, {4, 16}}, "x'");
   near('b', 2, {{0, 3}, {1, 2}, {3, 0}, {4, -1}}, "y'");
   near('c', 1, {{0, 10}, {1, 15}, {3, 25}, {4, 30}}, "lambda");
-  // A scene without a layout: one panel per column, but for those of the steps.
+  // A scene without a layout gets one panel per column, except the columns of the steps.
   drawing.put("mine.radau_iia_5.csv", {"t", "h", "error", "newton_iterations", "switches", "p"},
               {{{"t", "0"}, {"h", "9"}, {"p", "1"}}, {{"t", "2"}, {"h", "9"}, {"p", "4"}}});
   const Svg own = drawing.draw("scene_solution.gp", "scene='mine'");
@@ -204,7 +204,7 @@ TEST(FigureCurves, Shares) {
   const Svg svg = drawing.draw("shares.gp", "methods='radau_iia_3'");
   const auto heights = [&](char panel, int part) {
     std::map<std::string, std::pair<double, double>>
-        by_size;  // bottom and top, by the last row's labels
+        by_size;  // bottom and top, by the labels of the last row
     for (const auto& [colour, corners] : svg.curve(panel, part).boxes) {
       double x = 0;
       SvgPoint low{0, 1e300}, high{0, -1e300};

@@ -1,5 +1,4 @@
-// Every gnuplot script draws a made-up table, in which no two columns are alike, and its curves are
-// read back.
+// Every gnuplot script draws a synthetic table without two equal columns; the test reads the curves back.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -34,7 +33,7 @@ TEST(FigureCurves, StepSize) {
   put("slider_crank.radau_iia_2.csv", {{0, NAN}, {0.1, 0.1}, {0.4, 0.3}, {1, 0.6}});
   put("slider_crank.radau_iia_5.csv", {{0, NAN}, {0.01, 0.01}, {0.05, 0.04}, {1, 0.95}});
   put("other.radau_iia_2.csv", {{0, NAN}, {0.2, 0.2}, {1, 0.8}});
-  // No file other.radau_iia_5.csv: that run was not made, and its curve is left out without a warning.
+  // The file other.radau_iia_5.csv does not exist: that curve is left out without a warning.
   const Svg svg = drawing.draw(
       "step_size.gp",
       "cases='slider_crank other'; methods='radau_iia_2 radau_iia_5'; marks=\"'0.5'\"");
@@ -60,8 +59,8 @@ TEST(FigureCurves, StepSize) {
   EXPECT_NEAR(c.back().y, 0.8, 0.02);
 }
 
-// R = 1 / (1 - z): |R| = 1 on the circle of radius 1 about 1. R = (1 + z/2) / (1 - z/2): on the
-// imaginary axis.
+// R = 1 / (1 - z): |R| = 1 on the circle of radius 1 about 1. R = (1 + z/2) / (1 - z/2): |R| = 1 on the imaginary
+// axis.
 TEST(FigureCurves, Stability) {
   Drawing drawing;
   const auto root = [](const char* method, const char* family, const char* stages, const char* kind,
@@ -74,7 +73,7 @@ TEST(FigureCurves, Stability) {
       {root("radau_iia_1", "radau_iia", "1", "pole", 1, 0),
        root("gauss_1", "gauss", "1", "zero", -2, 0), root("gauss_1", "gauss", "1", "pole", 2, 0)});
   const Svg svg = drawing.draw("stability.gp", "families='radau_iia gauss'; stages='1'; extent=4");
-  // Curve 1 and 2 are the shading of both halves, 3 and 4 the contour.
+  // Curves 1 and 2 are the shading of the two halves, curves 3 and 4 the contour.
   for (const int half : {3, 4}) {
     const auto circle = svg.line('a', half, kLin, kLin);
     ASSERT_GT(circle.size(), 10u);
@@ -98,7 +97,7 @@ TEST(FigureCurves, Stability) {
   }
 }
 
-// Widths of the bars are shares of the runs.
+// The widths of the bars are the shares of the runs.
 TEST(FigureCurves, Audit) {
   Drawing drawing;
   const auto row = [](const char* by, const char* group) {
@@ -144,7 +143,7 @@ TEST(FigureCurves, AuditErrors) {
   }
   drawing.put("audit.csv", {"run", "configuration", "judgement", "treatment", "tolerance", "error"},
               rows);
-  const Svg svg = drawing.draw("audit_errors.gp", "");  // the third panel has both axes' labels
+  const Svg svg = drawing.draw("audit_errors.gp", "");  // the third panel has labels on both axes
   auto right = svg.marks('c', 1, kLog, kLog), wrong = svg.marks('c', 3, kLog, kLog);
   ASSERT_EQ(right.size(), 2u);
   std::sort(right.begin(), right.end(), [](const auto& p, const auto& q) { return p.y < q.y; });
@@ -156,7 +155,7 @@ TEST(FigureCurves, AuditErrors) {
   EXPECT_NEAR(std::log10(wrong[0].y), 6, 0.1);
 }
 
-// No script is left out above.
+// Every script is drawn by a test above.
 TEST(FigureCurves, EveryScriptIsDrawnByATest) {
   const std::filesystem::path source(IRK_SOURCE_DIR);
   std::string tests;

@@ -74,7 +74,7 @@ TEST(FigureCurves, WorkBy) {
   add("pendulum", "simplified", "index2", 1);
   add("pendulum", "modified", "index2", 2);
   add("pendulum", "full", "index2", 3);
-  add("pendulum", "modified", "ggl", 5);  // not of `only`
+  add("pendulum", "modified", "ggl", 5);  // excluded by `only`
   add("kepler", "simplified", "index2", 4);
   add("kepler", "modified", "index2", 6);
   drawing.put("runs.csv", kRunColumns, rows);
@@ -163,7 +163,7 @@ TEST(FigureCurves, CpuVsStages) {
   expectPoints(svg.marks('b', 1, kLog, kLog), {{2, 0.4}, {10, 0.9}}, "off=1");
   const Svg residuals = drawing.draw("cpu_vs_stages.gp", "cases='slider_crank'; cost='residuals'");
   expectPoints(residuals.marks('a', 1, kLog, kLog), {{2, 900}, {3, 500}, {5, 100}}, "residuals");
-  // What was not reached stands above all.
+  // Errors that are not reached are drawn above everything else.
   bool missed = false;
   for (const auto& [number, curve] : svg.panel('a').curves) {
     for (const auto& p : svg.numbers('a', curve.marks, kLog, kLog))

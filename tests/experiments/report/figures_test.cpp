@@ -57,7 +57,7 @@ TEST(Figures, FailureMapsShowDigitsAndCauses) {
   EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
 }
 
-// Every built-in study's runs can be prepared, or are refused for a reason that has a name.
+// All runs of every built-in study can be prepared, or are refused with a reason.
 TEST(Figures, StudiesHaveRunsThatResolve) {
   for (const auto& entry : builtinStudies()) {
     const Study study = loadStudy(entry.id, StudyVariant::kQuick);
@@ -91,7 +91,7 @@ tolerances = 1e-6
   }
 }
 
-// The page says what the fit does.
+// The page states how the fit works.
 TEST(Report, SaysWhatAnOrderNeeds) {
   const TemporaryFolder folder;
   const auto path = writeReport({folder.path(), IRK_SOURCE_DIR});

@@ -1,4 +1,4 @@
-// Several processes make one study: ranks of mpirun.
+// Several processes make one study: ranks started by mpirun.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -49,7 +49,7 @@ class RanksOfMpi : public StoredRuns {
  protected:
   void SetUp() override {
     std::ofstream(folder_.path() / "small.toml") << kStudy;
-    // Of Open MPI: also as root, and with more ranks than cores.
+    // Settings for Open MPI: allow root, and more ranks than cores.
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
@@ -110,7 +110,7 @@ tolerances = [1e-6, 1e-9, 1e-11]
     execl("/bin/sh", "sh", "-c", ("exec " + command("killed", kFour)).c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
-  // A rank is a process that writes a part: its name ends with the process' number.
+  // Each rank writes a part whose name ends with the number of its process.
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::seconds(60);
   const auto waiting = [&] { return Clock::now() < deadline && waitpid(launcher, nullptr, WNOHANG) == 0; };
@@ -126,7 +126,7 @@ tolerances = [1e-6, 1e-9, 1e-11]
   const std::size_t kept = rowsInParts("killed");
   ASSERT_GE(kept, 4u);
   ASSERT_LT(kept, 54u) << "killed too late";
-  ASSERT_EQ(statusOf(command("killed") + " --wait"), 0) << output("killed");  // the others may be ending
+  ASSERT_EQ(statusOf(command("killed") + " --wait"), 0) << output("killed");  // the other ranks may still be ending
   const std::string made = std::to_string(54 - kept) + " runs made";
   EXPECT_NE(output("killed").find(made), std::string::npos) << made << " in " << output("killed");
   ASSERT_EQ(statusOf(command("undisturbed")), 0);

@@ -78,7 +78,7 @@ TEST(Runner, FinishedRunsAreNotMadeAgain) {
   const Table first = runStudy(small(), options(folder, 2), quiet);
   const auto parts = partsOf(folder.path() / "small");
   ASSERT_EQ(parts.size(), 1u);
-  // A mark on a row shows whether it was made again; a row that is lost is made again.
+  // A mark on a row shows whether its run was made again; a lost row must be.
   Table part = readTable(parts.front());
   const std::size_t cpu = part.column("cpu_s");
   for (auto& row : part.rows) row[cpu] = "12345";
@@ -134,8 +134,8 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
   }
 }
 
-// Orders 40 and 39, from t_end / N with N = 18 to 36: errors from 1e-86 to 1e-98. orderTolerance is
-// 0.4 there, so that an order more or less is seen.
+// Orders 40 and 39, from t_end / N with N = 18 to 36 and errors from 1e-86 to 1e-98. orderTolerance is 0.4 there, so
+// a difference of one order is detected.
 TEST(Runner, OrdersOfTwentyStagesInHundredDigits) {
   const Table orders = orderTable(runsOf(R"(
 orders = true
@@ -153,8 +153,8 @@ refine_most = 40
   }
 }
 
-// The study's machinery in 50 digits: planner, runs, fit, theory. Gauss of index 2 and 3 loses
-// orders in every component but q, diverges in lambda, and is healed by a projection.
+// The complete chain in 50 digits: planner, runs, fit, theory. Gauss in index 2 and 3 loses order in every component
+// but q, diverges in lambda, and regains its order by projection.
 TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {
   const Table orders = orderTable(runsOf(R"(
 orders = true
@@ -184,8 +184,8 @@ refine_most = 128
   }
 }
 
-// Where z has order 0 it jumps between steps, and simplified Newton fails in 50 digits: the study asks for
-// modified Newton there, and theory's orders are measured.
+// Where z has order 0 it jumps between steps, and simplified Newton fails in 50 digits. The study therefore uses
+// modified Newton there, and the measured orders are those of theory.
 TEST(Runner, TheOrderStudyMeasuresIndex2WithFewStages) {
   Study study = loadStudy("order", StudyVariant::kFull);
   std::erase_if(study.series, [](const Series& series) {
@@ -205,7 +205,7 @@ TEST(Runner, TheOrderStudyMeasuresIndex2WithFewStages) {
   }
 }
 
-// Solved anew at the end lambda has the order of v, and the table's theory says so.
+// A lambda that is solved again at the end has the order of v, in the measurement and in the theoretical table.
 TEST(Runner, OrdersOfConsistentMultipliers) {
   const Table orders = orderTable(runsOf(R"(
 orders = true
@@ -228,7 +228,7 @@ refine_most = 128
   }
 }
 
-// z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
+// With z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
 TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
   const Table orders = orderTable(runsOf(R"(
 orders = true
@@ -268,7 +268,7 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
     EXPECT_GE(numberAt(read, row, "cpu_median_s"), numberAt(read, row, "cpu_s"));
     EXPECT_GE(numberAt(read, row, "cpu_spread"), 0);
   }
-  // Again: nothing is left to be timed. After an interrupt in the second round the missing rounds are made.
+  // A second pass has nothing to time. After an interrupt in the second round only the missing rounds are measured.
   Table again = read;
   timeStudy(study, store, again, quiet);
   EXPECT_EQ(readTable(file).rows, read.rows);

@@ -1,4 +1,4 @@
-// Parts of a study for array jobs.
+// Shards of a study for array jobs.
 #include "experiments/runner/shards.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-/// Takes a variable of the environment back at its end.
+/// Sets a variable of the environment; the destructor restores it.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
@@ -51,7 +51,7 @@ stages = ["2..13"]
 tolerances = [1e-4, 1e-9]
 )";
 
-// The greedy rule's bound: nobody has more than the mean and the longest series.
+// The bound of the greedy rule: no shard has more than the mean plus the longest series.
 TEST(Shards, AreOfAboutTheSameExpectedCost) {
   const Study study = parseStudy(kUneven, "uneven.toml", StudyVariant::kFull);
   std::vector<double> cost;
@@ -84,7 +84,7 @@ TEST(Shards, LongerSeriesCostMore) {
   EXPECT_GT(costOf("gauss_12", "1e-4"), costOf("gauss_6", "1e-4"));
 }
 
-// The printed script is run as Slurm would, and its results are joined by the command that it names.
+// Runs the printed script as Slurm would, and joins the results with the command that it names.
 TEST(Shards, SlurmScriptRunsAsWritten) {
   const TemporaryFolder folder;
   const std::string path = folder.path().string();

@@ -1,4 +1,4 @@
-// Times are CPU seconds of one integration, and their statistics are what their names say.
+// Times are CPU seconds per integration; their statistics are correct.
 #include "experiments/runner/timing.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace irk {
 namespace {
 
-/// Burns CPU time, or sleeps, and knows what it did.
+/// A run that uses CPU time or sleeps, and records what it did.
 class MadeUpRun final : public PreparedRun {
  public:
   MadeUpRun(double busy_s, double asleep_s) : busy_s_(busy_s), asleep_s_(asleep_s) {}
@@ -106,7 +106,7 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
   }
 }
 
-// Long ones are repeated once; the longest keep the time of the accuracy run; failures have none.
+// Long runs are repeated once; the longest keep the time of the accuracy run; failed runs have no time.
 TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   const TemporaryFolder folder;
   std::ostringstream quiet;

@@ -1,5 +1,5 @@
-// Every field of a run, changed to every other id of its axis or to other legal numbers: nothing that is made of the
-// fields leaves one out. A new field is tested by itself.
+// Changes every field of a run to every other id of its axis, or to other legal numbers, and checks that everything
+// derived from the fields changes, too. New fields are tested automatically.
 #include "experiments/runs/fields.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(Fields, EachOneReadsBackAndLeavesTheOthersAlone) {
     EXPECT_EQ(field.get(changed), value);
     EXPECT_EQ(canonicalText(parseSpec(canonicalText(changed))), canonicalText(changed));
     EXPECT_NO_THROW(validate(changed));
-    if (field.name == "configuration") return;  // sets others
+    if (field.name == "configuration") return;  // it sets other fields
     for (const auto& other : specFields()) {
       if (other.name == field.name) continue;
       EXPECT_EQ(other.get(changed), other.get(base)) << other.name;
@@ -76,7 +76,7 @@ TEST(Fields, EachOneReadsBackAndLeavesTheOthersAlone) {
   });
 }
 
-// Of the series: sweeps over anything but steps and tolerances are never one curve.
+// Sweeps over anything but steps and tolerances must not form one series.
 TEST(Fields, EachOneHasACellAndTellsSeriesApart) {
   Table runs{{}, runColumns(), {runRow("base", "study", recordOf(sliderCrank()))}};
   const TableRow before = runs.rows.front();
@@ -110,7 +110,7 @@ TEST(Fields, HelpNamesAndExplainsEachOne) {
 TEST(Fields, ListsNameEachOne) {
   const auto list = program({"list"}).out;
   for (const auto& field : specFields()) {
-    if (field.kind == FieldKind::kText) continue;  // scenes and methods have lists of their own
+    if (field.kind == FieldKind::kText) continue;  // scenes and methods are tested elsewhere
     EXPECT_TRUE(containsAll(list, {"\n" + field.name + " ", field.meaning})) << field.name;
     for (const auto& choice : field.choices) {
       EXPECT_TRUE(containsAll(list, {"    " + choice.id + " ", choice.meaning})) << field.name;
@@ -126,14 +126,14 @@ TEST(Fields, JsonHoldsEachOneAndNumbersAsNumbers) {
     EXPECT_TRUE(texts.insert(json).second);
     const bool quoted = json.find("\"" + field.name + "\": \"") != json.npos;
     EXPECT_TRUE(containsAll(json, {"\"" + field.name + "\": "}));
-    if (field.name == "settings") return;  // an object
+    if (field.name == "settings") return;  // an object in JSON
     EXPECT_EQ(quoted, !field.isNumeric());
   });
 }
 
 TEST(Fields, StudiesTakeEachOne) {
   forEachChange([&](const SpecField& field, const std::string& value, const RunSpec&) {
-    if (field.kind == FieldKind::kText) return;  // keys of their own kind
+    if (field.kind == FieldKind::kText) return;  // their keys are of another kind
     const std::string text = field.isNumeric() ? value : '"' + value + '"';
     const Study study = parseStudy("[[block]]\nscene = \"slider_crank\"\nmethods = \"radau_iia_3\"\n" + field.name +
                                        " = " + text + "\n",
@@ -143,7 +143,7 @@ TEST(Fields, StudiesTakeEachOne) {
   });
 }
 
-// Of the command line each one is set, or refused as it would change nothing.
+// Every field is set by its option, or refused because it would have no effect.
 TEST(Fields, OptionsSetEachOneOrAreRefused) {
   forEachChange([&](const SpecField& field, const std::string& value, const RunSpec&) {
     if (field.kind == FieldKind::kText || field.name == "h") return;
@@ -163,11 +163,11 @@ TEST(Fields, NumbersOutOfRangeAreRefused) {
   for (const auto& field : specFields()) {
     if (!field.isNumeric()) continue;
     for (const double x : illegalValues(field.range)) {
-      if (field.name == "t_end" && std::isnan(x)) continue;  // the scene's own
-      const std::string text = textOf(field, x);
+      if (field.name == "t_end" && std::isnan(x)) continue;  // stands for the scene's own end time
+      const std::string text = numberText(x);
       RunSpec spec = sliderCrank();
       EXPECT_TRUE(containsAll(misuseOf([&] { field.set(spec, text); }), {field.name, text, field.range.text()}));
-      if (field.kind == FieldKind::kInteger && (!std::isfinite(x) || x != std::floor(x))) continue;  // no integer
+      if (field.kind == FieldKind::kInteger && (!std::isfinite(x) || x != std::floor(x))) continue;  // not an integer
       field.assign(spec, x);
       EXPECT_TRUE(containsAll(misuseOf([&] { validate(spec); }), {field.name, text, field.range.text()}));
       EXPECT_TRUE(containsAll(misuseOf([&] { prepare(spec); }), {field.name, text, field.range.text()}));

@@ -25,9 +25,9 @@ RunRecord success(const RunSpec& run) {
   return record;
 }
 
-// Control of the local error per step leaves some tolerances in total. From below only this can be
-// asked: the tolerance decides, a hundredth of it is not as inexact. (An extrapolation method is
-// much better than asked where its first step is long enough.)
+// Control of the local error per step gives some tolerances in total. The lower bound only checks that the tolerance
+// has an effect: a hundredth of it must give a smaller error. (An extrapolation method is much more accurate than
+// requested if its first step is long enough.)
 TEST(Peers, AllFollowTheToleranceOnAnOde) {
   for (const auto& peer : peerCatalogue()) {
     double coarser = 1;
@@ -46,7 +46,7 @@ TEST(Peers, AllFollowTheToleranceOnAnOde) {
 
 TEST(Peers, StiffProblems) {
   for (const char* peer : {"arkode_dirk", "cvode_bdf", "ida_bdf", "gsl_msbdf", "gsl_bsimp"}) {
-    // Two transitions of the relaxation oscillation amplify by about 1e3.
+    // Each of two transitions of the relaxation oscillation amplifies errors; together by about 1e3.
     const RunRecord run = success(spec(peer, "scene=van_der_pol"));
     EXPECT_LT(run.errors.all, 1e-5) << peer;
     EXPECT_GT(run.errors.all, 1e-10) << peer;
@@ -57,7 +57,7 @@ TEST(Peers, StiffProblems) {
 TEST(Peers, AllSolveTheConstrainedPendulumInIndex1) {
   for (const auto& peer : peerCatalogue()) {
     const RunRecord run = success(spec(peer.id, "scene=pendulum;t_end=10;formulation=index1"));
-    EXPECT_LT(run.errors.all, 1e-3) << peer.id;  // the constraint drifts, five turns amplify
+    EXPECT_LT(run.errors.all, 1e-3) << peer.id;  // the constraint drifts, and five turns amplify errors
     EXPECT_GT(run.errors.all, 1e-9) << peer.id;
     EXPECT_FALSE(std::isnan(run.errors.z)) << peer.id;
   }
@@ -138,7 +138,7 @@ TEST(Peers, WhatCannotWorkIsRefused) {
   EXPECT_EQ(row.family, "cvode_bdf");
 }
 
-/// u'' = d - u; d falls from 1 to 0 when u has risen to 1/2.
+/// u'' = d - u; d changes from 1 to 0 when u has risen to 1/2.
 struct Relay {
   Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
   template <class T>
@@ -183,7 +183,7 @@ TEST(Peers, LocatedSwitchesRestart) {
     ASSERT_EQ(end.outcome, Outcome::kSuccess) << end.detail;
     EXPECT_EQ(end.counters.located_events, 1) << peer.id;
     EXPECT_EQ(end.state.d[0], 0) << peer.id;
-    // As accurate as the interpolant in which the root is searched.
+    // As accurate as the interpolant in which the library searches the root.
     EXPECT_NEAR(at, kRelayTime, 1e-5) << peer.id;
     EXPECT_LT(relayError(end.state.u[0]), 1e-5) << peer.id;
     const auto again = integrator.integrate(scene.start, kRelayEnd);
@@ -192,8 +192,8 @@ TEST(Peers, LocatedSwitchesRestart) {
   }
 }
 
-// Which may not see them: no stage in the part of the step before the switch, or a Newton method
-// that believes a linear problem after one iteration. Large steps then err by their square.
+// The estimate may miss a switch: if no stage lies in the part of the step before it, or if Newton's method accepts a
+// linear problem after one iteration. The error of large steps is then proportional to their square.
 TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
   const auto scene = relayScene();
   for (const auto& peer : peerCatalogue()) {
@@ -206,7 +206,7 @@ TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
   }
 }
 
-// --- The form y' = f(t, y) on which ODE codes stand.
+// --- The form y' = f(t, y) that ODE codes require.
 
 TEST(FirstOrderForm, HasTheAccelerationsOfTheResidual) {
   for (const char* id : {"slider_crank", "pendulum", "van_der_pol", "index1_nonlinear"}) {

@@ -1,4 +1,4 @@
-// Errors per group of components, and the drift: each from its own difference.
+// Errors per group of components, and drift: each is computed from its own difference.
 #include "experiments/runs/run_errors.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ Scene<double> scene() {
   return scene;
 }
 
-// Off by 2e-3 in u2, 3e-2 of 8 in v1, 4e-1 of the scale 10 in x, 5 of 100 in z.
+// Errors: 2e-3 in u2, 3e-2 of 8 in v1, 4e-1 of the scale 10 in x, 5 of 100 in z.
 State<double> off() {
   State<double> s = exactState();
   s.u[1] += 0.8e-1 * 2.5e-2;
@@ -85,12 +85,12 @@ TEST(RunErrors, OfReferencesAtTheTime) {
   };
   const std::vector<Reference> references = {
       reference("u1", 2, "0.6", 1e-9),  reference("u2", 2, "0.8", 1e-9),
-      reference("u2", 2, "0.7", 1e-3),   // a worse one
+      reference("u2", 2, "0.7", 1e-3),   // a less accurate one
       reference("u2", 1, "0.1", 1e-12),  // at another time
       reference("v1", 2, "-8", 1e-9),   reference("v2", 2, "6", 1e-9),
       reference("x", 2, "0.5", 1e-9),   reference("lambda", 2, "100", 1e-9)};
   expectGroups(errorsOf(scene(), references, off()));
-  // An output counts in the error of all only.
+  // An output contributes only to the error over all components.
   const RunErrors output = errorsOf(scene(), {reference("sum", 2, "1.0", 1e-9)}, off());
   EXPECT_NEAR(output.all, 0.402, 1e-12);
   EXPECT_TRUE(std::isnan(output.u) && std::isnan(output.z));

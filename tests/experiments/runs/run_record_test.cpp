@@ -1,4 +1,4 @@
-// From a record to a row, to a file, and back: every number is found under its own name.
+// From a record to a row, to a file and back: every number keeps its own name.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace irk {
 namespace {
 
-// A record in which no two numbers are equal.
+// A record in which all numbers differ.
 RunRecord distinct() {
   RunRecord record;
   record.spec = sliderCrank();

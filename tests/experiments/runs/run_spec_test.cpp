@@ -19,7 +19,7 @@ RunSpec sample() {
   spec.formulation = Formulation::kIndex3;
   spec.scalar = ScalarKind::kMp50;
   spec.options.newton.kind = NewtonKind::kModified;
-  spec.options.step.h = 0.1 + 0.2;  // no short decimal
+  spec.options.step.h = 0.1 + 0.2;  // has no short decimal form
   spec.options.tolerances.rtol = 1e-9 / 3;
   spec.t_end = 2.0 / 3;
   spec.time_limit = 1.5;

@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-// A table of a version that had fewer columns is read by those that it has.
+// A table of an older version with fewer columns is read with the columns that it has.
 TEST(RunTable, OldTablesHaveTheirSeries) {
   Table runs{{}, {"scene", "method", "max_steps", "outcome"}, {}};
   runs.rows = {{"kepler", "gauss_2", "10", "success"},
@@ -25,7 +25,7 @@ TEST(RunTable, OldTablesHaveTheirSeries) {
   EXPECT_EQ(series[0].rows.size(), 2u);
 }
 
-// Its runs are made again, and its rows are still there.
+// Runs of another version are made again, and its rows are kept.
 TEST(RunTable, ATableOfAnotherVersionIsSetAside) {
   const TemporaryFolder folder;
   const Study study = parseStudy(

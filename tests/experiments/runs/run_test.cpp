@@ -21,7 +21,7 @@ TEST(Run, IsAPureFunctionOfItsSpec) {
   EXPECT_EQ(a.u, b.u);
   EXPECT_EQ(a.errors.all, b.errors.all);
   EXPECT_EQ(a.counters.residuals, b.counters.residuals);
-  // The same prepared run twice: nothing is left over from the first time.
+  // Executes the same prepared run twice: the first execution must not affect the second.
   const auto prepared = prepare(run);
   (void)prepared->execute({});
   EXPECT_EQ(prepared->execute({}).u, a.u);

@@ -1,5 +1,5 @@
-// Rows of other code, of other machines and of several folders: what they are is said, and nothing is joined that must
-// not be.
+// Rows of other code, of other machines and from several folders: their origin is reported, and incompatible ones are
+// not joined.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_F(Origin, FreshRunsCountWhateverWasTimedBefore) {
   for (const auto& row : again.rows) EXPECT_NE(textAt(again, row, "cpu_s"), "77");
 }
 
-// The head says when and where rows were made, not when they were exported.
+// The head of a table tells when and where its rows were made, not when they were exported.
 TEST_F(Origin, TheHeadIsThatOfTheRows) {
   run();
   changePart("results", [](Table& part) {
@@ -100,7 +100,7 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
   }
   EXPECT_TRUE(reached);
 
-  // Here: the others' times do not count, and the timing pass measures them again.
+  // With kHere the times of other processors do not count, and the timing pass measures them again.
   const store::StoreOptions here{.times = store::Times::kHere};
   Table chosen = run("results", here);
   EXPECT_TRUE(refusedTimes(chosen.head).empty());
@@ -132,7 +132,7 @@ TEST(Key, HoldsDefaultsAndCoefficients) {
   }
   parameters.front().default_value += "1";
   EXPECT_NE(keyText(spec, parameters), text) << "the scene's default has changed";
-  // The name of a method says nothing about its numbers.
+  // The key depends on a method's coefficients, not on its name.
   const auto coefficients = [&](const char* method) {
     spec.method = method;
     const auto its = keyText(spec, {});
@@ -196,8 +196,8 @@ TEST_F(Origin, MergeReportsWhatIsMissingForeignAndInConflict) {
     lost = part.rows.back().front();
     part.rows.pop_back();
     part.rows[0][part.column("newton_iterations")] = "1";
-    part.rows[1][part.column("outcome")] = "timeout";  // the clock decides that
-    part.rows[2][part.column("code")] = "othercode";   // another version may compute otherwise
+    part.rows[1][part.column("outcome")] = "timeout";  // timeouts depend on the clock
+    part.rows[2][part.column("code")] = "othercode";   // another version may compute other numbers
     part.rows[2][part.column("newton_iterations")] = "1";
     part.rows.push_back(part.rows[3]);
     part.rows.back().front() = "123";

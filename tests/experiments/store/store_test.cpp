@@ -1,4 +1,4 @@
-// The store of results: nothing that was finished is lost, whoever writes and whatever is damaged.
+// The store of results never loses finished runs, whoever writes and whatever is damaged.
 #include "experiments/store/store.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 class Results : public StoredRuns {};
 
-// Runs of some milliseconds: some of them, but not all, are finished after a while.
+// Runs of some milliseconds: after a while some of them are finished, but not all.
 constexpr char kLong[] = R"(
 [[block]]
 scene = "kepler"
@@ -26,7 +26,7 @@ methods = ["radau_iia_2", "radau_iia_3", "gauss_2", "gauss_3"]
 tolerances = [1e-3, 1e-4, 1e-5, 1e-6]
 )";
 
-// A process of its own; its exit status is 0, `f`'s, or 9 after an exception.
+// Calls `f` in another process; its exit status is 0, that of `f`, or 9 after an exception.
 template <class F>
 pid_t startProcess(F&& f) {
   const pid_t child = fork();
@@ -81,7 +81,7 @@ TEST_F(Results, OneDamagedLineCostsOneRow) {
     for (std::size_t i = 0; i < 9; ++i) out << lines[i] << '\n';
     out << lines[9];
   }
-  // A reader changes nothing.
+  // Reading changes nothing.
   EXPECT_EQ(reader().runs().size(), 6u);
   EXPECT_FALSE(std::filesystem::exists(part.parent_path() / (part.stem().string() + ".damaged")));
 
@@ -116,7 +116,7 @@ TEST_F(Results, ATableWithoutPartsIsTakenIn) {
   EXPECT_EQ(partsOf(folder()).size(), 1u);
 }
 
-// --- Rows are only added.
+// --- Rows are only appended.
 
 TEST_F(Results, AStudyEditedAndEditedBackFindsItsRuns) {
   const Table first = run();
@@ -147,7 +147,7 @@ TEST_F(Results, TheExportIsInTheStudysOrderWhateverThatOfTheParts) {
   EXPECT_EQ(run().rows, first.rows);
 }
 
-// Which of two rows of one key counts, and that the order of the parts does not matter.
+// Which of two rows with one key is valid, regardless of the order of the parts.
 TEST_F(Results, TheRowThatCounts) {
   const TableRow made = run().rows.front();
   const Table names{{}, runColumns(), {}};
@@ -163,7 +163,7 @@ TEST_F(Results, TheRowThatCounts) {
   const char *early = "2020-01-01T00:00:00Z", *late = "2021-01-01T00:00:00Z";
   const std::vector<std::pair<TableRow, TableRow>> ranked = {
       {row(own, "", "0", early), row("other", late, "3", late)},  // this code
-      {row(own, early, "0", early), row(own, "", "3", late)},     // asked for anew
+      {row(own, early, "0", early), row(own, "", "3", late)},     // requested again
       {row(own, "", "1", early), row(own, "", "0", late)},        // timed
       {row(own, "", "1", late), row(own, "", "3", early)},        // later
       {row("other", "", "0", late), row("other", "", "0", early)}};
@@ -209,19 +209,19 @@ TEST_F(Results, TheLockOfADeadProcessIsTakenOver) {
   const pid_t child = startProcess([&] {
     std::ostringstream quiet;
     const Store held(folder(), "small", Use::kWrite, {}, quiet);
-    _exit(0);  // without removing it
+    _exit(0);  // without removing the lock
     return 1;
   });
   ASSERT_EQ(exitStatusOf(child), 0);
   ASSERT_TRUE(std::filesystem::exists(folder() / "lock"));
   EXPECT_EQ(run().rows.size(), 9u);
   EXPECT_TRUE(containsAll(told_.str(), {std::to_string(child), "is no more"}));
-  // On another host nobody can know.
+  // It is unknown whether a process on another host still exists.
   std::ofstream(folder() / "lock") << "elsewhere " << child << " 2020-01-01T00:00:00Z\n";
   EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {"elsewhere", "2020-01-01", "remove"}));
 }
 
-// Two writers without locks, as where a file system does not keep its promises: no row is lost or torn.
+// Two writers without locks, as on a file system whose locks do not work: no row is lost or torn.
 TEST_F(Results, TwoWritersAtOnceLoseNothing) {
   constexpr int kRows = 2000;
   const auto write = [&](std::uint64_t first) {
@@ -270,7 +270,7 @@ TEST_F(Results, KilledRunsKeepWhatIsFinished) {
   expectSame(run("killed", {}, kLong), undisturbed);
 }
 
-// A limit on the length of files stands for a full disk: the row that does not fit is cut.
+// A limit on the file size stands for a full disk: the row that does not fit is cut short.
 TEST_F(Results, AFullDiskLosesNoFinishedRun) {
   const Table undisturbed = run("undisturbed");
   const pid_t child = startProcess([&] {

@@ -1,5 +1,5 @@
-// Bad command lines: each ends in its exit status, with one line that names the offence, and prints nothing else. And
-// good ones that must stay accepted.
+// Bad command lines: each gives its exit status and one line that names the mistake, and prints nothing else. Also
+// valid ones that must stay accepted.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -27,7 +27,7 @@ struct BadLine {
   std::string word;
 };
 
-// What the program reads in these tests.
+// The files that the program reads in these tests.
 class Lines : public testing::Test {
  protected:
   void SetUp() override {
@@ -47,7 +47,7 @@ class Lines : public testing::Test {
     fs::create_directories(folder_.path() / "waiting");
     ASSERT_EQ(mkfifo((folder_.path() / "waiting" / "runs.csv").c_str(), 0600), 0);
     write("large.toml", "");
-    fs::resize_file(folder_.path() / "large.toml", std::uintmax_t{1} << 40U);  // takes no space
+    fs::resize_file(folder_.path() / "large.toml", std::uintmax_t{1} << 40U);  // takes no space on disk
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_.path() / name) << text;
@@ -180,7 +180,7 @@ TEST_F(Lines, OptionsWithoutEffect) {
                  {2, {"reference", "kaps", "--check", "--into-sources"}, "--check"}});
 }
 
-// Every field of a run is either taken by the other libraries' integrators or refused with them.
+// Every field of a run is either used by peers or refused with them.
 TEST_F(Lines, PeersRefuseWhatTheyDoNotTake) {
   const auto& taken = peerFields();
   std::size_t refused = 0;
@@ -266,7 +266,7 @@ TEST_F(Lines, OutputThatCannotBeWrittenIsAFailure) {
   }
 }
 
-/// Another working folder, and IRK_HOME, until the end of the test.
+/// Another working folder and IRK_HOME until the end of the test.
 class Elsewhere {
  public:
   explicit Elsewhere(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
@@ -294,7 +294,7 @@ TEST_F(Lines, AFolderPlotsOfTheWorkingFolderIsNotUsed) {
   EXPECT_TRUE(std::filesystem::exists("figure.svg"));
   EXPECT_FALSE(std::filesystem::exists("executed"));
   EXPECT_EQ(homeFolder(), std::filesystem::path(IRK_SOURCE_DIR));
-  // A folder that the user names is his own.
+  // A folder that the user names in IRK_HOME is used.
   setenv("IRK_HOME", folder_.path().c_str(), 1);
   EXPECT_EQ(homeFolder(), folder_.path());
   setenv("IRK_HOME", (folder_.path() / "empty").c_str(), 1);

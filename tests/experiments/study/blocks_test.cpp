@@ -1,4 +1,4 @@
-// The names of a study's blocks: how they are read, where they stand, and that they decide nothing about a run.
+// Names of a study's blocks: how they are read and written, and that they do not affect runs.
 #include "experiments/runs/block_names.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST_F(BlockColumn, NamesEveryBlockOfARun) {
   EXPECT_EQ(textAt(costs, costs.rows[1], kBlockColumn), "more");
 }
 
-// Two series of tolerances in two blocks are one series of runs: its row names both.
+// Two series of tolerances in two blocks form one series of runs; its row names both blocks.
 TEST_F(BlockColumn, ASeriesOfTwoBlocksNamesBoth) {
   std::string halves(kTwo);
   halves.replace(halves.rfind("[1e-3, 1e-4]"), 12, "[1e-5, 1e-6]");
@@ -105,7 +105,7 @@ TEST_F(BlockColumn, IsNoPartOfARun) {
   for (const auto& part : partsOf(folder())) EXPECT_FALSE(readTable(part).hasColumn(kBlockColumn));
 }
 
-// A runs.csv without its parts, copied from elsewhere: its rows count, and its blocks are written anew.
+// A runs.csv without its parts, copied from elsewhere: its rows count, its blocks are computed again.
 TEST_F(BlockColumn, OfACopiedTableIsLeftOut) {
   const Table runs = run("results", {}, kTwo);
   const auto copied = folder("copied");
@@ -142,7 +142,7 @@ refine_most = 64
   EXPECT_EQ(textAt(orders, orders.rows[0], kBlockColumn), "tracking");
 }
 
-// Figures name blocks that their studies have.
+// All blocks that figures name exist in their studies.
 TEST(Blocks, OfFiguresExist) {
   for (const auto& figure : readFigures(std::filesystem::path(IRK_SOURCE_DIR) / "plots/figures.txt")) {
     constexpr std::string_view kStart = "block=";

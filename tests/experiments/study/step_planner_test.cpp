@@ -21,7 +21,7 @@ std::vector<double> steps(int most) {
   return all;
 }
 
-// Errors of x over the steps that the planner asks for.
+// The errors of x at the steps that the planner requests.
 std::vector<ErrorPoint> planned(double epsilon, const std::function<double(double)>& error) {
   const auto candidates = steps(1024);
   StepPlanner planner(candidates, epsilon);
@@ -81,7 +81,7 @@ TEST(StepPlanner, MeasuresEveryComponentInItsOwnRange) {
     return std::count_if(asked.begin(), asked.end(),
                          [&](double h) { return h >= low && h <= high; });
   };
-  // The probe goes on for z until 10 h is small; meanwhile h^20 meets 1e-47 at h = 0.0045.
+  // The probe continues for z until 10 h is small; meanwhile h^20 falls to 1e-47 at h = 0.0045.
   EXPECT_GE(within(0.0044, 0.019), 6);
   EXPECT_GE(within(0.0009, 0.004), 6);
 }

@@ -1,4 +1,4 @@
-// What the reader of studies refuses, with file, line and key; and that no text ends the program.
+// The study reader refuses bad studies with file, line and key; no text ends the program.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::size_t runsOf(const Study& study) {
   return runs;
 }
 
-// Lines 1 to 3 of every study here.
+// Lines 1 to 3 of every study in these tests.
 const std::string kStart = "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\n";
 
 std::string misuse(const std::string& lines) {
@@ -91,7 +91,7 @@ TEST(StudyReader, RefusesListsThatPeersDoNotTake) {
                                "\"difference_forward\"]\n"));
 }
 
-// These ended the program inside toml++.
+// These texts ended the program inside toml++.
 TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
   EXPECT_TRUE(containsAll(misuse("[\n[[block]]\n"), {"mine.toml:4", "name"}));
   EXPECT_TRUE(containsAll(misuse("[[\n"), {"mine.toml:4", "name"}));
@@ -100,14 +100,14 @@ TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
   EXPECT_TRUE(containsAll(misuse("newton = [\"full\", }\"modified\"]\n"), {"mine.toml:4", "brace"}));
   EXPECT_TRUE(containsAll(misuse("steps = [2,\n \xe2\x80\xa8 3]\n"), {"mine.toml:5", "ASCII"}));
   EXPECT_TRUE(containsAll(misuse("t_end = 1979-05-27T\\u000007:32:00Z\n"), {"mine.toml:4", "colon"}));
-  // Inside quotes and comments everything may stand.
+  // Quotes and comments may contain anything.
   EXPECT_EQ(parse("title = \"[ } \\\" \xe2\x80\xa8\"  # [ }\n" + kStart).title, "[ } \" \xe2\x80\xa8");
   EXPECT_EQ(parse("title = '''\n[\n}'''\n" + kStart).title, "[\n}");
   EXPECT_NO_THROW(parse("\xef\xbb\xbf" + kStart));
   EXPECT_NO_THROW(parse(kStart + "steps = [\n  1,\n  2]\r\n"));
 }
 
-// 10 000 texts made from two good ones by a few random changes each: a study or a misuse of one line.
+// 10 000 texts made from two valid ones by a few random changes: each gives a study or a misuse of one line.
 TEST(StudyReader, SurvivesMutatedTexts) {
   const std::string seeds[] = {
       "title = \"A sweep\"\ntargets = [1e-4, 1e-6]\n[defaults]\nnewton = \"modified\"\n[timing]\nrepetitions = 2\n"

@@ -40,8 +40,7 @@ TEST(Study, IsACartesianProduct) {
   EXPECT_EQ(study.timing.repetitions, 2);
   ASSERT_EQ(study.analyses.size(), 1u);
   EXPECT_EQ(study.analyses[0]->id, "cost");
-  // 2 scenes, 2 formulations, gauss_1, 2, 3, 5 and lobatto_iiia_2, 3, 5 (there is no
-  // lobatto_iiia_1).
+  // 2 scenes, 2 formulations, gauss_1, 2, 3, 5 and lobatto_iiia_2, 3, 5 (lobatto_iiia_1 does not exist).
   ASSERT_EQ(study.series.size(), 2u * 2 * 7);
   for (const auto& series : study.series) {
     ASSERT_EQ(series.runs.size(), 3u);
@@ -109,7 +108,7 @@ TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
       containsAll(misuseOf([] { loadStudy("ordr", StudyVariant::kFull); }), {"ordr", "'order'"}));
 }
 
-// They would end in an error after all their runs, or describe another run than the one in the table.
+// Such analyses would fail after all runs are made, or describe another run than the one in the table.
 TEST(Study, AnalysesOfOneMethodRefuseVariableOrder) {
   const std::string block = "\n[[block]]\nscene = \"kepler\"\n";
   for (const std::string analysis : {"scaling", "estimates", "phases"}) {

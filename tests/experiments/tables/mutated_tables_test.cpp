@@ -1,4 +1,4 @@
-// Tables that are almost right.
+// Mutated tables.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -25,7 +25,7 @@ class MutatedTables : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// A table whose rows are whole, or a misuse that names the file.
+// Reading gives a table with complete rows, or a misuse that names the file.
 TEST_F(MutatedTables, AreReadOrRefused) {
   test::Mutations mutations(kSeeds, kPieces, 20043);
   int read = 0, refused = 0;
@@ -46,7 +46,7 @@ TEST_F(MutatedTables, AreReadOrRefused) {
   EXPECT_GT(refused, 1000);
 }
 
-// Of a part no row with another number of cells counts, and every line is a row, damaged, or of the head.
+// In a part, no row with a wrong number of cells is read, and every line is a row, damaged, or part of the head.
 TEST_F(MutatedTables, PartsGiveWholeRowsOnly) {
   const std::vector<std::string> columns{"key", "a", "b"};
   test::Mutations mutations(kSeeds, kPieces, 20044);

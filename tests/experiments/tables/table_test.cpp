@@ -45,7 +45,7 @@ TEST(Table, DropsAHalfWrittenLastRow) {
   const auto path = folder.path() / "runs.csv";
   writeTable(path, sample());
   const std::string whole = contents(path);
-  // Every way to be cut short inside the last row, its line end included.
+  // Cuts the last row short at every position, its line end included.
   const std::size_t last_row = whole.rfind("d,");
   for (std::size_t length = last_row; length < whole.size(); ++length) {
     std::ofstream(path, std::ios::binary) << whole.substr(0, length);
