@@ -1,5 +1,5 @@
-// What the scene tests share: every scene with the settings that change its equations, a point as
-// one vector, the residual of that vector.
+// Shared by the tests of scenes: every scene with the settings that change its equations, points as one vector, and
+// the residual as a function of that vector.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct SceneCase {
   }
 };
 
-/// The catalogue with its defaults, each word of each word parameter, and some numbers.
+/// All scenes with their defaults, with each choice of each word parameter, and with some numbers.
 inline std::vector<SceneCase> sceneCases() {
   std::vector<SceneCase> cases;
   for (const SceneEntry& entry : sceneCatalogue()) {
@@ -47,7 +47,7 @@ inline std::vector<SceneCase> sceneCases() {
   return cases;
 }
 
-/// (u, v, x, a, k, z) of a start.
+/// The vector (u, v, x, a, k, z) of a start.
 template <class Real>
 Vec<Real> pointVector(const State<Real>& s) {
   Vec<Real> y(2 * s.u.size() + s.x.size() + s.w.size());
@@ -55,14 +55,14 @@ Vec<Real> pointVector(const State<Real>& s) {
   return y;
 }
 
-/// Typical magnitudes of (u, v, x, a, k, z): scene.scale, 1 for a and k.
+/// Typical magnitudes of (u, v, x, a, k, z): scene.scale; 1 for a and k.
 inline Vec<double> pointScale(const Scene<double>& scene, const Sizes& n) {
   Vec<double> s(2 * n.nu + n.nx + n.n());
   s << scene.scale.head(2 * n.nu + n.nx), Vec<double>::Ones(n.nu + n.nx), scene.scale.tail(n.nz);
   return s;
 }
 
-/// The start, moved by a tenth of the scale in each component, no two alike.
+/// The start with every component moved by about a tenth of its scale, each by another amount.
 inline Vec<double> perturbedPoint(const Scene<double>& scene, const Sizes& n) {
   Vec<double> y = pointVector(scene.start);
   const Vec<double> scale = pointScale(scene, n);
@@ -72,7 +72,7 @@ inline Vec<double> perturbedPoint(const Scene<double>& scene, const Sizes& n) {
   return y;
 }
 
-/// The discrete states of the start and of what up to two switches make of it.
+/// The modes of the start and those reached by up to two switches.
 inline std::vector<Vec<double>> modesOf(const Scene<double>& scene) {
   const auto system = scene.system({});
   const Index switches = system->sizes().switches;
@@ -93,13 +93,13 @@ inline std::vector<Vec<double>> modesOf(const Scene<double>& scene) {
   return modes;
 }
 
-/// A mode of the scene: its discrete state, and how the residual treats it.
+/// A mode of the scene: its discrete state and its treatment in the residual.
 struct Mode {
   Discontinuity discontinuity;
   Vec<double> d;
 };
 
-/// Every mode frozen, and from the start's the implied and, where it exists, the regularised one.
+/// All modes frozen; for the start also the implied and, if it exists, the regularised law.
 inline std::vector<Mode> modesToTest(const Scene<double>& scene) {
   std::vector<Mode> modes;
   for (const Vec<double>& d : modesOf(scene)) modes.push_back({Discontinuity::kLocate, d});
@@ -113,7 +113,7 @@ inline std::vector<Mode> modesToTest(const Scene<double>& scene) {
   return modes;
 }
 
-/// d: the discrete state, empty where there is none.
+/// `d` is the discrete state, empty if there is none.
 template <class T, class Real>
 Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y,
                   const Vec<Real>& d = {}) {
@@ -129,7 +129,7 @@ Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const 
   return r;
 }
 
-/// dr/d(u, v, x, a, k, z), seeded by hand: independent of core's Differentiator.
+/// dr/d(u, v, x, a, k, z) with hand-written seeds, independent of core's Differentiator.
 template <class Real>
 Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real& t,
                             const Vec<Real>& y, const Vec<Real>& d = {}) {
@@ -147,7 +147,7 @@ Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real&
   return J;
 }
 
-/// Size of the terms that a residual row adds up: what its round-off is measured by.
+/// The sum of the magnitudes of the terms in each row, which limits its round-off.
 inline Vec<double> rowSizes(const Mat<double>& J, const Vec<double>& y, const Vec<double>& scale) {
   return J.cwiseAbs() * y.cwiseAbs().cwiseMax(scale);
 }

@@ -1,4 +1,4 @@
-// A scene run with its switches recorded.
+// Runs a scene and records its switches.
 #pragma once
 
 #include <string>

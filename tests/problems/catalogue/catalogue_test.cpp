@@ -59,7 +59,7 @@ TEST(Catalogue, ScenesAreComplete) {
   }
 }
 
-// What theory is told of a scene is what its system says.
+// The kind that a scene declares for theory agrees with its system.
 TEST(Catalogue, KindsAreThoseOfTheSystems) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     SCOPED_TRACE(entry.id);
@@ -94,7 +94,7 @@ TEST(Catalogue, ASizeParameterMakesItsUnknowns) {
   EXPECT_GE(found, 2);
 }
 
-// Every column of a diagram is a component or an output, all of one unit.
+// Every column of a diagram is a component or an output, and all have one unit.
 TEST(Catalogue, PanelsShowWhatTheSceneHas) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     SCOPED_TRACE(entry.id);
@@ -174,7 +174,7 @@ TEST(Catalogue, RefusesUnknownWords) {
   EXPECT_NE(message.find("did you mean 'smooth'"), std::string::npos) << message;
 }
 
-// An empty function would be called: std::bad_function_call.
+// An empty function would be called and throw std::bad_function_call.
 TEST(Catalogue, RefusesScalarsThatASceneDoesNotOffer) {
   SceneEntry entry = findScene("kepler");
   EXPECT_NO_THROW(makeScene<mp50>(entry, {}));

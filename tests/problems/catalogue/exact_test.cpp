@@ -1,4 +1,4 @@
-// Exact solutions solve their equations and give the checked values.
+// Exact solutions satisfy their equations and give the reference values.
 #include <gsl/gsl_sf_elljac.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace irk::test {
 namespace {
 
-// Times that hit no event of any scene.
+// Times at which no scene has an event.
 const std::vector<double> kTimes = {0.13, 0.49, 0.97, 1.9};
 
 TEST(Exact, SolvesTheEquations) {
@@ -27,8 +27,8 @@ TEST(Exact, SolvesTheEquations) {
           residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s), s.d);
       // 1e8: the stiffest lambda multiplies the round-off of y - phi.
       EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-49 * 1e8 * 100)) << t;
-      // Central differences: truncation delta^2 / 6 times the third derivative (below 1e8; the
-      // motor's current has the largest).
+      // Central differences have the truncation error delta^2 / 6 times the third derivative (below 1e8; that of the
+      // motor's current is the largest).
       const mp50 delta = 1e-16;
       const auto above = scene.exact(t + delta), below = scene.exact(t - delta);
       const mp50 tolerance = delta * delta * 1e8;
@@ -45,8 +45,8 @@ TEST(Exact, SolvesTheEquations) {
   }
 }
 
-// The force passes the yield force for 4 ms, between two of the exact solution's steps. Two integrators of other
-// families agree on what the slider has moved.
+// The force exceeds the yield force for 4 ms, between two steps of the exact solution. Two integrators of different
+// families agree on the slider's displacement.
 TEST(Exact, SeesAYieldShorterThanAStep) {
   const SceneCase c{"elastoplastic",
                     {{"Fy", "1.85"}, {"Omega", "11.7"}, {"P0", "0.459"}, {"k", "128"}, {"m", "1.45"}}};
@@ -81,7 +81,7 @@ TEST(Exact, DoubleIsTheRoundedFiftyDigits) {
       const double t = fraction * scene.t_end / 2;
       const auto s = scene.exact(t);
       const auto exact = precise.exact(mp50(t));
-      // An argument omega t of some hundreds carries as many eps.
+      // The argument omega t is some hundreds, so its error is as many eps.
       const double tolerance = 1e4 * kEps;
       for (Index i = 0; i < s.u.size(); ++i) {
         EXPECT_NEAR(s.u[i], static_cast<double>(exact.u[i]), tolerance);

@@ -1,4 +1,4 @@
-// Every scene, integrated to its checked values.
+// Integrates every scene and compares with its reference values.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,16 +12,16 @@ namespace {
 
 constexpr double kTolerance = 1e-10;
 
-// Local errors add up along the orbit: over up to 2.5e3 radians of the fastest elastic mode, and
-// by a factor of about 1e3 from the first to the last turn of the slider-crank. On Kepler's ten
-// revolutions some 300 steps err in the energy, and its error dE moves the phase by 30 pi dE.
+// Local errors accumulate: over up to 2.5e3 radians of the fastest elastic mode, and by a factor of about 1e3 from
+// the first to the last turn of the slider-crank. In Kepler's ten revolutions some 300 steps contribute errors to the
+// energy, and an energy error dE changes the phase by 30 pi dE.
 double growthOf(const std::string& scene) { return scene == "kepler" ? 3e4 : 1e4; }
 
 IntegratorOptions optionsFor(const std::string& scene) {
   IntegratorOptions o;
   o.tolerances.rtol = o.tolerances.atol = kTolerance;
   o.step.control = StepControl::kPaper;  // with its safety factor of 4
-  // Index 3 without a mechanical structure: no tolerance of 1e-10 in double precision.
+  // Index 3 without mechanical structure cannot reach 1e-10 in double precision.
   if (scene == "index3_nonlinear") {
     o.step.control = StepControl::kFixed;
     o.step.h = 0.01;
@@ -71,7 +71,7 @@ TEST(Integration, ReachesTheCheckedValues) {
   EXPECT_GT(compared, 100);
 }
 
-// One mechanism in three sets of coordinates moves in one way.
+// One mechanism in three sets of coordinates has one motion.
 TEST(Integration, CoordinatesOfTheSliderCrankAgree) {
   std::vector<double> theta, rate;
   for (const char* coordinates : {"redundant", "absolute", "minimal"}) {

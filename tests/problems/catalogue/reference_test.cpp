@@ -1,4 +1,4 @@
-// problems/reference/*.csv: readable, attached to components, in agreement with exact solutions.
+// problems/reference/*.csv: readable, for existing components, and in agreement with exact solutions.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace irk::test {
 namespace {
 
-// In the order of the components, then of the outputs.
+// Values of the components, then of the outputs.
 template <class Real>
 Real valueOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
   Vec<Real> y(scene.sizes().components());
@@ -59,7 +59,7 @@ TEST(Reference, ExactSolutionsAgree) {
     if (!scene.exact) continue;
     for (const Reference& r : references(c.id, c.settings)) {
       const mp50 value = valueOf(scene, r.component, scene.exact(mp50(fmt::format("{}", r.t))));
-      if (!isfinite(value)) continue;  // the closed form does not know it
+      if (!isfinite(value)) continue;  // the closed form does not give it
       // The guard digit of a value is rounded.
       EXPECT_LE(abs(value - mp50(r.value)), mp50(1.1 * r.accuracy))
           << c.name() << " " << r.component << " at " << r.t;
@@ -69,7 +69,7 @@ TEST(Reference, ExactSolutionsAgree) {
   EXPECT_GT(compared, 100);
 }
 
-// Every component of every scene at its end, with its default settings.
+// Every component of every scene with default settings has a reference at the end.
 TEST(Reference, EverySceneHasItsEnd) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     const auto scene = makeScene<double>(entry.id);
@@ -83,7 +83,7 @@ TEST(Reference, EverySceneHasItsEnd) {
   }
 }
 
-// What makes a digit: closed form and integration, which share nothing but the equation.
+// Two independent computations agree to 25 digits: closed form and integration share only the equation.
 TEST(Reference, EllipticFunctionsAndIntegrationAgreeToTwentyFiveDigits) {
   for (const auto& [id, t_end] : {std::pair{"pendulum", "0.5"}, std::pair{"elastica", "2"}}) {
     SCOPED_TRACE(id);
@@ -104,12 +104,12 @@ TEST(Reference, EllipticFunctionsAndIntegrationAgreeToTwentyFiveDigits) {
   }
 }
 
-// theta'(L) = 0 is what the elliptic integrals were solved for; the tip is the known one.
+// The elliptic integrals were solved for theta'(L) = 0; the tip deflection is known from the literature.
 TEST(Reference, TheElasticaEndsWithoutMoment) {
   const auto scene = makeScene<mp50>("elastica");
   const State<mp50> tip = scene.exact(mp50(2));
   EXPECT_LT(abs(tip.v[0]), mp50("1e-45"));
-  // From elsewhere, twelve decimals of which the last one of u_y is 0 and not 1.
+  // Published with twelve decimals; the last one of u_y should be 0, not 1.
   EXPECT_NEAR(static_cast<double>(valueOf(scene, "u_x", tip)), -0.508840369128, 0.6e-12);
   EXPECT_NEAR(static_cast<double>(valueOf(scene, "u_y", tip)), -1.206506882261, 1.1e-12);
 }

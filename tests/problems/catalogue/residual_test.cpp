@@ -1,4 +1,4 @@
-// The residual of every scene against itself: derivatives, multipliers, precision.
+// Consistency of every scene's residual: derivatives, multipliers, precision.
 #include <gtest/gtest.h>
 
 #include "core/system/counting.h"
@@ -7,8 +7,8 @@
 namespace irk::test {
 namespace {
 
-// Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off
-// both stay below 1e-25, relative to the terms of the row.
+// Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off are both below
+// 1e-25, relative to the terms of the row.
 Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t,
                                const Vec<double>& y, const Vec<double>& d,
                                const Vec<double>& scale) {
@@ -26,7 +26,7 @@ Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp
   return J;
 }
 
-// The automatic derivative sums the same terms as the residual, each with a few operations.
+// The automatic derivative adds the same terms as the residual, with a few operations each.
 constexpr double kDerivativeTolerance = 1e4 * kEps;
 
 void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& d,
@@ -68,7 +68,7 @@ TEST(Residual, AutomaticDerivativeIsTheDifferenceQuotient) {
   }
 }
 
-// All stages in one call are the residuals one by one, to the last bit, and counted as many.
+// Evaluating all stages in one call gives bitwise the residuals of single calls, and the same count.
 TEST(Residual, StagesAtOnceAreTheirResidualsOneByOne) {
   constexpr Index kStages = 3;
   for (const SceneCase& c : sceneCases()) {
@@ -107,7 +107,7 @@ TEST(Residual, StagesAtOnceAreTheirResidualsOneByOne) {
   }
 }
 
-// The struct writes G^T lambda by hand: dr_u/dlambda = -(dg/du)^T.
+// The struct contains G^T lambda written by hand: dr_u/dlambda = -(dg/du)^T.
 TEST(Residual, MultipliersActThroughTheConstraintJacobian) {
   for (const SceneCase& c : sceneCases()) {
     SCOPED_TRACE(c.name());
@@ -157,7 +157,7 @@ TEST(Residual, FiftyDigitsAgreeWithDouble) {
   }
 }
 
-// Formulations describe one system: all rows but those of the constraints agree.
+// All formulations describe one system: they agree in all rows except those of the constraints.
 TEST(Residual, FormulationsDifferInConstraintRowsOnly) {
   for (const SceneCase& c : sceneCases()) {
     SCOPED_TRACE(c.name());

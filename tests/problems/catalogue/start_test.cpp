@@ -1,4 +1,4 @@
-// Starts are consistent: constraints, their rates, and (a, k, z).
+// Starts are consistent: constraints, their derivatives, and (a, k, z).
 #include <gtest/gtest.h>
 
 #include "tests/problems/scene_cases.h"
@@ -22,7 +22,7 @@ void expectConsistent(const SceneCase& c, const Real& eps) {
         automaticJacobian<double>(*reference_system, level, 0.0, y_double, reference.start.d);
     const Vec<double> rows = rowSizes(J, y_double, pointScale(reference, n));
     for (Index i = 0; i < r.size(); ++i) {
-      // Solving for w adds its condition to the round-off of the rows' terms.
+      // Solving for w multiplies the round-off of the rows' terms by its condition.
       EXPECT_LE(static_cast<double>(Real(abs(r[i]) / eps)), 1e3 * rows[i]) << "row " << i;
     }
   }

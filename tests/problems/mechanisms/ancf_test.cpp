@@ -1,4 +1,4 @@
-// ANCF beams: static limit, energy, and the solver for equilibria.
+// ANCF beams: static limit, energy, and the equilibrium solver.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +17,7 @@ Real outputOf(const Scene<Real>& scene, const std::string& name, const State<Rea
   return std::numeric_limits<Real>::quiet_NaN();
 }
 
-// The load in ten steps: from the straight beam Newton does not reach its whole.
+// The load is applied in ten steps: for the complete load Newton does not converge from the straight beam.
 template <class Real>
 Equilibrium<Real> bentCantilever(const std::string& elements) {
   const auto scene = makeScene<Real>("ancf_cantilever", {{"elements", elements}});
@@ -45,15 +45,15 @@ TEST(Ancf, StaticCantileverHasTheCheckedDeflection) {
     const auto bent = bentCantilever<double>(elements);
     ASSERT_EQ(bent.outcome, Outcome::kSuccess);
     const auto scene = makeScene<double>("ancf_cantilever", {{"elements", elements}});
-    // Round-off: eps times the ratio of axial and bending stiffness, EA L^2 / EI = 5e3, per node.
+    // Round-off: eps times the ratio of axial to bending stiffness, EA L^2 / EI = 5e3, per node.
     const double tolerance = tip.accuracy + 1e-11;
     EXPECT_NEAR(outputOf(scene, "u_x", bent.state), tip.u_x, tolerance);
     EXPECT_NEAR(outputOf(scene, "u_y", bent.state), tip.u_y, tolerance);
   }
 }
 
-// The element converges to the extensible elastica: each halving of the elements takes at least a
-// factor of 8 from the error (measured: 12 to 17).
+// The elements converge to the extensible elastica: halving their length divides the error by at least 8 (measured:
+// 12 to 17).
 TEST(Ancf, StaticCantileverConvergesToTheElastica) {
   const double exact = -1.207239854550;
   double last = 0;
@@ -78,7 +78,7 @@ TEST(Ancf, FiftyDigitEquilibriumLeavesNoResidual) {
   EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-40) * 2.07e9);  // of EA
 }
 
-// Forces derive from the energy: at a = 0 and rest r_u = -dE/du.
+// Forces are the gradient of the energy: at rest with a = 0, r_u = -dE/du.
 TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
   for (const char* id : {"ancf_cantilever", "ancf_pendulum"}) {
     const auto scene = makeScene<mp50>(id);
@@ -98,13 +98,13 @@ TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
       below.u[i] -= delta;
       const mp50 slope =
           (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
-      // Central differences: delta^2 times the third derivative over the first, below 1e5 here.
+      // Central differences have the error delta^2 times the ratio of third to first derivative, below 1e5 here.
       EXPECT_LT(abs(r[i] + slope), size * 1e-25) << id << " " << i;
     }
   }
 }
 
-// Kinetic energy v M v / 2 against the residual's M: d/dt of it is v.M a.
+// The kinetic energy v M v / 2 has the residual's M: its time derivative is v.M a.
 TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
   const auto scene = makeScene<mp50>("ancf_pendulum");
   const Sizes n = scene.sizes();
@@ -122,7 +122,7 @@ TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
 }
 
 TEST(Equilibrium, SaysThatThereIsNone) {
-  // The constant torque of the slider-crank has no equilibrium but where the crank cannot turn.
+  // With its constant torque the slider-crank has no equilibrium, except where the crank cannot turn.
   const auto scene = makeScene<double>("slider_crank", {{"coordinates", "minimal"}});
   const auto system = scene.system({});
   EXPECT_NE(findEquilibrium(*system, scene.start).outcome, Outcome::kSuccess);
@@ -133,7 +133,7 @@ TEST(Equilibrium, FindsMultipliers) {
   const auto system = scene.system({});
   State<double> guess = scene.start;
   guess.u << 0.3, -0.9;
-  guess.w[2] = 5;  // without a force in the rod every direction is neutral: singular
+  guess.w[2] = 5;  // without a force in the rod all directions are neutral: singular
   const auto hanging = findEquilibrium(*system, guess);
   ASSERT_EQ(hanging.outcome, Outcome::kSuccess);
   EXPECT_NEAR(hanging.state.u[0], 0, 10 * kEps);

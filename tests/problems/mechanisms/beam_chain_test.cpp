@@ -23,7 +23,7 @@ State<double> bent(const Scene<double>& scene) {
   return s;
 }
 
-// Row by row of the product D D y, zero beyond the ends, without round-off that counts.
+// The product D D y row by row, with zeros beyond the ends and negligible round-off.
 Vec<mp50> secondDifferences(const Vec<mp50>& y) {
   const Index m = y.size();
   Vec<mp50> D = -2 * y;
@@ -32,8 +32,8 @@ Vec<mp50> secondDifferences(const Vec<mp50>& y) {
   return D;
 }
 
-// The residual keeps the digits that u and v have: its round-off is that of the differences of
-// neighbours, which shrink with the mesh. Terms of the size of u itself would leave eps (m + 1)^4.
+// The round-off of the residual is that of differences of neighbours, which shrink with the mesh: no digits of u and
+// v are lost. Terms of the size of u itself would give eps (m + 1)^4.
 TEST(BeamChain, StiffnessLosesNoDigitsOnAFineMesh) {
   const Scene<double> scene = makeScene<double>("beam_chain", {{"m", "2000"}});
   const State<double> s = bent(scene);
@@ -60,7 +60,7 @@ TEST(BeamChain, StiffnessLosesNoDigitsOnAFineMesh) {
   EXPECT_LT(bound, kEps * n4 / 10) << "a fourth difference at once would pass";
 }
 
-// All entries, the ends included: column j is the residual's answer to u_j = 1.
+// Checks all entries, including the ends: column j is the residual for u_j = 1.
 TEST(BeamChain, StiffnessIsTheSquareOfD) {
   const Index m = 6;
   const auto scene = makeScene<double>("beam_chain", {{"m", "6"}});

@@ -1,5 +1,4 @@
-// The exact solution of piecewise linear scenes where several switches fall into one of its steps,
-// and jump.
+// The exact solution of piecewise linear scenes if several switches, with jumps, fall into one of its steps.
 #include "problems/support/piecewise_linear.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +10,7 @@
 namespace irk {
 namespace {
 
-/// A ball that falls with g = 2 from height 1, past a mark at 0.1, to a floor that returns half of
-/// its speed.
+/// A ball that falls with g = 2 from height 1, passes a mark at 0.1, and hits a floor that returns half of its speed.
 struct Ball {
   Sizes sizes() const {
     return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2};
@@ -29,7 +27,7 @@ struct Ball {
   template <class T>
   void onSwitch(Index i, const Point<T>& p, T* d) const {
     d[i] = d[i] + 1.0;
-    if (i == 1) d[1] = 1.0 + p.t;  // when the mark was passed
+    if (i == 1) d[1] = 1.0 + p.t;  // time of passing the mark, plus 1
   }
   template <class T>
   void jump(Index i, const Point<T>& p, T*, T* v, T*) const {

@@ -1,4 +1,4 @@
-// The scenes in all modes and formulations of their switches.
+// The scenes with all treatments of switches and in all formulations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace irk::test {
 namespace {
 
-// Flight is a parabola, so that steps are long: one that begins just before the contact may have all
-// its stages on the floor, and step doubling then sees nothing. The default estimate does.
+// The flight is a parabola, so steps are long. If a step begins just before the contact, all its stages may lie on
+// the floor, and step doubling does not detect the contact. The default estimate does.
 TEST(Modes, OfTheBouncingMass) {
   const auto scene = makeScene<double>("bouncing_mass");
   const State<double> exact = scene.exact(0.5);
@@ -31,7 +31,7 @@ TEST(Modes, OfTheBouncingMass) {
   }
 }
 
-// Nothing switches where the modes are blended, and the blend's width bounds the error.
+// With blended modes nothing switches, and the width of the blend bounds the error.
 TEST(Modes, RegularisationsTendToTheSwitchedScene) {
   struct Case {
     SceneCase scene;
@@ -61,15 +61,15 @@ TEST(Modes, RegularisationsTendToTheSwitchedScene) {
   }
 }
 
-// Switches act through accelerations and multipliers, whatever the constraint's formulation.
+// Switches act through accelerations and multipliers, in every formulation of the constraint.
 TEST(Modes, FormulationsOfTheMechatronicCrankAgree) {
   const auto scene = makeScene<double>("mechatronic_crank");
   IntegratorOptions options;
   for (const Formulation formulation :
        {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex2Projected,
         Formulation::kIndex3, Formulation::kGgl}) {
-    // Index 3 has velocities with round-off over h: short steps after a switch cannot keep 1e-9, and where
-    // they cannot keep 1e-8 either the run has to say so.
+    // In index 3 velocities have round-off divided by h: short steps after a switch cannot reach 1e-9, and if they
+    // cannot reach 1e-8 either the run must fail.
     const double tol = formulation == Formulation::kIndex3 ? 1e-8 : 1e-9;
     options.tolerances.rtol = options.tolerances.atol = tol;
     const auto system = scene.system({formulation, ConstraintScaling::kOn, Discontinuity::kLocate});

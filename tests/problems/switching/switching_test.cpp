@@ -1,4 +1,4 @@
-// The scenes' switches: located where they are known to be.
+// The switches of the scenes are located at their known times.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 struct SwitchingTimes {
   SceneCase scene;
   double t_end;
-  double accuracy;  ///< of the times: their digits, or 10 to 100 times the tolerance
+  double accuracy;  ///< of the times: their known digits, or 10 to 100 times the tolerance
   std::vector<Event> events;
 };
 
@@ -110,9 +110,9 @@ TEST(Switching, LocatesTheKnownTimes) {
   }
 }
 
-// Three periods of the exact solution. An error e of x where the mass begins to stick moves the
-// next slip by e / vb = 10 e: the times have the digits of the tolerance where the error lies far
-// below it, else those of x, times 10.
+// Three periods of the exact solution. An error e of x at the beginning of sticking moves the next slip by e / vb =
+// 10 e. The times are therefore accurate to the tolerance if that error is much smaller, else to 10 times the error
+// of x.
 TEST(Switching, StickSlipKeepsItsPeriod) {
   const std::vector<Event> known = {
       {"slips back", 15},
@@ -124,7 +124,7 @@ TEST(Switching, StickSlipKeepsItsPeriod) {
   };
   const SceneCase belt{"stick_slip", {}};
   expectEvents(run(belt, 50, Discontinuity::kLocate, kTolerance, "radau_iia_10"), known, 1e-10);
-  const double position = 10 * kTolerance * 1.5;  // some steps' errors in x, of size 1.5
+  const double position = 10 * kTolerance * 1.5;  // errors of some steps in x, which is about 1.5
   expectEvents(run(belt, 50, Discontinuity::kLocate), known, position / 0.1);
 }
 
@@ -177,7 +177,7 @@ TEST(Switching, ReachesTheJudgedValues) {
   }
 }
 
-// Just after a switch no other is due: memoryless switches do not chatter.
+// Immediately after a switch no other one is due: switches without memory do not chatter.
 TEST(Switching, NoneIsDueAfterASwitch) {
   for (const SwitchingTimes& known : switchingTimes()) {
     SCOPED_TRACE(known.scene.name());
