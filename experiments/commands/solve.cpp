@@ -29,7 +29,7 @@ bool given(const SolveOptions& options, std::string_view field) {
 void applyStep(const SolveOptions& options, RunSpec& spec) {
   if (options.step.empty()) return;
   auto& step = spec.options.step;
-  step.h = parseNumber("step", options.step, kPositive);
+  findField("h").set(spec, options.step);
   if (findPeer(spec.method)) return;  // a peer chooses its own first step
   if (!given(options, "control")) step.control = StepControl::kFixed;
   if (step.control != StepControl::kFixed) return;

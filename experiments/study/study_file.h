@@ -9,7 +9,6 @@
 // A block has a name (letters, digits and _; block_1, block_2, ... if not given), scene, methods or families and
 // stages, one of tolerances, steps, refine_most, and fields of a spec. It has up to 200 000 runs, or `most_runs`. No
 // list is empty or contains an item twice.
-// has up to 200 000 runs, or `most_runs`. No list is empty or has an item twice.
 #pragma once
 
 #include <map>

@@ -33,6 +33,13 @@ inline std::vector<double> illegalValues(const Range& range) {
   return all;
 }
 
+/// The number as the field's setter reads it.
+template <class Spec>
+std::string textOf(const Field<Spec>& field, double x) {
+  const bool integer = field.kind == FieldKind::kInteger && std::isfinite(x) && x == std::floor(x);
+  return integer ? std::to_string(static_cast<std::int64_t>(x)) : numberText(x);
+}
+
 /// For axes all ids but the default, for numbers some legal values; nothing for texts.
 template <class Spec>
 std::vector<std::string> otherValues(const Field<Spec>& field) {

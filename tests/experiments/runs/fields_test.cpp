@@ -164,7 +164,7 @@ TEST(Fields, NumbersOutOfRangeAreRefused) {
     if (!field.isNumeric()) continue;
     for (const double x : illegalValues(field.range)) {
       if (field.name == "t_end" && std::isnan(x)) continue;  // stands for the scene's own end time
-      const std::string text = numberText(x);
+      const std::string text = textOf(field, x);
       RunSpec spec = sliderCrank();
       EXPECT_TRUE(containsAll(misuseOf([&] { field.set(spec, text); }), {field.name, text, field.range.text()}));
       if (field.kind == FieldKind::kInteger && (!std::isfinite(x) || x != std::floor(x))) continue;  // not an integer
