@@ -11,8 +11,8 @@ template <Index N, class Real, class RightHand, class Start>
 void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Index out_stride,
                  Index row, const Start& start) {
   // Small products are unrolled: the control of their loops would cost more than their arithmetic.
-  constexpr Index kMostInner = N <= 3 && std::is_same_v<Real, double> ? 9 : 0;
-  withSize<kMostInner>(B.rows(), [&](auto inner) {
+  constexpr Index kMaxInner = N <= 3 && std::is_same_v<Real, double> ? 9 : 0;
+  withSize<kMaxInner>(B.rows(), [&](auto inner) {
     for (Index j = 0; j < B.cols(); ++j) {
       Real sum[static_cast<std::size_t>(N)];
       for (Index i = 0; i < N; ++i) sum[i] = start(row + i, j);

@@ -30,13 +30,13 @@ double stiffCaution(const Scheme<Real>& scheme) {
 /// Errors of many steps add up: `caution` in the first kFree steps, then more, so that the errors of N steps
 /// add up to kFree (1 + log(N / kFree)) tolerances instead of N; but no more than the errors of the steps so far ask
 /// for: where they are far below the tolerance anyway, they are not made smaller still. For estimates of higher order
-/// than the step's own nothing is needed: there the true error is far below them. At most kMost, and not below kFinest:
+/// than the step's own nothing is needed: there the true error is far below them. At most kMax, and not below kFinest:
 /// there round-off begins.
 class Accumulation {
  public:
   Accumulation(double caution, const Tolerances& tolerances)
       : caution_(caution),
-        most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMost)) {}
+        most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMax)) {}
   void begin() { *this = Accumulation(caution_, most_); }
   /// After so many accepted steps with this sum of estimates; 0 steps for estimates that need no more than caution.
   double factor(std::int64_t steps, double sum) const {
@@ -60,7 +60,7 @@ class Accumulation {
  private:
   Accumulation(double caution, double most) : caution_(caution), most_(most) {}
 
-  static constexpr double kFree = 50, kMost = 300, kFinest = 5e-14;
+  static constexpr double kFree = 50, kMax = 300, kFinest = 5e-14;
   double caution_, most_;
   double t_ = 0, h_ = 0, error_ = 0;  // of the last attempt
 };

@@ -19,7 +19,7 @@ namespace {
 // Powers of 2 by which the roughness of the stages falls from a step to its halves: at least, as a part of
 // that of a smooth solution, and at most beyond it (a jump next to the middle is rough for the whole step
 // only).
-constexpr double kLeastDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
+constexpr double kMinDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
 // The estimate is of the solution that is kept, so that errors of all steps count; the paper's s_min.
 constexpr double kReserve = 4;
 // Rough for the whole step only: above so many tolerances.
@@ -168,7 +168,7 @@ class Doubling : public StepAttempt<Real> {
   // A second look, of the order of the stages: it is below the tolerance, or it falls from the whole step
   // to its halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
   double unresolved() const {
-    const double least = std::max(kLeastDecay, kPartOfDecay * whole_.decay());
+    const double least = std::max(kMinDecay, kPartOfDecay * whole_.decay());
     if (rough_halves_ > 1 && rough_whole_ < std::exp2(least) * rough_halves_) return rough_halves_;
     const double most = std::exp2(whole_.decay() + kBeyondDecay);
     return rough_whole_ > kRough && rough_whole_ > most * rough_halves_ ? rough_whole_ : 0;

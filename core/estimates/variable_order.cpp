@@ -13,8 +13,8 @@ IRK_STRATEGIES(OrderControl, "order")
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// The order is reconsidered every kLeastStay accepted steps.
-constexpr int kLeastStay = 7;
+// The order is reconsidered every kMinStay accepted steps.
+constexpr int kMinStay = 7;
 // Progress per work must grow by this factor: new factors, worse start values.
 constexpr double kGain = 1.2;
 // Members so far above are looked at; the decay of their errors is less certain than that below.
@@ -25,7 +25,7 @@ constexpr double kStagesAtOne = 2.51, kStagesPerDecade = 0.7;
 // Failures of Newton that tell of the first step's size only: it is halved by each.
 constexpr int kFirstStepFailures = 12;
 // Newton's contraction: a step beyond the upper bound is not planned.
-constexpr double kLeastContraction = 1e-4, kMostContraction = 0.5;
+constexpr double kMinContraction = 1e-4, kMaxContraction = 0.5;
 // Measured, in units of one stage in one iteration. What a step costs besides its iterations, per
 // stage: start values and end; the factorizations, by unknown; and for itself: Jacobian, estimate,
 // control.
@@ -114,7 +114,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   }
   lower_error_ = kUnknown;
   if (result.outcome == Outcome::kSuccess && result.error <= 1 && at_ > 0 &&
-      (since_change_ + 1) % kLeastStay == 0) {
+      (since_change_ + 1) % kMinStay == 0) {
     const Member& below = *members_[at_ - 1];
     estimate = member().estimate.evaluateLower(from, *past_, below.scheme.s);
     // Where it cannot be computed the order stays; the step is good.
@@ -160,9 +160,9 @@ auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptRe
   const double ratio = std::clamp(wish, kShrinkAtMost, kGrowAtMost);
   Plan plan{h * ratio, error, 0};
   // Newton's contraction grows with the step.
-  const double before = std::max(now.theta, kLeastContraction);
+  const double before = std::max(now.theta, kMinContraction);
   const double theta = before * ratio;
-  if (theta > kMostContraction) return plan;
+  if (theta > kMaxContraction) return plan;
   const double decades = now.newton_iterations * std::log(1 / before);
   const double iterations =
       now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
@@ -182,7 +182,7 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
   ++steps_;
   sum_ += estimate_;
   if (std::isnan(lower_error_) && at_ > 0) return {h_next, result.error};
-  if (members_.size() == 1 || since_change_ % kLeastStay != 0) return {h_next, result.error};
+  if (members_.size() == 1 || since_change_ % kMinStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);
   // What the controller has learnt of the error's trend holds for all members.
   const double untrended = h * kSafety * std::pow(error, -1.0 / (member().order + 1));

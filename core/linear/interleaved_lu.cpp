@@ -5,7 +5,7 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kMostLanes = 8, kLeastWidth = 4;
+constexpr std::size_t kMaxLanes = 8, kMinWidth = 4;
 
 // Writes the entries of one lane. Each entry holds the real parts of all lanes, then their imaginary parts.
 template <class T>
@@ -29,11 +29,11 @@ struct Pack {
 }  // namespace
 
 InterleavedLu::InterleavedLu(const SparseAnalysis& analysis, std::size_t matrices)
-    : versions_(matrices), work_(static_cast<std::size_t>(analysis.n()) * 2 * kMostLanes) {
+    : versions_(matrices), work_(static_cast<std::size_t>(analysis.n()) * 2 * kMaxLanes) {
   const auto n = static_cast<std::size_t>(analysis.n());
-  for (std::size_t first = 0; first < matrices; first += kMostLanes) {
-    const std::size_t lanes = std::min(kMostLanes, matrices - first);
-    const std::size_t width = lanes > kLeastWidth ? kMostLanes : kLeastWidth, size = 2 * width;
+  for (std::size_t first = 0; first < matrices; first += kMaxLanes) {
+    const std::size_t lanes = std::min(kMaxLanes, matrices - first);
+    const std::size_t width = lanes > kMinWidth ? kMaxLanes : kMinWidth, size = 2 * width;
     Group group{first, lanes, width, {}, {}, std::vector<double>(n * size)};
     group.l.reserve(2 * size * analysis.lowerEntries());
     group.u.reserve(2 * size * analysis.upperEntries());
@@ -83,10 +83,10 @@ bool InterleavedLu::assign(std::span<const SparseLu<double>> real,
 void InterleavedLu::solve(std::span<const Lane> lanes) {
   for (const Group& group : groups_) {
     const auto own = lanes.subspan(group.first, group.lanes);
-    if (group.width == kLeastWidth) {
-      solveGroup<kLeastWidth>(group, own);
+    if (group.width == kMinWidth) {
+      solveGroup<kMinWidth>(group, own);
     } else {
-      solveGroup<kMostLanes>(group, own);
+      solveGroup<kMaxLanes>(group, own);
     }
   }
 }

@@ -119,8 +119,8 @@ template <int Parts, class Real, class Size>
 /// y := A y, A m x m by columns, m <= 2 kSmallInverse.
 template <class Real, class Size>
 void multiplySmall(const Real* A, Real* y, Size m) {
-  constexpr auto kMost = static_cast<std::size_t>(2 * kSmallInverse);
-  std::array<Real, kMost> even, odd;  // two independent sums: neither waits for the other
+  constexpr auto kMax = static_cast<std::size_t>(2 * kSmallInverse);
+  std::array<Real, kMax> even, odd;  // two independent sums: neither waits for the other
   for (Index i = 0; i < m; ++i) even[static_cast<std::size_t>(i)] = A[i] * y[0];
   for (Index i = 0; i < m; ++i) odd[static_cast<std::size_t>(i)] = Real(0);
   for (Index j = 1; j + 1 < m; j += 2) {

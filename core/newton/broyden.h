@@ -9,13 +9,13 @@ namespace irk {
 /// weights: with M the simplified matrix and d_0, d_1, ... the increments so far,
 ///   v = M^-1 R;  v += <v, d_{i-1}> / |d_{i-1}|^2 d_i, i = 1 .. m - 1;  d_m = v / (1 - alpha),
 ///   alpha = <v, d_{m-1}> / |d_{m-1}|^2.
-/// Converges superlinearly for some dot products per iteration. At most `kMost` updates, none after
+/// Converges superlinearly for some dot products per iteration. At most `kMax` updates, none after
 /// one with alpha >= 1/2, which would not be safe: the matrix then stays as it is.
 template <class Real>
 class BroydenUpdates {
  public:
   BroydenUpdates(Index n, Index stages)
-      : n_(n), increments_(n * stages, kMost), weighted_(n * stages, kMost) {}
+      : n_(n), increments_(n * stages, kMax), weighted_(n * stages, kMax) {}
 
   /// A new iteration: the simplified matrix, to be updated if `on`.
   void begin(bool on) { count_ = 0, frozen_ = !on; }
@@ -32,7 +32,7 @@ class BroydenUpdates {
   /// The increment that `apply` gave was taken. `squares`: n weights of the inner product.
   void learn(const VecView<Real>& d, const Vec<double>& squares) {
     if (frozen_) return;
-    frozen_ = count_ == kMost;
+    frozen_ = count_ == kMax;
     if (frozen_) return;
     auto weighted = weighted_.col(count_);
     for (Index j = 0; j < d.size(); j += n_) {
@@ -48,7 +48,7 @@ class BroydenUpdates {
   }
 
  private:
-  static constexpr Index kMost = 8;
+  static constexpr Index kMax = 8;
 
   Index n_;
   Mat<Real> increments_, weighted_;  // d_i and its dual, W d_i / |d_i|^2

@@ -117,7 +117,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes,
                    const Scheme<Real>& scheme)
       : Base(options, sizes, scheme) {
-    // kappa shrinks with s: at high order a loose stage equation spoils the step. theory.md.
+    // kappa shrinks with s: at high order a loose stage equation spoils the step.
     const double floor = kRoundOffUnits * this->round_off_;
     const double s = static_cast<double>(scheme.s);
     const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);

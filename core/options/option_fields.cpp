@@ -6,8 +6,8 @@
 namespace irk {
 namespace {
 
-constexpr std::int64_t kMostSteps = 1'000'000'000'000;
-constexpr std::int64_t kMostIterations = 1000, kMostThreads = 1024;
+constexpr std::int64_t kMaxAttempts = 1'000'000'000'000;
+constexpr std::int64_t kMaxNewtonIterations = 1000, kMaxThreads = 1024;
 
 using Options = IntegratorOptions;
 
@@ -79,9 +79,9 @@ std::span<const OptionField> optionFields() {
              "Newton's method stops when the residual has fallen to this part of its first value.", ofResidualTest),
       number("contractivity_limit", IRK_MEMBER(newton.contractivity_limit), Range::above(0).to(1),
              "The Jacobian is computed anew when the residual falls by less than this factor.", ofModifiedNewton),
-      number("contractivity_after", IRK_MEMBER(newton.contractivity_after), Range::integers(0, kMostIterations),
+      number("contractivity_after", IRK_MEMBER(newton.contractivity_after), Range::integers(0, kMaxNewtonIterations),
              "Iterations before contractivity_limit is looked at.", ofModifiedNewton),
-      number("max_iterations", IRK_MEMBER(newton.max_iterations), Range::integers(1, kMostIterations),
+      number("max_iterations", IRK_MEMBER(newton.max_iterations), Range::integers(1, kMaxNewtonIterations),
              "Newton's method fails after this many iterations."),
       number("keep_jacobian_below", IRK_MEMBER(newton.keep_jacobian_below), Range::from(0).below(1),
              "The Jacobian is kept for the next step while Newton's method contracts by less than this factor.",
@@ -104,9 +104,9 @@ std::span<const OptionField> optionFields() {
              "Tolerance of a step's error relative to the solution.", noTolerance),
       number("atol", IRK_MEMBER(tolerances.atol), Range::above(0),
              "Tolerance of a step's error relative to the scale of the component.", noTolerance),
-      number("max_steps", IRK_MEMBER(step.max_steps), Range::integers(1, kMostSteps),
+      number("max_steps", IRK_MEMBER(step.max_steps), Range::integers(1, kMaxAttempts),
              "The integration fails after this many attempted steps."),
-      number("threads", IRK_MEMBER(threads), Range::integers(1, kMostThreads),
+      number("threads", IRK_MEMBER(threads), Range::integers(1, kMaxThreads),
              "Threads inside one integration; the numbers do not depend on it."),
   });
   constexpr std::size_t kNested = 3;  // tolerances, newton, step

@@ -24,21 +24,21 @@ namespace irk {
 namespace {
 
 // Seconds per batch. Reading the thread clock is a system call of about half a microsecond.
-constexpr double kLeastBatch = 2e-3;
+constexpr double kMinBatch = 2e-3;
 // Each round measures the run and all of its parts, so that a machine that is slow for a while does not slow every
 // measurement of one of them. As long as the parts do not cover the run, further rounds follow for up to
-// kMostSeconds: disturbances only add time, and more to a whole run than to its parts, whose code and data stay in
+// kMaxSeconds: disturbances only add time, and more to a whole run than to its parts, whose code and data stay in
 // the cache.
 // whole run more than to its parts, whose code and data stay in the cache.
 constexpr int kRounds = 5;
-constexpr double kMostSeconds = 10;
-constexpr double kLeastCovered = 0.9, kMostCovered = 1.1;
+constexpr double kMaxSeconds = 10;
+constexpr double kMinCovered = 0.9, kMaxCovered = 1.1;
 
 constexpr std::array<std::string_view, 7> kParts = {"residual", "jacobian", "factorization", "solve",
                                                     "update",   "step",     "start"};
 using Parts = std::array<double, kParts.size()>;
 
-bool covers(double covered) { return covered >= kLeastCovered && covered <= kMostCovered; }
+bool covers(double covered) { return covered >= kMinCovered && covered <= kMaxCovered; }
 
 /// Measures one run and its parts.
 class PhaseMeasurement {
@@ -69,7 +69,7 @@ class PhaseMeasurement {
     for (int round = 1; !interruptFlag(); ++round) {
       measureOnce();
       if (round >= kRounds && covers(covered())) return;
-      if (wallSeconds() - start > kMostSeconds) return;
+      if (wallSeconds() - start > kMaxSeconds) return;
     }
   }
 
@@ -180,7 +180,7 @@ double batchSeconds(const std::function<void()>& call) {
     const double start = threadSeconds();
     for (std::int64_t i = 0; i < calls; ++i) call();
     const double elapsed = threadSeconds() - start;
-    if (elapsed >= kLeastBatch) return elapsed / static_cast<double>(calls);
+    if (elapsed >= kMinBatch) return elapsed / static_cast<double>(calls);
   }
 }
 
@@ -193,7 +193,7 @@ std::vector<std::string> uncoveredRuns(const Table& phases) {
                                 textAt(phases, row, "scene"), textAt(phases, row, "settings"),
                                 textAt(phases, row, "method"), textAt(phases, row, "solver"),
                                 textAt(phases, row, "derivatives"), textAt(phases, row, "rtol"),
-                                covered, kLeastCovered, kMostCovered));
+                                covered, kMinCovered, kMaxCovered));
   }
   return lines;
 }

@@ -22,8 +22,8 @@ namespace irk {
 namespace {
 
 constexpr std::size_t kFirstSteps = 3;    // not counted
-constexpr double kLeastUnknowns = 200;    // for a slope over n
-constexpr std::size_t kLeastPoints = 3;   // for a slope
+constexpr double kMinUnknowns = 200;    // for a slope over n
+constexpr std::size_t kMinPoints = 3;   // for a slope
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct StepCost {
@@ -123,12 +123,12 @@ Table scalingSlopes(const Table& scaling) {
       series[key].x.push_back(std::log(x));
       series[key].y.push_back(std::log(time));
     };
-    if (n >= kLeastUnknowns) add("n", textAt(scaling, row, "method"), n);
+    if (n >= kMinUnknowns) add("n", textAt(scaling, row, "method"), n);
     add("stages", textAt(scaling, row, "n"), numberAt(scaling, row, "stages"));
   }
   for (const auto& [name, points] : series) {
     const auto [low, high] = std::minmax_element(points.x.begin(), points.x.end());
-    if (points.x.size() < kLeastPoints || *low == *high) continue;
+    if (points.x.size() < kMinPoints || *low == *high) continue;
     slopes.rows.push_back(slopeRow(name, points));
   }
   return slopes;

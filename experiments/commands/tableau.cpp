@@ -38,9 +38,9 @@ int tableauPlot(const std::vector<std::string>& methods, const std::string& figu
 }
 
 int tableauTable(const std::string& results, Streams streams) {
-  constexpr int kMostStages = 20;
+  constexpr int kMaxShownStages = 20;
   const auto folder = std::filesystem::path(results) / "tableaus";
-  const TableauTables tables = tableauTables(familyMembers(kMostStages));
+  const TableauTables tables = tableauTables(familyMembers(kMaxShownStages));
   writeTable(folder / "tableaus.csv", tables.properties);
   writeTable(folder / "stability.csv", tables.stability);
   fmt::print(streams.out, "tableaus: {} methods in {}\n", tables.properties.rows.size(),

@@ -7,7 +7,7 @@
 namespace irk::compare {
 namespace {
 
-constexpr int kMostExact = 400;
+constexpr int kMaxExact = 400;
 
 // The numbers of orderings of n + m values with rank statistic u = 0 .. n m: the coefficients of product_i (1 - q^(m
 // + i)) / (1 - q^i), i = 1 .. n.
@@ -28,7 +28,7 @@ double normalProbability(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0))
 }  // namespace
 
 std::vector<double> rankProbabilities(int n, int m) {
-  if (n * m <= kMostExact) {
+  if (n * m <= kMaxExact) {
     auto sums = rankCounts(n, m);
     std::partial_sum(sums.begin(), sums.end(), sums.begin());
     const double all = sums.back();

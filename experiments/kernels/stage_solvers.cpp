@@ -14,7 +14,7 @@ namespace irk {
 namespace {
 
 // Beyond these sizes one dense factorization takes seconds.
-constexpr int kMostDense = 400, kMostCoupledDense = 1500;
+constexpr int kMaxDense = 400, kMaxCoupledDense = 1500;
 
 RunSpec specOf(const SceneEntry& chain, StageSolverKind solver, Storage storage,
                const benchmark::State& state) {
@@ -84,7 +84,7 @@ void add(const std::string& name, bool dense, bool coupled, const std::vector<st
   entry->ArgNames({"stages", "n", "threads"})->Unit(benchmark::kMicrosecond);
   for (const std::int64_t s : {3, 5, 8, 10}) {
     for (const std::int64_t n : {12, 24, 100, 200, 400, 1000, 2000, 4000}) {
-      if (dense && (n > kMostDense || (coupled && s * n > kMostCoupledDense))) continue;
+      if (dense && (n > kMaxDense || (coupled && s * n > kMaxCoupledDense))) continue;
       for (const std::int64_t t : threads) entry->Args({s, n, t});
     }
   }

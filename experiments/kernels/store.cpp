@@ -18,7 +18,7 @@
 namespace irk {
 namespace {
 
-constexpr std::int64_t kFewest = 10'000, kMost = 1'000'000;
+constexpr std::int64_t kMin = 10'000, kMax = 1'000'000;
 
 /// A folder with n rows, made once for each n; the destructor removes it.
 class Folder {
@@ -116,9 +116,9 @@ void key(benchmark::State& state) {
 }
 
 BENCHMARK(key);
-BENCHMARK(append)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(resume)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(exportRuns)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(append)->RangeMultiplier(10)->Range(kMin, kMax)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(resume)->RangeMultiplier(10)->Range(kMin, kMax)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(exportRuns)->RangeMultiplier(10)->Range(kMin, kMax)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace irk

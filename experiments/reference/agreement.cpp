@@ -10,7 +10,7 @@
 namespace irk {
 namespace {
 
-constexpr int kMostDigits = 40;
+constexpr int kMaxDigits = 40;
 
 // The exponent of a number, read from scientific notation: a logarithm is off by one next to a power of ten.
 int exponentOf(const std::string& text) { return std::atoi(text.c_str() + text.find('e') + 1); }
@@ -35,8 +35,8 @@ std::string decimalText(const mp50& value, double accuracy) {
   constexpr int kGuard = 1;
   const int last =
       exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
-  const int first = exponentOf(value.str(kMostDigits, std::ios::scientific));
-  const int digits = std::clamp(first - last + 1, 2, kMostDigits);
+  const int first = exponentOf(value.str(kMaxDigits, std::ios::scientific));
+  const int digits = std::clamp(first - last + 1, 2, kMaxDigits);
   const bool plain = first >= -3 && first < digits - 1;
   // Both count the digits behind the point; 0 would select all digits.
   return plain ? value.str(digits - 1 - first, std::ios::fixed)

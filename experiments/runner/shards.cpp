@@ -18,7 +18,7 @@
 namespace irk {
 namespace {
 
-constexpr int kMostShards = 1'000'000;
+constexpr int kMaxShards = 1'000'000;
 
 const char* setting(const char* name) {
   const char* value = std::getenv(name);
@@ -26,7 +26,7 @@ const char* setting(const char* name) {
 }
 
 int fromEnvironment(const char* name) {
-  return static_cast<int>(parseInteger(name, std::getenv(name), Range::integers(0, kMostShards)));
+  return static_cast<int>(parseInteger(name, std::getenv(name), Range::integers(0, kMaxShards)));
 }
 
 // The task's index i and, if the environment has it, their number n, else 0.
@@ -71,8 +71,8 @@ class Unknowns {
 double expectedSteps(const RunSpec& spec, double stages) {
   if (spec.options.step.control == StepControl::kFixed) return 1 / spec.options.step.h;
   const double tol = std::max(spec.options.tolerances.rtol, spec.options.tolerances.atol);
-  constexpr double kMostOrder = 8;
-  return std::pow(tol, -1 / (1 + std::min(2 * stages - 1, kMostOrder)));
+  constexpr double kMaxOrder = 8;
+  return std::pow(tol, -1 / (1 + std::min(2 * stages - 1, kMaxOrder)));
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ Shard parseShard(std::string_view text) {
     }
     return checked(shard, text);
   }
-  const int count = static_cast<int>(parseInteger("shard", text.substr(slash + 1), Range::integers(1, kMostShards)));
+  const int count = static_cast<int>(parseInteger("shard", text.substr(slash + 1), Range::integers(1, kMaxShards)));
   if (index == "auto") return checked({fromArrayJob().index, count}, text);
   return {static_cast<int>(parseInteger("shard", index, Range::integers(1, count))), count};
 }

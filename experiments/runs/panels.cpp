@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kMostPanels = 8;  // where the scene names none
+constexpr std::size_t kMaxPanels = 8;  // where the scene names none
 
 std::string withUnit(const std::string& title, const std::string& unit) {
   return unit.empty() ? title : title + " in " + unit;
@@ -17,7 +17,7 @@ std::string withUnit(const std::string& title, const std::string& unit) {
 std::vector<Panel> onePerColumn(const std::vector<std::string>& columns) {
   std::vector<Panel> panels;
   for (const auto& column : columns) {
-    if (panels.size() < kMostPanels) panels.push_back({column, {column}});
+    if (panels.size() < kMaxPanels) panels.push_back({column, {column}});
   }
   return panels;
 }

@@ -104,7 +104,7 @@ class Prepared final : public PreparedRun {
     std::vector<SwitchEvent> switches;
     monitor.switched = [&](const SwitchRecord<Real>& change) {
       const double t = static_cast<double>(change.t);
-      if (switches.size() < kMostRecordedSwitches) switches.push_back({t, change.name});
+      if (switches.size() < kMaxRecordedSwitches) switches.push_back({t, change.name});
       if (watch.switched) watch.switched(t, change.name);
     };
     const auto t_end = decimalNumber<Real>(spec_.t_end);

@@ -33,14 +33,14 @@ struct RunRecord {
   std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
   RunErrors errors;
   Counters counters;
-  std::vector<SwitchEvent> switches;  ///< the first kMostRecordedSwitches
+  std::vector<SwitchEvent> switches;  ///< the first kMaxRecordedSwitches
   double cpu_s = std::numeric_limits<double>::quiet_NaN();
 
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
 };
 
 /// Limit of recorded switches: a chattering run has no end of them.
-constexpr std::size_t kMostRecordedSwitches = 1000;
+constexpr std::size_t kMaxRecordedSwitches = 1000;
 
 /// An accepted step, or the start, where h and error are NaN and the iterations 0.
 struct AcceptedStep {

@@ -15,7 +15,7 @@ namespace irk {
 namespace {
 
 // More rows than a figure has pixels only slow it down.
-constexpr std::size_t kMostRows = 2000;
+constexpr std::size_t kMaxRows = 2000;
 
 // The columns before the components. A row summarizes the steps since the previous row.
 constexpr std::string_view kStepColumns[] = {"t", "h", "error", "newton_iterations", "switches"};
@@ -39,8 +39,8 @@ Row merged(const Row& a, const Row& b) {
 // Keeps rows at equal distances in time, not every n-th row: most rows are small steps at switches, which show
 // little.
 std::vector<Row> thinned(const std::vector<Row>& rows) {
-  if (rows.size() <= kMostRows) return rows;
-  const double spacing = (rows.back().t - rows.front().t) / static_cast<double>(kMostRows);
+  if (rows.size() <= kMaxRows) return rows;
+  const double spacing = (rows.back().t - rows.front().t) / static_cast<double>(kMaxRows);
   std::vector<Row> kept{rows.front()};
   bool open = false;  // the last row still absorbs the next steps
   for (std::size_t i = 1; i < rows.size(); ++i) {

@@ -212,11 +212,11 @@ void Rows::forEach(const std::function<void(const Entry&)>& take) const {
 }
 
 int Rows::descriptor(std::uint32_t part) const {
-  constexpr std::size_t kMostOpen = 256;
+  constexpr std::size_t kMaxOpen = 256;
   descriptors_.resize(parts_.size(), -1);
   int& file = descriptors_[part];
   if (file >= 0) return file;
-  if (open_ == kMostOpen) {
+  if (open_ == kMaxOpen) {
     for (int& other : descriptors_) {
       if (other >= 0) close(other);
       other = -1;

@@ -20,7 +20,7 @@ namespace irk::audit {
 namespace {
 
 constexpr double kWidth = 4;  // numeric settings are multiplied by a factor in 1/kWidth .. kWidth
-constexpr int kMostAttempts = 1000;
+constexpr int kMaxAttempts = 1000;
 
 constexpr Index kStages[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 15, 20};
 constexpr double kStageWeights[] = {4, 10, 12, 10, 12, 8, 10, 8, 10, 3, 3, 2, 4, 2, 2};
@@ -151,7 +151,7 @@ class Drawer {
     Dice dice(fmt::format("{} run {}", options_.seed, number));
     const auto& scene =
         scenes[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes.size())))];
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       if (auto run = drawn(dice, scene)) return *run;
     }
     throw std::logic_error("audit: no legal run of scene " + scene.id);
@@ -249,7 +249,7 @@ class Drawer {
 Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant,
                        Discontinuity treatment) {
   const double t_end = makeScene<double>(scene.id).t_end;
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     Dice dice(fmt::format("{} settings {} {} {}", seed, scene.id, variant, attempt));
     const Settings settings = drawnOnce(dice, scene, treatment, t_end);
     if (sceneOf(scene.id, settings)) return settings;

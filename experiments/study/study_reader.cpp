@@ -207,7 +207,7 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
   refuseContradictions(keys);
   const auto methods = methodList(keys);
   refusePeersInSweeps(keys, methods);
-  const auto most = integer(keys, "most_runs", kMostRuns, 1, kMostRunsAsked);
+  const auto most = integer(keys, "most_runs", kMaxRuns, 1, kMaxRunsAsked);
   refuseTooMany(keys, methods.size(), runsOfSeries(keys), most);
   for (RunSpec spec : specProduct(keys)) {
     spec = atPlace(scene, [&] { return resolved(spec); });
@@ -236,12 +236,12 @@ void refuseUnknown(const StudyKeys& keys, const std::string& table,
 }
 
 TimingOptions timingOptions(const StudyKeys& keys) {
-  constexpr std::int64_t kMostRepetitions = 1000;
+  constexpr std::int64_t kMaxRepetitions = 1000;
   TimingOptions timing;
   timing.wanted = find(keys, "timing") != nullptr;
   timing.min_time_s = number(keys, "timing.min_time_s", timing.min_time_s, kPositive);
   timing.repetitions = static_cast<int>(
-      integer(keys, "timing.repetitions", timing.repetitions, 1, kMostRepetitions));
+      integer(keys, "timing.repetitions", timing.repetitions, 1, kMaxRepetitions));
   timing.once_above_s = number(keys, "timing.once_above_s", timing.once_above_s, kPositive);
   timing.skip_above_s = number(keys, "timing.skip_above_s", timing.skip_above_s, kPositive);
   refuseUnknown(keys, "timing", {"min_time_s", "repetitions", "once_above_s", "skip_above_s"});
@@ -249,11 +249,11 @@ TimingOptions timingOptions(const StudyKeys& keys) {
 }
 
 AuditOptions auditOptions(const StudyKeys& keys) {
-  constexpr std::int64_t kMost = 1'000'000, kLargestSeed = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kMax = 1'000'000, kLargestSeed = std::numeric_limits<std::int64_t>::max();
   AuditOptions audit;
-  audit.runs = static_cast<int>(integer(keys, "audit.runs", audit.runs, 1, kMost));
+  audit.runs = static_cast<int>(integer(keys, "audit.runs", audit.runs, 1, kMax));
   audit.seed = static_cast<std::uint64_t>(integer(keys, "audit.seed", 1, 0, kLargestSeed));
-  audit.variants = static_cast<int>(integer(keys, "audit.variants", audit.variants, 1, kMost));
+  audit.variants = static_cast<int>(integer(keys, "audit.variants", audit.variants, 1, kMax));
   audit.time_limit = number(keys, "audit.time_limit", audit.time_limit, kPositive);
   refuseUnknown(keys, "audit", {"runs", "seed", "variants", "time_limit"});
   return audit;

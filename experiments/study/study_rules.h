@@ -16,7 +16,7 @@ namespace irk {
 void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t first);
 
 /// The limit of runs per block, and the largest limit that its key `most_runs` can set.
-inline constexpr std::int64_t kMostRuns = 200'000, kMostRunsAsked = 100'000'000;
+inline constexpr std::int64_t kMaxRuns = 200'000, kMaxRunsAsked = 100'000'000;
 
 /// False for keys that select methods, tolerances and steps; they are not fields of a spec.
 bool isSpecKey(std::string_view key);

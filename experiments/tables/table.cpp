@@ -126,7 +126,7 @@ std::string csvLine(const TableRow& row) {
 }
 
 Table readTable(const std::filesystem::path& path) {
-  const std::string text = readInputFile(path, kMostTableBytes);
+  const std::string text = readInputFile(path, kMaxTableBytes);
   Table table;
   Reader reader(text);
   while (!reader.atEnd() && reader.isComment()) {

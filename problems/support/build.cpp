@@ -15,7 +15,7 @@ namespace irk {
 namespace {
 
 constexpr double kLargestQuantity = 1e15;
-constexpr double kMostElements = 10000;
+constexpr double kMaxElements = 10000;
 
 void check(std::string_view scene, const Parameter& p, const std::string& text) {
   if (text == p.default_value) return;
@@ -67,7 +67,7 @@ Parameter smoothingParameter(std::string unit, std::string meaning, std::string 
 
 Parameter elementsParameter(std::string default_value) {
   Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1,
-                                kMostElements);
+                                kMaxElements);
   p.whole = true;
   p.audit_max = 4;
   return p;

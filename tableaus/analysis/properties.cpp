@@ -165,9 +165,9 @@ std::string_view stageKindName(StageKind kind) {
 
 TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double tolerance) {
   TableauAnalysis analysis = analyzeTableau(tableau, tolerance);
-  if (tableau.stages() > kMostAnalyzedStages) {
+  if (tableau.stages() > kMaxAnalyzedStages) {
     throw Misuse(fmt::format("tableau '{}': {} stages, properties are analysed up to {}",
-                             tableau.id, tableau.stages(), kMostAnalyzedStages));
+                             tableau.id, tableau.stages(), kMaxAnalyzedStages));
   }
   StabilityFunction R = stabilityFunction(tableau, tolerance);
   const Stability stability = analyzeStability(R, tolerance);

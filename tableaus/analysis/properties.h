@@ -41,9 +41,9 @@ struct TableauProperties {
 };
 
 /// The time of the analysis grows with s^3 and is a second at 40 stages.
-inline constexpr Index kMostAnalyzedStages = 40;
+inline constexpr Index kMaxAnalyzedStages = 40;
 
-/// Computed in 80 digits. Throws Misuse as analyzeTableau, and for more than kMostAnalyzedStages stages.
+/// Computed in 80 digits. Throws Misuse as analyzeTableau, and for more than kMaxAnalyzedStages stages.
 TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double tolerance);
 
 /// One indented line per property.

@@ -51,9 +51,9 @@ std::string showTableau(std::string_view id_or_file, int digits) {
 TableauReport checkTableau(std::string_view id_or_file) {
   const TableauFile file = findUncheckedTableau(id_or_file);
   TableauReport report = checkTableau(file);
-  if (file.tableau.stages() > kMostAnalyzedStages) {
+  if (file.tableau.stages() > kMaxAnalyzedStages) {
     report.text += fmt::format("  stability and eigenvalues: analysed up to {} stages only\n",
-                               kMostAnalyzedStages);
+                               kMaxAnalyzedStages);
     return report;
   }
   const auto properties = analyzeProperties(file.tableau, report.analysis.tolerance);

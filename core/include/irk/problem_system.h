@@ -23,7 +23,7 @@ struct Rows {
 };
 
 /// Largest numbers of discrete states and of switching functions.
-constexpr Index kMostDiscrete = 16;
+constexpr Index kMaxDiscrete = 16;
 
 /// A problem struct P in one formulation (all but GGL, core/include/irk/ggl.h), over one scalar.
 template <class P, class Real>
@@ -34,10 +34,10 @@ class ProblemSystem final : public System<Real> {
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
     requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
-    if (sizes_.discrete > kMostDiscrete || sizes_.switches > kMostDiscrete) {
+    if (sizes_.discrete > kMaxDiscrete || sizes_.switches > kMaxDiscrete) {
       throw Misuse("a problem has " + std::to_string(sizes_.discrete) + " discrete states and " +
                    std::to_string(sizes_.switches) + " switching functions, allowed are " +
-                   std::to_string(kMostDiscrete) + " each");
+                   std::to_string(kMaxDiscrete) + " each");
     }
     if (smooth() && kHasSwitching && !kHasSmoothed) {
       throw Misuse(
@@ -121,7 +121,7 @@ class ProblemSystem final : public System<Real> {
   void evaluateAt(Level level, const Point<T>& p, T* r) const {
     const bool implied = kHasSwitching && options_.discontinuity.sees == ModeSeen::kImplied;
     if (sizes_.switches == 0 || !(implied || smooth())) return evaluateFrozen(level, p, r);
-    std::array<T, kMostDiscrete> d;
+    std::array<T, kMaxDiscrete> d;
     std::copy(p.d.data(), p.d.data() + p.d.size(), d.begin());
     const Point<T> at{p.t, p.u, p.v, p.x, p.a, p.k, p.z, {d.data(), p.d.size()}};
     if (smooth()) {
@@ -209,15 +209,15 @@ class ProblemSystem final : public System<Real> {
   // The mode that p implies: due switches done until none is due. A cascade that does not end is
   // cut: the error estimate has to deal with what is left.
   template <class T>
-  void imply(const Point<T>& p, std::array<T, kMostDiscrete>& d) const {
+  void imply(const Point<T>& p, std::array<T, kMaxDiscrete>& d) const {
     if constexpr (kHasSwitching) {
-      std::array<T, kMostDiscrete> g;
+      std::array<T, kMaxDiscrete> g;
       for (Index pass = 0; pass < 2 * sizes_.switches; ++pass) {
         problem_.switching(p, g.data());
         Index due = 0;
         while (due < sizes_.switches && !(g[static_cast<std::size_t>(due)] > T(0.0))) ++due;
         if (due == sizes_.switches) return;
-        std::array<T, kMostDiscrete> next = d;
+        std::array<T, kMaxDiscrete> next = d;
         problem_.onSwitch(due, p, next.data());
         d = next;
       }
