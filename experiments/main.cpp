@@ -5,6 +5,4 @@
 
 #include "experiments/commands/cli.h"
 
-int main(int argc, char** argv) {
-  return irk::runProgram({argv + 1, argv + argc}, {std::cout, std::cerr});
-}
+int main(int argc, char** argv) { return irk::runProgram({argv + 1, argv + argc}, {std::cout, std::cerr}); }

@@ -41,13 +41,11 @@ std::string readInputFile(const std::filesystem::path& path, std::size_t most) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
-    throw Misuse("file '" + path.string() + "' cannot be read: " +
-                 (error ? error.message() : std::strerror(ENOENT)));
+    throw Misuse("file '" + path.string() + "' cannot be read: " + (error ? error.message() : std::strerror(ENOENT)));
   }
   requireRegularFile(path);
   const auto tooLong = [&] {
-    throw Misuse("file '" + path.string() + "' is too long: up to " + std::to_string(most) +
-                 " bytes are read");
+    throw Misuse("file '" + path.string() + "' is too long: up to " + std::to_string(most) + " bytes are read");
   };
   const auto size = std::filesystem::file_size(path, error);
   if (!error && size > most) tooLong();

@@ -29,9 +29,7 @@ struct Table {
   Table() {
     for (Index k = 0; k < kSize; ++k) row[static_cast<std::size_t>(k)] = Coefficients<Real>(k);
   }
-  Coefficients<Real> at(Index k) const {
-    return k < kSize ? row[static_cast<std::size_t>(k)] : Coefficients<Real>(k);
-  }
+  Coefficients<Real> at(Index k) const { return k < kSize ? row[static_cast<std::size_t>(k)] : Coefficients<Real>(k); }
   std::array<Coefficients<Real>, static_cast<std::size_t>(kSize)> row;
 };
 

@@ -8,8 +8,8 @@ namespace detail {
 
 /// Computes N rows, out(:, j) = start(j) + sum_k A(:, k) B(k, j), with N accumulators in registers.
 template <Index N, class Real, class RightHand, class Start>
-void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Index out_stride,
-                 Index row, const Start& start) {
+void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Index out_stride, Index row,
+                 const Start& start) {
   // Small products are unrolled: the control of their loops would cost more than their arithmetic.
   constexpr Index kMaxInner = N <= 3 && std::is_same_v<Real, double> ? 9 : 0;
   withSize<kMaxInner>(B.rows(), [&](auto inner) {
@@ -32,8 +32,8 @@ void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Ind
 /// computed by blocks of rows whose sums stay in registers. For two rows it takes a tenth of the time of a
 /// general product, and for hundreds of rows not more than that product, since B is small.
 template <class Real, class RightHand, class Start>
-void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out,
-                  Index out_stride, const Start& start) {
+void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride,
+                  const Start& start) {
   constexpr Index kBlock = 8;
   Index i = 0;
   for (; i + kBlock <= rows; i += kBlock) {
@@ -43,17 +43,20 @@ void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, R
     detail::productRows<4>(A + i, stride, B, out + i, out_stride, i, start);
   }
   switch (rows - i) {
-    case 3: return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
-    case 2: return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
-    case 1: return detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
-    default: return;
+    case 3:
+      return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
+    case 2:
+      return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
+    case 1:
+      return detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
+    default:
+      return;
   }
 }
 
 /// The same with start = 0.
 template <class Real, class RightHand>
-void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out,
-                  Index out_stride) {
+void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride) {
   smallProduct(A, stride, rows, B, out, out_stride, [](Index, Index) { return Real(0); });
 }
 

@@ -20,16 +20,26 @@ decltype(auto) withSize(Index n, const F& f) {
     }
   };
   switch (n) {
-    case 1: return at(std::integral_constant<Index, 1>());
-    case 2: return at(std::integral_constant<Index, 2>());
-    case 3: return at(std::integral_constant<Index, 3>());
-    case 4: return at(std::integral_constant<Index, 4>());
-    case 5: return at(std::integral_constant<Index, 5>());
-    case 6: return at(std::integral_constant<Index, 6>());
-    case 7: return at(std::integral_constant<Index, 7>());
-    case 8: return at(std::integral_constant<Index, 8>());
-    case 9: return at(std::integral_constant<Index, 9>());
-    default: return f(n);
+    case 1:
+      return at(std::integral_constant<Index, 1>());
+    case 2:
+      return at(std::integral_constant<Index, 2>());
+    case 3:
+      return at(std::integral_constant<Index, 3>());
+    case 4:
+      return at(std::integral_constant<Index, 4>());
+    case 5:
+      return at(std::integral_constant<Index, 5>());
+    case 6:
+      return at(std::integral_constant<Index, 6>());
+    case 7:
+      return at(std::integral_constant<Index, 7>());
+    case 8:
+      return at(std::integral_constant<Index, 8>());
+    case 9:
+      return at(std::integral_constant<Index, 9>());
+    default:
+      return f(n);
   }
 }
 

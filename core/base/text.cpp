@@ -25,18 +25,16 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearestName(std::string_view given, const std::vector<std::string>& known) {
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](auto& a, auto& b) {
-    return editDistance(given, a) < editDistance(given, b);
-  });
+  const auto nearest = std::min_element(
+      known.begin(), known.end(), [&](auto& a, auto& b) { return editDistance(given, a) < editDistance(given, b); });
   return nearest == known.end() ? std::string() : *nearest;
 }
 
-std::string unknownName(std::string_view kind, std::string_view given,
-                        const std::vector<std::string>& known) {
+std::string unknownName(std::string_view kind, std::string_view given, const std::vector<std::string>& known) {
   std::string list;
   for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
-  return "unknown " + std::string(kind) + " '" + std::string(given) + "'; did you mean '" +
-         nearestName(given, known) + "'? Known: " + list;
+  return "unknown " + std::string(kind) + " '" + std::string(given) + "'; did you mean '" + nearestName(given, known) +
+         "'? Known: " + list;
 }
 
 }  // namespace irk

@@ -11,7 +11,6 @@ namespace irk {
 std::string nearestName(std::string_view given, const std::vector<std::string>& known);
 
 /// The message `unknown <kind> 'given'; did you mean 'nearest'? Known: a, b, c`.
-std::string unknownName(std::string_view kind, std::string_view given,
-                        const std::vector<std::string>& known);
+std::string unknownName(std::string_view kind, std::string_view given, const std::vector<std::string>& known);
 
 }  // namespace irk

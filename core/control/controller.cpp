@@ -18,11 +18,7 @@ class PaperController : public StepController {
  public:
   /// `damped`: by gamma.
   PaperController(const StepOptions& o, int order, bool damped = true)
-      : o_(o),
-        p_(order),
-        damped_(damped),
-        exponent_(1.0 / (damped_ ? order + 1 : order)),
-        s_max_(o.s_min * o.s_min) {}
+      : o_(o), p_(order), damped_(damped), exponent_(1.0 / (damped_ ? order + 1 : order)), s_max_(o.s_min * o.s_min) {}
 
   StepDecision decide(double error, double h) override {
     // An estimate of exactly zero would divide by zero; it asks for the largest growth.

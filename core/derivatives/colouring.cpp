@@ -33,13 +33,11 @@ std::vector<int> colour(const RowSets& sets, Index rows) {
   return colours;
 }
 
-ColouredDirections::ColouredDirections(const Directions& group, const RowSets& rows,
-                                       const Pattern& pattern) {
+ColouredDirections::ColouredDirections(const Directions& group, const RowSets& rows, const Pattern& pattern) {
   const std::vector<int> colours = colour(rows, pattern.n);
   std::vector<std::size_t> order(group.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return colours[a] < colours[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return colours[a] < colours[b]; });
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> around_one(0.5, 1.5);
   int last = -1;

@@ -29,9 +29,7 @@ struct ColouredDirections {
   ColouredDirections(const Directions& group, const RowSets& rows, const Pattern& pattern);
   std::size_t colours() const { return first_direction.empty() ? 0 : first_direction.size() - 1; }
   /// The range of directions of a colour; for colour = colours() all directions.
-  std::size_t begin(std::size_t colour) const {
-    return colour == colours() ? 0 : first_direction[colour];
-  }
+  std::size_t begin(std::size_t colour) const { return colour == colours() ? 0 : first_direction[colour]; }
   std::size_t end(std::size_t colour) const {
     return colour == colours() ? directions.size() : first_direction[colour + 1];
   }

@@ -16,8 +16,8 @@ constexpr double kKeepBelow = 1e-3;
 constexpr const char* kStart = "at the start";
 constexpr const char* kConsistent = "consistent (a, k, z)";
 
-StartReport report(Outcome outcome, const char* place, double t, Index row, const char* what,
-                   double value, double allowed = 0) {
+StartReport report(Outcome outcome, const char* place, double t, Index row, const char* what, double value,
+                   double allowed = 0) {
   std::ostringstream text;
   text << place << ", t = " << t << ": ";
   if (row >= 0) text << "row " << row << ": ";
@@ -41,12 +41,10 @@ Index worstRow(const Vec<Real>& r) {
 }  // namespace
 
 template <class Real>
-ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source,
-                                       bool w_required)
+ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required)
     : system_(system),
       w_required_(w_required),
-      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic,
-                      Matrices::kOnlyD0),
+      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic, Matrices::kOnlyD0),
       r_(system.sizes().n()),
       dw_(system.sizes().n()),
       given_(system.sizes().n()) {}
@@ -80,9 +78,8 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
   const Index first = n.nu + n.nx;
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
     system_.evaluate(level, pointOf(state), rows);
-    const Real size =
-        Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
-        (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>() : Real(0));
+    const Real size = Real(1) + state.u.template lpNorm<Eigen::Infinity>() +
+                      (level == Level::kVelocity ? state.v.template lpNorm<Eigen::Infinity>() : Real(0));
     for (Index i = 0; i < n.n(); ++i) {
       const double value = static_cast<double>(r_[i]);
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
@@ -123,8 +120,7 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
 // Newton's method for state.w. Returns kSingular if D0 is singular. If Newton does not converge, a residual up to
 // `tolerated`, relative to 1 + |w|, is accepted.
 template <class Real>
-StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place,
-                                             double tolerated) {
+StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, double tolerated) {
   const double t = static_cast<double>(state.t);
   const VecView<Real> rows(r_.data(), r_.size());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
@@ -143,8 +139,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
     if (renew) {
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
-        return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)",
-                      static_cast<double>(D_.d0.sum()));
+        return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)", static_cast<double>(D_.d0.sum()));
       }
       if (!factorize()) {
         std::ostringstream text;
@@ -164,8 +159,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
   if (!evaluate()) return report(Outcome::kNotFinite, place, t, worst, "residual", value);
   const double allowed = tolerated * (1 + static_cast<double>(Real(state.w.norm())));
   if (std::abs(value) <= allowed) return {};
-  return report(Outcome::kInconsistentStart, place, t, worst,
-                "Newton does not converge; residual", value, allowed);
+  return report(Outcome::kInconsistentStart, place, t, worst, "Newton does not converge; residual", value, allowed);
 }
 
 // Keeps the given (a, k, z) if they are not required or satisfy the residual.

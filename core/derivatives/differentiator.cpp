@@ -19,8 +19,7 @@ constexpr double kDualCheck = 1e-8, kDifferenceCheck = 1e-3;
 constexpr double kLooser = 10;
 
 template <class F>
-void forEachEntry(const Pattern& pattern, Index first_column, Index columns, Index first_row,
-                  Index rows, F&& f) {
+void forEachEntry(const Pattern& pattern, Index first_column, Index columns, Index first_row, Index rows, F&& f) {
   for (Index j = first_column; j < first_column + columns; ++j) {
     const auto c = static_cast<std::size_t>(j);
     for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
@@ -33,8 +32,8 @@ void forEachEntry(const Pattern& pattern, Index first_column, Index columns, Ind
 }  // namespace
 
 template <class Real>
-Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source,
-                                     JacobianTerms terms, Storage storage, Matrices matrices)
+Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms,
+                                     Storage storage, Matrices matrices)
     : system_(system),
       source_(source),
       sizes_(system.sizes()),
@@ -76,11 +75,9 @@ void Differentiator<Real>::forgetPattern() {
   looked_ = false;
   check_tolerance_ = source_ == DerivativeSource::kAutomatic ? kDualCheck : kDifferenceCheck;
   for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
-    group->rows = detects() ? RowSets(group->directions.size())
-                            : fullRows(group->directions.size(), sizes_.n());
+    group->rows = detects() ? RowSets(group->directions.size()) : fullRows(group->directions.size(), sizes_.n());
   }
-  const bool dense =
-      storage_ == Storage::kDense || (storage_ == Storage::kAutomatic && sizes_.n() < kSparseFrom);
+  const bool dense = storage_ == Storage::kDense || (storage_ == Storage::kAutomatic && sizes_.n() < kSparseFrom);
   if (!dense) {
     pattern_ = nullptr;
   } else if (!pattern_) {
@@ -114,8 +111,7 @@ void Differentiator<Real>::setPattern() {
       rows.insert(rows.end(), group->rows.begin(), group->rows.end());
     }
     pattern_ = unionPattern(all, rows, n);
-    const double fill =
-        static_cast<double>(pattern_->nonzeros()) / (static_cast<double>(n) * static_cast<double>(n));
+    const double fill = static_cast<double>(pattern_->nonzeros()) / (static_cast<double>(n) * static_cast<double>(n));
     if (storage_ == Storage::kAutomatic && fill > kSparseFill) pattern_ = Pattern::dense(n);
   }
   std::size_t most = 0;
@@ -146,8 +142,7 @@ void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Lineariza
 }
 
 template <class Real>
-void Differentiator<Real>::differentiate(Level level, const Point<Real>& p,
-                                         Linearization<Real>& out) {
+void Differentiator<Real>::differentiate(Level level, const Point<Real>& p, Linearization<Real>& out) {
   if (!sameShape(out.pattern, pattern_)) out = Linearization<Real>(pattern_);
   incomplete_ = false;
   evaluateGroup(at_a_, level, p, out);
@@ -192,15 +187,14 @@ void Differentiator<Real>::keepStiffness(Linearization<Real>& out) {
     stiffness_known_ = true;
     return;
   }
-  forEachEntry(*out.pattern, 0, sizes_.nu, 0, sizes_.nu,
-               [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
+  forEachEntry(*out.pattern, 0, sizes_.nu, 0, sizes_.nu, [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
 }
 
 /// Stores the changes along a colour, given by row, in the matrices.
 template <class Real>
 template <class Change>
-void Differentiator<Real>::take(const ColouredDirections& group, std::size_t colour,
-                                const Change& change, Linearization<Real>& out) {
+void Differentiator<Real>::take(const ColouredDirections& group, std::size_t colour, const Change& change,
+                                Linearization<Real>& out) {
   using std::abs;
   if (colour == group.colours()) return check(change, out);
   const bool exact = source_ == DerivativeSource::kAutomatic;
@@ -208,8 +202,7 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
   for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
     const auto& entry = group.entries[e];
     const Real value = change(entry.row);
-    values[entry.matrix][entry.slot] =
-        exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
+    values[entry.matrix][entry.slot] = exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
     if (!looked_) continue;
     const Real part = Real(group.weights[entry.direction]) * value;
     expected_[entry.row] += part;
@@ -236,8 +229,7 @@ void Differentiator<Real>::check(const Change& change, Linearization<Real>& out)
 
 // The colour after the last one stands for the check.
 template <class Real>
-void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level,
-                                        Linearization<Real>& out) {
+void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level, Linearization<Real>& out) {
   const auto at = dual_.at(Dual<Real>(t_));
   const VecView<Dual<Real>> r = dual_.residual();
   const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
@@ -250,7 +242,8 @@ void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level l
     }
     system_.evaluate(level, at, r);
     for (std::size_t c = 0; c < count; ++c) {
-      take(group, first + c, [&](Index row) -> const Real& { return r[row].d[c]; }, out);
+      take(
+          group, first + c, [&](Index row) -> const Real& { return r[row].d[c]; }, out);
       for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
         dual_.component(group.directions[i]).d[c] = Real(0);
       }
@@ -261,8 +254,7 @@ void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level l
 // Increments: eps^(1/2) (forward) and eps^(1/3) (central) times max(|y|, 1) balance truncation and
 // round-off; Dennis & Schnabel, section 5.4.
 template <class Real>
-void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, Level level,
-                                               Linearization<Real>& out) {
+void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, Level level, Linearization<Real>& out) {
   using std::abs;
   using std::cbrt;
   using std::sqrt;
@@ -275,8 +267,7 @@ void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, 
     for (std::size_t i = group.begin(colour); i < group.end(colour); ++i) {
       const Real& y = y_[static_cast<Index>(i)];
       const Real magnitude = abs(y) > Real(1) ? Real(abs(y)) : Real(1);
-      real_.component(group.directions[i]) =
-          y + Real(side * group.weight(colour, i)) * relative * magnitude;
+      real_.component(group.directions[i]) = y + Real(side * group.weight(colour, i)) * relative * magnitude;
     }
   };
   for (std::size_t i = 0; i < group.directions.size(); ++i) {
@@ -304,7 +295,8 @@ void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, 
     system_.evaluate(level, at, r);
     keep([](Real& delta, const Real& upper) { delta = upper - delta; });
     move(colour, 0);
-    take(group, colour, [&](Index row) { return Real(r[row] - base_[row]); }, out);
+    take(
+        group, colour, [&](Index row) { return Real(r[row] - base_[row]); }, out);
   }
 }
 

@@ -20,10 +20,7 @@ struct Linearization {
   /// Has no pattern yet; the first evaluation sets it.
   Linearization() = default;
   explicit Linearization(std::shared_ptr<const Pattern> p)
-      : pattern(std::move(p)),
-        d0(Vec<Real>::Zero(pattern->nonzeros())),
-        d1(d0),
-        d2(d0) {}
+      : pattern(std::move(p)), d0(Vec<Real>::Zero(pattern->nonzeros())), d1(d0), d2(d0) {}
   using DenseView = Eigen::Map<const Mat<Real>>;
   /// The matrices as n x n views; the pattern must be full.
   DenseView dense0() const { return {d0.data(), pattern->n, pattern->n}; }
@@ -50,9 +47,8 @@ template <class Real>
 class Differentiator {
  public:
   /// Keeps a reference to the system. Throws Misuse for storage `sparse` in multiprecision.
-  Differentiator(const System<Real>& system, DerivativeSource source,
-                 JacobianTerms terms = JacobianTerms::kFull, Storage storage = Storage::kDense,
-                 Matrices matrices = Matrices::kAll);
+  Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms = JacobianTerms::kFull,
+                 Storage storage = Storage::kDense, Matrices matrices = Matrices::kAll);
 
   /// Evaluates the matrices at p. `out` gets the present pattern if it has another one. Derivatives that are not
   /// finite appear as NaN in `out`.
@@ -77,14 +73,11 @@ class Differentiator {
   bool look(Level level, const Point<Real>& p);
   void setPattern();
   void differentiate(Level level, const Point<Real>& p, Linearization<Real>& out);
-  void evaluateGroup(const Group& group, Level level, const Point<Real>& p,
-                     Linearization<Real>& out);
+  void evaluateGroup(const Group& group, Level level, const Point<Real>& p, Linearization<Real>& out);
   void evaluateDual(const ColouredDirections& group, Level level, Linearization<Real>& out);
-  void evaluateDifferences(const ColouredDirections& group, Level level,
-                           Linearization<Real>& out);
+  void evaluateDifferences(const ColouredDirections& group, Level level, Linearization<Real>& out);
   template <class Change>
-  void take(const ColouredDirections& group, std::size_t colour, const Change& change,
-            Linearization<Real>& out);
+  void take(const ColouredDirections& group, std::size_t colour, const Change& change, Linearization<Real>& out);
   template <class Change>
   void check(const Change& change, Linearization<Real>& out);
   void dropConstraintXz(Linearization<Real>& out) const;

@@ -40,16 +40,14 @@ bool unite(const RowSets& more, RowSets& into) {
   std::vector<int> both;
   for (std::size_t i = 0; i < into.size(); ++i) {
     both.clear();
-    std::set_union(into[i].begin(), into[i].end(), more[i].begin(), more[i].end(),
-                   std::back_inserter(both));
+    std::set_union(into[i].begin(), into[i].end(), more[i].begin(), more[i].end(), std::back_inserter(both));
     grown = grown || both.size() > into[i].size();
     into[i] = both;
   }
   return grown;
 }
 
-std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
-                                            Index n) {
+std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows, Index n) {
   // First the rows of all directions of a column, then the same rows sorted and without repetitions.
   std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
   for (std::size_t i = 0; i < directions.size(); ++i) {

@@ -55,7 +55,6 @@ RowSets fullRows(std::size_t directions, Index n);
 bool unite(const RowSets& more, RowSets& into);
 
 /// The union of the patterns of D0, D1 and D2.
-std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows,
-                                            Index n);
+std::shared_ptr<const Pattern> unionPattern(const Directions& directions, const RowSets& rows, Index n);
 
 }  // namespace irk

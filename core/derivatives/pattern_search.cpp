@@ -81,12 +81,9 @@ class RowSearch {
     return children;
   }
 
-  static std::size_t part(const Interval& i, std::size_t c) {
-    return i.begin + (i.end - i.begin) * c / kChunk;
-  }
+  static std::size_t part(const Interval& i, std::size_t c) { return i.begin + (i.end - i.begin) * c / kChunk; }
 
-  void seed(const Partition& parents, const std::vector<std::size_t>& together,
-            std::minstd_rand* random) {
+  void seed(const Partition& parents, const std::vector<std::size_t>& together, std::minstd_rand* random) {
     std::uniform_real_distribution<double> around_one(0.5, 1.5);
     for (const std::size_t p : together) {
       const Interval& i = parents.intervals[p];
@@ -136,8 +133,8 @@ void moveNearby(double distance, std::minstd_rand& random, PointBuffers<Real>& p
 }  // namespace
 
 template <class Real>
-RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
-                   const Directions& directions, bool at_p) {
+RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p, const Directions& directions,
+                   bool at_p) {
   RowSearch<Real> search(system, level, directions);
   std::minstd_rand random(1);
   PointBuffers<Real> near(system.sizes());
@@ -158,10 +155,8 @@ RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p
   return rows;
 }
 
-template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&,
-                            bool);
+template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&, bool);
 template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&, bool);
-template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&,
-                            bool);
+template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&, bool);
 
 }  // namespace irk

@@ -11,7 +11,7 @@ namespace irk {
 /// directions is split into eight parts at a time, and intervals that share no row are evaluated together. This
 /// takes about log8(n) evaluations per colour of the pattern.
 template <class Real>
-RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p,
-                   const Directions& directions, bool at_p);
+RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p, const Directions& directions,
+                   bool at_p);
 
 }  // namespace irk

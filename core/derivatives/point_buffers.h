@@ -10,8 +10,7 @@ struct PointBuffers {
   Sizes sizes;
   Vec<T> u, v, x, w, d, r;
 
-  explicit PointBuffers(const Sizes& n)
-      : sizes(n), u(n.nu), v(n.nu), x(n.nx), w(n.n()), d(n.discrete), r(n.n()) {}
+  explicit PointBuffers(const Sizes& n) : sizes(n), u(n.nu), v(n.nu), x(n.nx), w(n.n()), d(n.discrete), r(n.n()) {}
 
   template <class Real>
   void copy(const Point<Real>& p) {

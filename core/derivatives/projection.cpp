@@ -5,13 +5,11 @@
 namespace irk {
 
 template <class Real>
-VelocityProjection<Real>::VelocityProjection(const System<Real>& system, DerivativeSource source,
-                                             Counters& counters)
+VelocityProjection<Real>::VelocityProjection(const System<Real>& system, DerivativeSource source, Counters& counters)
     : system_(system),
       sizes_(system.sizes()),
       counters_(counters),
-      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic,
-                      Matrices::kOnlyD0),
+      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic, Matrices::kOnlyD0),
       r_(sizes_.n()) {}
 
 // r_ = D0^-1 times the constraint rows at this level, all other rows zero.

@@ -35,8 +35,7 @@ double stiffCaution(const Scheme<Real>& scheme) {
 class Accumulation {
  public:
   Accumulation(double caution, const Tolerances& tolerances)
-      : caution_(caution),
-        most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMax)) {}
+      : caution_(caution), most_(std::clamp(std::max(tolerances.rtol, tolerances.atol) / kFinest, 1.0, kMax)) {}
   void begin() { *this = Accumulation(caution_, most_); }
   /// After so many accepted steps with this sum of estimates; 0 steps for estimates that need no more than caution.
   double factor(std::int64_t steps, double sum) const {

@@ -40,8 +40,7 @@ class Single final : public StepAttempt<Real> {
         stepper_(setup.system, setup.scheme(), setup.options, setup.jacobian, setup.norm, setup.counters) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
-    return {stepper_.attempt(stepper_.stages(), from, h, to),
-            std::numeric_limits<double>::quiet_NaN()};
+    return {stepper_.attempt(stepper_.stages(), from, h, to), std::numeric_limits<double>::quiet_NaN()};
   }
   void forget() override { stepper_.forget(); }
   int order() const override { return order_; }
@@ -61,7 +60,8 @@ class Single final : public StepAttempt<Real> {
 template <class Real>
 class Doubling : public StepAttempt<Real> {
  public:
-  explicit Doubling(const StepAttemptSetup<Real>& setup) : Doubling(setup, setup.system, setup.scheme(), setup.options) {}
+  explicit Doubling(const StepAttemptSetup<Real>& setup)
+      : Doubling(setup, setup.system, setup.scheme(), setup.options) {}
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override {
     AttemptResult result;
@@ -91,8 +91,8 @@ class Doubling : public StepAttempt<Real> {
     result.error = error(coarse_, to, static_cast<double>(h));
     if (accumulates_) {
       result.added = result.error;
-      result.error = accumulation_.asked(result.error, accumulation_.factor(steps_, sum_),
-                                         static_cast<double>(from.t), static_cast<double>(h));
+      result.error = accumulation_.asked(result.error, accumulation_.factor(steps_, sum_), static_cast<double>(from.t),
+                                         static_cast<double>(h));
     }
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
@@ -177,8 +177,8 @@ class Doubling : public StepAttempt<Real> {
   Stepper<Real> whole_, half_;
   bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
   Accumulation accumulation_;
-  std::int64_t steps_ = 0;  // accepted
-  double sum_ = 0;          // of their estimates
+  std::int64_t steps_ = 0;      // accepted
+  double sum_ = 0;              // of their estimates
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
   bool restarted_ = false;      // since the last step was taken over
@@ -214,8 +214,7 @@ double worse(double error, int p, double other, int q) {
 }
 
 template <class Real>
-Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
-                            ErrorEstimate estimate) {
+Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system, ErrorEstimate estimate) {
   const bool own = catalogue<ErrorEstimate>()[estimate].own_orders;
   const Sizes n = system.sizes();
   const ErrorPowers& powers = system.errorPowers();

@@ -37,10 +37,8 @@ Real EmbeddedEstimate<Real>::weight(const Scheme<Real>& scheme) {
 
 template <class Real>
 EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
-                                         const IntegratorOptions& options,
-                                         SharedJacobian<Real>& jacobian,
-                                         NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm,
-                                         Counters& counters)
+                                         const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
+                                         NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters)
     : system_(system),
       scheme_(scheme),
       norm_(norm),
@@ -90,8 +88,7 @@ Outcome EmbeddedEstimate<Real>::filter(const State<Real>& from, const Real& h) {
 
 template <class Real>
 auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      const AtStart& at_start, double again_above)
-    -> Result {
+                                      const AtStart& at_start, double again_above) -> Result {
   const Real& h = stages.h;
   Result result;
   rowScales(row_powers_, h, scales_);
@@ -119,14 +116,14 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
 }
 
 template <class Real>
-auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      double again_above) -> Result {
+auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above)
+    -> Result {
   return estimate(from, stages, start_, again_above);
 }
 
 template <class Real>
-auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from,
-                                           const StagePolynomial<Real>& stages, Index q) -> Result {
+auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q)
+    -> Result {
   legendre<Real>(Real(0), basis_);
   lower_.weights.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
   lower_.integrals.noalias() = scheme_.A_transposed * lower_.weights;

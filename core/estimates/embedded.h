@@ -20,9 +20,9 @@ class EmbeddedEstimate {
  public:
   /// A is invertible, without an explicit first stage: that would be the step's start. The stage order is at least 1
   /// (that of Radau IA with one stage, at c = 0 with a = 1, is 0): else what it evaluates lies at another time.
-  EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
-                   const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
-                   NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters);
+  EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+                   SharedJacobian<Real>& jacobian, NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm,
+                   Counters& counters);
 
   struct Result {
     Outcome outcome = Outcome::kSuccess;
@@ -30,12 +30,10 @@ class EmbeddedEstimate {
   };
   /// Of the solved step from `from`. An estimate above `again_above` is filtered a second time, HW
   /// II (IV.8.21): in a first step and after a rejection; else infinity.
-  [[nodiscard]] Result evaluate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                double again_above);
+  [[nodiscard]] Result evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above);
   /// What the estimate would be with q < s stages: of the polynomial of degree q - 1 in K. After
   /// `evaluate` of the same step.
-  [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                     Index q);
+  [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q);
 
   /// Allocates what the first evaluation would, where the pattern is known.
   void reserve() { own_.reserve(); }
@@ -51,8 +49,8 @@ class EmbeddedEstimate {
   struct AtStart {
     Vec<Real> weights, integrals;
   };
-  Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                  const AtStart& at_start, double again_above);
+  Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages, const AtStart& at_start,
+                  double again_above);
   Outcome filter(const State<Real>& from, const Real& h);
 
   const System<Real>& system_;
@@ -66,9 +64,9 @@ class EmbeddedEstimate {
   Vec<Real> scales_;
   Vec<Real> basis_;
   AtStart start_, lower_;  // of full and of lower degree
-  Vec<Real> defect_;  // K(0), n
-  Vec<Real> slip_;    // h mu (v0 - V(0)), nu
-  State<Real> at_;    // where the residual is evaluated
+  Vec<Real> defect_;       // K(0), n
+  Vec<Real> slip_;         // h mu (v0 - V(0)), nu
+  State<Real> at_;         // where the residual is evaluated
   State<Real> error_, zero_;
   Vec<double> ones_;
   Mat<Real> e_;  // n x 1

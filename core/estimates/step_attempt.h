@@ -35,8 +35,7 @@ class StepAttempt {
  public:
   virtual ~StepAttempt() = default;
   /// One step of size h from `from` to `to` (not aliased).
-  [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h,
-                                              State<Real>& to) = 0;
+  [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) = 0;
   /// Resets all history: the next integration is bitwise that of a new object.
   virtual void begin() { forget(); }
   /// Forgets the last solved step, which is a bad prediction after a failure of Newton's method or a change of mode.
@@ -68,8 +67,7 @@ double worse(double error, int p, double other, int q);
 /// own: what its index (from the exponents of the error norm), the stage order and stiff accuracy
 /// guarantee. HW II, table VII.4.1; Hairer, Lubich & Roche, LNM 1409.
 template <class Real>
-Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system,
-                            ErrorEstimate estimate);
+Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system, ErrorEstimate estimate);
 
 /// What an estimate is made from. All references outlive it.
 template <class Real>

@@ -41,8 +41,7 @@ constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError
 // tolerance itself. Measured: a quarter more than that. Not below round-off. Returned: by what the
 // estimate is multiplied, >= 1.
 template <class Real>
-double exigence(const Scheme<Real>& member, const Scheme<Real>& highest,
-                const Tolerances& tolerances) {
+double exigence(const Scheme<Real>& member, const Scheme<Real>& highest, const Tolerances& tolerances) {
   const auto per_order = [](const Scheme<Real>& scheme) {
     return (static_cast<double>(scheme.s) + 1) / static_cast<double>(scheme.s);
   };
@@ -77,8 +76,7 @@ VariableOrder<Real>::VariableOrder(const StepAttemptSetup<Real>& setup)
 }
 
 template <class Real>
-AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& h,
-                                           State<Real>& to) {
+AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& h, State<Real>& to) {
   AttemptResult result{member().stepper.attempt(*past_, from, h, to), 0};
   const auto& pattern = jacobian_.at().front().pattern;
   if (reserved_ != pattern) {
@@ -98,23 +96,20 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   solved_ = true;
   past_ = &member().stepper.stages();
   past_at_ = at_;
-  const double limit =
-      again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
+  const double limit = again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
   result.added = member().adds ? estimate.error : 0;
   result.error = estimate.error * member().exigence;
   estimate_ = result.error;
   const double factor = member().accumulation.factor(member().accumulates ? steps_ : 0, sum_);
-  result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t),
-                                             static_cast<double>(h));
+  result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t), static_cast<double>(h));
   result.error = worse(result.error, order(), result.mode_error, 1);
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
   }
   lower_error_ = kUnknown;
-  if (result.outcome == Outcome::kSuccess && result.error <= 1 && at_ > 0 &&
-      (since_change_ + 1) % kMinStay == 0) {
+  if (result.outcome == Outcome::kSuccess && result.error <= 1 && at_ > 0 && (since_change_ + 1) % kMinStay == 0) {
     const Member& below = *members_[at_ - 1];
     estimate = member().estimate.evaluateLower(from, *past_, below.scheme.s);
     // Where it cannot be computed the order stays; the step is good.
@@ -151,12 +146,11 @@ void VariableOrder<Real>::forget() {
 
 // The step that the member would take next with this estimate, and its progress per work.
 template <class Real>
-auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptResult& now, double h,
-                               double trend) const -> Plan {
+auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptResult& now, double h, double trend) const
+    -> Plan {
   const double error = estimate * m.exigence;
   const double s = static_cast<double>(m.scheme.s);
-  const double wish =
-      kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
+  const double wish = kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
   const double ratio = std::clamp(wish, kShrinkAtMost, kGrowAtMost);
   Plan plan{h * ratio, error, 0};
   // Newton's contraction grows with the step.
@@ -164,8 +158,7 @@ auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptRe
   const double theta = before * ratio;
   if (theta > kMaxContraction) return plan;
   const double decades = now.newton_iterations * std::log(1 / before);
-  const double iterations =
-      now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
+  const double iterations = now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
   const double work = (iterations + kStepPerStage + unknowns_ / kFactors) * s + kStepAlone;
   plan.progress = plan.h / work;
   return plan;
@@ -233,7 +226,10 @@ IRK_INSTANTIATE_CLASS(VariableOrder)
 Strategy<ErrorEstimate> embeddedEstimate() {
   return {.id = ErrorEstimate::kEmbedded,
           .meaning = "an embedded method of order s: one real solve, HW II (IV.8)",
-          .needs = {.invertible_matrix = true, .stage_order = true, .kept_jacobian = true, .instead = "estimate 'richardson'"},
+          .needs = {.invertible_matrix = true,
+                    .stage_order = true,
+                    .kept_jacobian = true,
+                    .instead = "estimate 'richardson'"},
           .sees_switches = true,
           .compares_orders = true,
           .make = makes<StepAttemptMaker, VariableOrder>()};

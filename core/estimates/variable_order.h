@@ -52,8 +52,7 @@ class VariableOrder final : public StepAttempt<Real> {
           stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),
           estimate(setup.system, s, setup.options, setup.jacobian, stepper.matrix(), setup.norm, setup.counters),
           order(EmbeddedEstimate<Real>::order(s)),
-          accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) ||
-                      !dampsStiffErrors(s)),
+          accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) || !dampsStiffErrors(s)),
           adds(s.tableau.order <= order),
           accumulation(stiffCaution(s), setup.options.tolerances) {}
     const Scheme<Real>& scheme;
@@ -74,27 +73,26 @@ class VariableOrder final : public StepAttempt<Real> {
     double h, error;
     double progress;  ///< h per work; 0: not to be taken
   };
-  Plan plan(double estimate, const Member& member, const AttemptResult& now, double h,
-            double trend) const;
+  Plan plan(double estimate, const Member& member, const AttemptResult& now, double h, double trend) const;
   void changeTo(std::size_t next);
   void forget(Member& m);
 
   std::vector<std::unique_ptr<Member>> members_;
   const SharedJacobian<Real>& jacobian_;
-  std::size_t start_, at_, past_at_;   // the member of past_
-  const StagePolynomial<Real>* past_;  // of the last solved step
-  int failures_ = 0;                   // of Newton, in a row
-  bool solved_ = false;                // a step
+  std::size_t start_, at_, past_at_;         // the member of past_
+  const StagePolynomial<Real>* past_;        // of the last solved step
+  int failures_ = 0;                         // of Newton, in a row
+  bool solved_ = false;                      // a step
   std::shared_ptr<const Pattern> reserved_;  // that every member has seen
-  int epoch_ = 0;                      // members that are not in use forget when they come to it
-  bool again_ = true;                  // filter twice: after a start and a rejection
-  std::int64_t steps_ = 0;             // accepted
-  double estimate_ = 0, sum_ = 0;      // of the last attempt; of all accepted steps
-  bool watches_start_ = false;         // the first step after a restart
-  bool restarted_ = false;             // since the last step was taken over
-  bool continues_ = false;             // a step of the same mode
-  int since_change_ = 0;               // accepted steps
-  double lower_error_;                 // of the member below, NaN if not known
+  int epoch_ = 0;                            // members that are not in use forget when they come to it
+  bool again_ = true;                        // filter twice: after a start and a rejection
+  std::int64_t steps_ = 0;                   // accepted
+  double estimate_ = 0, sum_ = 0;            // of the last attempt; of all accepted steps
+  bool watches_start_ = false;               // the first step after a restart
+  bool restarted_ = false;                   // since the last step was taken over
+  bool continues_ = false;                   // a step of the same mode
+  int since_change_ = 0;                     // accepted steps
+  double lower_error_;                       // of the member below, NaN if not known
   double unknowns_;
 };
 

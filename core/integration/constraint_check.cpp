@@ -79,8 +79,8 @@ std::string ConstraintCheck<Real>::violation(Level level, const State<Real>& sta
     const double allowed = allowed_ * change_[i];
     if (value <= allowed) continue;
     std::ostringstream text;
-    text << (level == Level::kPosition ? "constraint g" : "constraint rate dg/dt") << "[" << i
-         << "] = " << value << " at t = " << static_cast<double>(state.t) << ", allowed " << allowed;
+    text << (level == Level::kPosition ? "constraint g" : "constraint rate dg/dt") << "[" << i << "] = " << value
+         << " at t = " << static_cast<double>(state.t) << ", allowed " << allowed;
     return text.str();
   }
   return {};

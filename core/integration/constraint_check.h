@@ -14,8 +14,7 @@ namespace irk {
 template <class Real>
 class ConstraintCheck {
  public:
-  ConstraintCheck(const System<Real>& system, const ErrorNorm<Real>& norm,
-                  const Tolerances& tolerances);
+  ConstraintCheck(const System<Real>& system, const ErrorNorm<Real>& norm, const Tolerances& tolerances);
 
   /// Empty, or which constraint is violated, by how much, and what is allowed: 1000 tolerances, not
   /// less than 1e-9 and not more than 0.1 relative. The norm's weights must be those of the state.

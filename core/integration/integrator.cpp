@@ -18,16 +18,15 @@ namespace irk {
 namespace {
 
 template <class Real>
-std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> system,
-                                            const Vec<double>& scale) {
+std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> system, const Vec<double>& scale) {
   requireSystem(system.get(), scale);
   return system;
 }
 
 // Without a tolerance Newton iterates to round-off, in units of the solution's magnitude.
 template <class Real>
-IntegratorOptions legal(IntegratorOptions options, const System<Real>& system,
-                        const std::vector<Scheme<Real>>& schemes, std::size_t start) {
+IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, const std::vector<Scheme<Real>>& schemes,
+                        std::size_t start) {
   validate(options);
   requireLegal(options);
   if (options.step.control == StepControl::kFixed) {
@@ -65,9 +64,7 @@ struct Grid {
   }
   std::int64_t steps() const { return static_cast<std::int64_t>(count); }
   bool isWhole(std::int64_t i) const { return divides || i + 1 < steps(); }
-  Real end(std::int64_t i) const {
-    return i + 1 == steps() ? t_end : Real(t0 + Real(static_cast<double>(i + 1)) * h);
-  }
+  Real end(std::int64_t i) const { return i + 1 == steps() ? t_end : Real(t0 + Real(static_cast<double>(i + 1)) * h); }
 };
 
 }  // namespace
@@ -75,8 +72,8 @@ struct Grid {
 template <class Real>
 class Integrator<Real>::Run {
  public:
-  Run(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
-      const IntegratorOptions& options, const Vec<double>& scale)
+  Run(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods, const IntegratorOptions& options,
+      const Vec<double>& scale)
       : system_(checked(std::move(system), scale)),
         schemes_(methods.members.begin(), methods.members.end()),
         options_(legal(options, *system_, schemes_, methods.start)),
@@ -84,8 +81,7 @@ class Integrator<Real>::Run {
         trajectory_(counted_, schemes_, methods.start, options_, scale, counters_),
         error_sum_(options_.tolerances) {}
 
-  Solution<Real> integrate(const State<Real>& start, const Real& t_end,
-                           const Monitor<Real>& monitor) {
+  Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     counters_ = {};
     monitor_ = &monitor;
     requireStart(*system_, start, t_end);
@@ -195,8 +191,7 @@ class Integrator<Real>::Run {
     if (left == 0) return {Outcome::kMaxSteps, h, "too many steps"};
     if (h < smallestSize()) return {too_small_, h, "step too small " + trajectory_.rejections()};
     const bool stalls =
-        attempts > 0 &&
-        stall_.attempted(static_cast<double>(state().t), h, static_cast<double>(t_end), left);
+        attempts > 0 && stall_.attempted(static_cast<double>(state().t), h, static_cast<double>(t_end), left);
     if (stalls) return {Outcome::kStalled, h, "steps do not grow " + trajectory_.rejections()};
     return {};
   }
@@ -223,8 +218,7 @@ class Integrator<Real>::Run {
   // Below this, t + c_i h no longer resolves the stages.
   double resolvedSize() const {
     const double eps = static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
-    return std::max(16 * eps * std::abs(static_cast<double>(state().t)),
-                    std::numeric_limits<double>::min());
+    return std::max(16 * eps * std::abs(static_cast<double>(state().t)), std::numeric_limits<double>::min());
   }
   double smallestSize() const { return std::max(options_.step.h_min, resolvedSize()); }
 
@@ -249,9 +243,8 @@ class Integrator<Real>::Run {
 };
 
 template <class Real>
-Integrator<Real>::Integrator(std::shared_ptr<const System<Real>> system,
-                             const Methods<Real>& methods, const IntegratorOptions& options,
-                             const Vec<double>& scale)
+Integrator<Real>::Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
+                             const IntegratorOptions& options, const Vec<double>& scale)
     : run_(std::make_unique<Run>(std::move(system), methods, options, scale)) {}
 template <class Real>
 Integrator<Real>::~Integrator() = default;
@@ -259,8 +252,7 @@ template <class Real>
 Integrator<Real>::Integrator(Integrator&&) noexcept = default;
 
 template <class Real>
-Solution<Real> Integrator<Real>::integrate(const State<Real>& start, const Real& t_end,
-                                           const Monitor<Real>& monitor) {
+Solution<Real> Integrator<Real>::integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
   return run_->integrate(start, t_end, monitor);
 }
 

@@ -21,9 +21,7 @@ bool isIndex3(const System<Real>& system) {
 
 // "u[3]": component i of (u, v, x, z).
 std::string componentName(const Sizes& n, Index i) {
-  const auto name = [i](const char* group, Index first) {
-    return group + ("[" + std::to_string(i - first) + "]");
-  };
+  const auto name = [i](const char* group, Index first) { return group + ("[" + std::to_string(i - first) + "]"); };
   if (i < n.nu) return name("u", 0);
   if (i < 2 * n.nu) return name("v", n.nu);
   return i < 2 * n.nu + n.nx ? name("x", 2 * n.nu) : name("z", 2 * n.nu + n.nx);
@@ -42,9 +40,8 @@ ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, c
 }  // namespace
 
 template <class Real>
-Trajectory<Real>::Trajectory(const System<Real>& system, const std::vector<Scheme<Real>>& schemes,
-                             std::size_t start, const IntegratorOptions& options, const Vec<double>& scale,
-                             Counters& counters)
+Trajectory<Real>::Trajectory(const System<Real>& system, const std::vector<Scheme<Real>>& schemes, std::size_t start,
+                             const IntegratorOptions& options, const Vec<double>& scale, Counters& counters)
     : system_(system),
       options_(options),
       counters_(counters),
@@ -213,8 +210,7 @@ void Trajectory<Real>::noteChattering(Index i) {
   ++counters_.chattering;
   if (counters_.chattering > 1) return;
   std::ostringstream text;
-  text << "chattering: " << switches_.describe(i)
-       << " switches in every step at t = " << static_cast<double>(state_.t);
+  text << "chattering: " << switches_.describe(i) << " switches in every step at t = " << static_cast<double>(state_.t);
   addNote(text.str());
 }
 
@@ -240,8 +236,7 @@ Solution<Real> Trajectory<Real>::success() {
   if (round_off_ > 0) {
     std::ostringstream text;
     text.precision(2);
-    text << "Newton's corrections end in round-off of the residual, up to " << round_off_
-         << " tolerances";
+    text << "Newton's corrections end in round-off of the residual, up to " << round_off_ << " tolerances";
     addNote(text.str());
   }
   return solution(Outcome::kSuccess, note_);
@@ -261,8 +256,7 @@ template <class Real>
 std::string Trajectory<Real>::rejections() const {
   const Counters& c = counters_;
   std::string text = "(" + std::to_string(c.steps_accepted) + " accepted, rejected by the error " +
-                     std::to_string(c.steps_rejected_error) + ", by Newton " +
-                     std::to_string(c.steps_rejected_newton);
+                     std::to_string(c.steps_rejected_error) + ", by Newton " + std::to_string(c.steps_rejected_newton);
   const Index i = attempt_->worstComponent();
   if (i >= 0) text += "; largest error in " + componentName(system_.sizes(), i);
   return text + ")";

@@ -69,7 +69,7 @@ class Trajectory {
   ErrorNorm<Real> norm_;
   SharedJacobian<Real> jacobian_;
   std::unique_ptr<StepAttempt<Real>> attempt_;
-  int order_;  // of the attempt, as the controller knows it
+  int order_;                                   // of the attempt, as the controller knows it
   std::unique_ptr<StepController> controller_;  // null: fixed steps
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;

@@ -53,8 +53,8 @@ BlockForm<Real> schurForm(const Mat<Real>& A) {
       using std::atan2;
       using std::cos;
       using std::sin;
-      const Real phi = atan2(Real(form.T(i, i) - form.T(i + 1, i + 1)),
-                             Real(form.T(i, i + 1) + form.T(i + 1, i))) / Real(2);
+      const Real phi =
+          atan2(Real(form.T(i, i) - form.T(i + 1, i + 1)), Real(form.T(i, i + 1) + form.T(i + 1, i))) / Real(2);
       const Eigen::JacobiRotation<Real> rotation(Real(cos(phi)), Real(sin(phi)));
       form.T.applyOnTheLeft(i, i + 1, rotation.adjoint());
       form.T.applyOnTheRight(i, i + 1, rotation);
@@ -100,13 +100,14 @@ BlockForm<Real> eigenForm(const Mat<Real>& A) {
   // better, so that their condition is very large. The worst family with a regular A has condition 3.7^s.
   const Eigen::FullPivLU<Mat<Real>> lu(form.Q);
   form.Q_inverse = lu.inverse();
-  const double condition =
-      static_cast<double>(form.Q.cwiseAbs().maxCoeff() * form.Q_inverse.cwiseAbs().maxCoeff());
+  const double condition = static_cast<double>(form.Q.cwiseAbs().maxCoeff() * form.Q_inverse.cwiseAbs().maxCoeff());
   const double limit = kEigenConditionPerStage * std::pow(kEigenConditionGrowth, double(s));
   if (!lu.isInvertible() || !(condition < limit)) {
-    throw Misuse("illegal combination: solver 'eigen' with a defective A (condition of its "
-                 "eigenvectors " + std::to_string(condition) + ", allowed below " +
-                 std::to_string(limit) + "); use solver 'schur' or 'coupled_dense'");
+    throw Misuse(
+        "illegal combination: solver 'eigen' with a defective A (condition of its "
+        "eigenvectors " +
+        std::to_string(condition) + ", allowed below " + std::to_string(limit) +
+        "); use solver 'schur' or 'coupled_dense'");
   }
   appendBlocks(form);
   return form;

@@ -58,8 +58,7 @@ void subtract(Real* y, const Real* x, const Real& f, Index n) {
   for (Index i = 0; i < n; ++i) y[i] -= f * x[i];
 }
 template <class Real>
-void subtract(std::complex<Real>* y, const std::complex<Real>* x, const std::complex<Real>& f,
-              Index n) {
+void subtract(std::complex<Real>* y, const std::complex<Real>* x, const std::complex<Real>& f, Index n) {
   if constexpr (std::is_floating_point_v<Real>) {  // complex arrays are arrays of pairs, [complex.numbers]
     const Real fr = f.real(), fi = f.imag();
     Real* const Y = reinterpret_cast<Real*>(y);
@@ -82,8 +81,7 @@ void subtract(std::complex<Real>* y, const std::complex<Real>* x, const std::com
 template <class T>
 class DenseLu {
  public:
-  explicit DenseLu(Index n)
-      : matrix_(n, n), pivots_(static_cast<std::size_t>(n)), lu_(plain() ? 0 : n) {}
+  explicit DenseLu(Index n) : matrix_(n, n), pivots_(static_cast<std::size_t>(n)), lu_(plain() ? 0 : n) {}
 
   /// Fill all entries (by columns) before `factorize`, which may overwrite them.
   Mat<T>& matrix() { return matrix_; }

@@ -9,8 +9,7 @@ constexpr std::size_t kMaxLanes = 8, kMinWidth = 4;
 
 // Writes the entries of one lane. Each entry holds the real parts of all lanes, then their imaginary parts.
 template <class T>
-void spread(const std::vector<T>& from, std::size_t lane, std::size_t width,
-            std::vector<double>& to) {
+void spread(const std::vector<T>& from, std::size_t lane, std::size_t width, std::vector<double>& to) {
   double* out = to.data() + lane;
   for (const T& x : from) {
     out[0] = std::real(x);
@@ -54,8 +53,7 @@ bool InterleavedLu::assign(std::span<const SparseLu<double>> real,
   if (changed) {
     pivots_ = real.empty() ? &complex.front().pivots() : &real.front().pivots();
     const auto same = [this](const auto& lu) { return lu.pivots() == *pivots_; };
-    shared_ = std::all_of(real.begin(), real.end(), same) &&
-              std::all_of(complex.begin(), complex.end(), same);
+    shared_ = std::all_of(real.begin(), real.end(), same) && std::all_of(complex.begin(), complex.end(), same);
     for (Group& group : groups_) {
       detail::fit(group.l, pivots_->l_row.size() * 2 * group.width);
       detail::fit(group.u, pivots_->u_row.size() * 2 * group.width);
@@ -113,8 +111,7 @@ void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) 
   }
   // Subtracts column k times (re, im) from x.
   const auto eliminate = [x](const std::vector<int>& start, const std::vector<int>& row,
-                             const std::vector<double>& value, std::size_t k, const Array& re,
-                             const Array& im) {
+                             const std::vector<double>& value, std::size_t k, const Array& re, const Array& im) {
     for (auto e = static_cast<std::size_t>(start[k]); e < static_cast<std::size_t>(start[k + 1]); ++e) {
       const double* const entry = value.data() + e * kSize;
       double* const at = x + static_cast<std::size_t>(row[e]) * kSize;

@@ -18,7 +18,7 @@ class InterleavedLu {
   /// complex one. The caller owns the numbers.
   struct Lane {
     double* re;
-    double* im;    ///< nullptr for a real matrix
+    double* im;  ///< nullptr for a real matrix
     double sigma;
     double inverse_sigma;
   };

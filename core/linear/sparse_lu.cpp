@@ -95,8 +95,7 @@ struct Pivoting {
 
   /// Columns of L and U with their diagonals, rows ascending. KLU extracts a pattern only together with its values,
   /// which go to the scratch re and im.
-  void extract(klu_symbolic* symbolic, SparsePivots& f, std::vector<double>& re,
-               std::vector<double>& im) {
+  void extract(klu_symbolic* symbolic, SparsePivots& f, std::vector<double>& re, std::vector<double>& im) {
     const auto n = static_cast<std::size_t>(symbolic->n);
     for (auto* starts : {&f.l_start, &f.u_start}) starts->resize(n + 1);
     for (auto* each : {&f.p, &f.q}) each->resize(n);
@@ -106,15 +105,14 @@ struct Pivoting {
     detail::fit(re, std::max(f.l_row.size(), f.u_row.size()));
     if constexpr (std::is_same_v<T, double>) {
       klu_sort(symbolic, value, &common);
-      klu_extract(value, symbolic, f.l_start.data(), f.l_row.data(), re.data(), f.u_start.data(),
-                  f.u_row.data(), re.data(), nullptr, nullptr, nullptr, f.p.data(), f.q.data(),
-                  f.scale.data(), nullptr, &common);
+      klu_extract(value, symbolic, f.l_start.data(), f.l_row.data(), re.data(), f.u_start.data(), f.u_row.data(),
+                  re.data(), nullptr, nullptr, nullptr, f.p.data(), f.q.data(), f.scale.data(), nullptr, &common);
     } else {
       detail::fit(im, re.size());
       klu_z_sort(symbolic, value, &common);
-      klu_z_extract(value, symbolic, f.l_start.data(), f.l_row.data(), re.data(), im.data(),
-                    f.u_start.data(), f.u_row.data(), re.data(), im.data(), nullptr, nullptr,
-                    nullptr, nullptr, f.p.data(), f.q.data(), f.scale.data(), nullptr, &common);
+      klu_z_extract(value, symbolic, f.l_start.data(), f.l_row.data(), re.data(), im.data(), f.u_start.data(),
+                    f.u_row.data(), re.data(), im.data(), nullptr, nullptr, nullptr, nullptr, f.p.data(), f.q.data(),
+                    f.scale.data(), nullptr, &common);
     }
   }
 };
@@ -126,12 +124,9 @@ struct SparseAnalysis::Symbolic {
 };
 
 SparseAnalysis::SparseAnalysis(std::vector<int> starts, std::vector<int> rows)
-    : column_start(std::move(starts)),
-      row(std::move(rows)),
-      symbolic_(std::make_unique<Symbolic>()) {
+    : column_start(std::move(starts)), row(std::move(rows)), symbolic_(std::make_unique<Symbolic>()) {
   klu_common common = defaults();
-  symbolic_->value =
-      klu_analyze(static_cast<int>(n()), indices(column_start), indices(row), &common);
+  symbolic_->value = klu_analyze(static_cast<int>(n()), indices(column_start), indices(row), &common);
   if (!symbolic_->value) throw Misuse("a pattern that KLU cannot analyse");
 }
 
@@ -197,8 +192,8 @@ bool SparseLu<T>::adopt(const SparsePivots& pivots) {
   detail::fit(u_, pivots_.u_row.size());
   const double most = 1 / defaults().tol;
   pivoted_ = refactorize() && std::all_of(l_.begin(), l_.end(), [most](const T& l) {
-    return static_cast<double>(detail::magnitude(l)) <= most;
-  });
+               return static_cast<double>(detail::magnitude(l)) <= most;
+             });
   ++version_;
   chosen_at_ = condition_;
   return pivoted_;

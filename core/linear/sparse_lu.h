@@ -105,7 +105,7 @@ class SparseLu {
   SparsePivots pivots_;
   std::vector<T> l_, u_, inverse_diagonal_;
   std::vector<T> work_;
-  std::vector<int> row_of_;      // scratch of `pivot`
+  std::vector<int> row_of_;  // scratch of `pivot`
   std::vector<double> re_, im_;
   bool pivoted_ = false;
   int version_ = 0;

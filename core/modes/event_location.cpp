@@ -32,8 +32,8 @@ EventLocator<Real>::EventLocator(const System<Real>& system, double tolerance)
     : switches_(system), scan_(system), tolerance_(tolerance) {}
 
 template <class Real>
-Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from,
-                                          const Real& h, State<Real>& next) {
+Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
+                                          State<Real>& next) {
   using Scan = SwitchScan<Real>;
   Location<Real> result;
   result.h = h;
@@ -42,8 +42,7 @@ Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const Stat
   for (int i = 0; seen && i < kMaxEarlier; ++i) {
     result = solveTo(attempt, from, result.h, next, root);
     if (result.outcome != Outcome::kSuccess) return result;
-    seen = first(attempt, from, next,
-                 result.found ? Scan::EndSample::kSkip : Scan::EndSample::kLookAt, result, root) &&
+    seen = first(attempt, from, next, result.found ? Scan::EndSample::kSkip : Scan::EndSample::kLookAt, result, root) &&
            root.step + resolution(from, h) < result.h;
   }
   // What cannot be told apart is tried again with a shorter step.
@@ -53,16 +52,14 @@ Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const Stat
 
 // The earliest root in the step on the dense output; false without one.
 template <class Real>
-bool EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& from,
-                               const State<Real>& next, typename SwitchScan<Real>::EndSample end,
-                               Location<Real>& result, Root& root) {
+bool EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& from, const State<Real>& next,
+                               typename SwitchScan<Real>::EndSample end, Location<Real>& result, Root& root) {
   const auto pieces = attempt.pieces(from);
   for (std::size_t k = 0; k < pieces.count; ++k) {
     const StepPiece<Real>& piece = pieces.at[k];
     const bool last = k + 1 == pieces.count;
-    const auto due =
-        scan_.first(*piece.from, *piece.stages, last ? next : *pieces.at[k + 1].from,
-                    last ? end : SwitchScan<Real>::EndSample::kLookAt);
+    const auto due = scan_.first(*piece.from, *piece.stages, last ? next : *pieces.at[k + 1].from,
+                                 last ? end : SwitchScan<Real>::EndSample::kLookAt);
     if (scan_.report().outcome != Outcome::kSuccess) {
       result.outcome = scan_.report().outcome;
       result.index = scan_.report().index;
@@ -82,8 +79,7 @@ bool EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& fr
 
 // The root of the dense output: a first guess.
 template <class Real>
-auto EventLocator<Real>::refined(const DueInside<Real>& due, const Real& offset, const Real& h)
-    -> Root {
+auto EventLocator<Real>::refined(const DueInside<Real>& due, const Real& offset, const Real& h) -> Root {
   const Index i = due.index;
   Real low = due.low, high = due.high;
   const Real width = high - low;
@@ -96,13 +92,10 @@ auto EventLocator<Real>::refined(const DueInside<Real>& due, const Real& offset,
     if (g_low < Real(0)) low = beside;
   }
   if (g_low < Real(0) && g_high > Real(0)) {
-    const auto close = [](const Real& a, const Real& b) {
-      return b - a <= Real(4) * epsilon<Real>();
-    };
+    const auto close = [](const Real& a, const Real& b) { return b - a <= Real(4) * epsilon<Real>(); };
     std::uintmax_t most = kMaxEvaluations;
-    const auto bracket = boost::math::tools::toms748_solve(
-        [&](const Real& theta) { return scan_.value(theta, i); }, low, high, g_low, g_high, close,
-        most);
+    const auto bracket = boost::math::tools::toms748_solve([&](const Real& theta) { return scan_.value(theta, i); },
+                                                           low, high, g_low, g_high, close, most);
     high = bracket.second;
   } else if (!(g_low < Real(0))) {
     high = low;  // on the surface, or beyond it by round-off
@@ -123,8 +116,8 @@ Real EventLocator<Real>::resolution(const State<Real>& from, const Real& h) cons
 }
 
 template <class Real>
-Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from,
-                                           const Real& h, State<Real>& next, const Root& root) {
+Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
+                                           State<Real>& next, const Root& root) {
   using std::abs;
   Location<Real> result;
   const Real resolution = this->resolution(from, h);
@@ -173,9 +166,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     } else if (!(guess > low && guess < high)) {
       // Just beyond the last sign change where the root is at the edge, else halve.
       const Real nudge = low + Real(2) * resolution;
-      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0
-                  ? nudge
-                  : Real((low + high) / Real(2));
+      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0 ? nudge : Real((low + high) / Real(2));
     }
     step = guess;
   }

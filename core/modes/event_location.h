@@ -30,21 +30,21 @@ class EventLocator {
 
   /// After a solved step of size h from `from` to `next`. Without a switch everything stays; else
   /// `next` is the end of the shorter step of size Location::h.
-  [[nodiscard]] Location<Real> locate(StepAttempt<Real>& attempt, const State<Real>& from,
-                                      const Real& h, State<Real>& next);
+  [[nodiscard]] Location<Real> locate(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
+                                      State<Real>& next);
 
  private:
   struct Root {
     Index index = -1;
-    Real step{};  ///< size of the step that ends at it
-    Real high{};  ///< and of one that ends where it is due
+    Real step{};   ///< size of the step that ends at it
+    Real high{};   ///< and of one that ends where it is due
     Real slope{};  ///< dg/dt
   };
   bool first(StepAttempt<Real>& attempt, const State<Real>& from, const State<Real>& next,
              typename SwitchScan<Real>::EndSample end, Location<Real>& result, Root& root);
   Root refined(const DueInside<Real>& due, const Real& offset, const Real& h);
-  Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
-                         State<Real>& next, const Root& root);
+  Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h, State<Real>& next,
+                         const Root& root);
   Real resolution(const State<Real>& from, const Real& h) const;
 
   Switches<Real> switches_;

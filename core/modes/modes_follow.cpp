@@ -76,7 +76,7 @@ class SmoothAfterStep final : public ModesAfterStep<Real> {
   SmoothAfterStep(const System<Real>&, const IntegratorOptions&) {}
   bool settlesAtStart() const override { return false; }
   CommittedStep<Real> accept(StepAttempt<Real>&, const AttemptResult& solved, const State<Real>&, const Real& h,
-                            State<Real>&) override {
+                             State<Real>&) override {
     return {Outcome::kSuccess, solved, h};
   }
 };
@@ -84,12 +84,18 @@ class SmoothAfterStep final : public ModesAfterStep<Real> {
 }  // namespace
 
 Strategy<Discontinuity> ignoredModes() {
-  return {Discontinuity::kIgnore, "jumps are left to the error estimate (paper)", {},
-          makes<ModesInStepMaker, IgnoredInStep>(), makes<ModesAfterStepMaker, IgnoredAfterStep>()};
+  return {Discontinuity::kIgnore,
+          "jumps are left to the error estimate (paper)",
+          {},
+          makes<ModesInStepMaker, IgnoredInStep>(),
+          makes<ModesAfterStepMaker, IgnoredAfterStep>()};
 }
 
 Strategy<Discontinuity> smoothModes() {
-  return {Discontinuity::kSmooth, "the scene's regularisation", {}, makes<ModesInStepMaker, SmoothInStep>(),
+  return {Discontinuity::kSmooth,
+          "the scene's regularisation",
+          {},
+          makes<ModesInStepMaker, SmoothInStep>(),
           makes<ModesAfterStepMaker, SmoothAfterStep>()};
 }
 

@@ -45,8 +45,7 @@ class IteratedInStep final : public ModesInStep<Real> {
     done_.clear();
     for (int i = 0;; ++i) {
       const std::size_t before = done_.size();
-      const SwitchReport report =
-          switches_.settle(step.to, Jumps::kDone, [this](Index k) { done_.push_back(k); });
+      const SwitchReport report = switches_.settle(step.to, Jumps::kDone, [this](Index k) { done_.push_back(k); });
       if (report.index >= 0) result.switched = report.index;
       result.outcome = report.outcome;
       if (report.outcome != Outcome::kSuccess) return false;
@@ -68,8 +67,8 @@ class IteratedInStep final : public ModesInStep<Real> {
     if (!effect_.dueInside(step, step.to, inside)) return;
     result.switched = inside;
     const SwitchReport report = switches_.settle(effect_.inside(), Jumps::kNone);
-    result.mode_error = report.outcome == Outcome::kSuccess ? effect_.changeOfRates(step.h)
-                                                            : std::numeric_limits<double>::infinity();
+    result.mode_error =
+        report.outcome == Outcome::kSuccess ? effect_.changeOfRates(step.h) : std::numeric_limits<double>::infinity();
   }
   // The secant's root of the first switching function that is due at the step's end.
   double firstDue(const SolvedStep<Real>& step) {
@@ -105,8 +104,11 @@ class IteratedAfterStep final : public ModesAfterStep<Real> {
 }  // namespace
 
 Strategy<Discontinuity> iteratedModes() {
-  return {Discontinuity::kIterate, "modes frozen in Newton, updated after it, step repeated", {},
-          makes<ModesInStepMaker, IteratedInStep>(), makes<ModesAfterStepMaker, IteratedAfterStep>()};
+  return {Discontinuity::kIterate,
+          "modes frozen in Newton, updated after it, step repeated",
+          {},
+          makes<ModesInStepMaker, IteratedInStep>(),
+          makes<ModesAfterStepMaker, IteratedAfterStep>()};
 }
 
 }  // namespace irk

@@ -21,7 +21,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
       : locator_(system, locationTolerance(options)) {}
 
   CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
-                            const Real& h, State<Real>& next) override {
+                             const Real& h, State<Real>& next) override {
     const Location<Real> at = locator_.locate(attempt, from, h, next);
     CommittedStep<Real> step{at.outcome, solved, h};
     step.index = at.index;
@@ -55,8 +55,11 @@ std::unique_ptr<ModesInStep<Real>> nothing(const System<Real>&, const Integrator
 }  // namespace
 
 Strategy<Discontinuity> locatedModes() {
-  return {Discontinuity::kLocate, "the root of a switching function ends the step; restart", {},
-          {nothing<double>, nothing<mp50>, nothing<mp100>}, makes<ModesAfterStepMaker, LocatedAfterStep>()};
+  return {Discontinuity::kLocate,
+          "the root of a switching function ends the step; restart",
+          {},
+          {nothing<double>, nothing<mp50>, nothing<mp100>},
+          makes<ModesAfterStepMaker, LocatedAfterStep>()};
 }
 
 }  // namespace irk

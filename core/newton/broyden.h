@@ -14,8 +14,7 @@ namespace irk {
 template <class Real>
 class BroydenUpdates {
  public:
-  BroydenUpdates(Index n, Index stages)
-      : n_(n), increments_(n * stages, kMax), weighted_(n * stages, kMax) {}
+  BroydenUpdates(Index n, Index stages) : n_(n), increments_(n * stages, kMax), weighted_(n * stages, kMax) {}
 
   /// A new iteration: the simplified matrix, to be updated if `on`.
   void begin(bool on) { count_ = 0, frozen_ = !on; }

@@ -85,17 +85,14 @@ class NewtonBase : public Newton<Real> {
 
   /// Solves for the increment, applies it, and returns its norm; NaN if not finite.
   template <class Matrix>
-  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W,
-                BroydenUpdates<Real>* updates = nullptr) {
+  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W, BroydenUpdates<Real>* updates = nullptr) {
     matrix.solve(R_.rightCols(R_.cols() - first_));
     VecView<Real> increment = implicit();
     if (updates) updates->apply(increment);
     VecView<Real>(W.col(first_).data(), increment.size()) -= increment;
     return c.norm.increment(R_, first_, row_weights_);
   }
-  VecView<Real> implicit() {
-    return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)};
-  }
+  VecView<Real> implicit() { return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)}; }
 
   const IntegratorOptions& options_;
   double round_off_;
@@ -114,8 +111,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
 
  public:
-  SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes,
-                   const Scheme<Real>& scheme)
+  SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
       : Base(options, sizes, scheme) {
     // kappa shrinks with s: at high order a loose stage equation spoils the step.
     const double floor = kRoundOffUnits * this->round_off_;
@@ -260,11 +256,9 @@ class ResidualNewton : public NewtonBase<Real> {
     for (int i = 1; i <= o.max_iterations; ++i) {
       ++result.iterations;
       ++c.counters.newton_iterations;
-      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W)
-                                              : c.matrix.prepare(c.eq.h());
+      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W) : c.matrix.prepare(c.eq.h());
       if (result.outcome != Outcome::kSuccess) return result;
-      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W)
-                                                 : this->update(c, c.matrix, W);
+      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W) : this->update(c, c.matrix, W);
       if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
       const double previous = eps;
       eps = residualNorm();
@@ -370,11 +364,8 @@ std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const
   return catalogue<NewtonKind>()[options.newton.kind].make.template of<Real>()(options, sizes, scheme);
 }
 
-template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&,
-                                                    const Scheme<double>&);
-template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&,
-                                                  const Scheme<mp50>&);
-template std::unique_ptr<Newton<mp100>> makeNewton(const IntegratorOptions&, const Sizes&,
-                                                   const Scheme<mp100>&);
+template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<double>&);
+template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<mp50>&);
+template std::unique_ptr<Newton<mp100>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<mp100>&);
 
 }  // namespace irk

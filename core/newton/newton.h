@@ -57,7 +57,7 @@ struct Strategy<NewtonKind> {
   NewtonKind id;
   std::string meaning;
   Needs needs = {};
-  bool keeps_jacobian = true;       ///< one for all stages, of the SharedJacobian
+  bool keeps_jacobian = true;        ///< one for all stages, of the SharedJacobian
   bool uses_stage_matrices = false;  ///< the StagewiseMatrix
   PerScalar<NewtonMaker> make;
 };

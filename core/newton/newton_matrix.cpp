@@ -11,8 +11,8 @@ constexpr Index kEagerSize = 300;
 
 // The pattern can grow at any of the stages; they have to share one.
 template <class Real, class PointOf>
-void evaluateStages(Differentiator<Real>& differentiator, std::vector<Linearization<Real>>& at,
-                    Counters& counters, const PointOf& point) {
+void evaluateStages(Differentiator<Real>& differentiator, std::vector<Linearization<Real>>& at, Counters& counters,
+                    const PointOf& point) {
   for (std::size_t i = 0; i < at.size();) {
     const auto before = differentiator.pattern();
     ++counters.jacobians;
@@ -27,9 +27,7 @@ template <class Real>
 SharedJacobian<Real>::SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
                                      const IntegratorOptions& options, Counters& counters)
     : differentiator_(system, options.derivatives, options.jacobian, storageOf(options)),
-      at_(options.jacobian_point == JacobianPoint::kEachStage
-              ? static_cast<std::size_t>(scheme.implicitStages())
-              : 1),
+      at_(options.jacobian_point == JacobianPoint::kEachStage ? static_cast<std::size_t>(scheme.implicitStages()) : 1),
       point_(options.jacobian_point),
       counters_(counters) {}
 
@@ -37,8 +35,7 @@ template <class Real>
 void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq, const Mat<Real>& W) {
   if (point_ == JacobianPoint::kEachStage) {
     eq.place(W);
-    evaluateStages(differentiator_, at_, counters_,
-                   [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
+    evaluateStages(differentiator_, at_, counters_, [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
   } else {
     ++counters_.jacobians;
     const auto point = [&] {
@@ -77,8 +74,8 @@ const std::shared_ptr<const SparseAnalysis>& SharedJacobian<Real>::analysis(
 }
 
 template <class Real>
-NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind,
-                                 StageSolverSetup<Real> setup, Counters& counters)
+NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup,
+                                 Counters& counters)
     : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters) {
   setup_.form = makeBlockForm(kind, setup_.A);
   if (shared_.differentiator().pattern()) adopt(shared_.differentiator().pattern());
@@ -110,8 +107,8 @@ Outcome NewtonMatrix<Real>::prepare(const Real& h) {
 }
 
 template <class Real>
-StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup,
-                                       bool used, Counters& counters)
+StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, bool used,
+                                       Counters& counters)
     : shared_(shared),
       setup_(std::move(setup)),
       used_(used),
@@ -132,15 +129,13 @@ void StagewiseMatrix<Real>::reserve() {
 template <class Real>
 void StagewiseMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
   setup_.pattern = std::move(pattern);
-  const StageSolverKind kind = setup_.pattern->full ? StageSolverKind::kCoupledDense
-                                                    : StageSolverKind::kCoupledSparse;
+  const StageSolverKind kind = setup_.pattern->full ? StageSolverKind::kCoupledDense : StageSolverKind::kCoupledSparse;
   solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind, setup_), counters_);
 }
 
 template <class Real>
 Outcome StagewiseMatrix<Real>::prepare(const StageEquations<Real>& eq, const Mat<Real>& W) {
-  evaluateStages(shared_.differentiator(), at_, counters_,
-                 [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
+  evaluateStages(shared_.differentiator(), at_, counters_, [&](Index i) { return eq.stage(W, eq.scheme().first + i); });
   if (!sameShape(at_.front().pattern, setup_.pattern)) adopt(at_.front().pattern);
   return solver_->factorize(at_, eq.h());
 }

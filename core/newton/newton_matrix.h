@@ -16,8 +16,8 @@ namespace irk {
 template <class Real>
 class SharedJacobian {
  public:
-  SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
-                 const IntegratorOptions& options, Counters& counters);
+  SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+                 Counters& counters);
 
   /// Evaluates at the start or middle of the step that `eq` has begun, or at one or all stages W.
   void evaluate(StageEquations<Real>& eq, const Mat<Real>& W);
@@ -35,8 +35,7 @@ class SharedJacobian {
   int version() const { return version_; }
   Differentiator<Real>& differentiator() { return differentiator_; }
   /// Of a pattern of its own, for all that factorize one stage's matrices; null for a dense one.
-  const std::shared_ptr<const SparseAnalysis>& analysis(
-      const std::shared_ptr<const Pattern>& pattern);
+  const std::shared_ptr<const SparseAnalysis>& analysis(const std::shared_ptr<const Pattern>& pattern);
 
  private:
   Differentiator<Real> differentiator_;
@@ -56,8 +55,7 @@ template <class Real>
 class NewtonMatrix {
  public:
   /// The setup has no pattern. Throws Misuse for `eigen` with a defective A.
-  NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup,
-               Counters& counters);
+  NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup, Counters& counters);
 
   /// Factors of the shared Jacobian for step h.
   [[nodiscard]] Outcome prepare(const Real& h);

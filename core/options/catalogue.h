@@ -35,9 +35,12 @@ struct PerScalar {
 
   template <class Real>
   const Maker<Real>& of() const {
-    if constexpr (std::is_same_v<Real, double>) return in_double;
-    else if constexpr (std::is_same_v<Real, mp50>) return in_mp50;
-    else return in_mp100;
+    if constexpr (std::is_same_v<Real, double>)
+      return in_double;
+    else if constexpr (std::is_same_v<Real, mp50>)
+      return in_mp50;
+    else
+      return in_mp100;
   }
 };
 
@@ -108,18 +111,18 @@ void registerStrategy(Strategy<Id> entry) {
 }  // namespace irk
 
 /// Defines what options.h declares of an axis, by its catalogue.
-#define IRK_STRATEGIES(Id, axis)            \
-  template <>                               \
-  std::string_view axisName<Id>() {         \
-    return axis;                            \
-  }                                         \
-  template <>                               \
-  std::span<const Named<Id>> named<Id>() {  \
-    return catalogue<Id>().named();         \
-  }                                         \
-  template <>                               \
-  Id parseId<Id>(std::string_view id) {     \
-    Id wanted{};                            \
-    wanted.id = id;                         \
-    return catalogue<Id>()[wanted].id;      \
+#define IRK_STRATEGIES(Id, axis)           \
+  template <>                              \
+  std::string_view axisName<Id>() {        \
+    return axis;                           \
+  }                                        \
+  template <>                              \
+  std::span<const Named<Id>> named<Id>() { \
+    return catalogue<Id>().named();        \
+  }                                        \
+  template <>                              \
+  Id parseId<Id>(std::string_view id) {    \
+    Id wanted{};                           \
+    wanted.id = id;                        \
+    return catalogue<Id>()[wanted].id;     \
   }

@@ -103,15 +103,14 @@ Field<Spec> numberField(std::string name, std::string meaning, const Range& rang
 /// The field of a struct as a field of another one that holds it as `member`.
 template <class Outer, class Inner>
 Field<Outer> fieldOfMember(const Field<Inner>& inner, Inner Outer::*member) {
-  Field<Outer> field{
-      .name = inner.name,
-      .meaning = inner.meaning,
-      .kind = inner.kind,
-      .choices = inner.choices,
-      .range = inner.range,
-      .form = inner.form,
-      .get = [get = inner.get, member](const Outer& s) { return get(s.*member); },
-      .set = [set = inner.set, member](Outer& s, std::string_view text) { set(s.*member, text); }};
+  Field<Outer> field{.name = inner.name,
+                     .meaning = inner.meaning,
+                     .kind = inner.kind,
+                     .choices = inner.choices,
+                     .range = inner.range,
+                     .form = inner.form,
+                     .get = [get = inner.get, member](const Outer& s) { return get(s.*member); },
+                     .set = [set = inner.set, member](Outer& s, std::string_view text) { set(s.*member, text); }};
   if (inner.number) {
     field.number = [number = inner.number, member](const Outer& s) { return number(s.*member); };
     field.assign = [assign = inner.assign, member](Outer& s, double x) { assign(s.*member, x); };

@@ -58,7 +58,8 @@ std::string_view ofPaperControls(const Options& o) {
 
 }  // namespace
 
-#define IRK_MEMBER(path) [](auto& o) -> auto& { return o.path; }
+#define IRK_MEMBER(path) \
+  [](auto& o) -> auto& { return o.path; }
 
 std::span<const OptionField> optionFields() {
   static const auto fields = std::to_array<OptionField>({
@@ -110,9 +111,9 @@ std::span<const OptionField> optionFields() {
              "Threads inside one integration; the numbers do not depend on it."),
   });
   constexpr std::size_t kNested = 3;  // tolerances, newton, step
-  static_assert(std::tuple_size_v<decltype(fields)> ==
-                    memberCount<IntegratorOptions>() - kNested + memberCount<Tolerances>() +
-                        memberCount<NewtonOptions>() + memberCount<StepOptions>(),
+  static_assert(std::tuple_size_v<decltype(fields)> == memberCount<IntegratorOptions>() - kNested +
+                                                           memberCount<Tolerances>() + memberCount<NewtonOptions>() +
+                                                           memberCount<StepOptions>(),
                 "an option has no line in the table above");
   return fields;
 }

@@ -44,9 +44,8 @@ constexpr Named<JacobianTerms> kTerms[] = {
     {JacobianTerms::kNoConstraintXz, "no_constraint_xz", "(4.5): without dG/d(x, z)"},
     {JacobianTerms::kNoMass, "no_mass", "(4.4) and (4.8): without d(M a)/d(u, v, x, z)"},
     {JacobianTerms::kConstantStiffness, "constant_stiffness", "(4.7): dF2/du evaluated once"}};
-constexpr Named<NormKind> kNorms[] = {
-    {NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
-    {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
+constexpr Named<NormKind> kNorms[] = {{NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
+                                      {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
 
 }  // namespace
 

@@ -47,9 +47,9 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
     inverses_.emplace_back(size * size);
   }
   if constexpr (kSparse) {
-    const auto analysis = setup.analysis ? setup.analysis
-                                         : std::make_shared<const SparseAnalysis>(
-                                               setup.pattern->column_start, setup.pattern->row);
+    const auto analysis = setup.analysis
+                              ? setup.analysis
+                              : std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row);
     add(analysis);
     analysis->reserve(pivots_);
     if (!form_.diagonal || form_.blocks.size() == 1) return;
@@ -91,8 +91,8 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
   } else {
     for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   }
-  const auto failed = std::find_if(outcomes_.begin(), outcomes_.end(),
-                                   [](Outcome o) { return o != Outcome::kSuccess; });
+  const auto failed =
+      std::find_if(outcomes_.begin(), outcomes_.end(), [](Outcome o) { return o != Outcome::kSuccess; });
   if (failed != outcomes_.end()) return *failed;
   if constexpr (kSparse) gathered_ = together_ && together_->assign(real_lu_, complex_lu_);
   return Outcome::kSuccess;

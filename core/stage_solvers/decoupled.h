@@ -38,26 +38,26 @@ class Decoupled final : public StageSolver<Real> {
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;
   Mat<Real> T2_;
-  Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
+  Mat<Real> to_basis_, from_basis_;      // Y = R to_basis, R = Y from_basis
   std::vector<Lu<Real>> real_lu_;        // of the real blocks, in their order
   std::vector<Lu<Complex>> complex_lu_;  // of the complex pairs, in their order
   std::vector<std::size_t> lu_index_;    // by block: its index in real_lu_ or complex_lu_
   // Sparse blocks: the pivots of the first block, offered to the others. Copied at the beginning of a factorization;
   // in the very first one, after the first block is factorized.
   SparsePivots pivots_;
-  int version_ = 0;    // of pivots_
-  bool news_ = false;  // pivots_ have changed since the last factorization
+  int version_ = 0;                        // of pivots_
+  bool news_ = false;                      // pivots_ have changed since the last factorization
   std::optional<InterleavedLu> together_;  // all factors, if the blocks are sparse and do not couple
   std::vector<InterleavedLu::Lane> lanes_;
   bool gathered_ = false;          // together_ holds the present factors
   std::vector<Outcome> outcomes_;  // by block
-  bool small_;  // blocks are inverted, see small_inverse.h; not for one stage, where it does not pay
+  bool small_;                     // blocks are inverted, see small_inverse.h; not for one stage, where it does not pay
   std::vector<Vec<Real>> inverses_;  // by block, as real matrices of size n or 2n
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;
-  Mat<Real> Y_;           // transformed right-hand side and solution, n x s
-  Mat<Real> D1Y_, D2Y_;   // D1 and D2 times the solved columns of Y (Schur form only)
+  Mat<Real> Y_;          // transformed right-hand side and solution, n x s
+  Mat<Real> D1Y_, D2Y_;  // D1 and D2 times the solved columns of Y (Schur form only)
   Vec<Complex> eta_;
 };
 

@@ -18,12 +18,10 @@ std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const
 }
 
 template <class Real>
-std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
-                                                   const StageSolverSetup<Real>& setup) {
+std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind, const StageSolverSetup<Real>& setup) {
   const auto& make = catalogue<StageSolverKind>()[kind].make.template of<Real>();
   if (!make) {
-    throw Misuse("illegal combination: solver '" + std::string(idOf(kind)) +
-                 "': it is not made for this scalar");
+    throw Misuse("illegal combination: solver '" + std::string(idOf(kind)) + "': it is not made for this scalar");
   }
   if (setup.form) return make(setup);
   StageSolverSetup<Real> with_form = setup;
@@ -34,11 +32,8 @@ std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
 template std::shared_ptr<const BlockForm<double>> makeBlockForm(StageSolverKind, const Mat<double>&);
 template std::shared_ptr<const BlockForm<mp50>> makeBlockForm(StageSolverKind, const Mat<mp50>&);
 template std::shared_ptr<const BlockForm<mp100>> makeBlockForm(StageSolverKind, const Mat<mp100>&);
-template std::unique_ptr<StageSolver<double>> makeStageSolver(StageSolverKind,
-                                                              const StageSolverSetup<double>&);
-template std::unique_ptr<StageSolver<mp50>> makeStageSolver(StageSolverKind,
-                                                            const StageSolverSetup<mp50>&);
-template std::unique_ptr<StageSolver<mp100>> makeStageSolver(StageSolverKind,
-                                                             const StageSolverSetup<mp100>&);
+template std::unique_ptr<StageSolver<double>> makeStageSolver(StageSolverKind, const StageSolverSetup<double>&);
+template std::unique_ptr<StageSolver<mp50>> makeStageSolver(StageSolverKind, const StageSolverSetup<mp50>&);
+template std::unique_ptr<StageSolver<mp100>> makeStageSolver(StageSolverKind, const StageSolverSetup<mp100>&);
 
 }  // namespace irk

@@ -39,8 +39,7 @@ class StageSolver {
 
   /// From one linearization shared by all stages, or (coupled solvers) one per stage.
   /// kSuccess, kSingular, or kNotFinite. After a failure `solve` must not be called.
-  [[nodiscard]] virtual Outcome factorize(std::span<const Linearization<Real>> at,
-                                          const Real& h) = 0;
+  [[nodiscard]] virtual Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) = 0;
 
   /// In place: right-hand side (scaled rows) to solution, n x s, column j = stage j.
   virtual void solve(Eigen::Ref<Mat<Real>> rhs) = 0;
@@ -79,10 +78,10 @@ Catalogue<StageSolverKind>& catalogue<StageSolverKind>();
 /// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the
 /// kind cannot treat A (`eigen` with a defective A) or the pattern.
 template <class Real>
-std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind,
-                                                   const StageSolverSetup<Real>& setup);
+std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind, const StageSolverSetup<Real>& setup);
 
-/// The form of A that a decoupled solver works in; null for a coupled one. Throws Misuse for `eigen` with a defective A.
+/// The form of A that a decoupled solver works in; null for a coupled one. Throws Misuse for `eigen` with a defective
+/// A.
 template <class Real>
 std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const Mat<Real>& A);
 

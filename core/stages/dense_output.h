@@ -23,8 +23,7 @@ class DenseOutput {
 
  private:
   template <class W, class Once, class Twice>
-  void write(const Real& theta, const W& w, const Once& once, const Twice& twice,
-             State<Real>& out) const;
+  void write(const Real& theta, const W& w, const Once& once, const Twice& twice, State<Real>& out) const;
 
   const State<Real>* from_ = nullptr;
   const StagePolynomial<Real>* past_ = nullptr;

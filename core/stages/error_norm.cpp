@@ -21,10 +21,8 @@ double powerOf(double h, int power) {
 
 }  // namespace
 
-
 template <class Real>
-ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances,
-                           const Vec<double>& scale)
+ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale)
     : sizes_(system.sizes()),
       powers_(system.errorPowers()),
       tolerances_(tolerances),
@@ -50,8 +48,8 @@ void ErrorNorm<Real>::update(const State<Real>& y) {
   }
   const auto weigh = [&](Index offset, const auto& part) {
     for (Index i = 0; i < part.size(); ++i) {
-      weight_[offset + i] = tolerances_.atol * scale_[offset + i] +
-                            tolerances_.rtol * std::abs(static_cast<double>(part[i]));
+      weight_[offset + i] =
+          tolerances_.atol * scale_[offset + i] + tolerances_.rtol * std::abs(static_cast<double>(part[i]));
     }
   };
   weigh(0, y.u);
@@ -69,8 +67,8 @@ double ErrorNorm<Real>::zFactor(double h, Index i) const {
 // Calls f(component, its weighted difference) for all components of u, v, x, z.
 template <class Real>
 template <class F>
-void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h,
-                                  const Vec<double>& factor, F&& f) const {
+void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor,
+                                  F&& f) const {
   const auto add = [&](Index offset, const auto& a, const auto& b, const auto& weigh) {
     for (Index i = 0; i < a.size(); ++i) {
       const double e = static_cast<double>(Real(a[i] - b[i]));
@@ -93,8 +91,7 @@ double ErrorNorm<Real>::difference(const State<Real>& p, const State<Real>& q, d
 }
 
 template <class Real>
-Index ErrorNorm<Real>::worst(const State<Real>& p, const State<Real>& q, double h,
-                             const Vec<double>& factor) const {
+Index ErrorNorm<Real>::worst(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor) const {
   Index worst = -1;
   double most = -1;
   forEachPart(p, q, h, factor, [&](Index i, double part) {
@@ -144,8 +141,7 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
 }
 
 template <class Real>
-double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first,
-                                  const Vec<double>& squares) const {
+double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const {
   double sum = 0;
   withSize<8>(dW.rows(), [&](auto n) {
     for (Index j = first; j < dW.cols(); ++j) {

@@ -30,8 +30,7 @@ class ErrorNorm {
 
   /// Norm of the difference of two states after a step of size h. `factor` (2 nu + nx + nz numbers) multiplies the
   /// differences of the components.
-  double difference(const State<Real>& p, const State<Real>& q, double h,
-                    const Vec<double>& factor) const;
+  double difference(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor) const;
 
   /// Norm of an error e, i.e. of its difference from zero.
   double magnitude(const State<Real>& e, double h) const;
@@ -47,8 +46,7 @@ class ErrorNorm {
   double total(double sum_of_squares) const;
   double zFactor(double h, Index i) const;
   template <class F>
-  void forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor,
-                   F&& f) const;
+  void forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor, F&& f) const;
 
   Sizes sizes_;
   const ErrorPowers& powers_;

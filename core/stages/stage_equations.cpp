@@ -30,8 +30,8 @@ void addCompensated(const Vec<Real>& y0, const Real* carry0, Vec<Real>& y1, Real
 }  // namespace
 
 template <class Real>
-StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Real>& scheme,
-                                     Summation summation, int threads)
+StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation,
+                                     int threads)
     : system_(system),
       scheme_(scheme),
       summation_(summation),
@@ -80,8 +80,7 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
                  [&](Index i, Index j) { return Real(u[i] + hA1_[j] * v[i]); });
   }
   if (nx > 0) {
-    smallProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx,
-                 [&](Index i, Index) { return x[i]; });
+    smallProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx, [&](Index i, Index) { return x[i]; });
   }
 }
 

@@ -13,8 +13,7 @@ template <class Real>
 class StageEquations {
  public:
   /// Keeps references to the system and the scheme. `threads`: number of stages evaluated at a time.
-  StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation,
-                 int threads);
+  StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation, int threads);
 
   /// Begins a step of size h. Keeps a reference to `from`, which must not change during the step.
   void begin(const State<Real>& from, const Real& h);

@@ -27,8 +27,7 @@ class Extrapolated : public StagePredictor<Real> {
  public:
   explicit Extrapolated(const Scheme<Real>& scheme);
   void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) override {
-    smallProduct<Real>(
-        past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
+    smallProduct<Real>(past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
   }
 
  private:
@@ -58,8 +57,7 @@ Extrapolated<Real>::Extrapolated(const Scheme<Real>& scheme) : scheme_(scheme) {
 }
 
 template <class Real>
-MatView<Real> Extrapolated<Real>::weights(const Scheme<Real>& past, const Real& offset,
-                                         const Real& ratio) {
+MatView<Real> Extrapolated<Real>::weights(const Scheme<Real>& past, const Real& offset, const Real& ratio) {
   for (Weights& w : weights_) {
     if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix.view();
   }
@@ -82,9 +80,7 @@ void Extrapolated<Real>::compute(Weights& w) {
   for (Index i = 0; i < s; ++i) {
     legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis.col(i));
   }
-  const auto amplification = [&] {
-    return static_cast<double>(Real(matrix.col(farthest_).cwiseAbs().sum()));
-  };
+  const auto amplification = [&] { return static_cast<double>(Real(matrix.col(farthest_).cwiseAbs().sum())); };
   const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
   smallProduct<Real>(to_stages, basis, matrix);
   if (amplification() <= kAmplificationLimit) return;
@@ -143,8 +139,7 @@ StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
     : scheme_(scheme), predictor_(catalogue<Predictor>()[kind].make.template of<Real>()(scheme)) {}
 
 template <class Real>
-void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
-                             Mat<Real>& W) {
+void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) {
   if (past.valid) {
     predictor_->fill(past, from, h, W);
   } else {

@@ -38,7 +38,7 @@ struct Strategy<Predictor> {
   Predictor id;
   std::string meaning;
   Needs needs = {};
-  bool extrapolates = false;  ///< good from a longer step, too: half steps start from the whole step's stages
+  bool extrapolates = false;       ///< good from a longer step, too: half steps start from the whole step's stages
   PerScalar<PredictorMaker> make;  ///< keeps a reference to the scheme
 };
 template <>
@@ -53,8 +53,7 @@ class StartValues {
 
   /// W (n x s) for the step [from.t, from.t + h], from the polynomial `past` (of any number of
   /// stages) where it is valid, else from (a, k, z) of `from`. The explicit first stage is always that of `from`.
-  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
-            Mat<Real>& W);
+  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W);
 
  private:
   const Scheme<Real>& scheme_;

@@ -79,7 +79,7 @@ class ModesAfterStep {
   virtual bool restarts() const { return false; }
   /// Of the step of size h from `from` to `next` that `attempt` has solved last.
   virtual CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
-                                    const Real& h, State<Real>& next) {
+                                     const Real& h, State<Real>& next) {
     static_cast<void>(attempt);
     CommittedStep<Real> step{Outcome::kSuccess, solved, h};
     step.switched = next.d != from.d;
@@ -89,8 +89,8 @@ class ModesAfterStep {
 
 /// Null: nothing follows a solved step.
 template <class Real>
-using ModesInStepMaker = std::function<std::unique_ptr<ModesInStep<Real>>(
-    const System<Real>&, const IntegratorOptions&, const ErrorNorm<Real>&, Counters&)>;
+using ModesInStepMaker = std::function<std::unique_ptr<ModesInStep<Real>>(const System<Real>&, const IntegratorOptions&,
+                                                                          const ErrorNorm<Real>&, Counters&)>;
 template <class Real>
 using ModesAfterStepMaker =
     std::function<std::unique_ptr<ModesAfterStep<Real>>(const System<Real>&, const IntegratorOptions&)>;

@@ -15,8 +15,8 @@ class RateNorm {
   RateNorm(const Sizes& sizes, const ErrorNorm<Real>& norm)
       : sizes_(sizes), norm_(norm), change_(sizes.n()), weights_(sizes.n()) {}
 
-  /// h times `dw`. Multipliers jump with the mode and do not count; u, v, x do not jump. Not inlined: in another context
-  /// the compiler would contract other products and sums.
+  /// h times `dw`. Multipliers jump with the mode and do not count; u, v, x do not jump. Not inlined: in another
+  /// context the compiler would contract other products and sums.
   [[gnu::noinline]] double operator()(const Vec<Real>& dw, const Real& h) {
     norm_.rowWeights(static_cast<double>(h), weights_);
     double sum = 0;

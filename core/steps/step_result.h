@@ -11,9 +11,9 @@ namespace irk {
 struct StepResult {
   Outcome outcome = Outcome::kSuccess;
   int newton_iterations = 0;
-  double theta = 0;     ///< Newton's contraction (see NewtonResult), the worst of the attempt's solves
+  double theta = 0;      ///< Newton's contraction (see NewtonResult), the worst of the attempt's solves
   double round_off = 0;  ///< of Newton's increments, in tolerances (see NewtonResult)
-  Index switched = -1;  ///< the last switch done at the step's end, or the one to blame
+  Index switched = -1;   ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
   /// Of a step in which a switch becomes due, in the error norm: what the wrong mode does over the

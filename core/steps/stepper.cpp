@@ -43,9 +43,8 @@ StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& s
 }  // namespace
 
 template <class Real>
-Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme,
-                       const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
-                       const ErrorNorm<Real>& norm, Counters& counters)
+Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
+                       SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
     : sizes_(system.sizes()),
       counters_(counters),
       eq_(system, scheme, options.summation, options.threads),
@@ -101,8 +100,8 @@ void Stepper<Real>::repeat(const State<Real>& start, StepResult& result) {
 }
 
 template <class Real>
-StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State<Real>& from,
-                                  const Real& h, State<Real>& to, JacobianUse use) {
+StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+                                  State<Real>& to, JacobianUse use) {
   StepResult result;
   past_ = &past;
   to_ = &to;

@@ -20,9 +20,8 @@ class Stepper final : private StepRepeater<Real> {
           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
 
   /// One step [from.t, from.t + h] with start values from `past` (may be this stepper's own).
-  [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from,
-                                   const Real& h, State<Real>& to,
-                                   JacobianUse use = JacobianUse::kRefreshIfStale);
+  [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
+                                   State<Real>& to, JacobianUse use = JacobianUse::kRefreshIfStale);
 
   /// Of the step solved last, after a restart from a known `from.w`, in the error norm: h times the
   /// difference between (a, k) at the start and the stages' polynomial there; 0 where that follows

@@ -29,19 +29,14 @@ Real partOf(Index j) {
 
 template <class Real>
 SwitchScan<Real>::SwitchScan(const System<Real>& system)
-    : switches_(system),
-      dense_(system.sizes()),
-      inside_(system.sizes()),
-      g_(system.sizes().switches, kParts + 1) {
+    : switches_(system), dense_(system.sizes()), inside_(system.sizes()), g_(system.sizes().switches, kParts + 1) {
   // At one sample a function can be due there, at a peak before it, and at a corner at either end.
   due_.reserve(static_cast<std::size_t>(4 * system.sizes().switches));
 }
 
 template <class Real>
-std::span<const DueInside<Real>> SwitchScan<Real>::first(const State<Real>& from,
-                                                         const StagePolynomial<Real>& stages,
-                                                         const State<Real>& end,
-                                                         EndSample end_sample) {
+std::span<const DueInside<Real>> SwitchScan<Real>::first(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                                         const State<Real>& end, EndSample end_sample) {
   due_.clear();
   report_ = {};
   if (switches_.none()) return due_;
@@ -103,13 +98,11 @@ void SwitchScan<Real>::lookForCorner(Index i, Index end, Index inwards) {
 }
 
 template <class Real>
-void SwitchScan<Real>::lookForPeak(Index i, Index left, Index right, const Real& g,
-                                   const Real& bend) {
+void SwitchScan<Real>::lookForPeak(Index i, Index left, Index right, const Real& g, const Real& bend) {
   if (!(g + Real(kCaution / 8) * bend > Real(0)) || g > Real(0)) return;
   std::uintmax_t most = kPeakEvaluations;
-  const auto peak = boost::math::tools::brent_find_minima(
-      [&](const Real& theta) { return Real(-value(theta, i)); }, partOf<Real>(left),
-      partOf<Real>(right), kPeakBits, most);
+  const auto peak = boost::math::tools::brent_find_minima([&](const Real& theta) { return Real(-value(theta, i)); },
+                                                          partOf<Real>(left), partOf<Real>(right), kPeakBits, most);
   if (peak.second < Real(0)) due_.push_back({i, partOf<Real>(left), peak.first});
 }
 

@@ -31,10 +31,8 @@ class SwitchScan {
   /// the use of `value`. `report` says if a function is not finite. `EndSample::kSkip`: the end is
   /// known to be due.
   enum class EndSample { kLookAt, kSkip };
-  std::span<const DueInside<Real>> first(const State<Real>& from,
-                                         const StagePolynomial<Real>& stages,
-                                         const State<Real>& end,
-                                         EndSample end_sample = EndSample::kLookAt);
+  std::span<const DueInside<Real>> first(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                         const State<Real>& end, EndSample end_sample = EndSample::kLookAt);
   const SwitchReport& report() const { return report_; }
 
   /// Function i on the stages' polynomial of the step last scanned; not finite counts as due.

@@ -25,8 +25,7 @@ class CountingSystem final : public System<Real> {
     count(counters_.dual_residuals);
     inner_.evaluate(level, p, r);
   }
-  void evaluateStages(const StagePoints<Real>& at, Index first, Index last,
-                      Real* r) const override {
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
     count(counters_.residuals, last - first);
     inner_.evaluateStages(at, first, last, r);
   }
@@ -39,9 +38,7 @@ class CountingSystem final : public System<Real> {
   Discontinuity discontinuity() const override { return inner_.discontinuity(); }
   bool projectsVelocity() const override { return inner_.projectsVelocity(); }
   bool secondOrder() const override { return inner_.secondOrder(); }
-  State<Real> fromScene(const State<Real>& scene) const override {
-    return inner_.fromScene(scene);
-  }
+  State<Real> fromScene(const State<Real>& scene) const override { return inner_.fromScene(scene); }
   State<Real> toScene(const State<Real>& state) const override { return inner_.toScene(state); }
 
  private:

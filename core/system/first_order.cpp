@@ -68,8 +68,7 @@ void FirstOrderForm<Real>::evaluate(Level, const Point<Real>& p, VecView<Real> r
 }
 
 template <class Real>
-void FirstOrderForm<Real>::evaluate(Level level, const Point<Dual<Real>>& p,
-                                    VecView<Dual<Real>> r) const {
+void FirstOrderForm<Real>::evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const {
   const Index nu = inner_sizes_.nu, nx = inner_sizes_.nx, n = inner_sizes_.n();
   for (Index i = 0; i < p.x.size(); ++i) values_[i] = p.x[i].value;
   for (Index i = 0; i < p.d.size(); ++i) values_[p.x.size() + i] = p.d[i].value;
@@ -105,8 +104,7 @@ template <class Real>
 bool FirstOrderForm<Real>::holds(const Real& t, const Real* y, const Real* d) const {
   return at_.t == t && std::equal(at_.u.begin(), at_.u.end(), y) &&
          std::equal(at_.v.begin(), at_.v.end(), y + at_.u.size()) &&
-         std::equal(at_.x.begin(), at_.x.end(), y + 2 * at_.u.size()) &&
-         std::equal(at_.d.begin(), at_.d.end(), d);
+         std::equal(at_.x.begin(), at_.x.end(), y + 2 * at_.u.size()) && std::equal(at_.d.begin(), at_.d.end(), d);
 }
 
 // All dual evaluations of one Jacobian are at the same point: w and the factorization are computed once.

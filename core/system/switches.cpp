@@ -35,8 +35,7 @@ Index Switches<Real>::due() const {
 }
 
 template <class Real>
-SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps,
-                                    const std::function<void(Index)>& done) {
+SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps, const std::function<void(Index)>& done) {
   SwitchReport report;
   while (true) {
     const SwitchReport at = evaluate(state);

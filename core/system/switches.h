@@ -60,8 +60,7 @@ class Switches {
   Index due() const;
   /// Executes due switches, changing state.d (and u, v, x if they jump), until none is due. Calls `done` after each.
   /// After a failure the state keeps the switches executed so far.
-  SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone,
-                      const std::function<void(Index)>& done = {});
+  SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone, const std::function<void(Index)>& done = {});
   /// "switching function 'contact'".
   std::string describe(Index i) const;
 

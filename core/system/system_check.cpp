@@ -86,8 +86,8 @@ void requireStart(const System<Real>& system, const State<Real>& start, const Re
   if (!isFinite(start.t)) throw Misuse("start: t = " + text(start.t) + ": a finite number is expected");
   if (!isFinite(t_end)) throw Misuse("t_end = " + text(t_end) + ": a finite number is expected");
   if (start.t <= t_end) return;
-  throw Misuse("t_end = " + std::to_string(static_cast<double>(t_end)) + " lies before the start, t = " +
-               std::to_string(static_cast<double>(start.t)));
+  throw Misuse("t_end = " + std::to_string(static_cast<double>(t_end)) +
+               " lies before the start, t = " + std::to_string(static_cast<double>(start.t)));
 }
 
 template <class Real>
@@ -98,16 +98,16 @@ std::string notFinite(const State<Real>& start) {
     }
     return {};
   };
-  for (const auto& found : {find("u", start.u), find("v", start.v), find("x", start.x), find("w", start.w),
-                            find("d", start.d)}) {
+  for (const auto& found :
+       {find("u", start.u), find("v", start.v), find("x", start.x), find("w", start.w), find("d", start.d)}) {
     if (!found.empty()) return found;
   }
   return {};
 }
 
-#define IRK_CHECKS(Real)                                                                  \
-  template void requireSystem(const System<Real>*, const Vec<double>&);                   \
-  template void requireStart(const System<Real>&, const State<Real>&, const Real&);       \
+#define IRK_CHECKS(Real)                                                            \
+  template void requireSystem(const System<Real>*, const Vec<double>&);             \
+  template void requireStart(const System<Real>&, const State<Real>&, const Real&); \
   template std::string notFinite(const State<Real>&);
 IRK_CHECKS(double)
 IRK_CHECKS(mp50)

@@ -15,8 +15,7 @@
 namespace irk {
 namespace {
 
-constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations", "jacobians",
-                                       "factorizations"};
+constexpr std::string_view kCosts[] = {"cpu_s", "residuals", "newton_iterations", "jacobians", "factorizations"};
 
 // The lower envelope, from cheap to expensive: each point is more accurate than all cheaper ones.
 std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
@@ -46,8 +45,7 @@ std::string causeOf(const Table& runs, const RunSeries& series) {
 
 double costAtError(std::vector<CostPoint> points, double target) {
   const auto best = envelope(std::move(points));
-  const auto at = std::find_if(best.begin(), best.end(),
-                               [target](const CostPoint& p) { return p.error <= target; });
+  const auto at = std::find_if(best.begin(), best.end(), [target](const CostPoint& p) { return p.error <= target; });
   if (at == best.end()) return std::numeric_limits<double>::quiet_NaN();
   if (at == best.begin()) return at->cost;
   const auto& before = *(at - 1);
@@ -55,8 +53,7 @@ double costAtError(std::vector<CostPoint> points, double target) {
   return before.cost * std::pow(at->cost / before.cost, part);
 }
 
-double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost,
-                         double target) {
+double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost, double target) {
   std::vector<CostPoint> points;
   for (const auto* run : series.rows) {
     if (!succeededAt(runs, *run)) continue;

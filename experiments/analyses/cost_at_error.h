@@ -21,8 +21,7 @@ struct CostPoint {
 double costAtError(std::vector<CostPoint> points, double target);
 
 /// The same for the successful runs of a series. `cost` names a column; errors are taken from the column `error`.
-double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost,
-                         double target);
+double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost, double target);
 
 /// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians, factorizations,
 /// reached (0 if the series does not reach the error; its costs are then nan), cause (the reason: `no reference`,

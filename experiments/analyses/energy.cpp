@@ -47,8 +47,8 @@ State<mp50> exactly(const State<double>& state) {
 EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
   const auto setup = makeSetup<double>(spec);
   const mp50 start = energy.value(exactly(setup.scene.start));
-  const auto stride = static_cast<std::int64_t>(
-      std::max(1.0, std::round(setup.spec.t_end / spec.options.step.h / kSamples)));
+  const auto stride =
+      static_cast<std::int64_t>(std::max(1.0, std::round(setup.spec.t_end / spec.options.step.h / kSamples)));
   EnergyErrors errors;
   std::int64_t steps = 0;
   Monitor<double> monitor;
@@ -70,8 +70,7 @@ EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>&
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   if (t.size() < 3) return {kUnknown, kUnknown, kUnknown};
   double c0 = 0, c1 = 0, cov00 = 0, cov01 = 0, cov11 = 0, sum_of_squares = 0;
-  gsl_fit_linear(t.data(), 1, error.data(), 1, t.size(), &c0, &c1, &cov00, &cov01, &cov11,
-                 &sum_of_squares);
+  gsl_fit_linear(t.data(), 1, error.data(), 1, t.size(), &c0, &c1, &cov00, &cov01, &cov11, &sum_of_squares);
   EnergyDrift result{c1, std::sqrt(sum_of_squares / static_cast<double>(t.size())), 0};
   for (const double e : error) result.largest = std::max(result.largest, std::abs(e));
   return result;
@@ -79,8 +78,7 @@ EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>&
 
 Table energyTable(const Study& study, const Table& runs) {
   Table table{runs.head, seriesColumns(runs), {}};
-  table.columns.insert(table.columns.end(),
-                       {"h", "t", "energy_error", "drift", "scatter", "largest"});
+  table.columns.insert(table.columns.end(), {"h", "t", "energy_error", "drift", "scatter", "largest"});
   const SpecsByKey specs(study);
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
@@ -95,8 +93,8 @@ Table energyTable(const Study& study, const Table& runs) {
       const EnergyDrift drift = energyDrift(errors.t, errors.error);
       for (std::size_t i = 0; i < errors.t.size(); ++i) {
         TableRow row = series.name;
-        for (const double x : {spec.options.step.h, errors.t[i], errors.error[i], drift.drift,
-                               drift.scatter, drift.largest}) {
+        for (const double x :
+             {spec.options.step.h, errors.t[i], errors.error[i], drift.drift, drift.scatter, drift.largest}) {
           row.push_back(numberText(x));
         }
         table.rows.push_back(std::move(row));

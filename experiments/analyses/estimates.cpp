@@ -32,8 +32,7 @@ struct Step {
 /// One scene in one formulation; repeats its steps with any method.
 class StepSampler {
  public:
-  explicit StepSampler(const RunSpec& spec)
-      : setup_(makeSetup<double>(spec)) {}
+  explicit StepSampler(const RunSpec& spec) : setup_(makeSetup<double>(spec)) {}
 
   const Scene<double>& scene() const { return setup_.scene; }
   const System<double>& system() const { return *setup_.system; }
@@ -93,7 +92,8 @@ double largest(const Vec<double>& y, const Vec<double>& scale, const Group& grou
 }
 
 // Divides the error of the two half steps by the estimate computed from their difference to the whole step.
-void appendStep(const StepSampler& sampler, const Step& step, const TableRow& start, const Table& runs, const TableRow& run, Table& table) {
+void appendStep(const StepSampler& sampler, const Step& step, const TableRow& start, const Table& runs,
+                const TableRow& run, Table& table) {
   const auto& tableau = sampler.tableau();
   const auto accurate = makeTableau<double>("radau_iia_" + std::to_string(tableau.stages() + kMoreStages));
   const auto coarse = sampler.end(step, tableau, 1), fine = sampler.end(step, tableau, 2);
@@ -113,10 +113,10 @@ void appendStep(const StepSampler& sampler, const Step& step, const TableRow& st
       continue;
     }
     TableRow row = start;
-    row.insert(row.end(), {textAt(runs, run, "rtol"), numberText(step.from.t), numberText(step.h),
-                           std::string(1, group.name), numberText(difference), numberText(error),
-                           numberText(error / (difference * all[group.first])),
-                           numberText(error / (difference * own[group.first]))});
+    row.insert(row.end(),
+               {textAt(runs, run, "rtol"), numberText(step.from.t), numberText(step.h), std::string(1, group.name),
+                numberText(difference), numberText(error), numberText(error / (difference * all[group.first])),
+                numberText(error / (difference * own[group.first]))});
     table.rows.push_back(std::move(row));
   }
 }
@@ -125,16 +125,14 @@ void appendStep(const StepSampler& sampler, const Step& step, const TableRow& st
 
 Table estimateTable(const Study& study, const Table& runs) {
   Table table{runs.head, seriesColumns(runs), {}};
-  table.columns.insert(table.columns.end(), {"rtol", "t", "h", "group", "difference", "error",
-                                             "doubling", "richardson"});
+  table.columns.insert(table.columns.end(),
+                       {"rtol", "t", "h", "group", "difference", "error", "doubling", "richardson"});
   const SpecsByKey specs(study);
   for (const auto& series : seriesOf(runs)) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
-      if (!spec || !succeededAt(runs, *run) || interruptFlag() ||
-          findPeer(spec->method) ||
-          spec->options.step.estimate == ErrorEstimate::kNone ||
-          spec->scalar != ScalarKind::kDouble) {
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() || findPeer(spec->method) ||
+          spec->options.step.estimate == ErrorEstimate::kNone || spec->scalar != ScalarKind::kDouble) {
         continue;
       }
       const StepSampler sampler(*spec);

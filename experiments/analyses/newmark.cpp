@@ -50,8 +50,7 @@ double newmarkDifference() {
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>& step) {
     const State<double> newmark = newmarkStep(*setup.system, from, step.h);
-    const double size =
-        std::max(newmark.u.lpNorm<Eigen::Infinity>(), newmark.v.lpNorm<Eigen::Infinity>());
+    const double size = std::max(newmark.u.lpNorm<Eigen::Infinity>(), newmark.v.lpNorm<Eigen::Infinity>());
     const double difference = std::max((step.state.u - newmark.u).lpNorm<Eigen::Infinity>(),
                                        (step.state.v - newmark.v).lpNorm<Eigen::Infinity>());
     largest = std::max(largest, difference / (size * std::numeric_limits<double>::epsilon()));

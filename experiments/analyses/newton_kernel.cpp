@@ -16,11 +16,8 @@ class FreeSystem final : public System<double> {
   explicit FreeSystem(const System<double>& inner) : inner_(inner) {}
   Sizes sizes() const override { return inner_.sizes(); }
   void evaluate(Level, const Point<double>&, VecView<double> r) const override { r.setZero(); }
-  void evaluate(Level, const Point<Dual<double>>&, VecView<Dual<double>> r) const override {
-    r.setZero();
-  }
-  void evaluateStages(const StagePoints<double>& at, Index first, Index last,
-                      double* r) const override {
+  void evaluate(Level, const Point<Dual<double>>&, VecView<Dual<double>> r) const override { r.setZero(); }
+  void evaluateStages(const StagePoints<double>& at, Index first, Index last, double* r) const override {
     const Index n = at.sizes.n();
     std::fill(r + first * n, r + last * n, 0.0);
   }
@@ -61,15 +58,13 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       counted_(*system_, counters_, spec.options.threads),
       start_(system_->fromScene(setup.scene.start)),
       h_(h),
-      differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull,
-                      storageOf(spec.options)),
+      differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull, storageOf(spec.options)),
       at_(1),
       scheme_(setup.methods.members[setup.methods.start]),
       equations_(*system_, scheme_, spec.options.summation, spec.options.threads),
       free_equations_(*free_, scheme_, spec.options.summation, 1),
       kind_(spec.options.solver),
-      setup_{scheme_.implicitA(), nullptr, system_->rowPowers(), system_->sizes(),
-             spec.options.threads},
+      setup_{scheme_.implicitA(), nullptr, system_->rowPowers(), system_->sizes(), spec.options.threads},
       norm_(*system_, spec.options.tolerances, setup.scale),
       switches_(*system_),
       controller_(makeController(spec.options.step, scheme_.tableau.order)),
@@ -92,8 +87,7 @@ void NewtonKernel::makeSolver() {
     setup_.analysis = std::make_shared<const SparseAnalysis>(pattern->column_start, pattern->row);
   }
   setup_.pattern = pattern;
-  solver_ = std::make_unique<CountingStageSolver<double>>(makeStageSolver<double>(kind_, setup_),
-                                                          counters_);
+  solver_ = std::make_unique<CountingStageSolver<double>>(makeStageSolver<double>(kind_, setup_), counters_);
   rhs_ = ones_ = Mat<double>::Ones(system_->sizes().n(), scheme_.implicitStages());
 }
 
@@ -123,8 +117,7 @@ void NewtonKernel::begin() {
 void NewtonKernel::countResiduals(const RunSpec& spec) {
   Counters counters;
   const CountingSystem<double> counted(*system_, counters);
-  Differentiator<double> counting(counted, spec.options.derivatives, JacobianTerms::kFull,
-                                  storageOf(spec.options));
+  Differentiator<double> counting(counted, spec.options.derivatives, JacobianTerms::kFull, storageOf(spec.options));
   counting.evaluate(Level::kFormulated, point(), at_.front());  // finds the pattern
   residuals_of_first_ = counters.residuals;
   counters = {};
@@ -133,14 +126,12 @@ void NewtonKernel::countResiduals(const RunSpec& spec) {
 }
 
 void NewtonKernel::residuals() {
-  const StagePoints<double> at{system_->sizes(), t_.data(), U_.data(), V_.data(),
+  const StagePoints<double> at{system_->sizes(), t_.data(), U_.data(),      V_.data(),
                                X_.data(),        W_.data(), start_.d.data()};
   counted_.evaluateStages(at, scheme_.first, scheme_.s, R_.data());
 }
 
-void NewtonKernel::jacobian() {
-  differentiator_.evaluate(Level::kFormulated, point(), at_.front());
-}
+void NewtonKernel::jacobian() { differentiator_.evaluate(Level::kFormulated, point(), at_.front()); }
 
 void NewtonKernel::firstMatrices() {
   differentiator_.forgetPattern();
@@ -173,9 +164,8 @@ void NewtonKernel::update() {
   decided_ = newtonTest(norm_.increment(R_, scheme_.first, row_weights_));
 }
 
-void NewtonKernel::solvedStep(StartValues<double>& start_values,
-                              const StagePolynomial<double>& past, const State<double>& from,
-                              double h, State<double>& end) {
+void NewtonKernel::solvedStep(StartValues<double>& start_values, const StagePolynomial<double>& past,
+                              const State<double>& from, double h, State<double>& end) {
   free_equations_.begin(from, h);
   start_values.fill(past, from, h, W_);
   W0_ = W_;

@@ -23,19 +23,19 @@ class NewtonKernel {
   /// sin 0 takes a fifth of the time of other sines.
   void moveTo(const State<double>& scene_state);
 
-  Index unknowns() const { return rhs_.rows(); }  ///< of one stage
-  Index nonzeros() const { return at_.front().pattern->nonzeros(); }  ///< of D0, D1, D2 together
+  Index unknowns() const { return rhs_.rows(); }                           ///< of one stage
+  Index nonzeros() const { return at_.front().pattern->nonzeros(); }       ///< of D0, D1, D2 together
   std::size_t directions() const { return differentiator_.directions(); }  ///< of a Jacobian
-  Index stages() const { return scheme_.implicitStages(); }  ///< stages with unknowns
+  Index stages() const { return scheme_.implicitStages(); }                ///< stages with unknowns
 
-  void residuals();      ///< r at all stages, in one call as in an iteration
-  void jacobian();       ///< D0, D1, D2 at one point
+  void residuals();  ///< r at all stages, in one call as in an iteration
+  void jacobian();   ///< D0, D1, D2 at one point
   /// The work done once per integration: finding the pattern of D0, D1, D2 and evaluating them; if they are sparse,
   /// also their analysis and, for every stepper, a new solver with its first factorization.
   void firstMatrices();
-  void factorize();      ///< the Newton matrix of all stages. Throws Misuse if it is singular
-  void solve();          ///< requires `factorize` before
-  void iteration();      ///< residuals of all stages and one solve
+  void factorize();  ///< the Newton matrix of all stages. Throws Misuse if it is singular
+  void solve();      ///< requires `factorize` before
+  void iteration();  ///< residuals of all stages and one solve
   /// The rest of an iteration: the stages' u, v, x, row scaling, the increment, its norm, and the arithmetic of
   /// Newton's test.
   void update();
@@ -55,8 +55,8 @@ class NewtonKernel {
   void countResiduals(const RunSpec& spec);
   void begin();
   void makeSolver();
-  void solvedStep(StartValues<double>& start_values, const StagePolynomial<double>& past,
-                  const State<double>& from, double h, State<double>& end);
+  void solvedStep(StartValues<double>& start_values, const StagePolynomial<double>& past, const State<double>& from,
+                  double h, State<double>& end);
 
   std::shared_ptr<const System<double>> system_;
   std::unique_ptr<const System<double>> free_;  // the same system with r = 0
@@ -79,7 +79,7 @@ class NewtonKernel {
   StagePolynomial<double> before_, solved_;  // the previous step and this one
   State<double> middle_, coarse_, fine_;
   Vec<double> row_weights_, factor_, t_;
-  Mat<double> U_, V_, X_;  // at all stages
+  Mat<double> U_, V_, X_;        // at all stages
   volatile double decided_ = 0;  // keeps the compiler from removing unused results
   Mat<double> ones_, rhs_, W_, W0_, R_;
   std::int64_t residuals_per_jacobian_ = 0, residuals_of_first_ = 0;

@@ -126,8 +126,8 @@ class PhaseMeasurement {
   Parts counts() const {
     const Counters& run = counters_;
     const auto number = [](std::int64_t count) { return static_cast<double>(count); };
-    const auto inside = (run.jacobians - 1) * kernel_.residualsPerJacobian() +
-                        kernel_.residualsOfFirst() + start_counters_.residuals;
+    const auto inside =
+        (run.jacobians - 1) * kernel_.residualsPerJacobian() + kernel_.residualsOfFirst() + start_counters_.residuals;
     return {number(std::max<std::int64_t>(run.residuals - inside, 0)),
             number(run.jacobians),
             number(run.factorizations),
@@ -189,11 +189,10 @@ std::vector<std::string> uncoveredRuns(const Table& phases) {
   for (const auto& row : phases.rows) {
     const double covered = numberAt(phases, row, "covered");
     if (covers(covered)) continue;
-    lines.push_back(fmt::format("{} {} {} {} {} rtol={}: the parts cover {:.3g} of the run, not {} to {}",
-                                textAt(phases, row, "scene"), textAt(phases, row, "settings"),
-                                textAt(phases, row, "method"), textAt(phases, row, "solver"),
-                                textAt(phases, row, "derivatives"), textAt(phases, row, "rtol"),
-                                covered, kMinCovered, kMaxCovered));
+    lines.push_back(fmt::format(
+        "{} {} {} {} {} rtol={}: the parts cover {:.3g} of the run, not {} to {}", textAt(phases, row, "scene"),
+        textAt(phases, row, "settings"), textAt(phases, row, "method"), textAt(phases, row, "solver"),
+        textAt(phases, row, "derivatives"), textAt(phases, row, "rtol"), covered, kMinCovered, kMaxCovered));
   }
   return lines;
 }
@@ -207,8 +206,7 @@ Table phaseTable(const Study& study, const Table& runs, std::ostream& out) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
       const auto& kind = textAt(runs, *run, "settings");
-      if (!spec || !succeededAt(runs, *run) || interruptFlag() ||
-          findPeer(spec->method)) {
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() || findPeer(spec->method)) {
         progress.skipped(kind);
         continue;
       }

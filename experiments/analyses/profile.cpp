@@ -50,8 +50,7 @@ void appendProfile(const std::string& target, const Costs& costs, Table& table) 
     std::sort(ratios.begin(), ratios.end());
     const auto addRow = [&](double ratio, std::size_t count) {
       const double fraction = static_cast<double>(count) / static_cast<double>(given);
-      table.rows.push_back({target, solver, numberText(ratio), numberText(fraction),
-                            std::to_string(given), problems});
+      table.rows.push_back({target, solver, numberText(ratio), numberText(fraction), std::to_string(given), problems});
     };
     if (ratios.empty()) addRow(1, 0);
     for (std::size_t i = 0; i < ratios.size(); ++i) addRow(ratios[i], i + 1);
@@ -66,8 +65,7 @@ Table profileTable(const Table& costs) {
   std::map<std::string, Costs> by_target;
   for (const auto& row : costs.rows) {
     const auto& target = textAt(costs, row, "target_error");
-    const std::string problem =
-        textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
+    const std::string problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
     const auto& solver = textAt(costs, row, "integrator");
     if (textAt(costs, row, "cause") == kNoReference) continue;
     const double cost = numberAt(costs, row, "cpu_s");

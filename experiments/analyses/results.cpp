@@ -26,8 +26,7 @@ std::string refusedTimes(const std::filesystem::path& runs) {
   return {};
 }
 
-std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
-                                        const std::filesystem::path& folder,
+std::vector<std::string> writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
                                         std::ostream& progress) {
   std::vector<std::string> doubts;
   const std::string refusal = refusedTimes(runs.head);

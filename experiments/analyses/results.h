@@ -20,7 +20,6 @@ std::string refusedTimes(const std::filesystem::path& runs);
 /// (store::kTimesRefused), it writes no profile, and costs without times. Returns one line for every number that must
 /// not be trusted; all tables are written nevertheless.
 [[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
-                                                      const std::filesystem::path& folder,
-                                                      std::ostream& progress);
+                                                      const std::filesystem::path& folder, std::ostream& progress);
 
 }  // namespace irk

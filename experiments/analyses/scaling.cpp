@@ -21,7 +21,7 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kFirstSteps = 3;    // not counted
+constexpr std::size_t kFirstSteps = 3;  // not counted
 constexpr double kMinUnknowns = 200;    // for a slope over n
 constexpr std::size_t kMinPoints = 3;   // for a slope
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -64,8 +64,8 @@ struct Points {
 TableRow slopeRow(TableRow row, const Points& points) {
   double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
   const std::size_t count = points.x.size();
-  gsl_fit_linear(points.x.data(), 1, points.y.data(), 1, count, &c0, &slope, &cov00, &cov01,
-                 &variance, &sum_of_squares);
+  gsl_fit_linear(points.x.data(), 1, points.y.data(), 1, count, &c0, &slope, &cov00, &cov01, &variance,
+                 &sum_of_squares);
   const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(count - 2));
   row.push_back(numberText(slope));
   row.push_back(numberText(t * std::sqrt(variance)));
@@ -105,8 +105,7 @@ Table scalingTable(const Study& study, const Table& runs, std::ostream& out) {
 
 Table scalingSlopes(const Table& scaling) {
   Table slopes{scaling.head,
-               {"scene", "formulation", "solver", "storage", "threads", "over", "at", "slope",
-                "confidence", "points"},
+               {"scene", "formulation", "solver", "storage", "threads", "over", "at", "slope", "confidence", "points"},
                {}};
   std::map<TableRow, Points> series;
   for (const auto& row : scaling.rows) {

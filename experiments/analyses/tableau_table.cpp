@@ -43,8 +43,8 @@ Cells propertyCells(const Tableau<mp80>& tableau, const TableauProperties& prope
           {"symplectic", truth(analysis.symplectic)},
           {"symmetric", truth(symmetric)},
           {"positive_weights", truth(quadrature.positive)},
-          {"condition_A", numberText(analysis.regular ? 1 / analysis.reciprocal_condition
-                                                      : std::numeric_limits<double>::infinity())},
+          {"condition_A",
+           numberText(analysis.regular ? 1 / analysis.reciprocal_condition : std::numeric_limits<double>::infinity())},
           {"condition_eigenvectors", numberText(spectrum.eigenvector_condition)},
           {"defective", truth(spectrum.defective)}};
 }

@@ -19,9 +19,7 @@
 namespace irk::audit {
 namespace {
 
-std::string versionText() {
-  return fmt::format("{} {}", buildInfo().version, buildInfo().commit);
-}
+std::string versionText() { return fmt::format("{} {}", buildInfo().version, buildInfo().commit); }
 
 // The stored rows that this version of the program has written.
 Table foundAnswers(const std::filesystem::path& file, int jobs) {
@@ -38,8 +36,8 @@ Table foundAnswers(const std::filesystem::path& file, int jobs) {
 }  // namespace
 
 std::vector<std::string> answerColumns() {
-  return {"scene",    "settings", "t_end", "smooth", "version", "source", "accuracy",
-          "kappa",    "cpu_s",    "remark", "state", "other"};
+  return {"scene",    "settings", "t_end", "smooth", "version", "source",
+          "accuracy", "kappa",    "cpu_s", "remark", "state",   "other"};
 }
 
 TableRow answerRow(const Question& question, const Answer& answer) {
@@ -70,8 +68,7 @@ std::pair<Question, Answer> parseAnswer(const Table& table, const TableRow& row)
            .cpu_s = number("cpu_s")}};
 }
 
-Answers answersTo(const std::set<Question>& questions, const std::filesystem::path& file, int jobs,
-                  std::ostream& out) {
+Answers answersTo(const std::set<Question>& questions, const std::filesystem::path& file, int jobs, std::ostream& out) {
   const Table table = foundAnswers(file, jobs);
   Answers answers;
   for (const auto& row : table.rows) answers.insert(parseAnswer(table, row));

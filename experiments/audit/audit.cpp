@@ -16,19 +16,37 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<std::string> kColumns{
-    "run",       "key",       "scene",     "settings",     "method",      "family",
-    "stages",    "configuration", "formulation", "treatment", "discontinuity", "tolerance",
-    "outcome",   "detail",    "judgement", "error",        "error_over_tolerance", "error_z",
-    "reference", "accuracy",  "kappa",     "remark",       "cpu_s",       "command"};
+const std::vector<std::string> kColumns{"run",
+                                        "key",
+                                        "scene",
+                                        "settings",
+                                        "method",
+                                        "family",
+                                        "stages",
+                                        "configuration",
+                                        "formulation",
+                                        "treatment",
+                                        "discontinuity",
+                                        "tolerance",
+                                        "outcome",
+                                        "detail",
+                                        "judgement",
+                                        "error",
+                                        "error_over_tolerance",
+                                        "error_z",
+                                        "reference",
+                                        "accuracy",
+                                        "kappa",
+                                        "remark",
+                                        "cpu_s",
+                                        "command"};
 
 // Errors of u, v, x together, and of z.
 struct StateErrors {
   double judged = kUnknown, multipliers = kUnknown;
 };
 
-StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Vec<double>& state,
-                     const Answer& answer) {
+StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Vec<double>& state, const Answer& answer) {
   const Vec<double>& reference = answer.stateFor(family);
   if (reference.size() == 0 || reference.size() != state.size()) return {};
   const auto scene = makeScene<double>(spec.scene, spec.settings);
@@ -48,8 +66,7 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
   StateErrors errors;
   if (success && state) errors = errorsOf(spec, text("family"), *state, known);
   const double tolerance = spec.options.tolerances.atol;
-  const Judgement judgement =
-      judge({success, tolerance, errors.judged, known.accuracy, known.kappa});
+  const Judgement judgement = judge({success, tolerance, errors.judged, known.accuracy, known.kappa});
   return {std::to_string(number),
           row.front(),
           spec.scene,
@@ -88,15 +105,14 @@ Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
     if (row == rows.end()) continue;  // not run because of an interrupt
     const auto state = states.find(row->first);
     const auto answer = answers.find(questionOf(drawn[i].spec));
-    table.rows.push_back(auditRow(i, drawn[i], runs, *row->second,
-                                  state == states.end() ? nullptr : &state->second,
+    table.rows.push_back(auditRow(i, drawn[i], runs, *row->second, state == states.end() ? nullptr : &state->second,
                                   answer == answers.end() ? nullptr : &answer->second));
   }
   return table;
 }
 
-std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder,
-                      int jobs, std::ostream& progress) {
+std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder, int jobs,
+                      std::ostream& progress) {
   constexpr std::size_t kWorst = 5;
   const auto drawn = drawnRuns(study.audit.value());
   std::set<Question> questions;

@@ -26,8 +26,8 @@ Table summaryTable(const Table& audit);
 
 /// Writes references.csv, audit.csv and audit_summary.csv of the study's runs to `folder`; returns the lines of
 /// summaryText. After an interrupt audit.csv and its summary do not exist; the references found so far are kept.
-std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder,
-                      int jobs, std::ostream& progress);
+std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder, int jobs,
+                      std::ostream& progress);
 
 /// A few lines: counts by configuration, and the `worst` largest wrong successes with their commands.
 std::string summaryText(const Table& audit, const Table& summary, std::size_t worst);

@@ -26,8 +26,8 @@ Judgement judge(const Evidence& e) {
   return e.error > bar(e.tolerance) ? Judgement::kWrong : Judgement::kRight;
 }
 
-double scaledDifference(const Vec<double>& y, const Vec<double>& reference,
-                        const Vec<double>& scale, Index first, Index last) {
+double scaledDifference(const Vec<double>& y, const Vec<double>& reference, const Vec<double>& scale, Index first,
+                        Index last) {
   double largest = std::numeric_limits<double>::quiet_NaN();
   for (Index i = first; i < last; ++i) {
     if (std::isnan(reference[i])) continue;

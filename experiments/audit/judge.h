@@ -49,7 +49,7 @@ Judgement judge(const Evidence& evidence);
 /// The largest |y - reference| / max(|reference|, scale) over the components first <= i < last; missing scales are 1.
 /// Components without a reference (NaN) are skipped. Returns infinity if y is not finite, and NaN if no component has
 /// a reference. y and reference must have the same size.
-double scaledDifference(const Vec<double>& y, const Vec<double>& reference,
-                        const Vec<double>& scale, Index first, Index last);
+double scaledDifference(const Vec<double>& y, const Vec<double>& reference, const Vec<double>& scale, Index first,
+                        Index last);
 
 }  // namespace irk::audit

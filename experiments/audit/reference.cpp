@@ -22,11 +22,11 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFirstMethod = "radau_iia_7";
 constexpr const char* kFirstFamily = "radau";
 constexpr const char* kOtherMethod = "lobatto_iiic_6";
-constexpr double kTimeLimit = 5;        // CPU seconds of a strict run
-constexpr double kSameTime = 1e-12;     // relative difference of a reference's time and t_end
-constexpr double kEnough = 1e-10;       // an agreement that suffices to judge every tolerance
-constexpr double kSameHistory = 1e-4;   // difference from a run that ignores the switches
-constexpr int kPerturbed = 2;           // number of perturbed starts
+constexpr double kTimeLimit = 5;       // CPU seconds of a strict run
+constexpr double kSameTime = 1e-12;    // relative difference of a reference's time and t_end
+constexpr double kEnough = 1e-10;      // an agreement that suffices to judge every tolerance
+constexpr double kSameHistory = 1e-4;  // difference from a run that ignores the switches
+constexpr int kPerturbed = 2;          // number of perturbed starts
 
 // Options of the strict runs. The next entry is tried if the runs fail or disagree.
 struct Strictness {
@@ -72,9 +72,7 @@ class Search {
   double difference(const Vec<double>& y, const Vec<double>& reference) const {
     return scaledDifference(y, reference, scene_.scale, 0, judged());
   }
-  bool complete(const Vec<double>& y) const {
-    return y.size() >= judged() && y.head(judged()).allFinite();
-  }
+  bool complete(const Vec<double>& y) const { return y.size() >= judged() && y.head(judged()).allFinite(); }
 
   // Uses the exact state, or the state in the reference files.
   void known() {
@@ -105,18 +103,17 @@ class Search {
     answer_.accuracy = accuracy;
   }
 
-  RunSpec spec(const char* method, const char* estimate, const char* treatment,
-               const Strictness& strictness) const {
+  RunSpec spec(const char* method, const char* estimate, const char* treatment, const Strictness& strictness) const {
     const double length = question_.t_end - scene_.start.t;
-    return parseSpec(fmt::format(
-        "scene={};settings={};configuration=default;method={};formulation=index2;scaling=on;"
-        "discontinuity={};scalar=double;derivatives=automatic;newton=simplified;solver=schur;"
-        "storage=automatic;predictor=extrapolated;estimate={};control=predictive;order=fixed;"
-        "summation=compensated;multipliers=consistent;norm=mixed;jacobian=full;jacobian_point=start;"
-        "h_max={};rtol={};atol={};t_end={};time_limit={}",
-        question_.scene, question_.settings, method, question_.smooth ? "smooth" : treatment,
-        estimate, numberText(length / strictness.steps), numberText(strictness.tolerance),
-        numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
+    return parseSpec(
+        fmt::format("scene={};settings={};configuration=default;method={};formulation=index2;scaling=on;"
+                    "discontinuity={};scalar=double;derivatives=automatic;newton=simplified;solver=schur;"
+                    "storage=automatic;predictor=extrapolated;estimate={};control=predictive;order=fixed;"
+                    "summation=compensated;multipliers=consistent;norm=mixed;jacobian=full;jacobian_point=start;"
+                    "h_max={};rtol={};atol={};t_end={};time_limit={}",
+                    question_.scene, question_.settings, method, question_.smooth ? "smooth" : treatment, estimate,
+                    numberText(length / strictness.steps), numberText(strictness.tolerance),
+                    numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
   }
 
   // Empty after a failure; `remark_` then has the reason.
@@ -127,8 +124,7 @@ class Search {
     if (end.outcome == Outcome::kSuccess || end.outcome == Outcome::kDrift) {
       return components(end.state);
     }
-    remark_ = fmt::format("{} at tol {:g}: {}", spec.method, spec.options.tolerances.rtol,
-                          name(end.outcome));
+    remark_ = fmt::format("{} at tol {:g}: {}", spec.method, spec.options.tolerances.rtol, name(end.outcome));
     return {};
   }
 
@@ -141,9 +137,8 @@ class Search {
     }
     if (!compute) {
       const double difference_ = difference(first, answer_.state);
-      answer_.remark = difference_ > answer_.accuracy + kEnough
-                           ? fmt::format("a strict run differs by {:.1e}", difference_)
-                           : "";
+      answer_.remark =
+          difference_ > answer_.accuracy + kEnough ? fmt::format("a strict run differs by {:.1e}", difference_) : "";
     } else {
       agree(first, strictness);
     }
@@ -151,8 +146,7 @@ class Search {
   }
 
   void agree(const Vec<double>& first, const Strictness& strictness) {
-    const Vec<double> other =
-        integrate(spec(kOtherMethod, "richardson", "locate", strictness), scene_.start);
+    const Vec<double> other = integrate(spec(kOtherMethod, "richardson", "locate", strictness), scene_.start);
     if (!complete(other)) {
       if (answer_.remark.empty()) answer_.remark = remark_;
       return;
@@ -166,8 +160,7 @@ class Search {
     }
     keep("computed", first, disagreement);
     answer_.other = other;
-    answer_.remark = disagreement > kEnough ? fmt::format("two runs differ by {:.1e}", disagreement)
-                                            : "";
+    answer_.remark = disagreement > kEnough ? fmt::format("two runs differ by {:.1e}", disagreement) : "";
   }
 
   // 0 if the scene has no switches, or if the run fails: a failure contradicts nothing.
@@ -222,8 +215,7 @@ class Search {
 }  // namespace
 
 Question questionOf(const RunSpec& spec) {
-  return {spec.scene, settingsText(spec.settings), spec.t_end,
-          spec.discontinuity == Discontinuity::kSmooth};
+  return {spec.scene, settingsText(spec.settings), spec.t_end, spec.discontinuity == Discontinuity::kSmooth};
 }
 
 const Vec<double>& Answer::stateFor(const std::string& family) const {

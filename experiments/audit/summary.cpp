@@ -18,8 +18,7 @@ struct Grouping {
 };
 
 bool hasToBeRight(const std::string& treatment) {
-  return treatment == kDefaultTreatment || treatment == kNoSwitches ||
-         treatment == idOf(Discontinuity::kLocate);
+  return treatment == kDefaultTreatment || treatment == kNoSwitches || treatment == idOf(Discontinuity::kLocate);
 }
 
 template <const char* const& Column>
@@ -37,8 +36,7 @@ constexpr Grouping kGroupings[] = {
     {"configuration", cell<kConfiguration>},
     {"bar",
      [](const Table& t, const TableRow& row) {
-       return hasToBeRight(textAt(t, row, "treatment")) ? textAt(t, row, "configuration")
-                                                        : std::string();
+       return hasToBeRight(textAt(t, row, "treatment")) ? textAt(t, row, "configuration") : std::string();
      }},
     {"treatment", cell<kTreatment>},
     {"formulation", cell<kFormulation>},
@@ -68,9 +66,8 @@ std::vector<const TableRow*> wrongOnes(const Table& audit) {
   const auto excess = [&](const TableRow* row) {
     return numberAt(audit, *row, "error") / bar(numberAt(audit, *row, "tolerance"));
   };
-  std::stable_sort(wrong.begin(), wrong.end(), [&](const TableRow* a, const TableRow* b) {
-    return excess(a) > excess(b);
-  });
+  std::stable_sort(wrong.begin(), wrong.end(),
+                   [&](const TableRow* a, const TableRow* b) { return excess(a) > excess(b); });
   return wrong;
 }
 
@@ -114,8 +111,8 @@ std::string summaryText(const Table& audit, const Table& summary, std::size_t wo
   const auto wrong = wrongOnes(audit);
   if (!wrong.empty()) text += "the worst successes that are wrong:\n";
   for (std::size_t i = 0; i < std::min(worst, wrong.size()); ++i) {
-    text += fmt::format("  error {:.1e}  {}\n", numberAt(audit, *wrong[i], "error"),
-                        textAt(audit, *wrong[i], "command"));
+    text +=
+        fmt::format("  error {:.1e}  {}\n", numberAt(audit, *wrong[i], "error"), textAt(audit, *wrong[i], "command"));
   }
   return text;
 }

@@ -30,15 +30,13 @@ std::string oneLine(std::string_view text) {
 
 // Whether the system is at fault (a full disk, no memory), not the user's input.
 bool isFault(const std::error_code& code) {
-  return code == std::errc::no_space_on_device || code == std::errc::io_error ||
-         code == std::errc::file_too_large || code == std::errc::too_many_files_open;
+  return code == std::errc::no_space_on_device || code == std::errc::io_error || code == std::errc::file_too_large ||
+         code == std::errc::too_many_files_open;
 }
 
 }  // namespace
 
-void printErrorLine(std::ostream& err, std::string_view text) {
-  fmt::print(err, "irk: {}\n", oneLine(text));
-}
+void printErrorLine(std::ostream& err, std::string_view text) { fmt::print(err, "irk: {}\n", oneLine(text)); }
 
 int reportException(std::ostream& err) {
   try {

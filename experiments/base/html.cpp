@@ -26,8 +26,7 @@ std::string escapeHtml(std::string_view text) {
 }
 
 void replacePlaceholder(std::string& page, std::string_view placeholder, std::string_view text) {
-  for (auto at = page.find(placeholder); at != std::string::npos;
-       at = page.find(placeholder, at + text.size())) {
+  for (auto at = page.find(placeholder); at != std::string::npos; at = page.find(placeholder, at + text.size())) {
     page.replace(at, placeholder.size(), text);
   }
 }

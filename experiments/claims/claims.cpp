@@ -52,8 +52,7 @@ Finding judge(const Claim& claim, const ResultTables& tables) {
 std::string commandOf(const Claim& claim) {
   std::string command;
   for (const auto study : claim.studies) {
-    command +=
-        fmt::format("{}irk run {} && irk plot {}", command.empty() ? "" : " && ", study, study);
+    command += fmt::format("{}irk run {} && irk plot {}", command.empty() ? "" : " && ", study, study);
   }
   return command.empty() ? "irk claims" : command;
 }
@@ -62,9 +61,8 @@ std::string claimsText(const ResultTables& tables) {
   std::string text;
   for (const auto& claim : claims()) {
     const Finding finding = judge(claim, tables);
-    text +=
-        fmt::format("{:<4}{}: {}\n    {}\n    {}\n    {}\n", claim.id, verdictText(finding.verdict),
-                    finding.number, claim.statement, finding.reason, commandOf(claim));
+    text += fmt::format("{:<4}{}: {}\n    {}\n    {}\n    {}\n", claim.id, verdictText(finding.verdict), finding.number,
+                        claim.statement, finding.reason, commandOf(claim));
   }
   return text;
 }
@@ -78,9 +76,9 @@ std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& 
     html += fmt::format(
         "<tr class=\"{}\" id=\"{}\"><th>{}</th><td>{}</td><td class=\"verdict\">{}</td><td>{}</td>"
         "<td>{}<code>{}</code></td><td>{}</td></tr>\n",
-        verdictClass(finding.verdict), claim.id, claim.id, escapeHtml(claim.statement),
-        verdictText(finding.verdict), escapeHtml(finding.number), escapeHtml(finding.reason),
-        escapeHtml(commandOf(claim)), linksHtml(claim, figures));
+        verdictClass(finding.verdict), claim.id, claim.id, escapeHtml(claim.statement), verdictText(finding.verdict),
+        escapeHtml(finding.number), escapeHtml(finding.reason), escapeHtml(commandOf(claim)),
+        linksHtml(claim, figures));
   }
   return html + "</tbody></table>\n";
 }

@@ -70,7 +70,8 @@ std::vector<double> multistepOverRadau(const Table& costs, const Blocks& blocks)
   std::map<TableRow, Least> cases;  // by scene, settings and error
   const Table rows = where(inBlocks(costs, "peers", blocks), {{"reached", "1"}});
   for (const auto& row : rows.rows) {
-    Least& least = cases[{textAt(rows, row, "scene"), textAt(rows, row, "settings"), textAt(rows, row, "target_error")}];
+    Least& least =
+        cases[{textAt(rows, row, "scene"), textAt(rows, row, "settings"), textAt(rows, row, "target_error")}];
     const auto& method = textAt(rows, row, "method");
     const double seconds = numberAt(rows, row, "cpu_s");
     if (method.find("bdf") != method.npos) {
@@ -106,8 +107,7 @@ const Table& stepsOf(const ResultTables& tables, const Table& runs, const TableR
 
 std::vector<Jump> jumpsOf(const ResultTables& tables) {
   const Table& all = tables.runs("steps");
-  const Table smooth = inBlocks(all, "steps", {"crank"}),
-              switched = inBlocks(all, "steps", {"crank_torque_off"});
+  const Table smooth = inBlocks(all, "steps", {"crank"}), switched = inBlocks(all, "steps", {"crank_torque_off"});
   std::vector<Jump> jumps;
   for (const auto& method : distinct(switched, "method")) {
     const Table& steps = stepsOf(tables, switched, where(switched, {{"method", method}}).rows.front());
@@ -117,9 +117,8 @@ std::vector<Jump> jumpsOf(const ResultTables& tables) {
     });
     const auto at_jump = numbersOf(near, "h");
     if (at_jump.empty()) continue;
-    jumps.push_back(
-        {method, median(numbersOf(steps, "h")) / *std::min_element(at_jump.begin(), at_jump.end()),
-         errorOf(switched, method) / errorOf(smooth, method)});
+    jumps.push_back({method, median(numbersOf(steps, "h")) / *std::min_element(at_jump.begin(), at_jump.end()),
+                     errorOf(switched, method) / errorOf(smooth, method)});
   }
   return jumps;
 }
@@ -127,8 +126,7 @@ std::vector<Jump> jumpsOf(const ResultTables& tables) {
 }  // namespace
 
 Finding stepDoubling(const ResultTables& tables) {
-  constexpr double kSafety = 4, kReliable = 0.95, kFair = 0.85, kCheap = 1.35, kDear = 1.65,
-                   kBlind = 10;
+  constexpr double kSafety = 4, kReliable = 0.95, kFair = 0.85, kCheap = 1.35, kDear = 1.65, kBlind = 10;
   const Table& estimates = tables.table("estimate", "estimates");
   std::string groups;
   double worst_differential = 1, multipliers = 1;
@@ -154,14 +152,12 @@ Finding stepDoubling(const ResultTables& tables) {
   if (std::isnan(blind)) return notMeasurable("no run came past the jump");
   Finding finding{
       Verdict::kContradicted, fmt::format("costs {:.3g} times as much; reliable: {}", cost, groups),
-      fmt::format(
-          "A step is judged reliably if its true error is at most s_min = {:g} times the "
-          "estimate; wanted in {} of the steps, per group of components (within limits: {}, "
-          "multipliers aside), and across a jump (at most {:g} times the error of the smooth "
-          "run at the same tolerance): {} has {:.2g} times. Cost in residuals against the "
-          "same steps without estimate, median of {} cases (50 % more: {} to {}).",
-          kSafety, percent(kReliable), percent(kFair), kBlind, blindest, blind, costs.size(),
-          kCheap, kDear)};
+      fmt::format("A step is judged reliably if its true error is at most s_min = {:g} times the "
+                  "estimate; wanted in {} of the steps, per group of components (within limits: {}, "
+                  "multipliers aside), and across a jump (at most {:g} times the error of the smooth "
+                  "run at the same tolerance): {} has {:.2g} times. Cost in residuals against the "
+                  "same steps without estimate, median of {} cases (50 % more: {} to {}).",
+                  kSafety, percent(kReliable), percent(kFair), kBlind, blindest, blind, costs.size(), kCheap, kDear)};
   if (worst_differential >= kFair && cost_right) finding.verdict = Verdict::kWithinLimits;
   if (std::min(worst_differential, multipliers) >= kReliable && blind <= kBlind && cost_right) {
     finding.verdict = Verdict::kConfirmed;
@@ -179,19 +175,16 @@ Finding multistepRestart(const ResultTables& tables) {
     return notMeasurable("no error is reached by BDF and by Radau IIA on both kinds of scenes");
   }
   const double ratio = median(jumps) / median(smooth);
-  return {
-      graded(-ratio, -kMuch, -kSome),
-      fmt::format("BDF over Radau IIA: {:.2g} times where smooth, {:.2g} times with jumps",
-                  median(smooth), median(jumps)),
-      fmt::format("CPU time at equal errors, best code of each kind, medians of {} and {} pairs "
-                  "of scene and error; Radau IIA's error estimate is told of the switches. {}"
-                  "Confirmed: the factor grows at least {} times at jumps; within limits: {} "
-                  "times.",
-                  smooth.size(), jumps.size(),
-                  located.empty()
-                      ? ""
-                      : fmt::format("{:.2g} times where both locate them. ", median(located)),
-                  kMuch, kSome)};
+  return {graded(-ratio, -kMuch, -kSome),
+          fmt::format("BDF over Radau IIA: {:.2g} times where smooth, {:.2g} times with jumps", median(smooth),
+                      median(jumps)),
+          fmt::format("CPU time at equal errors, best code of each kind, medians of {} and {} pairs "
+                      "of scene and error; Radau IIA's error estimate is told of the switches. {}"
+                      "Confirmed: the factor grows at least {} times at jumps; within limits: {} "
+                      "times.",
+                      smooth.size(), jumps.size(),
+                      located.empty() ? "" : fmt::format("{:.2g} times where both locate them. ", median(located)),
+                      kMuch, kSome)};
 }
 
 Finding smallStepsAtJumps(const ResultTables& tables) {
@@ -212,20 +205,17 @@ Finding smallStepsAtJumps(const ResultTables& tables) {
   bool necessary = true;  // who does not make its steps small pays with its accuracy
   for (const auto& jump : jumps) {
     necessary = necessary && (jump.step_factor >= kSmall || jump.error_factor >= kLoss);
-    details +=
-        fmt::format("{}{}: {:.2g} times smaller steps, {:.2g} times the error",
-                    details.empty() ? "" : "; ", jump.method, jump.step_factor, jump.error_factor);
+    details += fmt::format("{}{}: {:.2g} times smaller steps, {:.2g} times the error", details.empty() ? "" : "; ",
+                           jump.method, jump.step_factor, jump.error_factor);
   }
   const double gain = median(smooth), less = median(discontinuous);
-  Finding finding{
-      Verdict::kContradicted,
-      fmt::format("{:.2g} times faster where smooth, {:.2g} times with jumps", gain, less),
-      fmt::format(
-          "Radau IIA with at least 5 stages against 2, CPU time at the smallest common "
-          "error, medians; it pays from {} on. At the jump of the slider-crank, against the "
-          "median step and the smooth run: {}. Small: {:g} times; else the error must grow "
-          "{:g} times.",
-          kPays, details, kSmall, kLoss)};
+  Finding finding{Verdict::kContradicted,
+                  fmt::format("{:.2g} times faster where smooth, {:.2g} times with jumps", gain, less),
+                  fmt::format("Radau IIA with at least 5 stages against 2, CPU time at the smallest common "
+                              "error, medians; it pays from {} on. At the jump of the slider-crank, against the "
+                              "median step and the smooth run: {}. Small: {:g} times; else the error must grow "
+                              "{:g} times.",
+                              kPays, details, kSmall, kLoss)};
   if (gain >= kPays && necessary) {
     finding.verdict = gain > less ? Verdict::kConfirmed : Verdict::kWithinLimits;
   }

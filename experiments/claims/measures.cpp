@@ -32,8 +32,8 @@ void requireBlock(std::string_view study, std::string_view name) {
   throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
 }
 
-void compareSeries(const Table& runs, const RunSeries& base, const RunSeries& other,
-                   std::string_view cost, CostRatios& ratios) {
+void compareSeries(const Table& runs, const RunSeries& base, const RunSeries& other, std::string_view cost,
+                   CostRatios& ratios) {
   for (const double error : kErrors) {
     const double a = seriesCostAtError(runs, base, cost, error);
     const double b = seriesCostAtError(runs, other, cost, error);
@@ -58,9 +58,8 @@ Table where(const Table& table, const std::function<bool(const TableRow&)>& test
 
 Table where(const Table& table, const Cells& cells) {
   return where(table, [&](const TableRow& row) {
-    return std::all_of(cells.begin(), cells.end(), [&](const auto& cell) {
-      return textAt(table, row, cell.first) == cell.second;
-    });
+    return std::all_of(cells.begin(), cells.end(),
+                       [&](const auto& cell) { return textAt(table, row, cell.first) == cell.second; });
   });
 }
 
@@ -106,8 +105,8 @@ double part(const std::vector<double>& values, const std::function<bool(double)>
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
 
-CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base,
-                        std::string_view other, std::string_view cost) {
+CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base, std::string_view other,
+                        std::string_view cost) {
   const auto columns = seriesColumns(runs);
   const auto at = std::find(columns.begin(), columns.end(), column);
   if (at == columns.end()) return {};
@@ -134,8 +133,6 @@ Verdict graded(double value, double good, double fair) {
   return value <= fair ? Verdict::kWithinLimits : Verdict::kContradicted;
 }
 
-Finding notMeasurable(std::string reason) {
-  return {Verdict::kNotMeasurable, "–", std::move(reason)};
-}
+Finding notMeasurable(std::string reason) { return {Verdict::kNotMeasurable, "–", std::move(reason)}; }
 
 }  // namespace irk::claims

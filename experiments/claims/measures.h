@@ -21,8 +21,8 @@ using Cells = std::vector<std::pair<std::string_view, std::string_view>>;
 /// The rows with these cells.
 Table where(const Table& table, const Cells& cells);
 using Blocks = std::vector<std::string_view>;
-/// The rows of a built-in study's table that are of one of these blocks. Throws Misuse for a table without the column of
-/// blocks, std::logic_error for a block that the study does not have.
+/// The rows of a built-in study's table that are of one of these blocks. Throws Misuse for a table without the column
+/// of blocks, std::logic_error for a block that the study does not have.
 Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks);
 /// The rows that the test accepts.
 Table where(const Table& table, const std::function<bool(const TableRow&)>& test);
@@ -47,8 +47,8 @@ struct CostRatios {
   int won = 0;              ///< errors that only `other` reaches
 };
 /// Pairs of series that are equal but for one column, compared at the errors 1e-2, 1e-3, ... 1e-10.
-CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base,
-                        std::string_view other, std::string_view cost);
+CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base, std::string_view other,
+                        std::string_view cost);
 
 /// The errors at which costs are compared.
 std::span<const double> comparedErrors();

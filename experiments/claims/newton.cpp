@@ -37,8 +37,7 @@ std::string cellOf(const Table& table, std::string_view column, double number) {
 }
 
 int countedTwice(const CostRatios& ratios) {
-  return static_cast<int>(
-      std::count_if(ratios.all.begin(), ratios.all.end(), [](double x) { return x != 1; }));
+  return static_cast<int>(std::count_if(ratios.all.begin(), ratios.all.end(), [](double x) { return x != 1; }));
 }
 
 // Of all triples of the rule: cost over the cheapest triple's, per scene, method and error.
@@ -49,8 +48,7 @@ std::map<TableRow, std::vector<double>> costsOfRules(const Table& runs) {
     TableRow numbers;
     for (const auto column : rule) numbers.push_back(textAt(runs, *series.rows.front(), column));
     for (const double error : comparedErrors()) {
-      const TableRow where{textAt(runs, *series.rows.front(), "scene"),
-                           textAt(runs, *series.rows.front(), "settings"),
+      const TableRow where{textAt(runs, *series.rows.front(), "scene"), textAt(runs, *series.rows.front(), "settings"),
                            textAt(runs, *series.rows.front(), "method"), fmt::format("{}", error)};
       const double cost = seriesCostAtError(runs, series, "cpu_s", error);
       if (!std::isnan(cost)) costs[where][numbers] = cost;
@@ -100,24 +98,21 @@ Finding phaseShares(const ResultTables& tables) {
   for (const auto& row : phases.rows) {
     const double n = numberAt(phases, row, "n");
     if (n >= kFew) continue;
-    const double evaluation =
-        numberAt(phases, row, "share_residual") + numberAt(phases, row, "share_jacobian");
+    const double evaluation = numberAt(phases, row, "share_residual") + numberAt(phases, row, "share_jacobian");
     const double factorization = numberAt(phases, row, "share_factorization");
     shares.push_back(evaluation / (evaluation + factorization));
     if (factorization > evaluation) crossing = std::min(crossing, n);
   }
   if (shares.empty()) return notMeasurable("no run with the coupled dense solver succeeded");
   const double dearer = part(shares, [](double x) { return x > 0.5; });
-  return {
-      graded(1 - dearer, 1 - kNearlyAll, 1 - kHalf),
-      fmt::format("evaluations dearer in {} of the runs", percent(dearer)),
-      fmt::format("Residual and Jacobian against the factorization of the coupled dense matrix "
-                  "of all stages, {} runs with fewer than {:g} unknowns "
-                  "(confirmed: {}). {}",
-                  shares.size(), kFew, percent(kNearlyAll),
-                  std::isinf(crossing)
-                      ? "The factorization is never dearer."
-                      : fmt::format("The factorization is dearer from n = {:g} on.", crossing))};
+  return {graded(1 - dearer, 1 - kNearlyAll, 1 - kHalf),
+          fmt::format("evaluations dearer in {} of the runs", percent(dearer)),
+          fmt::format("Residual and Jacobian against the factorization of the coupled dense matrix "
+                      "of all stages, {} runs with fewer than {:g} unknowns "
+                      "(confirmed: {}). {}",
+                      shares.size(), kFew, percent(kNearlyAll),
+                      std::isinf(crossing) ? "The factorization is never dearer."
+                                           : fmt::format("The factorization is dearer from n = {:g} on.", crossing))};
 }
 
 Finding massDerivatives(const ResultTables& tables) {
@@ -131,13 +126,11 @@ Finding massDerivatives(const ResultTables& tables) {
                                     "newton_iterations");
   const double more = median(iterations.all), slower = median(time.all);
   Finding finding{
-      graded(more, kSame, kLittle),
-      fmt::format("{:.3g} times the iterations, {:.3g} times the time", more, slower),
+      graded(more, kSame, kLittle), fmt::format("{:.3g} times the iterations, {:.3g} times the time", more, slower),
       fmt::format("Elastic slider-crank at equal errors, medians of {} pairs; little: at "
                   "most {} times the iterations, and not slower. {} errors are no longer "
                   "reached. With constant mass (ANCF pendulum) {} of {} counts change.",
-                  iterations.all.size(), kSame, iterations.lost, countedTwice(control),
-                  control.all.size())};
+                  iterations.all.size(), kSame, iterations.lost, countedTwice(control), control.all.size())};
   const bool faster = slower <= 1 && iterations.lost == 0;
   if (finding.verdict == Verdict::kConfirmed && !faster) finding.verdict = Verdict::kWithinLimits;
   return finding;
@@ -157,18 +150,15 @@ Finding smallSteps(const ResultTables& tables) {
   const double error2 = median(numbersOf(index2, "error_z"));
   const bool bad = failedPart(raw3) > 0.5 || !(error3 < kUseless);
   const bool cured = failedPart(index2) == 0 && error2 <= kFine;
-  const bool helps = failedPart(index3) < failedPart(raw3) ||
-                     iterationsPerStep(index3) < kHelps * iterationsPerStep(raw3);
+  const bool helps =
+      failedPart(index3) < failedPart(raw3) || iterationsPerStep(index3) < kHelps * iterationsPerStep(raw3);
   Finding finding{
-      Verdict::kContradicted,
-      fmt::format("multiplier's error {:.1g} (index 3), {:.1g} (index 2)", error3, error2),
-      fmt::format(
-          "Pendulum at h <= 1e-7, medians; useless from {:g} on, fine below {:g}. Failed runs: "
-          "index 3 unscaled {}, scaled {}, index 2 {}. Newton iterations per step: {:.3g}, "
-          "{:.3g}, {:.3g}.",
-          kUseless, kFine, percent(failedPart(raw3)), percent(failedPart(index3)),
-          percent(failedPart(index2)), iterationsPerStep(raw3), iterationsPerStep(index3),
-          iterationsPerStep(index2))};
+      Verdict::kContradicted, fmt::format("multiplier's error {:.1g} (index 3), {:.1g} (index 2)", error3, error2),
+      fmt::format("Pendulum at h <= 1e-7, medians; useless from {:g} on, fine below {:g}. Failed runs: "
+                  "index 3 unscaled {}, scaled {}, index 2 {}. Newton iterations per step: {:.3g}, "
+                  "{:.3g}, {:.3g}.",
+                  kUseless, kFine, percent(failedPart(raw3)), percent(failedPart(index3)), percent(failedPart(index2)),
+                  iterationsPerStep(raw3), iterationsPerStep(index3), iterationsPerStep(index2))};
   if (bad && cured) finding.verdict = helps ? Verdict::kConfirmed : Verdict::kWithinLimits;
   return finding;
 }
@@ -184,19 +174,15 @@ Finding noMassFactorization(const ResultTables& tables) {
   for (const auto& row : runs.rows) {
     const std::string& detail = textAt(runs, row, "detail");
     if (!succeededAt(runs, row) || !detail.starts_with(kCount)) continue;
-    factorizations.push_back(std::stod(detail.substr(kCount.size())) /
-                             numberAt(runs, row, "steps_accepted"));
+    factorizations.push_back(std::stod(detail.substr(kCount.size())) / numberAt(runs, row, "steps_accepted"));
   }
   return {graded(median(time.all), kNotDearer, kSlightly),
           fmt::format("{:.3g} times the time of v' = M^-1 F", median(time.all)),
-          fmt::format(
-              "K-form over first-order form at equal errors, median of {} pairs. It needs "
-              "{:.3g} times the residuals and never factorizes M alone; the other does so up to "
-              "{:.3g} times per step (once where M is constant). Confirmed: not slower.",
-              time.all.size(), median(residuals.all),
-              factorizations.empty()
-                  ? 0
-                  : *std::max_element(factorizations.begin(), factorizations.end()))};
+          fmt::format("K-form over first-order form at equal errors, median of {} pairs. It needs "
+                      "{:.3g} times the residuals and never factorizes M alone; the other does so up to "
+                      "{:.3g} times per step (once where M is constant). Confirmed: not slower.",
+                      time.all.size(), median(residuals.all),
+                      factorizations.empty() ? 0 : *std::max_element(factorizations.begin(), factorizations.end()))};
 }
 
 Finding newtonRule(const ResultTables& tables) {
@@ -216,13 +202,11 @@ Finding newtonRule(const ResultTables& tables) {
     }
   }
   if (std::isnan(papers)) return notMeasurable("no run with 0.7, 3 and 25 reached an error");
-  return {graded(papers / best, kGood, kFair),
-          fmt::format("{:.3g} times the cost of the best rule", papers / best),
+  return {graded(papers / best, kGood, kFair), fmt::format("{:.3g} times the cost of the best rule", papers / best),
           fmt::format("CPU time at equal errors, medians over scenes, methods and errors; {} rules "
                       "tried, the best is contractivity {} after {} of {} iterations, the worst "
                       "costs {:.3g} times as much. Confirmed: at most {}.",
-                      excess.size(), number(best_rule[0]), best_rule[1], best_rule[2], worst / best,
-                      kGood)};
+                      excess.size(), number(best_rule[0]), best_rule[1], best_rule[2], worst / best, kGood)};
 }
 
 Finding jacobianReuse(const ResultTables& tables) {
@@ -240,21 +224,19 @@ Finding jacobianReuse(const ResultTables& tables) {
   const auto count = static_cast<double>(time.all.size());
   const bool reused = median(time.all) <= kSameTime && time.lost <= time.won + kFew * count;
   const bool cheap = median(decoupled) <= kCheap;
-  Finding finding{
-      Verdict::kContradicted,
-      fmt::format("{:.2g} times the Jacobians; factorization {:.2g} times the coupled one's time",
-                  median(jacobians.all), median(decoupled)),
-      fmt::format(
-          "Kept while Newton contracts by 10 or more, against never: {:.3g} times the CPU time at "
-          "equal errors, {} errors lost and {} won of {} (reusable: at most {} times, at most {} "
-          "lost "
-          "beyond those won). A new step size needs a new factorization; decoupled by a Schur form "
-          "of A it "
-          "takes {:.2g} of the coupled one's "
-          "time (median of {} cases with 20 and more unknowns){}",
-          median(time.all), time.lost, time.won, time.all.size(), kSameTime, percent(kFew),
-          median(decoupled), decoupled.size(),
-          cheap ? ", below a third: the second half holds for the coupled matrix only." : ".")};
+  Finding finding{Verdict::kContradicted,
+                  fmt::format("{:.2g} times the Jacobians; factorization {:.2g} times the coupled one's time",
+                              median(jacobians.all), median(decoupled)),
+                  fmt::format("Kept while Newton contracts by 10 or more, against never: {:.3g} times the CPU time at "
+                              "equal errors, {} errors lost and {} won of {} (reusable: at most {} times, at most {} "
+                              "lost "
+                              "beyond those won). A new step size needs a new factorization; decoupled by a Schur form "
+                              "of A it "
+                              "takes {:.2g} of the coupled one's "
+                              "time (median of {} cases with 20 and more unknowns){}",
+                              median(time.all), time.lost, time.won, time.all.size(), kSameTime, percent(kFew),
+                              median(decoupled), decoupled.size(),
+                              cheap ? ", below a third: the second half holds for the coupled matrix only." : ".")};
   if (reused) finding.verdict = cheap ? Verdict::kWithinLimits : Verdict::kConfirmed;
   return finding;
 }

@@ -21,9 +21,7 @@ Table atSmallestError(const Table& costs) {
   const auto errors = numbersOf(reached, "target_error");
   if (errors.empty()) return {costs.head, costs.columns, {}};
   const double least = *std::min_element(errors.begin(), errors.end());
-  return where(reached, [&](const TableRow& row) {
-    return numberAt(reached, row, "target_error") == least;
-  });
+  return where(reached, [&](const TableRow& row) { return numberAt(reached, row, "target_error") == least; });
 }
 
 double classicalOrder(const Table& table, const TableRow& row) {
@@ -61,20 +59,17 @@ Finding highOrders(const ResultTables& tables) {
     if (best.rows.empty()) continue;
     ++cases;
     const double all = leastCost(best, [](auto&) { return true; });
-    const double high =
-        leastCost(best, [&](auto& row) { return classicalOrder(best, row) >= kHigh; });
+    const double high = leastCost(best, [&](auto& row) { return classicalOrder(best, row) >= kHigh; });
     efficient += high <= kNear * all ? 1 : 0;
     fairly += cheapestOrder(best) >= kStillHigh ? 1 : 0;
     cheapest += fmt::format("{}{:g}", cheapest.empty() ? "" : ", ", cheapestOrder(best));
   }
   if (cases == 0) return notMeasurable("no smooth scene reaches any of the errors asked for");
-  Finding finding{
-      Verdict::kContradicted,
-      fmt::format("order {:.2f} observed; cheapest orders {}", reached, cheapest),
-      fmt::format("In multiprecision Gauss schemes show orders up to {:.1f}. At the smallest "
-                  "error reached, order {} or more is within 10 % of the cheapest on "
-                  "{} of {} smooth scenes, and the cheapest has order {} or more on {}.",
-                  reached, kHigh, efficient, cases, kStillHigh, fairly)};
+  Finding finding{Verdict::kContradicted, fmt::format("order {:.2f} observed; cheapest orders {}", reached, cheapest),
+                  fmt::format("In multiprecision Gauss schemes show orders up to {:.1f}. At the smallest "
+                              "error reached, order {} or more is within 10 % of the cheapest on "
+                              "{} of {} smooth scenes, and the cheapest has order {} or more on {}.",
+                              reached, kHigh, efficient, cases, kStillHigh, fairly)};
   if (reached >= kWanted && 2 * fairly >= cases) finding.verdict = Verdict::kWithinLimits;
   if (reached >= kWanted && 2 * efficient >= cases) finding.verdict = Verdict::kConfirmed;
   return finding;
@@ -98,12 +93,11 @@ Finding manyStages(const ResultTables& tables) {
   }
   const auto failed = [](double x) { return x > 0; };
   const double best = median(fastest), few_fail = part(few, failed), many_fail = part(many, failed);
-  Finding finding{
-      Verdict::kContradicted, fmt::format("fastest with {:g} stages", best),
-      fmt::format("Radau IIA at the smallest error reached, median over {} smooth scenes; about 10 "
-                  "means {} to {}. At tolerances of 1e-11 and below {} of the runs with more than "
-                  "10 stages fail, {} of those with up to 10.",
-                  fastest.size(), kMin, kMax, percent(many_fail), percent(few_fail))};
+  Finding finding{Verdict::kContradicted, fmt::format("fastest with {:g} stages", best),
+                  fmt::format("Radau IIA at the smallest error reached, median over {} smooth scenes; about 10 "
+                              "means {} to {}. At tolerances of 1e-11 and below {} of the runs with more than "
+                              "10 stages fail, {} of those with up to 10.",
+                              fastest.size(), kMin, kMax, percent(many_fail), percent(few_fail))};
   const bool limited = many_fail > few_fail;
   if (best >= kFair && best <= kMax) finding.verdict = Verdict::kWithinLimits;
   if (best >= kMin && best <= kMax && limited) finding.verdict = Verdict::kConfirmed;
@@ -113,8 +107,7 @@ Finding manyStages(const ResultTables& tables) {
 Finding driftIsNegligible(const ResultTables& tables) {
   constexpr double kHighOrder = 5, kNearlyAll = 0.95, kMost = 0.75;
   const Table runs =
-      where(tables.runs("drift"),
-            {{"formulation", "index2"}, {"family", "radau_iia"}, {"outcome", "success"}});
+      where(tables.runs("drift"), {{"formulation", "index2"}, {"family", "radau_iia"}, {"outcome", "success"}});
   std::vector<double> low, high;  // drift in units of the tolerance
   for (const auto& row : runs.rows) {
     const double ratio = numberAt(runs, row, "drift") / numberAt(runs, row, "rtol");
@@ -124,20 +117,18 @@ Finding driftIsNegligible(const ResultTables& tables) {
   if (high.empty()) return notMeasurable("no run of order 5 or more in index 2 succeeded");
   const double below = part(high, [](double x) { return x <= 1; });
   const auto ggl = compareCosts(tables.runs("drift"), "formulation", "index2", "ggl", "cpu_s");
-  return {
-      graded(1 - below, 1 - kNearlyAll, 1 - kMost),
-      fmt::format("drift {:.2g} of the tolerance (median)", median(high)),
-      fmt::format("Radau IIA of order 5 and more in index 2: the drift stays below the "
-                  "tolerance in {} of {} runs (negligible: {}); of lower order it is {:.2g} of "
-                  "it. GGL costs {:.2g} times the CPU time at the same error.",
-                  percent(below), high.size(), percent(kNearlyAll), median(low), median(ggl.all))};
+  return {graded(1 - below, 1 - kNearlyAll, 1 - kMost),
+          fmt::format("drift {:.2g} of the tolerance (median)", median(high)),
+          fmt::format("Radau IIA of order 5 and more in index 2: the drift stays below the "
+                      "tolerance in {} of {} runs (negligible: {}); of lower order it is {:.2g} of "
+                      "it. GGL costs {:.2g} times the CPU time at the same error.",
+                      percent(below), high.size(), percent(kNearlyAll), median(low), median(ggl.all))};
 }
 
 Finding newmarkIsLobatto(const ResultTables&) {
   constexpr double kRoundOff = 1000;
   const double difference = newmarkDifference();
-  return {graded(difference, kRoundOff, kRoundOff),
-          fmt::format("{:.2g} units of round-off", difference),
+  return {graded(difference, kRoundOff, kRoundOff), fmt::format("{:.2g} units of round-off", difference),
           fmt::format("Largest difference to Newmark's formulas over 100 steps of a nonlinear "
                       "oscillator; equal means below {:g} units.",
                       kRoundOff)};
@@ -152,10 +143,8 @@ Finding radauIsBest(const ResultTables& tables) {
     for (const auto& error : distinct(costs, "target_error")) {
       const Table at = where(costs, {{"scene", scene}, {"target_error", error}, {"reached", "1"}});
       if (distinct(at, "family").size() < 2) continue;
-      const double radau =
-          leastCost(at, [&](auto& row) { return textAt(at, row, "family") == "radau_iia"; });
-      const double other =
-          leastCost(at, [&](auto& row) { return textAt(at, row, "family") != "radau_iia"; });
+      const double radau = leastCost(at, [&](auto& row) { return textAt(at, row, "family") == "radau_iia"; });
+      const double other = leastCost(at, [&](auto& row) { return textAt(at, row, "family") != "radau_iia"; });
       ++cases;
       best += radau <= kNear * other ? 1 : 0;
       excess.push_back(radau / other);
@@ -163,8 +152,7 @@ Finding radauIsBest(const ResultTables& tables) {
   }
   if (cases == 0) return notMeasurable("no error is reached by two families");
   const double share = static_cast<double>(best) / cases;
-  return {graded(1 - share, 1 - kMostly, 1 - kHalf),
-          fmt::format("best in {} of {} cases", best, cases),
+  return {graded(1 - share, 1 - kMostly, 1 - kHalf), fmt::format("best in {} of {} cases", best, cases),
           fmt::format("A case is a scene and an error; best: at most 10 % above the cheapest other "
                       "family, each with its best number of stages (confirmed: {}). CPU time over "
                       "that of the best other family: {:.2g} in the median.",

@@ -46,8 +46,7 @@ class Program {
  public:
   Program() : app_("Benchmark suite for implicit Runge-Kutta schemes of any order", "irk") {
     app_.require_subcommand(1);
-    app_.set_version_flag("--version",
-                          std::string(buildInfo().version) + " " + std::string(buildInfo().commit));
+    app_.set_version_flag("--version", std::string(buildInfo().version) + " " + std::string(buildInfo().commit));
     addPaper();
     addRun();
     addSolve();
@@ -76,8 +75,7 @@ class Program {
  private:
   // Throws Misuse if argument i is not one of the parent's verbs, then checks the next argument with that verb's own
   // ones.
-  static void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments,
-                               std::size_t i) {
+  static void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments, std::size_t i) {
     const auto verbs = parent.get_subcommands({});
     if (verbs.empty() || i == arguments.size() || arguments[i].starts_with('-')) return;
     std::vector<std::string> known;
@@ -102,8 +100,7 @@ class Program {
     return verb ? "irk " + arguments.front() + " --help" : "irk --help";
   }
 
-  CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning,
-                 Action action) {
+  CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning, Action action) {
     auto* sub = parent.add_subcommand(name, meaning);
     sub->final_callback([this, action = std::move(action)] { action_ = action; });
     return sub;
@@ -165,8 +162,7 @@ class Program {
   }
 
   void addRun() {
-    auto* sub =
-        verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
+    auto* sub = verb(app_, "run", "one study", [this](Streams s) { return runCommand(runOptions(), s); });
     sub->add_option("study", study_, "id or TOML file")->required();
     sub->add_option("--shard", shard_,
                     "Make part i of n only: i/n, or in an array job auto/n; see merge. [default: all]");
@@ -215,10 +211,14 @@ class Program {
   }
   static const char* kindName(FieldKind kind) {
     switch (kind) {
-      case FieldKind::kAxis: return "ID";
-      case FieldKind::kNumber: return "NUMBER";
-      case FieldKind::kInteger: return "INTEGER";
-      case FieldKind::kText: break;
+      case FieldKind::kAxis:
+        return "ID";
+      case FieldKind::kNumber:
+        return "NUMBER";
+      case FieldKind::kInteger:
+        return "INTEGER";
+      case FieldKind::kText:
+        break;
     }
     return "TEXT";
   }
@@ -231,22 +231,20 @@ class Program {
   }
 
   void addList() {
-    auto* sub =
-        verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
+    auto* sub = verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
     sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies or numbers");
   }
 
   void addTableau() {
     auto* tableau = app_.add_subcommand("tableau", "coefficients of a method");
     tableau->require_subcommand(1);
-    auto* show = verb(*tableau, "show", "print it", [this](Streams s) {
-      return tableauShow(method_, integer("digits", digits_, kDigits), s);
-    });
+    auto* show = verb(*tableau, "show", "print it",
+                      [this](Streams s) { return tableauShow(method_, integer("digits", digits_, kDigits), s); });
     show->add_option("--digits", digits_, numberHelp("Significant digits.", kDigits, "17"))->type_name("INTEGER");
     auto* check = verb(*tableau, "check", "does it keep what it declares, and what is it?",
                        [this](Streams s) { return tableauCheck(method_, s); });
-    auto* write = verb(*tableau, "export", "as a tableau file",
-                       [this](Streams s) { return tableauExport(method_, s); });
+    auto* write =
+        verb(*tableau, "export", "as a tableau file", [this](Streams s) { return tableauExport(method_, s); });
     for (auto* sub : {show, check, write}) {
       sub->add_option("method", method_, "id or file")->required();
     }
@@ -261,8 +259,8 @@ class Program {
   }
 
   void addPlots() {
-    auto* plot = verb(app_, "plot", "the figures of a study",
-                      [this](Streams s) { return plotCommand(study_, results(), s); });
+    auto* plot =
+        verb(app_, "plot", "the figures of a study", [this](Streams s) { return plotCommand(study_, results(), s); });
     plot->add_option("study", study_, "id")->required();
     addQuick(*plot);
     addResults(*plot);
@@ -291,8 +289,7 @@ class Program {
                          [this](Streams s) { return compareCommand(compare_, s); });
     compare->add_option("first", compare_.first, "folder of a study or of results")->required();
     compare->add_option("second", compare_.second, "another one")->required();
-    compare->add_option("--errors", compare_.errors, "Errors differ from this factor on.")
-        ->capture_default_str();
+    compare->add_option("--errors", compare_.errors, "Errors differ from this factor on.")->capture_default_str();
     compare->add_option("--times", compare_.times, "Ratios of times up to this percentage are noise.")
         ->capture_default_str();
     compare->add_option("--alpha", compare_.alpha, "How probably noise alone makes a time differ.")
@@ -302,24 +299,20 @@ class Program {
   }
 
   void addReference() {
-    auto* sub = verb(app_, "reference",
-                     "reference values in 50 digits: two methods, two tolerances each",
-                     [this](Streams s) {
-                       reference_.jobs = parseJobs();
-                       return referenceCommand(reference_, s);
-                     });
+    auto* sub =
+        verb(app_, "reference", "reference values in 50 digits: two methods, two tolerances each", [this](Streams s) {
+          reference_.jobs = parseJobs();
+          return referenceCommand(reference_, s);
+        });
     sub->add_option("scenes", reference_.scenes, "see: irk list scenes; all if left out");
     addJobs(*sub, "Threads; 0 = one per processor.");
-    sub->add_flag("--check", reference_.check,
-                  "Write nothing; status 1 if a file disagrees with what is computed.");
+    sub->add_flag("--check", reference_.check, "Write nothing; status 1 if a file disagrees with what is computed.");
     sub->add_option("--out", reference_.out, "The folder of the files.");
     sub->add_flag("--into-sources", reference_.into_sources,
                   "Write to problems/reference of the sources instead of --out.");
   }
 
-  int parseJobs() const {
-    return integer("jobs", jobs_, kJobs);
-  }
+  int parseJobs() const { return integer("jobs", jobs_, kJobs); }
 
   CLI::App app_;
   Action action_;

@@ -44,8 +44,7 @@ int compareCommand(const CompareOptions& options, Streams streams) {
   for (const auto& [study, file] : first) {
     const auto other = second.find(study);
     if (other == second.end()) continue;
-    const auto comparison =
-        compare::compareRuns(compare::readRuns(file), compare::readRuns(other->second), limits);
+    const auto comparison = compare::compareRuns(compare::readRuns(file), compare::readRuns(other->second), limits);
     differences += comparison.differences.size();
     streams.out << compare::textOf(study, comparison);
   }

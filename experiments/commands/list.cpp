@@ -21,18 +21,18 @@ std::string rangeText(const Parameter& p) {
 
 void listScenes(std::ostream& out) {
   for (const auto& scene : sceneCatalogue()) {
-    fmt::print(out, "{}\n    {}\n    kind: {}\n    shows: {}\n", scene.id, scene.title, meaningOf(scene.kind), scene.shows);
+    fmt::print(out, "{}\n    {}\n    kind: {}\n    shows: {}\n", scene.id, scene.title, meaningOf(scene.kind),
+               scene.shows);
     for (const auto& p : scene.parameters) {
-      fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit,
-                 rangeText(p));
+      fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit, rangeText(p));
     }
   }
 }
 
 void listMethods(std::ostream& out) {
   for (const auto& family : familyCatalogue()) {
-    fmt::print(out, "{}_S  {}, order {}, S = {} .. {}\n", family.id, family.title, family.order,
-               family.min_stages, kMaxStages);
+    fmt::print(out, "{}_S  {}, order {}, S = {} .. {}\n", family.id, family.title, family.order, family.min_stages,
+               kMaxStages);
   }
   out << "or the path of a tableau file\npeers, with their own step control:\n";
   for (const auto& peer : peerCatalogue()) fmt::print(out, "{:<12} {}\n", peer.id, peer.title);
@@ -49,8 +49,8 @@ void listStudies(std::ostream& out) {
 
 void listAnalyses(std::ostream& out) {
   for (const auto& analysis : analyses()) {
-    fmt::print(out, "{:<12} {}: {} from {}; a study asks by its key '{}'\n", analysis.id, analysis.meaning, analysis.writes,
-               analysis.reads, analysis.key);
+    fmt::print(out, "{:<12} {}: {} from {}; a study asks by its key '{}'\n", analysis.id, analysis.meaning,
+               analysis.writes, analysis.reads, analysis.key);
   }
 }
 
@@ -72,12 +72,8 @@ struct List {
   const char* id;
   void (*print)(std::ostream&);
 };
-constexpr List kLists[] = {{"scenes", listScenes},
-                           {"methods", listMethods},
-                           {"studies", listStudies},
-                           {"analyses", listAnalyses},
-                           {"strategies", listStrategies},
-                           {"numbers", listNumbers}};
+constexpr List kLists[] = {{"scenes", listScenes},     {"methods", listMethods},       {"studies", listStudies},
+                           {"analyses", listAnalyses}, {"strategies", listStrategies}, {"numbers", listNumbers}};
 
 }  // namespace
 

@@ -34,8 +34,7 @@ std::vector<std::string> scenesWanted(const std::vector<std::string>& given) {
 }
 
 // The times of the task, those of independent values, and the scene's end.
-std::vector<std::string> timesOf(const ReferenceTask& task,
-                                 const std::vector<ReferenceValue>& independent) {
+std::vector<std::string> timesOf(const ReferenceTask& task, const std::vector<ReferenceValue>& independent) {
   const RunSpec spec = referenceSpec(task, "", Fineness::kFine);
   std::istringstream words{task.of.times};
   std::vector<std::string> times{std::istream_iterator<std::string>(words), {}};
@@ -44,8 +43,7 @@ std::vector<std::string> timesOf(const ReferenceTask& task,
   for (const auto& value : independent) {
     if (value.scene == spec.scene && value.settings == settings) times.push_back(value.t);
   }
-  std::stable_sort(times.begin(), times.end(),
-                   [](const auto& a, const auto& b) { return mp50(a) < mp50(b); });
+  std::stable_sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return mp50(a) < mp50(b); });
   const auto same = [](const auto& a, const auto& b) { return mp50(a) == mp50(b); };
   times.erase(std::unique(times.begin(), times.end(), same), times.end());
   return times;
@@ -60,8 +58,7 @@ struct SceneReferences {
   std::vector<std::string> disagreements;   // of independent values
 };
 
-SceneReferences referencesOf(const std::string& scene,
-                             const std::vector<ReferenceValue>& independent,
+SceneReferences referencesOf(const std::string& scene, const std::vector<ReferenceValue>& independent,
                              const ReferenceWatch& watch) {
   SceneReferences result{scene, {}, {}, {}, {}};
   std::vector<ReferenceTask> tasks;
@@ -73,8 +70,7 @@ SceneReferences referencesOf(const std::string& scene,
   }
   for (const auto& computed : compute(tasks, times, watch)) {
     result.values.insert(result.values.end(), computed.values.begin(), computed.values.end());
-    result.problems.insert(result.problems.end(), computed.problems.begin(),
-                           computed.problems.end());
+    result.problems.insert(result.problems.end(), computed.problems.begin(), computed.problems.end());
   }
   std::copy_if(independent.begin(), independent.end(), std::back_inserter(result.independent),
                [&](const auto& value) { return value.scene == scene; });
@@ -105,20 +101,18 @@ void printSummary(const SceneReferences& references, std::ostream& out) {
   }
   fmt::print(out, "{}: {} values", references.scene, references.values.size());
   if (least) {
-    fmt::print(out, ", fewest digits {:.0f} ({} at t = {})", std::floor(-std::log10(worst)),
-               least->component, least->t);
+    fmt::print(out, ", fewest digits {:.0f} ({} at t = {})", std::floor(-std::log10(worst)), least->component,
+               least->t);
   }
   const std::size_t all = references.independent.size();
-  fmt::print(out, "; {} of {} independent values agree\n", all - references.disagreements.size(),
-             all);
+  fmt::print(out, "; {} of {} independent values agree\n", all - references.disagreements.size(), all);
   for (const auto& line : references.disagreements) fmt::print(out, "  independent {}\n", line);
   for (const auto& line : references.problems) fmt::print(out, "  problem {}\n", line);
   out << std::flush;
 }
 
 // Returns the number of differences between a file and the computed values.
-std::size_t check(const SceneReferences& references, const std::filesystem::path& file,
-                  std::ostream& out) {
+std::size_t check(const SceneReferences& references, const std::filesystem::path& file, std::ostream& out) {
   std::vector<ReferenceValue> stated;
   if (std::filesystem::exists(file)) stated = referenceValues(file.string(), readTable(file));
   const auto lines = differences(stated, references.values);

@@ -24,7 +24,8 @@ using Stores = std::vector<std::unique_ptr<store::Store>>;
 Stores openAll(const MergeOptions& options, std::ostream& err) {
   Stores stores;
   for (const auto& folder : options.folders) {
-    if (!std::filesystem::is_directory(folder)) throw Misuse(fmt::format("{}: a folder of a study is expected", folder));
+    if (!std::filesystem::is_directory(folder))
+      throw Misuse(fmt::format("{}: a folder of a study is expected", folder));
     stores.push_back(std::make_unique<store::Store>(folder, "", store::Use::kRead, store::StoreOptions(), err));
   }
   return stores;
@@ -117,8 +118,8 @@ int mergeCommand(MergeOptions options, Streams streams) {
   merged.exportTables(inOrder(keys));
   const Table runs = readTable(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);
-  fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(),
-             options.folders.size(), folder.string());
+  fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(), options.folders.size(),
+             folder.string());
   if (study.audit) {
     const InterruptScope interrupts;
     streams.out << audit::auditRuns(study, runs, folder, threadCount(0), streams.err);

@@ -80,9 +80,7 @@ std::string allRefused(const std::string& study, const store::Store& store, cons
 }
 
 // Whether a table of all runs is needed; it takes some kilobytes of memory per run.
-bool needsTable(const Study& study) {
-  return !study.analyses.empty() || study.audit || study.timing.wanted;
-}
+bool needsTable(const Study& study) { return !study.analyses.empty() || study.audit || study.timing.wanted; }
 
 // Makes this rank's part of the runs and prints nothing; for ranks other than 0, which merges and reports.
 void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
@@ -101,7 +99,8 @@ std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& 
   };
   open();
   ranks.meet();
-  if (ranks.count() > 1) fmt::print(err, "{}: {} ranks; what another one gets counts as done\n", study.id, ranks.count());
+  if (ranks.count() > 1)
+    fmt::print(err, "{}: {} ranks; what another one gets counts as done\n", study.id, ranks.count());
   const auto keys = makeRuns(study, options, *store, ranks, err);
   ranks.meet();
   if (ranks.count() > 1) open();  // includes the rows of the other ranks

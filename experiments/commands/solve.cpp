@@ -46,8 +46,7 @@ void applyTolerance(const SolveOptions& options, RunSpec& spec) {
   for (const auto* field : {"rtol", "atol"}) findField(field).set(spec, options.tol);
 }
 
-void printComponents(std::ostream& out, const RunRecord& record,
-                     const std::vector<std::string>& names) {
+void printComponents(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   std::size_t i = 0;
   const auto print = [&](const char* group, const Vec<double>& y) {
     for (const double value : y) {
@@ -62,13 +61,10 @@ void printComponents(std::ostream& out, const RunRecord& record,
   print("z", record.z);
 }
 
-void printRecord(std::ostream& out, const RunRecord& record,
-                 const std::vector<std::string>& names) {
+void printRecord(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   const auto& spec = record.spec;
-  fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method,
-             idOf(spec.formulation));
-  fmt::print(out, "{}{}{}, t = {:.15g}\n", record.outcome, record.detail.empty() ? "" : ": ",
-             record.detail, record.t);
+  fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method, idOf(spec.formulation));
+  fmt::print(out, "{}{}{}, t = {:.15g}\n", record.outcome, record.detail.empty() ? "" : ": ", record.detail, record.t);
   printComponents(out, record, names);
   if (!std::isnan(record.errors.all)) {
     fmt::print(out, "error {:.3e}\n", record.errors.all);
@@ -105,17 +101,16 @@ class ScratchFolder {
 };
 
 // Records the solution in a temporary folder and draws it.
-RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot,
-                       std::ostream& err, bool& drawn) {
+RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot, std::ostream& err,
+                       bool& drawn) {
   const auto home = homeFolder();
   const auto out = figurePath("--plot", plot);
   const ScratchFolder folder;
   const auto file = folder.path() / (spec.scene + ".csv");
   const RunRecord record = executeWithTrajectory(spec, watch, file);
   drawn = drawFigure("scene_solution.gp",
-                     fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'",
-                                 folder.path().string(), out.string(), spec.scene,
-                                 file.stem().string()),
+                     fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'", folder.path().string(),
+                                 out.string(), spec.scene, file.stem().string()),
                      home, err);
   return record;
 }
@@ -159,9 +154,8 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   const InterruptScope interrupts;
   const Watch watch{&interruptFlag(), {}, {}};
   bool drawn = true;
-  const RunRecord record = options.plot.empty()
-                               ? execute(spec, watch)
-                               : solveAndPlot(spec, watch, options.plot, streams.err, drawn);
+  const RunRecord record =
+      options.plot.empty() ? execute(spec, watch) : solveAndPlot(spec, watch, options.plot, streams.err, drawn);
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {

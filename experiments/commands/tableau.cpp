@@ -43,8 +43,7 @@ int tableauTable(const std::string& results, Streams streams) {
   const TableauTables tables = tableauTables(familyMembers(kMaxShownStages));
   writeTable(folder / "tableaus.csv", tables.properties);
   writeTable(folder / "stability.csv", tables.stability);
-  fmt::print(streams.out, "tableaus: {} methods in {}\n", tables.properties.rows.size(),
-             folder.string());
+  fmt::print(streams.out, "tableaus: {} methods in {}\n", tables.properties.rows.size(), folder.string());
   return 0;
 }
 

@@ -18,8 +18,7 @@
 namespace irk::compare {
 namespace {
 
-constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
-                                        "error_x", "error_z", "drift"};
+constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift"};
 // Errors below this many units of round-off of their scalar are not compared: 1.1e-14 in double precision.
 constexpr double kRoundOff = 50;
 // A rank test with fewer repetitions cannot be significant: for samples of four and four the most extreme order has
@@ -62,10 +61,9 @@ class Comparer {
       noteTimes(pair);
     }
     judgeTimes();
-    std::stable_sort(result_.differences.begin(), result_.differences.end(),
-                     [](const Difference& a, const Difference& b) {
-                       return a.kind != b.kind ? a.kind < b.kind : a.size > b.size;
-                     });
+    std::stable_sort(
+        result_.differences.begin(), result_.differences.end(),
+        [](const Difference& a, const Difference& b) { return a.kind != b.kind ? a.kind < b.kind : a.size > b.size; });
     return std::move(result_);
   }
 
@@ -136,8 +134,7 @@ class Comparer {
       const auto shown = [least](double x) { return std::isnan(x) ? x : std::max(std::abs(x), least); };
       const double factor = factorOf(shown(cellNumber(a)), shown(cellNumber(b)));
       if (factor <= limits_.errors) continue;
-      what += fmt::format("{}{} {:.3g} -> {:.3g}", what.empty() ? "" : ", ", column, cellNumber(a),
-                          cellNumber(b));
+      what += fmt::format("{}{} {:.3g} -> {:.3g}", what.empty() ? "" : ", ", column, cellNumber(a), cellNumber(b));
       most = std::max(most, factor);
     }
     if (!what.empty()) add(Kind::kError, pair, std::move(what), most);

@@ -13,10 +13,10 @@ namespace irk::compare {
 
 /// The limits above which two numbers count as different.
 struct Limits {
-  double errors = 2;      ///< >= 1, a factor
-  double times = 0.05;    ///< >= 0: ratios of times up to 1 + times, and down to its inverse, are noise
-  double alpha = 0.05;    ///< 0 < alpha < 1: probability that noise alone gives a difference in any of the times
-  double counters = 0;    ///< >= 0, relative: processors differ in rounding
+  double errors = 2;    ///< >= 1, a factor
+  double times = 0.05;  ///< >= 0: ratios of times up to 1 + times, and down to its inverse, are noise
+  double alpha = 0.05;  ///< 0 < alpha < 1: probability that noise alone gives a difference in any of the times
+  double counters = 0;  ///< >= 0, relative: processors differ in rounding
 };
 
 /// In the order of their importance.
@@ -31,11 +31,11 @@ struct Difference {
 
 /// A summary of the times. Ratios are second over first.
 struct Times {
-  std::size_t compared = 0;      ///< runs with a ratio
-  std::size_t few = 0;           ///< of them with fewer than five repetitions
-  std::size_t not_timed = 0;     ///< successful runs without a time of a timing pass in one of the tables
+  std::size_t compared = 0;   ///< runs with a ratio
+  std::size_t few = 0;        ///< of them with fewer than five repetitions
+  std::size_t not_timed = 0;  ///< successful runs without a time of a timing pass in one of the tables
   std::size_t other_processor = 0;
-  std::string processors;        ///< an example of the two, where they differ
+  std::string processors;  ///< an example of the two, where they differ
   double least = std::numeric_limits<double>::quiet_NaN(), median = least, most = least;  ///< of all ratios
 };
 

@@ -37,13 +37,14 @@ std::string kindText(const KindName& kind, const std::vector<Difference>& all) {
 std::string timesText(const Times& times) {
   std::string text;
   if (times.other_processor > 0) {
-    text += fmt::format("  times of {} runs are not comparable: they were measured on {}\n",
-                        times.other_processor, times.processors);
+    text += fmt::format("  times of {} runs are not comparable: they were measured on {}\n", times.other_processor,
+                        times.processors);
   }
   if (times.few > 0) {
-    text += fmt::format("  times of {} runs have fewer than five stored repetitions: only their minima are compared, "
-                        "nothing is tested\n",
-                        times.few);
+    text += fmt::format(
+        "  times of {} runs have fewer than five stored repetitions: only their minima are compared, "
+        "nothing is tested\n",
+        times.few);
   }
   if (times.compared > 0) {
     text += fmt::format("  time of the second / first: {:.3g}, the middle of {} runs, from {:.3g} to {:.3g}\n",

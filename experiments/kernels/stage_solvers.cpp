@@ -16,8 +16,7 @@ namespace {
 // Beyond these sizes one dense factorization takes seconds.
 constexpr int kMaxDense = 400, kMaxCoupledDense = 1500;
 
-RunSpec specOf(const SceneEntry& chain, StageSolverKind solver, Storage storage,
-               const benchmark::State& state) {
+RunSpec specOf(const SceneEntry& chain, StageSolverKind solver, Storage storage, const benchmark::State& state) {
   RunSpec spec;
   spec.scene = chain.id;
   spec.settings = {{chain.size.parameter, std::to_string(state.range(1) / chain.size.unknowns)}};
@@ -33,14 +32,12 @@ struct Part {
   const char* name;
   void (NewtonKernel::*call)();
 };
-constexpr Part kSystemParts[] = {{"residuals", &NewtonKernel::residuals},
-                                 {"jacobian", &NewtonKernel::jacobian}};
-constexpr Part kSolverParts[] = {{"factorize", &NewtonKernel::factorize},
-                                 {"solve", &NewtonKernel::solve},
-                                 {"iteration", &NewtonKernel::iteration}};
+constexpr Part kSystemParts[] = {{"residuals", &NewtonKernel::residuals}, {"jacobian", &NewtonKernel::jacobian}};
+constexpr Part kSolverParts[] = {
+    {"factorize", &NewtonKernel::factorize}, {"solve", &NewtonKernel::solve}, {"iteration", &NewtonKernel::iteration}};
 
-void measurePart(benchmark::State& state, const SceneEntry& chain, StageSolverKind solver,
-                 Storage storage, const Part& part) {
+void measurePart(benchmark::State& state, const SceneEntry& chain, StageSolverKind solver, Storage storage,
+                 const Part& part) {
   NewtonKernel kernel(specOf(chain, solver, storage, state), chain.size.step);
   kernel.factorize();
   for ([[maybe_unused]] auto _ : state) (kernel.*part.call)();
@@ -50,8 +47,7 @@ void measurePart(benchmark::State& state, const SceneEntry& chain, StageSolverKi
 }
 
 /// One step from the scene's start, with a new Jacobian.
-void measureStep(benchmark::State& state, const SceneEntry& chain, StageSolverKind solver,
-                 Storage storage) {
+void measureStep(benchmark::State& state, const SceneEntry& chain, StageSolverKind solver, Storage storage) {
   const RunSpec spec = specOf(chain, solver, storage, state);
   const auto setup = makeSetup<double>(spec);
   const auto& scene = setup.scene;
@@ -73,13 +69,11 @@ void measureStep(benchmark::State& state, const SceneEntry& chain, StageSolverKi
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(step());
   state.counters["n"] = static_cast<double>(system->sizes().n());
   state.counters["iterations_per_step"] =
-      static_cast<double>(counters.newton_iterations - before) /
-      static_cast<double>(state.iterations());
+      static_cast<double>(counters.newton_iterations - before) / static_cast<double>(state.iterations());
 }
 
 template <class... What>
-void add(const std::string& name, bool dense, bool coupled, const std::vector<std::int64_t>& threads,
-         What... what) {
+void add(const std::string& name, bool dense, bool coupled, const std::vector<std::int64_t>& threads, What... what) {
   auto* entry = benchmark::RegisterBenchmark(name.c_str(), what...);
   entry->ArgNames({"stages", "n", "threads"})->Unit(benchmark::kMicrosecond);
   for (const std::int64_t s : {3, 5, 8, 10}) {
@@ -95,30 +89,25 @@ void addAll() {
   constexpr struct {
     StageSolverKind kind;
     Storage storage;
-  } kSolvers[] = {{StageSolverKind::kSchur, Storage::kSparse},
-                  {StageSolverKind::kEigen, Storage::kSparse},
-                  {StageSolverKind::kCoupledSparse, Storage::kSparse},
-                  {StageSolverKind::kSchur, Storage::kDense},
-                  {StageSolverKind::kEigen, Storage::kDense},
-                  {StageSolverKind::kCoupledDense, Storage::kDense}};
+  } kSolvers[] = {
+      {StageSolverKind::kSchur, Storage::kSparse},         {StageSolverKind::kEigen, Storage::kSparse},
+      {StageSolverKind::kCoupledSparse, Storage::kSparse}, {StageSolverKind::kSchur, Storage::kDense},
+      {StageSolverKind::kEigen, Storage::kDense},          {StageSolverKind::kCoupledDense, Storage::kDense}};
   for (const SceneEntry& chain : sceneCatalogue()) {
     if (chain.size.parameter.empty()) continue;
     const std::string scene = chain.id + '/';
     for (const Part& part : kSystemParts) {
-      add(scene + part.name, false, false, {1}, measurePart, chain, StageSolverKind::kSchur,
-          Storage::kSparse, part);
+      add(scene + part.name, false, false, {1}, measurePart, chain, StageSolverKind::kSchur, Storage::kSparse, part);
     }
     for (const auto& [kind, storage] : kSolvers) {
       const bool dense = storage == Storage::kDense, coupled = kind == StageSolverKind::kCoupledDense;
-      const std::string solver = scene + std::string(idOf(kind)) + '/' +
-                                 std::string(idOf(storage)) + '/';
+      const std::string solver = scene + std::string(idOf(kind)) + '/' + std::string(idOf(storage)) + '/';
       for (const Part& part : kSolverParts) {
         add(solver + part.name, dense, coupled, {1}, measurePart, chain, kind, storage, part);
       }
       add(solver + "step", dense, coupled, {1}, measureStep, chain, kind, storage);
       if (kind == StageSolverKind::kSchur) {
-        add(solver + "factorize_parallel", dense, false, {1, 2}, measurePart, chain, kind, storage,
-            kSolverParts[0]);
+        add(solver + "factorize_parallel", dense, false, {1, 2}, measurePart, chain, kind, storage, kSolverParts[0]);
       }
     }
   }

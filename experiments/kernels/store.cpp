@@ -24,7 +24,8 @@ constexpr std::int64_t kMin = 10'000, kMax = 1'000'000;
 class Folder {
  public:
   explicit Folder(std::int64_t rows)
-      : path_(std::filesystem::temp_directory_path() / ("irk_store_" + std::to_string(getpid()) + "_" + std::to_string(rows))) {}
+      : path_(std::filesystem::temp_directory_path() /
+              ("irk_store_" + std::to_string(getpid()) + "_" + std::to_string(rows))) {}
   ~Folder() { std::filesystem::remove_all(path_); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -64,8 +65,8 @@ std::vector<std::uint64_t> keys(std::int64_t rows) {
 double heldBytes() { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); }
 
 void countRows(benchmark::State& state) {
-  state.counters["per_row"] = benchmark::Counter(static_cast<double>(state.range(0)),
-                                                 benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_row"] = benchmark::Counter(
+      static_cast<double>(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void append(benchmark::State& state) {

@@ -33,14 +33,12 @@ AgreedValue agreed(std::span<const mp50> runs, double least) {
 std::string decimalText(const mp50& value, double accuracy) {
   if (abs(value) < mp50(accuracy) / 2) return "0";  // not even its first digit is known
   constexpr int kGuard = 1;
-  const int last =
-      exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
+  const int last = exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
   const int first = exponentOf(value.str(kMaxDigits, std::ios::scientific));
   const int digits = std::clamp(first - last + 1, 2, kMaxDigits);
   const bool plain = first >= -3 && first < digits - 1;
   // Both count the digits behind the point; 0 would select all digits.
-  return plain ? value.str(digits - 1 - first, std::ios::fixed)
-               : value.str(digits - 1, std::ios::scientific);
+  return plain ? value.str(digits - 1 - first, std::ios::fixed) : value.str(digits - 1, std::ios::scientific);
 }
 
 }  // namespace irk

@@ -37,8 +37,7 @@ std::string nameOf(const ReferenceTask& task) {
 }
 
 RunSpec specOf(const ReferenceTask& task, std::size_t run) {
-  return referenceSpec(task, run % 2 == 0 ? task.second : kFirstMethod,
-                       run < 2 ? Fineness::kCoarse : Fineness::kFine);
+  return referenceSpec(task, run % 2 == 0 ? task.second : kFirstMethod, run < 2 ? Fineness::kCoarse : Fineness::kFine);
 }
 
 Row valuesOf(const Scene<mp50>& scene, const State<mp50>& state) {
@@ -48,24 +47,21 @@ Row valuesOf(const Scene<mp50>& scene, const State<mp50>& state) {
   return row;
 }
 
-Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times,
-                     const std::atomic<bool>* stop) {
+Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times, const std::atomic<bool>* stop) {
   const auto setup = makeSetup<mp50>(spec);
   const Scene<mp50>& scene = setup.scene;
   auto integrator = setup.integrator();
   Monitor<mp50> monitor;
   monitor.interrupt = [stop] {
-    return stop && stop->load(std::memory_order_relaxed) ? Outcome::kInterrupted
-                                                         : Outcome::kSuccess;
+    return stop && stop->load(std::memory_order_relaxed) ? Outcome::kInterrupted : Outcome::kSuccess;
   };
   Integrated result;
   State<mp50> state = scene.start;
   for (const auto& t : times) {
     const auto solution = integrator.integrate(state, mp50(t), monitor);
     if (solution.outcome != Outcome::kSuccess) {
-      result.failure =
-          fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol,
-                      name(solution.outcome), solution.detail);
+      result.failure = fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol,
+                                   name(solution.outcome), solution.detail);
       return result;
     }
     state = solution.state;
@@ -81,8 +77,7 @@ Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) 
     if (scene.exact) {
       rows.push_back(valuesOf(scene, scene.exact(mp50(t))));
     } else {
-      rows.emplace_back(scene.names.size() + scene.outputs.size(),
-                        std::numeric_limits<mp50>::quiet_NaN());
+      rows.emplace_back(scene.names.size() + scene.outputs.size(), std::numeric_limits<mp50>::quiet_NaN());
     }
   }
   return rows;
@@ -91,15 +86,13 @@ Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) 
 std::string howText(const ReferenceTask& task) {
   const bool fixed = task.of.step > 0;
   const double coarse = fixed ? task.of.step : task.of.tolerance;
-  return fmt::format("mp50: {} and {}; {} {:g} and {:g}; locate; {}", kFirstMethod, task.second,
-                     fixed ? "step" : "tol", coarse, coarse * (fixed ? 0.5 : kFiner),
-                     idOf(task.formulation));
+  return fmt::format("mp50: {} and {}; {} {:g} and {:g}; locate; {}", kFirstMethod, task.second, fixed ? "step" : "tol",
+                     coarse, coarse * (fixed ? 0.5 : kFiner), idOf(task.formulation));
 }
 
 class Assembly {
  public:
-  Assembly(const ReferenceTask& task, const std::vector<std::string>& times,
-           std::span<const Integrated> runs)
+  Assembly(const ReferenceTask& task, const std::vector<std::string>& times, std::span<const Integrated> runs)
       : task_(task),
         times_(times),
         runs_(runs),
@@ -132,10 +125,9 @@ class Assembly {
     const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
     const double size = std::max(std::abs(static_cast<double>(values.back())), scale);
     const AgreedValue found = agreed(values, task_.of.tolerance * kFiner * size);
-    ReferenceValue value{spec_.scene,   settingsText(spec_.settings),
-                         times_[i],     component(j),
-                         found.value,   found.accuracy,
-                         howText(task_)};
+    ReferenceValue value{
+        spec_.scene,   settingsText(spec_.settings), times_[i], component(j), found.value, found.accuracy,
+        howText(task_)};
     if (isfinite(exact)) replace(value, exact, size);
     computed_.values.push_back(std::move(value));
   }
@@ -144,9 +136,8 @@ class Assembly {
   void replace(ReferenceValue& value, const mp50& exact, double size) {
     const auto error = static_cast<double>(mp50(abs(exact - value.value)));
     if (error > value.accuracy) {
-      computed_.problems.push_back(
-          fmt::format("{}: exact {}, integrated {}, which agree to {:g} among themselves",
-                      value.place(), exact.str(30), value.value.str(30), value.accuracy));
+      computed_.problems.push_back(fmt::format("{}: exact {}, integrated {}, which agree to {:g} among themselves",
+                                               value.place(), exact.str(30), value.value.str(30), value.accuracy));
     }
     value.source = fmt::format("exact; {} agree to {:g}", value.source, value.accuracy);
     value.value = exact;
@@ -164,13 +155,11 @@ class Assembly {
 }  // namespace
 
 std::string ReferenceValue::place() const {
-  return fmt::format("{}{}{}, {} at t = {}", scene, settings.empty() ? "" : " ", settings,
-                     component, t);
+  return fmt::format("{}{}{}, {} at t = {}", scene, settings.empty() ? "" : " ", settings, component, t);
 }
 
 bool samePlace(const ReferenceValue& a, const ReferenceValue& b) {
-  return a.scene == b.scene && a.settings == b.settings && a.component == b.component &&
-         mp50(a.t) == mp50(b.t);
+  return a.scene == b.scene && a.settings == b.settings && a.component == b.component && mp50(a.t) == mp50(b.t);
 }
 
 void expectRuns(const ReferenceTask& task, Progress& progress) {
@@ -178,8 +167,7 @@ void expectRuns(const ReferenceTask& task, Progress& progress) {
 }
 
 std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
-                                  const std::vector<std::vector<std::string>>& times,
-                                  const ReferenceWatch& watch) {
+                                  const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch) {
   std::vector<Integrated> runs(kRuns * tasks.size());
   std::mutex mutex;
   // The last runs of a task have the finer tolerance and take longest: start with them.
@@ -198,8 +186,7 @@ std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
   std::vector<ComputedTask> computed;
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     const std::span all(runs);
-    computed.push_back(
-        Assembly(tasks[task], times[task], all.subspan(kRuns * task, kRuns)).result());
+    computed.push_back(Assembly(tasks[task], times[task], all.subspan(kRuns * task, kRuns)).result());
   }
   return computed;
 }

@@ -46,7 +46,6 @@ void expectRuns(const ReferenceTask& task, Progress& progress);
 /// knows them and the integrations agree with them, else the digits on which the four integrations agree. A
 /// computation that is stopped reports problems.
 std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
-                                  const std::vector<std::vector<std::string>>& times,
-                                  const ReferenceWatch& watch);
+                                  const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch);
 
 }  // namespace irk

@@ -12,8 +12,7 @@
 namespace irk {
 namespace {
 
-const std::vector<std::string> kColumns = {"scene", "settings", "t",     "component",
-                                           "value", "accuracy", "source"};
+const std::vector<std::string> kColumns = {"scene", "settings", "t", "component", "value", "accuracy", "source"};
 
 mp50 parseDecimal(const std::string& place, const std::string& text) {
   parseNumber(place, text, kAnyNumber);  // refuses text that is no number, with its message
@@ -37,8 +36,7 @@ std::string canonicalSettings(const std::string& scene, const std::string& text)
 }
 
 const ReferenceValue* find(const std::vector<ReferenceValue>& values, const ReferenceValue& like) {
-  const auto at = std::find_if(values.begin(), values.end(),
-                               [&](const auto& value) { return samePlace(value, like); });
+  const auto at = std::find_if(values.begin(), values.end(), [&](const auto& value) { return samePlace(value, like); });
   return at == values.end() ? nullptr : &*at;
 }
 
@@ -48,8 +46,7 @@ Table referenceTable(const TableHead& head, const std::vector<ReferenceValue>& v
   Table table{head, kColumns, {}};
   for (const auto& value : values) {
     table.rows.push_back({value.scene, value.settings, value.t, value.component,
-                          decimalText(value.value, value.accuracy),
-                          fmt::format("{:g}", value.accuracy), value.source});
+                          decimalText(value.value, value.accuracy), fmt::format("{:g}", value.accuracy), value.source});
   }
   return table;
 }
@@ -58,9 +55,7 @@ std::vector<ReferenceValue> referenceValues(const std::string& file, const Table
   std::vector<ReferenceValue> values;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto cell = [&](std::string_view column) { return table.rows[i][table.column(column)]; };
-    const auto place = [&](const char* column) {
-      return fmt::format("{}, row {}: {}", file, i + 1, column);
-    };
+    const auto place = [&](const char* column) { return fmt::format("{}, row {}: {}", file, i + 1, column); };
     ReferenceValue value{cell("scene"), "", cell("t"), cell("component"), 0, 0, cell("source")};
     value.settings = canonicalSettings(value.scene, cell("settings"));
     requireTime(place("t"), value.t);
@@ -83,9 +78,8 @@ std::vector<std::string> disagreements(const std::vector<ReferenceValue>& stated
     const auto error = static_cast<double>(mp50(abs(value.value - other->value)));
     if (error <= value.accuracy + other->accuracy) continue;
     lines.push_back(fmt::format("{}: {} to {:g} ({}), computed {} to {:g}", value.place(),
-                                decimalText(value.value, value.accuracy), value.accuracy,
-                                value.source, decimalText(other->value, other->accuracy),
-                                other->accuracy));
+                                decimalText(value.value, value.accuracy), value.accuracy, value.source,
+                                decimalText(other->value, other->accuracy), other->accuracy));
   }
   return lines;
 }

@@ -13,8 +13,7 @@ namespace {
 
 std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", escapeHtml(text)); }
 
-std::string numberCell(const Table& table, const TableRow& row, std::string_view column,
-                       int digits) {
+std::string numberCell(const Table& table, const TableRow& row, std::string_view column, int digits) {
   const double x = numberAt(table, row, column);
   return std::isnan(x) ? "<td>–</td>" : fmt::format("<td>{:.{}g}</td>", x, digits);
 }
@@ -23,8 +22,8 @@ std::string numberCell(const Table& table, const TableRow& row, std::string_view
 
 std::string ordersHtml(const std::string& study, const Table& orders) {
   std::string html = fmt::format("<table><caption>Study {}</caption><thead><tr>", study);
-  for (const auto* title : {"scene", "formulation", "family", "stages", "component", "power of", "order",
-                            "± (95 %)", "theory", "source", "verdict", "window", "points", "reason"}) {
+  for (const auto* title : {"scene", "formulation", "family", "stages", "component", "power of", "order", "± (95 %)",
+                            "theory", "source", "verdict", "window", "points", "reason"}) {
     html += fmt::format("<th>{}</th>", title);
   }
   html += "</tr></thead><tbody>\n";
@@ -40,9 +39,9 @@ std::string ordersHtml(const std::string& study, const Table& orders) {
     html += numberCell(orders, row, "theory", 4) + cell(text("source"));
     html += cell(text("verdict"));
     const bool measured = !std::isnan(numberAt(orders, row, "order"));
-    html += measured ? cell(fmt::format("{:.3g} … {:.3g}", numberAt(orders, row, "h_min"),
-                                        numberAt(orders, row, "h_max")))
-                     : cell("–");
+    html += measured
+                ? cell(fmt::format("{:.3g} … {:.3g}", numberAt(orders, row, "h_min"), numberAt(orders, row, "h_max")))
+                : cell("–");
     html += cell(text("points")) + cell(text("reason"));
     html += "</tr>\n";
   }
@@ -73,8 +72,8 @@ std::string tableausHtml(const Table& tableaus) {
   for (const auto& row : tableaus.rows) {
     html += "<tr>" + cell(textAt(tableaus, row, "method"));
     for (const auto& [name, title, digits] : kColumns) {
-      html += digits > 0 ? numberCell(tableaus, row, name, digits)
-                         : cell(numberAt(tableaus, row, name) > 0 ? "yes" : "no");
+      html +=
+          digits > 0 ? numberCell(tableaus, row, name, digits) : cell(numberAt(tableaus, row, name) > 0 ? "yes" : "no");
     }
     html += "</tr>\n";
   }

@@ -36,9 +36,7 @@ namespace {
 // A folder of results that does not belong to a study, see experiments/analyses/tableau_table.h.
 constexpr std::string_view kTableaus = "tableaus";
 
-std::filesystem::path figureFolder(const ReportOptions& options) {
-  return options.results / "report" / "figures";
-}
+std::filesystem::path figureFolder(const ReportOptions& options) { return options.results / "report" / "figures"; }
 
 std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> parts(1);
@@ -99,9 +97,7 @@ std::string shellQuoted(std::string_view text) {
   return quoted;
 }
 
-std::string commandOf(const std::string& study) {
-  return study == kTableaus ? "tableau table" : "run " + study;
-}
+std::string commandOf(const std::string& study) { return study == kTableaus ? "tableau table" : "run " + study; }
 
 bool hasResults(const Figure& figure, const ReportOptions& options) {
   return std::filesystem::is_directory(options.results / figure.study);
@@ -118,8 +114,7 @@ std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
 }
 
 // Requires that `study` has figures and results; with an empty `study`, that any study has results.
-void requireResults(const std::string& study, const std::vector<Figure>& figures,
-                    const ReportOptions& options) {
+void requireResults(const std::string& study, const std::vector<Figure>& figures, const ReportOptions& options) {
   const auto studies = studiesOf(figures);
   if (!study.empty() && std::find(studies.begin(), studies.end(), study) == studies.end()) {
     throw Misuse(unknownName("study with figures", study, studies));
@@ -131,11 +126,10 @@ void requireResults(const std::string& study, const std::vector<Figure>& figures
   });
   if (found) return;
   if (study.empty()) {
-    throw Failure(fmt::format("no tables of any study in '{}': irk run STUDY makes them",
-                              options.results.string()));
+    throw Failure(fmt::format("no tables of any study in '{}': irk run STUDY makes them", options.results.string()));
   }
-  throw Failure(fmt::format("no results of study '{}' in '{}': irk {} makes them", study,
-                            options.results.string(), commandOf(study)));
+  throw Failure(fmt::format("no results of study '{}' in '{}': irk {} makes them", study, options.results.string(),
+                            commandOf(study)));
 }
 
 std::string studyTitle(const std::string& id) {
@@ -148,8 +142,8 @@ std::string studyTitle(const std::string& id) {
 }
 
 std::string figureHtml(const Figure& figure, const ReportOptions& options) {
-  const auto command = fmt::format("gnuplot -e \"{}\" plots/{}",
-                                   shellQuoted(gnuplotCommands(figure, options)), figure.script);
+  const auto command =
+      fmt::format("gnuplot -e \"{}\" plots/{}", shellQuoted(gnuplotCommands(figure, options)), figure.script);
   return fmt::format(
       "<figure id=\"{0}\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
       "loading=\"lazy\"></a>\n<figcaption><b>{1}.</b> {2} <a href=\"figures/{0}.png\">PNG</a>"
@@ -167,8 +161,7 @@ std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions&
       if (figure.study == study && drawn) own += figureHtml(figure, options);
     }
     if (own.empty()) continue;
-    html +=
-        fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study)), own);
+    html += fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study)), own);
   }
   return html;
 }
@@ -192,22 +185,20 @@ std::vector<Figure> readFigures(const std::filesystem::path& file) {
     if (line.empty() || line.front() == '#') continue;
     const auto parts = split(line, '|');
     if (parts.size() != kFields) {
-      throw Misuse(
-          fmt::format("{}:{}: {} fields, expected study|script|name|title|caption|assignments",
-                      file.string(), number, parts.size()));
+      throw Misuse(fmt::format("{}:{}: {} fields, expected study|script|name|title|caption|assignments", file.string(),
+                               number, parts.size()));
     }
     figures.push_back({parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]});
   }
   return figures;
 }
 
-bool drawFigure(const std::string& script, const std::string& commands,
-                const std::filesystem::path& home, std::ostream& err) {
+bool drawFigure(const std::string& script, const std::string& commands, const std::filesystem::path& home,
+                std::ostream& err) {
   const auto path = (home / "plots" / script).string();
   const int status = runGnuplot(commands, path, err);
   if (status < 0) {
-    fmt::print(err, "cannot start gnuplot ({}): install the package gnuplot-nox\n",
-               std::strerror(errno));
+    fmt::print(err, "cannot start gnuplot ({}): install the package gnuplot-nox\n", std::strerror(errno));
   } else if (status > 0) {
     fmt::print(err, "gnuplot ended with status {}: gnuplot -e \"{}\" {}\n", status, commands, path);
   }
@@ -228,8 +219,8 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
   for (const auto& figure : figures) {
     if (!study.empty() && figure.study != study) continue;
     if (!hasResults(figure, options)) {
-      fmt::print(err, "figure {}: no results of study '{}' yet: irk {}\n", figure.name,
-                 figure.study, commandOf(figure.study));
+      fmt::print(err, "figure {}: no results of study '{}' yet: irk {}\n", figure.name, figure.study,
+                 commandOf(figure.study));
       continue;
     }
     if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) {
@@ -258,9 +249,9 @@ std::filesystem::path writeReport(const ReportOptions& options) {
   replacePlaceholder(page, "@ORDER_WINDOW@", windowText());
   replacePlaceholder(page, "@TABLES@", orders);
   const auto tableaus = options.results / "tableaus" / "tableaus.csv";
-  replacePlaceholder(page, "@TABLEAUS@",
-                     std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus))
-                                                       : "<p>None yet: irk tableau table.</p>");
+  replacePlaceholder(
+      page, "@TABLEAUS@",
+      std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus)) : "<p>None yet: irk tableau table.</p>");
   replacePlaceholder(page, "@ENVIRONMENT@", environment);
   replacePlaceholder(page, "@DATE@", dateText());
   const auto path = options.results / "report" / "index.html";

@@ -25,8 +25,8 @@ struct ReportOptions {
 };
 
 /// Runs `gnuplot -e commands plots/<script>`. Returns false, with a message on `err`, if that fails.
-bool drawFigure(const std::string& script, const std::string& commands,
-                const std::filesystem::path& home, std::ostream& err);
+bool drawFigure(const std::string& script, const std::string& commands, const std::filesystem::path& home,
+                std::ostream& err);
 
 /// Draws results/report/figures/<name>.svg and .png for every figure whose study has results; an empty `study` means
 /// all studies. Returns the number of figures that failed plus the number of studies whose figures lack times because

@@ -29,9 +29,10 @@ std::unique_ptr<Ranks> joinRanks() {
 #ifdef IRK_HAS_MPI
   return mpiRanks();
 #else
-  throw Misuse(fmt::format("{} ranks of mpirun, but this program was built without MPI: every rank would make all "
-                           "runs. Install an MPI (Debian: libopenmpi-dev) and build again",
-                           announced));
+  throw Misuse(
+      fmt::format("{} ranks of mpirun, but this program was built without MPI: every rank would make all "
+                  "runs. Install an MPI (Debian: libopenmpi-dev) and build again",
+                  announced));
 #endif
 }
 

@@ -68,8 +68,9 @@ class Comparing {
       what += fmt::format("{}{} {} / {}", what.empty() ? "" : ", ", column, text(one, column), text(other, column));
     }
     if (what.empty()) return;
-    report_.conflicts.push_back({fmt::format("{} {} {} {}", one.front(), text(one, "scene"), text(one, "settings"), text(one, "method")),
-                                 fmt::format("{} ({} / {})", what, first.folder().string(), second.folder().string())});
+    report_.conflicts.push_back(
+        {fmt::format("{} {} {} {}", one.front(), text(one, "scene"), text(one, "settings"), text(one, "method")),
+         fmt::format("{} ({} / {})", what, first.folder().string(), second.folder().string())});
   }
 
   const std::vector<const Store*>& stores_;
@@ -119,16 +120,18 @@ std::map<std::string, std::string> studiesIn(const std::vector<std::unique_ptr<S
   const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "study") - columns.begin());
   std::map<std::string, std::string> studies;
   for (const auto& store : stores) {
-    store->runs().forEach([&](const Entry& entry) { studies.try_emplace(store->runs().row(entry)[at], store->folder().string()); });
+    store->runs().forEach(
+        [&](const Entry& entry) { studies.try_emplace(store->runs().row(entry)[at], store->folder().string()); });
   }
   return studies;
 }
 
 std::string textOf(const MergeReport& report) {
-  auto text = fmt::format("expected {}, found {}, missing {}, duplicate {}, foreign (another processor) {}, of no run of the study {}, "
-                          "conflicts {}\n",
-                          report.expected, report.found, report.missing, report.duplicate, report.foreign,
-                          report.not_of_study, report.conflicts.size());
+  auto text = fmt::format(
+      "expected {}, found {}, missing {}, duplicate {}, foreign (another processor) {}, of no run of the study {}, "
+      "conflicts {}\n",
+      report.expected, report.found, report.missing, report.duplicate, report.foreign, report.not_of_study,
+      report.conflicts.size());
   for (std::size_t i = 0; i < std::min(kShown, report.conflicts.size()); ++i) {
     const auto& conflict = report.conflicts[i];
     text += fmt::format("  the same run with other numbers: {}: {}\n", conflict.run, conflict.what);

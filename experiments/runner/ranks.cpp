@@ -23,9 +23,7 @@ class Alone final : public Ranks {
  public:
   int rank() const override { return 0; }
   int count() const override { return 1; }
-  std::unique_ptr<WorkQueue> queue(std::size_t count, Given) override {
-    return std::make_unique<OneQueue>(count);
-  }
+  std::unique_ptr<WorkQueue> queue(std::size_t count, Given) override { return std::make_unique<OneQueue>(count); }
   void meet() override {}
   [[noreturn]] void abandon(int status) override { std::exit(status); }
 };

@@ -76,8 +76,7 @@ class Sweep {
       const RunSpec& spec = study_.series[series].runs.front();
       return isFamily(spec.method) ? spec.max_stages : stagesInId(spec.method);
     };
-    std::stable_sort(work_.begin(), work_.end(),
-                     [&](std::size_t a, std::size_t b) { return stages(a) > stages(b); });
+    std::stable_sort(work_.begin(), work_.end(), [&](std::size_t a, std::size_t b) { return stages(a) > stages(b); });
     const auto queue = ranks.queue(work_.size(), [this](std::size_t i) { countAsGiven(work_[i]); });
     inParallel(*queue, threads, [this](std::size_t i) { runSeries(work_[i]); });
   }
@@ -94,9 +93,11 @@ class Sweep {
       }
     }
     if (stale == 0) return;
-    fmt::print(out, "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
-                    "them again\n",
-               study_.id, stale);
+    fmt::print(
+        out,
+        "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
+        "them again\n",
+        study_.id, stale);
   }
 
   // Another rank makes the series: count its runs as done.
@@ -140,7 +141,7 @@ class Sweep {
 
   // nullopt after an interrupt.
   std::optional<RunFacts> finishedOrMade(const RunSpec& spec, std::uint64_t key, const std::string& kind, bool planned,
-                                      const std::optional<TableRow>& too_long) {
+                                         const std::optional<TableRow>& too_long) {
     if (interruptFlag()) return {};
     {
       const std::lock_guard lock(mutex_);
@@ -221,8 +222,8 @@ std::vector<std::uint64_t> inOrder(const RunKeys& keys) {
   return order;
 }
 
-std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
-                                    Ranks& ranks, std::ostream& progress) {
+std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store, Ranks& ranks,
+                                    std::ostream& progress) {
   Sweep sweep(study, options, store, progress);
   sweep.run(threadCount(options.jobs), ranks);
   return inOrder(sweep.keys());

@@ -17,7 +17,7 @@ namespace irk {
 
 struct RunnerOptions {
   std::filesystem::path results = "results";
-  int jobs = 0;               ///< >= 0; 0 = one per processor
+  int jobs = 0;  ///< >= 0; 0 = one per processor
   Shard shard;
   store::StoreOptions store;
 };
@@ -37,8 +37,8 @@ std::vector<std::uint64_t> inOrder(const RunKeys& keys);
 /// Makes the runs that the store lacks; each rank makes a part of them, in a store of its own. Returns the keys of
 /// all runs in the study's order, which does not depend on the number of threads and ranks; after an interrupt there
 /// may be fewer. Writes progress to `progress`. Throws Failure.
-std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store,
-                                    Ranks& ranks, std::ostream& progress);
+std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store, Ranks& ranks,
+                                    std::ostream& progress);
 
 /// Like makeRuns, on this process only and with its own store in studyFolder; exports the tables and returns
 /// runs.csv.

@@ -39,8 +39,9 @@ Shard fromArrayJob() {
   for (const char* name : {"PBS_ARRAY_INDEX", "SGE_TASK_ID"}) {
     if (setting(name)) return {fromEnvironment(name), 0};
   }
-  throw Misuse("shard = 'auto': this is no array job, neither SLURM_ARRAY_TASK_ID nor PBS_ARRAY_INDEX nor SGE_TASK_ID "
-               "is set");
+  throw Misuse(
+      "shard = 'auto': this is no array job, neither SLURM_ARRAY_TASK_ID nor PBS_ARRAY_INDEX nor SGE_TASK_ID "
+      "is set");
 }
 
 Shard checked(Shard shard, std::string_view text) {
@@ -127,8 +128,8 @@ std::vector<int> shardOfSeries(const Study& study, int shards) {
   return shard;
 }
 
-std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command, int shards,
-                        int jobs) {
+std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command,
+                        int shards, int jobs) {
   return fmt::format(
       "#!/bin/bash\n"
       "# {0}: submit with sbatch. When all jobs have ended:\n"

@@ -28,7 +28,7 @@ std::vector<int> shardOfSeries(const Study& study, int shards);
 double expectedCost(const Series& series);
 
 /// A Slurm job script: an array of `shards` jobs, and the commands that merge their results.
-std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command, int shards,
-                        int jobs);
+std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command,
+                        int shards, int jobs);
 
 }  // namespace irk

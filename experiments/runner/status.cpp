@@ -85,7 +85,8 @@ class Counting {
   }
 
   RunCounts& part(const std::string& id) {
-    const auto at = std::find_if(status_.parts.begin(), status_.parts.end(), [&](const auto& s) { return s.first == id; });
+    const auto at =
+        std::find_if(status_.parts.begin(), status_.parts.end(), [&](const auto& s) { return s.first == id; });
     if (at != status_.parts.end()) return at->second;
     return status_.parts.emplace_back(id, RunCounts()).second;
   }
@@ -125,8 +126,8 @@ std::string textOf(const StudyStatus& status) {
   std::string text = fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", status.part, width, "planned", "finished",
                                  "failed", "stale", "foreign");
   const auto line = [&](const std::string& part, const RunCounts& c) {
-    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", part, width, c.planned, c.finished, c.failed, c.stale,
-                        c.foreign);
+    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8} {:>8} {:>8}\n", part, width, c.planned, c.finished, c.failed,
+                        c.stale, c.foreign);
   };
   for (const auto& [part, counts] : status.parts) line(part, counts);
   line("all", status.all);

@@ -15,11 +15,11 @@ namespace irk {
 
 /// Stale, foreign and failed runs also count as finished.
 struct RunCounts {
-  std::size_t planned = 0;   ///< an estimate if a StepPlanner chooses the steps
+  std::size_t planned = 0;  ///< an estimate if a StepPlanner chooses the steps
   std::size_t finished = 0;
-  std::size_t failed = 0;    ///< any outcome but success
-  std::size_t stale = 0;     ///< made by other code
-  std::size_t foreign = 0;   ///< made on another processor
+  std::size_t failed = 0;   ///< any outcome but success
+  std::size_t stale = 0;    ///< made by other code
+  std::size_t foreign = 0;  ///< made on another processor
   void add(const RunCounts& other);
 };
 
@@ -28,9 +28,9 @@ struct StudyStatus {
   std::vector<std::pair<std::string, RunCounts>> parts;
   std::string part = "block";  ///< or `scene`
   RunCounts all;
-  double seconds_left = 0;          ///< of the missing accuracy runs, on one thread, estimated from finished ones
-  std::size_t guessed = 0;          ///< missing runs without a similar finished one; the overall mean is used
-  std::size_t to_time = 0;          ///< finished runs that still lack timing
+  double seconds_left = 0;  ///< of the missing accuracy runs, on one thread, estimated from finished ones
+  std::size_t guessed = 0;  ///< missing runs without a similar finished one; the overall mean is used
+  std::size_t to_time = 0;  ///< finished runs that still lack timing
   double timing_seconds_left = 0;
 };
 

@@ -42,9 +42,7 @@ struct Candidate {
 };
 
 // Timing takes about the same time for runs of about the same length.
-std::string kindOf(const Candidate& candidate) {
-  return std::to_string(std::ilogb(candidate.seconds));
-}
+std::string kindOf(const Candidate& candidate) { return std::to_string(std::ilogb(candidate.seconds)); }
 
 // The row's repetitions that were measured on this processor; empty if its times are not valid (forgetTiming).
 std::vector<double> measuredHere(const store::Store& store, const Table& runs, const TableRow& row) {
@@ -89,11 +87,9 @@ Timing timingOf(std::vector<double> seconds) {
 }
 
 double timeRun(PreparedRun& run, double min_time_s) {
-  benchmark::RegisterBenchmark("run",
-                               [&run](benchmark::State& state) {
-                                 for ([[maybe_unused]] auto _ : state) run.integrate();
-                               })
-      ->MinTime(min_time_s);
+  benchmark::RegisterBenchmark("run", [&run](benchmark::State& state) {
+    for ([[maybe_unused]] auto _ : state) run.integrate();
+  })->MinTime(min_time_s);
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);
   benchmark::ClearRegisteredBenchmarks();

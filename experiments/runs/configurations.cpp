@@ -9,8 +9,7 @@
 namespace irk {
 namespace {
 
-#define IRK_EMBEDDED                                                                            \
-  "estimate=embedded;solver=eigen;jacobian_point=predicted;newton=broyden"
+#define IRK_EMBEDDED "estimate=embedded;solver=eigen;jacobian_point=predicted;newton=broyden"
 constexpr Configuration kConfigurations[] = {
     {"default",
      "Richardson's estimate, predictive control, simplified Newton, Schur basis, switches located, "
@@ -20,8 +19,7 @@ constexpr Configuration kConfigurations[] = {
      "newton=modified;derivatives=difference_forward;solver=coupled_dense;predictor=previous;"
      "estimate=doubling;control=paper;norm=absolute;summation=plain;discontinuity=ignore;"
      "multipliers=stages"},
-    {"embedded", "embedded estimate, eigenvectors of A, predicted Jacobians, Broyden's updates",
-     IRK_EMBEDDED},
+    {"embedded", "embedded estimate, eigenvectors of A, predicted Jacobians, Broyden's updates", IRK_EMBEDDED},
     {"variable", "the same with variable order; a method with its number of stages is the first one",
      IRK_EMBEDDED ";order=variable;method=radau_iia"}};
 #undef IRK_EMBEDDED

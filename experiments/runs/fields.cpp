@@ -45,14 +45,15 @@ Field<RunSpec> settingsField() {
           .meaning = "Parameters of the scene.",
           .form = "name=value, see irk list scenes",
           .get = [](const RunSpec& s) { return settingsText(s.settings); },
-          .set = [](RunSpec& s, std::string_view value) {
-            s.settings.clear();
-            while (!value.empty()) {
-              const auto end = std::min(value.find(' '), value.size());
-              if (end > 0) addSetting(s.settings, value.substr(0, end));
-              value.remove_prefix(std::min(end + 1, value.size()));
-            }
-          }};
+          .set =
+              [](RunSpec& s, std::string_view value) {
+                s.settings.clear();
+                while (!value.empty()) {
+                  const auto end = std::min(value.find(' '), value.size());
+                  if (end > 0) addSetting(s.settings, value.substr(0, end));
+                  value.remove_prefix(std::min(end + 1, value.size()));
+                }
+              }};
 }
 
 // An axis, but its ids set other fields, too.
@@ -61,11 +62,12 @@ Field<RunSpec> configurationField() {
                        .meaning = "A named choice of strategies, which other options override.",
                        .kind = FieldKind::kAxis,
                        .get = [](const RunSpec& s) { return s.configuration; },
-                       .set = [](RunSpec& s, std::string_view id) {
-                         const auto& configuration = findConfiguration(id);
-                         s.configuration = id;
-                         setFields(s, configuration.fields);
-                       }};
+                       .set =
+                           [](RunSpec& s, std::string_view id) {
+                             const auto& configuration = findConfiguration(id);
+                             s.configuration = id;
+                             setFields(s, configuration.fields);
+                           }};
   for (const auto& [id, meaning, fields] : configurations()) {
     field.choices.push_back({std::string(id), fmt::format("{}{}{}", meaning, fields.empty() ? "" : ": ", fields)});
   }
@@ -75,19 +77,22 @@ Field<RunSpec> configurationField() {
 Field<RunSpec> methodField() {
   return {.name = "method",
           .meaning = "The integration method.",
-          .form = "family_stages or another library's integrator (irk list methods), a tableau file, or a family "
-                  "with order variable",
+          .form =
+              "family_stages or another library's integrator (irk list methods), a tableau file, or a family "
+              "with order variable",
           .get = [](const RunSpec& s) { return s.method; },
-          .set = [](RunSpec& s, std::string_view value) {
-            requirePlain("method", value, ";\n");
-            s.method = value;
-          }};
+          .set =
+              [](RunSpec& s, std::string_view value) {
+                requirePlain("method", value, ";\n");
+                s.method = value;
+              }};
 }
 
 // A number, or `scene` for NaN.
 Field<RunSpec> endField() {
-  auto field = numberField<RunSpec>("t_end", "The time at which the integration ends; scene = the scene's own.",
-                                    kAnyNumber, [](auto& s) -> auto& { return s.t_end; });
+  auto field = numberField<RunSpec>(
+      "t_end", "The time at which the integration ends; scene = the scene's own.", kAnyNumber,
+      [](auto& s) -> auto& { return s.t_end; });
   field.get = [get = field.get](const RunSpec& s) { return std::isnan(s.t_end) ? "scene" : get(s); };
   field.set = [set = field.set](RunSpec& s, std::string_view text) {
     if (text == "scene") {
@@ -100,8 +105,9 @@ Field<RunSpec> endField() {
 }
 
 Field<RunSpec> maxStagesField() {
-  auto field = numberField<RunSpec>("max_stages", "The most stages of variable order.",
-                                    Range::integers(1, kMaxStages), [](auto& s) -> auto& { return s.max_stages; });
+  auto field = numberField<RunSpec>(
+      "max_stages", "The most stages of variable order.", Range::integers(1, kMaxStages),
+      [](auto& s) -> auto& { return s.max_stages; });
   field.unused = [](const RunSpec& s) -> std::string_view {
     return s.options.order == OrderControl::kFixed ? "it belongs to order 'variable'" : "";
   };
@@ -111,23 +117,21 @@ Field<RunSpec> maxStagesField() {
 // What a series runs through. A new field is part of the name of a series unless it is added here.
 constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 
-#define IRK_MEMBER(path) [](auto& s) -> auto& { return s.path; }
+#define IRK_MEMBER(path) \
+  [](auto& s) -> auto& { return s.path; }
 
 // The members of RunSpec; `options` stands for all of its own.
 std::vector<SpecField> makeFields() {
-  auto before = std::to_array<Field<RunSpec>>({
-      sceneField(),
-      settingsField(),
-      configurationField(),
-      methodField(),
-      axisField<RunSpec>("The form of the equations, above all of constraints.", IRK_MEMBER(formulation)),
-      axisField<RunSpec>("Whether the rows of constraints are scaled by the step size.", IRK_MEMBER(scaling)),
-      axisField<RunSpec>("How switches of the scene are treated.", IRK_MEMBER(discontinuity)),
-      axisField<RunSpec>("The numbers that are computed with.", IRK_MEMBER(scalar))});
-  auto after = std::to_array<Field<RunSpec>>({
-      maxStagesField(), endField(),
-      numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
-                           kNotNegative, IRK_MEMBER(time_limit))});
+  auto before = std::to_array<Field<RunSpec>>(
+      {sceneField(), settingsField(), configurationField(), methodField(),
+       axisField<RunSpec>("The form of the equations, above all of constraints.", IRK_MEMBER(formulation)),
+       axisField<RunSpec>("Whether the rows of constraints are scaled by the step size.", IRK_MEMBER(scaling)),
+       axisField<RunSpec>("How switches of the scene are treated.", IRK_MEMBER(discontinuity)),
+       axisField<RunSpec>("The numbers that are computed with.", IRK_MEMBER(scalar))});
+  auto after = std::to_array<Field<RunSpec>>(
+      {maxStagesField(), endField(),
+       numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
+                            kNotNegative, IRK_MEMBER(time_limit))});
   constexpr std::size_t kOwn = std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)>;
   static_assert(kOwn + 1 == memberCount<RunSpec>(), "a member of RunSpec has no field");
   std::vector<SpecField> fields;

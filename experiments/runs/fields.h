@@ -2,8 +2,8 @@
 // of those without effect, the keys of study files, the text and the key of a run, the columns of its row and the
 // names of series, its JSON, `irk list`, and validation.
 //
-// An option of the integrator is a line in core/options/option_fields.cpp and is here by itself; another setting of a run is
-// a line in fields.cpp. Without its line a new member of IntegratorOptions or RunSpec does not compile.
+// An option of the integrator is a line in core/options/option_fields.cpp and is here by itself; another setting of a
+// run is a line in fields.cpp. Without its line a new member of IntegratorOptions or RunSpec does not compile.
 #pragma once
 
 #include <span>

@@ -30,8 +30,7 @@ class RungeKutta {
   const std::string& family() const { return setup_.methods.members.front().family; }
   /// 0 for a family: the order controller chooses the stages.
   Index stages() const { return isFamily(setup_.spec.method) ? 0 : setup_.stages(); }
-  Solution<Real> integrate(const State<Real>& start, const Real& t_end,
-                           const Monitor<Real>& monitor) {
+  Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     auto solution = integrator_.integrate(start, t_end, monitor);
     const auto* form = dynamic_cast<const FirstOrderForm<Real>*>(setup_.system.get());
     if (form && solution.detail.empty()) {
@@ -58,8 +57,7 @@ class PeerMethod {
   const Scene<double>& scene() const { return scene_; }
   const std::string& family() const { return entry_.id; }
   Index stages() const { return 0; }
-  Solution<double> integrate(const State<double>& start, double t_end,
-                             const Monitor<double>& monitor) {
+  Solution<double> integrate(const State<double>& start, double t_end, const Monitor<double>& monitor) {
     return integrator_.integrate(start, t_end, monitor);
   }
 
@@ -97,8 +95,7 @@ class Prepared final : public PreparedRun {
       const double none = std::numeric_limits<double>::quiet_NaN();
       watch.accepted({static_cast<double>(scene_.start.t), none, none, 0, values(scene_.start)});
       monitor.accepted = [&](const StepRecord<Real>& step) {
-        watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations,
-                        values(step.state)});
+        watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations, values(step.state)});
       };
     }
     std::vector<SwitchEvent> switches;
@@ -114,9 +111,7 @@ class Prepared final : public PreparedRun {
     return result;
   }
 
-  void integrate() override {
-    last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
-  }
+  void integrate() override { last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome; }
 
   std::vector<std::string> columns() const override {
     auto names = scene_.names;

@@ -44,8 +44,7 @@ double& group(RunErrors& errors, const Sizes& n, Index i) {
 double scaleOf(const Vec<double>& scale, Index i) { return i < scale.size() ? scale[i] : 1; }
 
 template <class Real>
-void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& state,
-                  RunErrors& errors) {
+void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& state, RunErrors& errors) {
   const Vec<Real> y = components(state);
   const Vec<Real> reference = components(scene.exact(state.t));
   for (Index i = 0; i < std::min(y.size(), reference.size()); ++i) {
@@ -57,8 +56,8 @@ void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& s
 }
 
 template <class Real>
-void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real>& state,
-                      const Reference& reference, RunErrors& errors) {
+void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real>& state, const Reference& reference,
+                      RunErrors& errors) {
   const Real value = decimalNumber<Real>(reference.value);
   const auto at = std::find(scene.names.begin(), scene.names.end(), reference.component);
   if (at != scene.names.end()) {
@@ -110,8 +109,7 @@ Vec<Real> components(const State<Real>& s) {
 }
 
 template <class Real>
-RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references,
-                   const State<Real>& state) {
+RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state) {
   RunErrors errors;
   const Sizes n = scene.sizes();
   errors.drift = driftOf(scene, state);
@@ -130,10 +128,8 @@ RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& refer
 template Vec<double> components(const State<double>&);
 template Vec<mp50> components(const State<mp50>&);
 template Vec<mp100> components(const State<mp100>&);
-template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&,
-                            const State<double>&);
+template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&, const State<double>&);
 template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
-template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&,
-                            const State<mp100>&);
+template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&);
 
 }  // namespace irk

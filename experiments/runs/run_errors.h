@@ -35,7 +35,6 @@ Vec<Real> components(const State<Real>& s);
 /// Compares with Scene::exact if it knows any component at the state's time, else with the references at that time.
 /// The references must belong to the scene's settings.
 template <class Real>
-RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references,
-                   const State<Real>& state);
+RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state);
 
 }  // namespace irk

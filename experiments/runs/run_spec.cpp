@@ -66,8 +66,7 @@ RunSpec resolved(RunSpec spec) {
       throw Misuse(unknownName("parameter of " + spec.scene, name, known));
     }
   }
-  if (std::isnan(spec.t_end))
-    spec.t_end = makeScene<double>(spec.scene, settingsAtStep(spec)).t_end;
+  if (std::isnan(spec.t_end)) spec.t_end = makeScene<double>(spec.scene, settingsAtStep(spec)).t_end;
   return spec;
 }
 
@@ -84,9 +83,10 @@ Settings settingsAtStep(const RunSpec& spec) {
 
 void refuseFamilyOfFixedOrder(const RunSpec& spec) {
   if (!isFamily(spec.method) || spec.options.order != OrderControl::kFixed) return;
-  throw Misuse(fmt::format("illegal combination: order 'fixed' with '{0}': that is a family, for order "
-                           "'variable' only; a method has its number of stages, {0}_5",
-                           spec.method));
+  throw Misuse(
+      fmt::format("illegal combination: order 'fixed' with '{0}': that is a family, for order "
+                  "'variable' only; a method has its number of stages, {0}_5",
+                  spec.method));
 }
 
 Index stagesInId(std::string_view method) {

@@ -15,10 +15,8 @@ namespace {
 // These fields stand before the derived columns; all others of specFields() follow them.
 constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
-constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",
-                                        "error_x", "error_z", "drift"};
-constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all",
-                                       "cpu_environment"};
+constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift"};
+constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all", "cpu_environment"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
 constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
 
@@ -63,8 +61,7 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
   for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift}) row.push_back(numberText(error));
-  record.counters.forEach(
-      [&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
+  record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
   row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", "", environment, record.detail,
                          std::string(buildInfo().code), environment, dateText(), ""});

@@ -31,7 +31,7 @@ std::vector<RunSeries> seriesOf(const Table& runs);
 struct Timing {
   double minimum_s;
   double median_s;
-  double spread;  ///< (max - min) / min
+  double spread;              ///< (max - min) / min
   std::vector<double> all_s;  ///< each repetition, in the order in which they were made
 };
 /// Writes times that were measured here and now.

@@ -55,8 +55,8 @@ std::vector<Row> thinned(const std::vector<Row>& rows) {
 }
 
 TableRow cells(const Row& row) {
-  TableRow cells{numberText(row.t), numberText(row.h), numberText(row.error),
-                 std::to_string(row.newton_iterations), std::to_string(row.switches)};
+  TableRow cells{numberText(row.t), numberText(row.h), numberText(row.error), std::to_string(row.newton_iterations),
+                 std::to_string(row.switches)};
   for (const double value : row.values) cells.push_back(numberText(value));
   return cells;
 }
@@ -69,8 +69,7 @@ std::filesystem::path trajectoryPath(const std::filesystem::path& folder, const 
   return folder / (name + '.' + std::filesystem::path(spec.method).filename().string() + ".csv");
 }
 
-RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch,
-                                const std::filesystem::path& file) {
+RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch, const std::filesystem::path& file) {
   const auto run = prepare(spec);
   std::vector<Row> rows;
   int switches = 0;
@@ -85,9 +84,8 @@ RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch,
   };
   recording.switched = [&](double, const std::string&) { ++switches; };
   const RunRecord record = run->execute(recording);
-  Table table{environmentHead("trajectory of " + spec.scene, 1),
-              {std::begin(kStepColumns), std::end(kStepColumns)},
-              {}};
+  Table table{
+      environmentHead("trajectory of " + spec.scene, 1), {std::begin(kStepColumns), std::end(kStepColumns)}, {}};
   for (auto& line : panelHead(findScene(spec.scene), makeScene<double>(spec.scene, settingsAtStep(spec)))) {
     table.head.push_back(std::move(line));
   }

@@ -13,7 +13,6 @@ std::filesystem::path trajectoryPath(const std::filesystem::path& folder, const 
 /// Runs the spec and writes the columns t, h, error, newton_iterations, switches, components, outputs; the head
 /// describes the scene's diagrams (panelHead). Long runs are thinned: a row then has the smallest step since the
 /// previous row. Throws Misuse as `prepare`.
-RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch,
-                                const std::filesystem::path& file);
+RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch, const std::filesystem::path& file);
 
 }  // namespace irk

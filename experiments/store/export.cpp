@@ -73,8 +73,9 @@ std::string Store::refusalOfTimes(std::span<const std::uint64_t> keys) const {
   for (const auto& [processor, its] : measured) {
     text += fmt::format(" '{}' ({} rows, environments {}),", processor, its.rows, fmt::join(its.environments, " "));
   }
-  return text + " so runs.csv has none. Either --times here, which keeps those of this processor and measures the others "
-                "again if the study has a timing pass, or --fresh";
+  return text +
+         " so runs.csv has none. Either --times here, which keeps those of this processor and measures the others "
+         "again if the study has a timing pass, or --fresh";
 }
 
 TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& refusal) const {
@@ -92,7 +93,8 @@ TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& re
   std::string made_by;
   for (const auto& [code, rows] : codes) {
     const bool current = runs_.name(code) == buildInfo().code;
-    made_by += fmt::format("{}{} ({} rows{})", made_by.empty() ? "" : ", ", runs_.name(code), rows, current ? "" : ", stale");
+    made_by +=
+        fmt::format("{}{} ({} rows{})", made_by.empty() ? "" : ", ", runs_.name(code), rows, current ? "" : ", stale");
   }
   head.emplace_back("code", made_by);
   const auto columns = environmentColumns();
@@ -105,7 +107,8 @@ TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& re
     }
     head.emplace_back(name, joined(values));
   }
-  if (last > 0) head.emplace_back("date", first == last ? textOf(last) : fmt::format("{} to {}", textOf(first), textOf(last)));
+  if (last > 0)
+    head.emplace_back("date", first == last ? textOf(last) : fmt::format("{} to {}", textOf(first), textOf(last)));
   if (!refusal.empty()) head.emplace_back(kTimesRefused, refusal);
   return head;
 }
@@ -143,9 +146,8 @@ void Store::exportStates(std::span<const std::uint64_t> keys) const {
 void Store::exportEnvironments() const {
   std::vector<Entry> all;
   environments_.forEach([&all](const Entry& entry) { all.push_back(entry); });
-  std::sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) {
-    return std::pair(a.part, a.offset) < std::pair(b.part, b.offset);
-  });
+  std::sort(all.begin(), all.end(),
+            [](const Entry& a, const Entry& b) { return std::pair(a.part, a.offset) < std::pair(b.part, b.offset); });
   writeWhole(folder_ / "environments.csv", [&](std::ostream& out) {
     out << startOf({{"study", study_}}, environments_.columns());
     for (const auto& entry : all) out << environments_.line(entry) << '\n';

@@ -83,7 +83,8 @@ Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messa
     const Holder holder = readHolder(file_);
     if (holder.isDead()) {
       if (!removeDead(file_, holder)) continue;
-      fmt::print(messages, "{}: process {} of this machine, which wrote here since {}, is no more: going on in its place\n",
+      fmt::print(messages,
+                 "{}: process {} of this machine, which wrote here since {}, is no more: going on in its place\n",
                  folder.string(), holder.process, holder.date);
       continue;
     }
@@ -93,7 +94,7 @@ Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messa
     const auto who = fmt::format("process {} on {} writes there since {}", holder.process, holder.host, holder.date);
     if (if_locked == IfLocked::kRefuse && !unknown) {
       throw Failure(fmt::format("{}: {}; --wait waits for its end. If it is no more, remove {}", folder.string(), who,
-                                     file_.string()));
+                                file_.string()));
     }
     if (interruptFlag()) throw Failure(fmt::format("{}: interrupted while {}", folder.string(), who));
     if (!told && !unknown) fmt::print(messages, "{}: {}: waiting\n", folder.string(), who);

@@ -35,8 +35,7 @@ struct PartReading {
 /// was exported has one cell more, its blocks. Each row is one line, so damage never spreads to other rows. Throws
 /// Failure if the file cannot be read.
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                     const std::function<bool(const std::vector<std::string_view>& cells,
-                                              std::uint64_t offset)>& take);
+                     const std::function<bool(const std::vector<std::string_view>& cells, std::uint64_t offset)>& take);
 
 /// Appends rows to a file that belongs to this process and is created with the first row. Each row is one write at
 /// the end of the file: a killed process leaves complete rows and at most one that is cut short. Not thread-safe.

@@ -65,9 +65,10 @@ std::uint32_t secondsOf(std::string_view date) {
   constexpr std::size_t kLength = 20;
   if (date.size() != kLength || date.back() != 'Z') return 0;
   const auto part = [date](std::size_t at, std::size_t length) { return numberOf<unsigned>(date.substr(at, length)); };
-  const std::chrono::sys_days day = std::chrono::year(static_cast<int>(part(0, 4))) / std::chrono::month(part(5, 2)) /
-                                    std::chrono::day(part(8, 2));
-  const auto seconds = day.time_since_epoch() / std::chrono::seconds(1) + part(11, 2) * 3600 + part(14, 2) * 60 + part(17, 2);
+  const std::chrono::sys_days day =
+      std::chrono::year(static_cast<int>(part(0, 4))) / std::chrono::month(part(5, 2)) / std::chrono::day(part(8, 2));
+  const auto seconds =
+      day.time_since_epoch() / std::chrono::seconds(1) + part(11, 2) * 3600 + part(14, 2) * 60 + part(17, 2);
   return static_cast<std::uint32_t>(seconds);
 }
 
@@ -134,7 +135,8 @@ void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage
     return true;
   });
   if (!reading.columns_match) {
-    fmt::print(messages, "{}: its columns are not those of this version; it is kept, its rows are not used\n", file.string());
+    fmt::print(messages, "{}: its columns are not those of this version; it is kept, its rows are not used\n",
+               file.string());
     return;
   }
   damaged_ += reading.damaged.size();
@@ -176,10 +178,10 @@ void Rows::read(Damage damage, std::ostream& messages) {
 }
 
 void Rows::keepBest() {
-  std::sort(sorted_.begin(), sorted_.end(), [this](const Entry& a, const Entry& b) {
-    return a.key != b.key ? a.key < b.key : better(a, b);
-  });
-  const auto end = std::unique(sorted_.begin(), sorted_.end(), [](const Entry& a, const Entry& b) { return a.key == b.key; });
+  std::sort(sorted_.begin(), sorted_.end(),
+            [this](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : better(a, b); });
+  const auto end =
+      std::unique(sorted_.begin(), sorted_.end(), [](const Entry& a, const Entry& b) { return a.key == b.key; });
   sorted_.erase(end, sorted_.end());
   sorted_.shrink_to_fit();
 }
@@ -234,7 +236,8 @@ std::string Rows::line(const Entry& entry) const {
   std::string text;
   for (;;) {
     char block[kUsual];
-    const auto count = pread(descriptor(entry.part), block, sizeof block, static_cast<off_t>(entry.offset + text.size()));
+    const auto count =
+        pread(descriptor(entry.part), block, sizeof block, static_cast<off_t>(entry.offset + text.size()));
     if (count <= 0) throw Failure(fmt::format("{}: shorter than before", parts_[entry.part].string()));
     const std::string_view got(block, static_cast<std::size_t>(count));
     const auto end = got.find('\n');

@@ -45,7 +45,8 @@ std::uint64_t keyNumber(std::string_view key) {
   return number;
 }
 
-Store::Store(std::filesystem::path folder, std::string study, Use use, const StoreOptions& options, std::ostream& messages)
+Store::Store(std::filesystem::path folder, std::string study, Use use, const StoreOptions& options,
+             std::ostream& messages)
     : folder_(std::move(folder)),
       study_(std::move(study)),
       options_(options),

@@ -10,9 +10,7 @@ Dice::Dice(std::string_view text) : engine_(fnv1a(text)) {}
 
 double Dice::uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-Index Dice::below(Index count) {
-  return static_cast<Index>(uniform() * static_cast<double>(count));
-}
+Index Dice::below(Index count) { return static_cast<Index>(uniform() * static_cast<double>(count)); }
 
 Index Dice::weighted(std::span<const double> weights) {
   double left = uniform() * std::accumulate(weights.begin(), weights.end(), 0.0);

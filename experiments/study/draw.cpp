@@ -29,11 +29,9 @@ struct Choice {
   const char* id;  // empty: not given
   double weight;
 };
-constexpr Choice kConfigurations[] = {
-    {"default", 0.35}, {"paper", 0.15}, {"embedded", 0.25}, {"variable", 0.25}};
-constexpr Choice kTreatments[] = {
-    {"", 0.48}, {"ignore", 0.1}, {"iterate", 0.13}, {"locate", 0.19}, {"smooth", 0.1}};
-constexpr Choice kFormulations[] = {{"", 0.5},    {"index3", 0.1}, {"ggl", 0.1}, {"index2_projected", 0.1},
+constexpr Choice kConfigurations[] = {{"default", 0.35}, {"paper", 0.15}, {"embedded", 0.25}, {"variable", 0.25}};
+constexpr Choice kTreatments[] = {{"", 0.48}, {"ignore", 0.1}, {"iterate", 0.13}, {"locate", 0.19}, {"smooth", 0.1}};
+constexpr Choice kFormulations[] = {{"", 0.5},       {"index3", 0.1},     {"ggl", 0.1}, {"index2_projected", 0.1},
                                     {"index1", 0.1}, {"first_order", 0.1}};
 
 template <std::size_t N>
@@ -87,8 +85,8 @@ Settings drawnOnce(Dice& dice, const SceneEntry& scene, Discontinuity treatment,
 std::optional<Scene<double>> sceneOf(const std::string& id, const Settings& settings) {
   try {
     auto scene = makeScene<double>(id, settings);
-    const bool finite = scene.start.u.allFinite() && scene.start.v.allFinite() &&
-                        scene.start.x.allFinite() && scene.start.w.allFinite();
+    const bool finite = scene.start.u.allFinite() && scene.start.v.allFinite() && scene.start.x.allFinite() &&
+                        scene.start.w.allFinite();
     const bool usable = finite && std::isfinite(scene.t_end) && scene.start.t < scene.t_end;
     return usable ? std::optional(std::move(scene)) : std::nullopt;
   } catch (const Misuse&) {
@@ -128,8 +126,7 @@ struct MethodChoice {
 MethodChoice drawnMethod(Dice& dice, bool variable) {
   const auto& families = familyCatalogue();
   for (;;) {
-    const auto& family =
-        families[static_cast<std::size_t>(dice.below(static_cast<Index>(families.size())))];
+    const auto& family = families[static_cast<std::size_t>(dice.below(static_cast<Index>(families.size())))];
     const bool whole = dice.chance(0.5);
     const Index stages = kStages[dice.weighted(kStageWeights)];
     if (variable && whole) return {family.id, 0};
@@ -149,8 +146,7 @@ class Drawer {
   DrawnRun run(int number) {
     const auto& scenes = sceneCatalogue();
     Dice dice(fmt::format("{} run {}", options_.seed, number));
-    const auto& scene =
-        scenes[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes.size())))];
+    const auto& scene = scenes[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes.size())))];
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       if (auto run = drawn(dice, scene)) return *run;
     }
@@ -219,8 +215,8 @@ class Drawer {
   }
 
   // Whether the scene supports this formulation and treatment. An empty treatment is always legal.
-  bool allowsSystem(const std::string& scene, const Settings& settings,
-                    const std::string& formulation, const std::string& treatment) {
+  bool allowsSystem(const std::string& scene, const Settings& settings, const std::string& formulation,
+                    const std::string& treatment) {
     RunSpec spec;
     spec.scene = scene;
     spec.settings = settings;
@@ -246,8 +242,7 @@ class Drawer {
 
 }  // namespace
 
-Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant,
-                       Discontinuity treatment) {
+Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant, Discontinuity treatment) {
   const double t_end = makeScene<double>(scene.id).t_end;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     Dice dice(fmt::format("{} settings {} {} {}", seed, scene.id, variant, attempt));

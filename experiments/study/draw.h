@@ -32,8 +32,7 @@ std::vector<DrawnRun> drawnRuns(const AuditOptions& options);
 /// 1], clipped to its range and rounded to three digits; words are drawn among the choices; integers stay small.
 /// Regularization parameters differ from their defaults only with the treatment `smooth`. Variants of which no scene
 /// can be made are drawn again.
-Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant,
-                       Discontinuity treatment);
+Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant, Discontinuity treatment);
 
 /// The command `irk solve ...` that repeats the run.
 std::string commandOf(const DrawnRun& run);

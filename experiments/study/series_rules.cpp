@@ -21,8 +21,7 @@ RunRecord notMade(const RunSpec& spec, const TableRow& easier, const Table& tabl
   record.family = textAt(table, easier, "family");
   record.stages = static_cast<Index>(numberAt(table, easier, "stages"));
   record.outcome = textAt(table, easier, "outcome");
-  record.detail =
-      fmt::format("not run: rtol = {} took too long already", textAt(table, easier, "rtol"));
+  record.detail = fmt::format("not run: rtol = {} took too long already", textAt(table, easier, "rtol"));
   return record;
 }
 

@@ -63,9 +63,8 @@ SeriesState stateOf(const Series& series, const std::function<std::optional<RunF
 std::string kindOf(const RunSpec& spec, SeriesEnd end) {
   const auto& tolerances = spec.options.tolerances;
   const bool planned = end == SeriesEnd::kAsymptotic;
-  return fmt::format("{} {} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings),
-                     idOf(spec.formulation), planned ? spec.method : "",
-                     planned ? 0 : spec.options.step.h,
+  return fmt::format("{} {} {} {} {:g} {:g}", spec.scene, settingsText(spec.settings), idOf(spec.formulation),
+                     planned ? spec.method : "", planned ? 0 : spec.options.step.h,
                      std::max(tolerances.rtol, tolerances.atol));
 }
 

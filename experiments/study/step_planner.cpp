@@ -18,9 +18,7 @@ constexpr int kPoints = 8;
 constexpr double kRange = 4;
 constexpr double kDecades = 12;
 
-double slopeBetween(double h1, double e1, double h2, double e2) {
-  return std::log(e1 / e2) / std::log(h1 / h2);
-}
+double slopeBetween(double h1, double e1, double h2, double e2) { return std::log(e1 / e2) / std::log(h1 / h2); }
 
 }  // namespace
 
@@ -50,8 +48,7 @@ std::optional<std::size_t> StepPlanner::nextProbe() const {
   }
   if (any && all) return {};
   const double wanted = steps_[runs_.rbegin()->first] / 2;
-  const auto at = std::find_if(steps_.begin(), steps_.end(),
-                               [wanted](double h) { return h <= wanted * (1 + 1e-9); });
+  const auto at = std::find_if(steps_.begin(), steps_.end(), [wanted](double h) { return h <= wanted * (1 + 1e-9); });
   if (at == steps_.end()) return {};
   return static_cast<std::size_t>(at - steps_.begin());
 }
@@ -80,8 +77,7 @@ bool StepPlanner::finished(std::size_t group) const {
 // The step at which the error reaches the floor, or the last probe's step if no probe is below it.
 std::optional<double> StepPlanner::smallestUseful(std::size_t group) const {
   const auto probes = probesOf(group);
-  const auto below =
-      std::find_if(probes.begin(), probes.end(), [this](auto& p) { return p.error <= floor_; });
+  const auto below = std::find_if(probes.begin(), probes.end(), [this](auto& p) { return p.error <= floor_; });
   if (below == probes.begin()) return {};
   const Probe& last = *(below - 1);
   if (below == probes.end() || below - probes.begin() < 2) return last.h;

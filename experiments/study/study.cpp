@@ -7,8 +7,7 @@ namespace irk {
 std::vector<int> divisions(int most) {
   constexpr double kRatio = 1.1;
   std::vector<int> all;
-  for (int n = 2; n <= most;
-       n = std::max(n + 2, 2 * static_cast<int>(std::lround(n * kRatio / 2)))) {
+  for (int n = 2; n <= most; n = std::max(n + 2, 2 * static_cast<int>(std::lround(n * kRatio / 2)))) {
     all.push_back(n);
   }
   return all;

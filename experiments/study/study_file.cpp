@@ -17,9 +17,7 @@ class FileReader {
  public:
   explicit FileReader(std::string file) : file_(std::move(file)) {}
 
-  std::string place(const toml::source_region& region) const {
-    return fmt::format("{}:{}", file_, region.begin.line);
-  }
+  std::string place(const toml::source_region& region) const { return fmt::format("{}:{}", file_, region.begin.line); }
 
   [[noreturn]] void refuse(const toml::node& node, std::string_view reason) const {
     throw Misuse(fmt::format("{}: {}", place(node.source()), reason));
@@ -62,8 +60,9 @@ class FileReader {
     for (const auto& [key, node] : from) {
       if (key.str() == "quick") {
         if (quick == Quick::kLeftOut) continue;
-        refuse(node, "a table 'quick' in this table has no effect: [quick], [block.quick], [timing.quick] or "
-                     "[audit.quick] is expected");
+        refuse(node,
+               "a table 'quick' in this table has no effect: [quick], [block.quick], [timing.quick] or "
+               "[audit.quick] is expected");
       }
       keys.insert_or_assign(std::string(key.str()), value(key.str(), node));
     }
@@ -84,8 +83,8 @@ std::vector<std::string> studyKeys() {
 }
 
 // Reads a table of the study itself, such as [timing]. Its table `quick` applies with --quick only.
-void readStudyTable(const FileReader& reader, const std::string& key, const toml::node& node,
-                    bool quick, StudyKeys& study) {
+void readStudyTable(const FileReader& reader, const std::string& key, const toml::node& node, bool quick,
+                    StudyKeys& study) {
   const toml::table& table = reader.table(key, node);
   StudyKeys keys;
   reader.merge(table, keys, FileReader::Quick::kLeftOut);
@@ -94,8 +93,8 @@ void readStudyTable(const FileReader& reader, const std::string& key, const toml
   for (auto& [name, value] : keys) study[key + "." + name] = std::move(value);
 }
 
-void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node,
-                  bool quick, StudyKeys& study) {
+void readStudyKey(const FileReader& reader, std::string_view key, const toml::node& node, bool quick,
+                  StudyKeys& study) {
   if (key == "defaults" || key == "quick" || key == "block") return;
   const auto known = studyKeys();
   if (std::find(known.begin(), known.end(), key) == known.end()) reader.refuse(node, unknownName("key", key, known));
@@ -225,7 +224,8 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
     reader.merge(reader.table("defaults", *node), defaults, FileReader::Quick::kRefused);
   const auto* blocks = root.get_as<toml::array>("block");
   if (root.contains("audit")) {
-    for (const auto& [key, name] : {std::pair("block", "[[block]]"), {"defaults", "[defaults]"}, {"quick", "[quick]"}}) {
+    for (const auto& [key, name] :
+         {std::pair("block", "[[block]]"), {"defaults", "[defaults]"}, {"quick", "[quick]"}}) {
       const auto* node = root.get(key);
       if (node) reader.refuse(*node, fmt::format("[audit] draws its runs: no {} beside it", name));
     }

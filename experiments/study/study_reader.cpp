@@ -46,22 +46,20 @@ const std::string& single(std::string_view key, const StudyValue& value) {
   return value.items.front();
 }
 
-double number(const StudyKeys& keys, std::string_view key, double fallback,
-              const Range& range) {
+double number(const StudyKeys& keys, std::string_view key, double fallback, const Range& range) {
   const auto* value = find(keys, key);
   if (!value) return fallback;
   return atPlace(*value, [&] { return parseNumber(key, single(key, *value), range); });
 }
 
-std::int64_t integer(const StudyKeys& keys, std::string_view key, std::int64_t fallback,
-                     std::int64_t min, std::int64_t max) {
+std::int64_t integer(const StudyKeys& keys, std::string_view key, std::int64_t fallback, std::int64_t min,
+                     std::int64_t max) {
   const auto* value = find(keys, key);
   if (!value) return fallback;
   return atPlace(*value, [&] { return parseInteger(key, single(key, *value), Range::integers(min, max)); });
 }
 
-std::vector<double> numbers(const StudyValue& value, std::string_view key,
-                            const Range& range) {
+std::vector<double> numbers(const StudyValue& value, std::string_view key, const Range& range) {
   std::vector<double> all;
   for (const auto& item : value.items) {
     all.push_back(atPlace(value, [&] { return parseNumber(key, item, range); }));
@@ -158,13 +156,13 @@ std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   std::vector<RunSpec> specs(1);
   // A configuration comes first: it sets fields that other keys override.
   std::vector<std::pair<std::string, StudyValue>> ordered(keys.begin(), keys.end());
-  std::stable_partition(ordered.begin(), ordered.end(),
-                        [](const auto& key) { return key.first == "configuration"; });
+  std::stable_partition(ordered.begin(), ordered.end(), [](const auto& key) { return key.first == "configuration"; });
   for (const auto& entry : ordered) {
     const std::string& key = entry.first;
     const StudyValue& value = entry.second;
     if (!isSpecKey(key)) continue;
-    const auto& field = atPlace(value, [&]() -> const auto& { return findField(key); });
+    const auto& field = atPlace(
+        value, [&]() -> const auto& { return findField(key); });
     std::vector<RunSpec> product;
     for (const auto& spec : specs) {
       for (const auto& item : value.items) {
@@ -177,9 +175,7 @@ std::vector<RunSpec> specProduct(const StudyKeys& keys) {
   return specs;
 }
 
-int refineMost(const StudyKeys& keys) {
-  return static_cast<int>(integer(keys, "refine_most", 2, 2, 1'000'000'000));
-}
+int refineMost(const StudyKeys& keys) { return static_cast<int>(integer(keys, "refine_most", 2, 2, 1'000'000'000)); }
 
 Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
   if (const auto* tolerances = find(keys, "tolerances")) {
@@ -187,9 +183,7 @@ Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
   }
   if (const auto* steps = find(keys, "steps")) return {{spec, Swept::kStep, numbers(*steps, "steps", kPositive)}};
   if (!find(keys, "refine_most")) return {spec};
-  const double start = atPlace(*find(keys, "scene"), [&] {
-    return sceneOf<double>(spec).start.t;
-  });
+  const double start = atPlace(*find(keys, "scene"), [&] { return sceneOf<double>(spec).start.t; });
   std::vector<double> steps;
   for (const int n : divisions(refineMost(keys))) steps.push_back((spec.t_end - start) / n);
   return {{spec, Swept::kStep, std::move(steps)}, SeriesEnd::kAsymptotic};
@@ -223,8 +217,7 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
 }
 
 // Refuses keys that the study's table does not have.
-void refuseUnknown(const StudyKeys& keys, const std::string& table,
-                   const std::vector<std::string>& names) {
+void refuseUnknown(const StudyKeys& keys, const std::string& table, const std::vector<std::string>& names) {
   std::vector<std::string> known{table};
   for (const auto& name : names) known.push_back(table + "." + name);
   for (const auto& [key, value] : keys) {
@@ -240,8 +233,7 @@ TimingOptions timingOptions(const StudyKeys& keys) {
   TimingOptions timing;
   timing.wanted = find(keys, "timing") != nullptr;
   timing.min_time_s = number(keys, "timing.min_time_s", timing.min_time_s, kPositive);
-  timing.repetitions = static_cast<int>(
-      integer(keys, "timing.repetitions", timing.repetitions, 1, kMaxRepetitions));
+  timing.repetitions = static_cast<int>(integer(keys, "timing.repetitions", timing.repetitions, 1, kMaxRepetitions));
   timing.once_above_s = number(keys, "timing.once_above_s", timing.once_above_s, kPositive);
   timing.skip_above_s = number(keys, "timing.skip_above_s", timing.skip_above_s, kPositive);
   refuseUnknown(keys, "timing", {"min_time_s", "repetitions", "once_above_s", "skip_above_s"});
@@ -282,8 +274,8 @@ std::vector<const Analysis*> wantedAnalyses(const StudyKeys& keys) {
 void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
   const std::string id = file.stem().string();
   const auto refuse = [&](std::string_view what) {
-    throw Misuse(fmt::format("{}: '{}' is {}: give the file another name, as its results are kept under it", file.string(),
-                             id, what));
+    throw Misuse(fmt::format("{}: '{}' is {}: give the file another name, as its results are kept under it",
+                             file.string(), id, what));
   };
   for (const auto* folder : {"quick", "report", "tableaus"}) {
     if (id == folder) refuse("a folder of results");
@@ -298,7 +290,8 @@ void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
   const StudyFile text = parseStudyFile(toml, file, variant);
   // Also parse the other variant, so that its mistakes are found now.
-  static_cast<void>(parseStudyFile(toml, file, variant == StudyVariant::kQuick ? StudyVariant::kFull : StudyVariant::kQuick));
+  static_cast<void>(
+      parseStudyFile(toml, file, variant == StudyVariant::kQuick ? StudyVariant::kFull : StudyVariant::kQuick));
   Study study;
   study.id = std::filesystem::path(file).stem();
   if (const auto* title = find(text.study, "title")) study.title = single("title", *title);
@@ -325,8 +318,7 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
 Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
   std::vector<std::string> known;
   for (const auto& study : builtinStudies()) {
-    if (study.id == id_or_file)
-      return parseStudy(study.toml, fmt::format("{}.toml", study.id), variant);
+    if (study.id == id_or_file) return parseStudy(study.toml, fmt::format("{}.toml", study.id), variant);
     known.emplace_back(study.id);
   }
   const std::filesystem::path path(id_or_file);

@@ -21,17 +21,17 @@ const StudyValue* keyOf(const StudyKeys& keys, std::string_view key) {
 // Keys that list the runs of a series; a block has one of them.
 constexpr std::string_view kSeriesKeys[] = {"tolerances", "steps", "refine_most"};
 // Keys of a block that are not fields of a spec.
-constexpr std::string_view kSweepKeys[] = {"families", "stages",      "methods",  "tolerances",
+constexpr std::string_view kSweepKeys[] = {"families", "stages",      "methods",   "tolerances",
                                            "steps",    "refine_most", "most_runs", "name"};
 
 // Keys that another key of the block overrides. `fitting` is the only value that does not contradict it.
 struct Overridden {
   std::string_view key, by, fitting;
 };
-constexpr Overridden kOverridden[] = {{"rtol", "tolerances", ""},     {"atol", "tolerances", ""},
-                                      {"h", "steps", ""},             {"h", "refine_most", ""},
-                                      {"control", "steps", "fixed"},  {"control", "refine_most", "fixed"},
-                                      {"estimate", "steps", "none"},  {"estimate", "refine_most", "none"}};
+constexpr Overridden kOverridden[] = {
+    {"rtol", "tolerances", ""},    {"atol", "tolerances", ""},         {"h", "steps", ""},
+    {"h", "refine_most", ""},      {"control", "steps", "fixed"},      {"control", "refine_most", "fixed"},
+    {"estimate", "steps", "none"}, {"estimate", "refine_most", "none"}};
 
 bool contains(std::span<const std::string_view> all, std::string_view key) {
   return std::find(all.begin(), all.end(), key) != all.end();
@@ -74,9 +74,10 @@ void refusePeersInSweeps(const StudyKeys& block, const std::vector<std::string>&
   for (const auto& [key, value] : block) {
     if (value.items.size() < 2 || !isSpecKey(key) || key == "scene" || key == "settings") continue;
     if (std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
-    throw Misuse(fmt::format("{}: {}: a list of {} has no effect on '{}', another library's integrator: give it a "
-                             "block of its own",
-                             value.place, key, value.items.size(), *peer));
+    throw Misuse(
+        fmt::format("{}: {}: a list of {} has no effect on '{}', another library's integrator: give it a "
+                    "block of its own",
+                    value.place, key, value.items.size(), *peer));
   }
 }
 
@@ -103,8 +104,7 @@ void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t
       const auto* key = keyOf(block, "order");
       if (!key) key = keyOf(block, "configuration");
       throw Misuse(fmt::format("{}: order 'variable' with {} = true: {}; use order 'fixed'",
-                               (key ? key : keyOf(block, "scene"))->place, analysis->key,
-                               analysis->one_method));
+                               (key ? key : keyOf(block, "scene"))->place, analysis->key, analysis->one_method));
     }
   }
 }

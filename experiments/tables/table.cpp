@@ -142,8 +142,8 @@ Table readTable(const std::filesystem::path& path) {
     if (complete) {
       table.rows.push_back(std::move(*row));
     } else if (!reader.atEnd()) {
-      throw Misuse(fmt::format("{}:{}: {} cells, the columns are {}", path.string(), line,
-                               row ? row->size() : 0, table.columns.size()));
+      throw Misuse(fmt::format("{}:{}: {} cells, the columns are {}", path.string(), line, row ? row->size() : 0,
+                               table.columns.size()));
     }
   }
   return table;

@@ -54,8 +54,7 @@ std::vector<Row> parseRows() {
     if (!line.empty() && line[0] != '#' && !head) rows.push_back(parseRow(line));
   }
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return std::tie(a.reference.t, a.reference.accuracy) <
-           std::tie(b.reference.t, b.reference.accuracy);
+    return std::tie(a.reference.t, a.reference.accuracy) < std::tie(b.reference.t, b.reference.accuracy);
   });
   return rows;
 }
@@ -79,10 +78,9 @@ std::vector<Reference> references(std::string_view id, const Settings& settings)
   for (const Row& row : rows) {
     if (row.scene != id) continue;
     const Settings given = completedSettings(id, entry.parameters, row.settings);
-    const bool match =
-        std::all_of(entry.parameters.begin(), entry.parameters.end(), [&](const Parameter& p) {
-          return !p.changes_solution || sameValue(wanted.at(p.name), given.at(p.name));
-        });
+    const bool match = std::all_of(entry.parameters.begin(), entry.parameters.end(), [&](const Parameter& p) {
+      return !p.changes_solution || sameValue(wanted.at(p.name), given.at(p.name));
+    });
     const bool known = std::any_of(found.begin(), found.end(), [&](const Reference& r) {
       return r.t == row.reference.t && r.component == row.reference.component;
     });

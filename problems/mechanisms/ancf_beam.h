@@ -38,8 +38,7 @@ struct AncfData {
 template <class Real>
 class AncfBeam {
  public:
-  explicit AncfBeam(const AncfData<Real>& data)
-      : d_(data), le_(data.L / static_cast<double>(data.elements)) {
+  explicit AncfBeam(const AncfData<Real>& data) : d_(data), le_(data.L / static_cast<double>(data.elements)) {
     const std::size_t supported = d_.support == AncfSupport::kClamped ? 3 : 2;
     const std::size_t fixed[] = {0, 1, 3};
     unknown_.assign(static_cast<std::size_t>(4 * (d_.elements + 1)), 0);
@@ -178,9 +177,7 @@ class AncfBeam {
     return s[0] * q[axis] + s[1] * q[axis + 2] + s[2] * q[axis + 4] + s[3] * q[axis + 6];
   }
 
-  Index unknown(Index element, std::size_t i) const {
-    return unknown_[static_cast<std::size_t>(4 * element) + i];
-  }
+  Index unknown(Index element, std::size_t i) const { return unknown_[static_cast<std::size_t>(4 * element) + i]; }
   template <class T, class Vector>
   std::array<T, 8> gather(const Vector& from, Index element) const {
     std::array<T, 8> q;
@@ -226,15 +223,11 @@ class AncfBeam {
 
   void setGaussPoints() {
     using std::sqrt;
-    const Real near = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 3,
-               far = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 3;
+    const Real near = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 3, far = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 3;
     const Real near_weight = (322 + 13 * sqrt(Real(70))) / 900;
     const Real far_weight = (322 - 13 * sqrt(Real(70))) / 900;
-    const Real axial[5][2] = {{-far, far_weight},
-                              {-near, near_weight},
-                              {0, Real(128) / 225},
-                              {near, near_weight},
-                              {far, far_weight}};
+    const Real axial[5][2] = {
+        {-far, far_weight}, {-near, near_weight}, {0, Real(128) / 225}, {near, near_weight}, {far, far_weight}};
     for (std::size_t i = 0; i < 5; ++i) {
       axial_[i] = {d_.EA * axial[i][1] * le_ / 2, firstDerivatives((1 + axial[i][0]) / 2)};
     }

@@ -45,21 +45,19 @@ Scene<Real> make(const Settings& settings) {
 }  // namespace
 
 SceneEntry ancfCantileverEntry() {
-  return {
-      .id = "ancf_cantilever",
-      .title = "cantilever of ANCF cable elements under a stepped tip load",
-      .shows = "large bending, constant M: the mass-derivative switches must change nothing",
-      .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "2"),
-                     positiveParameter("E", "Pa", "Young's modulus", "2.07e11"),
-                     positiveParameter("A", "m^2", "area of the section", "0.01"),
-                     positiveParameter("I", "m^4", "second moment of area", kSquare),
-                     positiveParameter("rho", "kg/m^3", "density", "7800"),
-                     numberParameter("f", "N", "dead tip load, down", kStandardLoad, -1e15, 1e15)},
-      .panels = {{"tip displacement", {"u_x", "u_y"}},
-                 {"path of the tip", {"tip_x:tip_y"}}},
-      .reference_cases = {{.times = "0.02 0.05", .tolerance = kFewDigits}},
-      .make = make<double>,
-      .make_mp50 = make<mp50>};
+  return {.id = "ancf_cantilever",
+          .title = "cantilever of ANCF cable elements under a stepped tip load",
+          .shows = "large bending, constant M: the mass-derivative switches must change nothing",
+          .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "2"),
+                         positiveParameter("E", "Pa", "Young's modulus", "2.07e11"),
+                         positiveParameter("A", "m^2", "area of the section", "0.01"),
+                         positiveParameter("I", "m^4", "second moment of area", kSquare),
+                         positiveParameter("rho", "kg/m^3", "density", "7800"),
+                         numberParameter("f", "N", "dead tip load, down", kStandardLoad, -1e15, 1e15)},
+          .panels = {{"tip displacement", {"u_x", "u_y"}}, {"path of the tip", {"tip_x:tip_y"}}},
+          .reference_cases = {{.times = "0.02 0.05", .tolerance = kFewDigits}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
 }
 
 }  // namespace irk

@@ -45,10 +45,8 @@ SceneEntry ancfPendulumEntry() {
                          positiveParameter("E", "Pa", "Young's modulus", "0.7e6"),
                          positiveParameter("rho", "kg/m^3", "density", "5540"),
                          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6)},
-          .panels = {{"tip", {"tip_x", "tip_y"}},
-                     {"path of the tip", {"tip_x:tip_y"}}},
-          .reference_cases = {{.times = "0.25 0.5"},
-                              {.settings = "elements=4"}},
+          .panels = {{"tip", {"tip_x", "tip_y"}}, {"path of the tip", {"tip_x:tip_y"}}},
+          .reference_cases = {{.times = "0.25 0.5"}, {.settings = "elements=4"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -97,9 +97,7 @@ class ExactBeamChain {
     return k == 1 ? Real(1) : k == 2 ? Real(1) / 5 : k == 3 ? Real(1) / 20 : Real(0);
   }
   // sin(k pi x_i), i = 1..m
-  const Real& shape(Index k, Index i) const {
-    return sines_[static_cast<std::size_t>((k * i) % (2 * (p_.m + 1)))];
-  }
+  const Real& shape(Index k, Index i) const { return sines_[static_cast<std::size_t>((k * i) % (2 * (p_.m + 1)))]; }
   Real frequency(Index k) const {
     using std::sin;
     const Real root = 2 * p_.intervals() * sin(angle(k));
@@ -147,8 +145,7 @@ class ExactBeamChain {
 
 template <class Real>
 Scene<Real> make(const Settings& settings) {
-  const BeamChain<Real> problem{static_cast<Index>(number<double>(settings, "m")),
-                                number<Real>(settings, "damping")};
+  const BeamChain<Real> problem{static_cast<Index>(number<double>(settings, "m")), number<Real>(settings, "damping")};
   const ExactBeamChain<Real> exact(problem);
   Scene<Real> scene;
   setProblem(scene, problem);
@@ -172,8 +169,7 @@ SceneEntry beamChainEntry() {
           .title = "simply supported beam in finite differences, damped and driven",
           .shows = "cost against the number of unknowns; linear, sparse, exactly solvable",
           .size = {.parameter = "m", .unknowns = 1, .step = 1e-3},
-          .parameters = {points, numberParameter("damping", "s", "stiffness-proportional damping",
-                                                 "1e-3", 0, 1e3)},
+          .parameters = {points, numberParameter("damping", "s", "stiffness-proportional damping", "1e-3", 0, 1e3)},
           .reference_cases = {{.times = "0.5 1"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -72,8 +72,7 @@ struct HydraulicArm {
   // is connected to the tank.
   template <class T>
   T flow(const T& from_supply, const T& opening, const T& p) const {
-    return Qn * opening *
-           (from_supply * signedRoot<T>(pS - p) + (1 - from_supply) * signedRoot<T>(p - pT));
+    return Qn * opening * (from_supply * signedRoot<T>(pS - p) + (1 - from_supply) * signedRoot<T>(p - pT));
   }
 
   template <class T>
@@ -133,22 +132,21 @@ Scene<Real> make(const Settings& settings) {
   using std::sqrt;
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
   const Real L = value("L");
-  const HydraulicArm<Real> arm{.L = L,
-                               .m = value("m"),
-                               .g = value("g"),
-                               .A = value("A"),
-                               .d = value("d"),
-                               .V = value("V"),
-                               .K = value("K"),
-                               .Qn = value("Qn"),
-                               .pS = value("pS"),
-                               .pT = value("pT"),
-                               .LH0 = L / 4 * sqrt(Real(2)),
-                               .pi = piOf<Real>(),
-                               .reference = settings.at("reference") == "smooth"
-                                                ? ArmReference::kSmooth
-                                                : ArmReference::kKinked,
-                               .smoothing = value("smoothing")};
+  const HydraulicArm<Real> arm{
+      .L = L,
+      .m = value("m"),
+      .g = value("g"),
+      .A = value("A"),
+      .d = value("d"),
+      .V = value("V"),
+      .K = value("K"),
+      .Qn = value("Qn"),
+      .pS = value("pS"),
+      .pT = value("pT"),
+      .LH0 = L / 4 * sqrt(Real(2)),
+      .pi = piOf<Real>(),
+      .reference = settings.at("reference") == "smooth" ? ArmReference::kSmooth : ArmReference::kKinked,
+      .smoothing = value("smoothing")};
   Scene<Real> scene;
   setProblem(scene, arm);
   scene.start.x << value("p0"), value("p1");
@@ -156,46 +154,40 @@ Scene<Real> make(const Settings& settings) {
   completeStart(scene);
   scene.t_end = 2;
   setComponents(scene, {{"angle", "rad"}}, {{"p0", "Pa", 1e7}, {"p1", "Pa", 1e7}});
-  scene.outputs = {
-      {"s", [arm](const State<Real>& s) { return arm.template length<Real>(s.u[0]); }, "m"}};
+  scene.outputs = {{"s", [arm](const State<Real>& s) { return arm.template length<Real>(s.u[0]); }, "m"}};
   return scene;
 }
 
 }  // namespace
 
 SceneEntry hydraulicArmEntry() {
-  return {
-      .id = "hydraulic_arm",
-      .title = "rigid arm lifted by a hydraulic cylinder through a proportional valve",
-      .shows = "stiff pressures with sign-switched flow and a kinked reference",
-      .parameters =
-          {wordParameter("reference",
-                         "wanted length of the cylinder: 1 - cos pi t with its ends "
-                         "cut off, or whole",
-                         {"kinked", "smooth"}),
-           positiveParameter("L", "m", "length of the arm", "1"),
-           positiveParameter("m", "kg", "mass of the arm", "120"),
-           numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
-           positiveParameter("A", "m^2", "area of the piston", "0.01"),
-           numberParameter("d", "N s/m", "viscous friction of the cylinder", "2e5", 0, 1e15),
-           positiveParameter("V", "m^3", "volume of a chamber", "1"),
-           positiveParameter("K", "Pa", "bulk modulus", "1e11"),
-           positiveParameter("Qn", "m^3/s/sqrt(Pa)", "nominal flow of the valve", "2e-5"),
-           positiveParameter("pS", "Pa", "supply pressure", "2e7"),
-           numberParameter("pT", "Pa", "tank pressure", "0", 0, 1e15),
-           numberParameter("p0", "Pa", "pressure in chamber 0 at the start", "2e6", 0, 1e15),
-           numberParameter("p1", "Pa", "pressure in chamber 1 at the start", "2e6", 0, 1e15),
-           smoothingParameter(
-               "m",
-               "opening of the valve until it has changed sides, and how far the kinks are rounded",
-               "1e-4")},
-      .panels = {{"angle", {"angle"}},
-                 {"angular velocity", {"angle'"}},
-                 {"pressures", {"p0", "p1"}, "MPa", 1e-6}},
-      .reference_cases = {{.times = "0.4 1", .tolerance = kManyDigits},
-                          {.settings = "reference=smooth", .times = "0.5 1", .tolerance = kManyDigits}},
-      .make = make<double>,
-      .make_mp50 = make<mp50>};
+  return {.id = "hydraulic_arm",
+          .title = "rigid arm lifted by a hydraulic cylinder through a proportional valve",
+          .shows = "stiff pressures with sign-switched flow and a kinked reference",
+          .parameters = {wordParameter("reference",
+                                       "wanted length of the cylinder: 1 - cos pi t with its ends "
+                                       "cut off, or whole",
+                                       {"kinked", "smooth"}),
+                         positiveParameter("L", "m", "length of the arm", "1"),
+                         positiveParameter("m", "kg", "mass of the arm", "120"),
+                         numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
+                         positiveParameter("A", "m^2", "area of the piston", "0.01"),
+                         numberParameter("d", "N s/m", "viscous friction of the cylinder", "2e5", 0, 1e15),
+                         positiveParameter("V", "m^3", "volume of a chamber", "1"),
+                         positiveParameter("K", "Pa", "bulk modulus", "1e11"),
+                         positiveParameter("Qn", "m^3/s/sqrt(Pa)", "nominal flow of the valve", "2e-5"),
+                         positiveParameter("pS", "Pa", "supply pressure", "2e7"),
+                         numberParameter("pT", "Pa", "tank pressure", "0", 0, 1e15),
+                         numberParameter("p0", "Pa", "pressure in chamber 0 at the start", "2e6", 0, 1e15),
+                         numberParameter("p1", "Pa", "pressure in chamber 1 at the start", "2e6", 0, 1e15),
+                         smoothingParameter(
+                             "m", "opening of the valve until it has changed sides, and how far the kinks are rounded",
+                             "1e-4")},
+          .panels = {{"angle", {"angle"}}, {"angular velocity", {"angle'"}}, {"pressures", {"p0", "p1"}, "MPa", 1e-6}},
+          .reference_cases = {{.times = "0.4 1", .tolerance = kManyDigits},
+                              {.settings = "reference=smooth", .times = "0.5 1", .tolerance = kManyDigits}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
 }
 
 }  // namespace irk

@@ -27,9 +27,7 @@ struct MechatronicCrank {
   Real Fc;               // N
   Real wref, Kp, Ki, D;  // rad/s, A s, A, A
 
-  Sizes sizes() const {
-    return {.nu = 2, .nx = 2, .nz = 1, .constraints = 1, .discrete = 2, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 2, .nx = 2, .nz = 1, .constraints = 1, .discrete = 2, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;
@@ -37,10 +35,8 @@ struct MechatronicCrank {
     const Angles<T> q{sin(p.u[0]), cos(p.u[0]), sin(p.u[1]), cos(p.u[1])};
     const auto rows = treeRows<Real, T>(crank, q, p.v[0], p.v[1], p.a[0], p.a[1]);
     const T& current = p.x[0];
-    const T friction =
-        Fc * p.d[kDirection];  // opposes x3' = -L1 sin theta theta' - L2 sin phi phi'
-    r.u[0] = kM * current + friction * (crank.L1 * q.sin_theta) + rows.theta -
-             crank.L1 * q.cos_theta * p.z[0];
+    const T friction = Fc * p.d[kDirection];  // opposes x3' = -L1 sin theta theta' - L2 sin phi phi'
+    r.u[0] = kM * current + friction * (crank.L1 * q.sin_theta) + rows.theta - crank.L1 * q.cos_theta * p.z[0];
     r.u[1] = friction * (crank.L2 * q.sin_phi) + rows.phi - crank.L2 * q.cos_phi * p.z[0];
     r.x[0] = U * p.d[kSupply] - R * current - kM * p.v[0] - L * p.k[0];
     r.x[1] = wref - p.v[0] - p.k[1];
@@ -87,26 +83,28 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d << 1, -1;
   completeStart(scene);
   scene.t_end = 1;
-  setComponents(scene, {{"theta", "rad", 1, 10}, {"phi", "rad", 1, 10}}, {{"i", "A", 5}, {"e", "rad"}}, {{"lambda", "N"}});
-  scene.outputs = {{"x3", [problem](const State<Real>& s) {
+  setComponents(scene, {{"theta", "rad", 1, 10}, {"phi", "rad", 1, 10}}, {{"i", "A", 5}, {"e", "rad"}},
+                {{"lambda", "N"}});
+  scene.outputs = {{"x3",
+                    [problem](const State<Real>& s) {
                       using std::cos;
                       return Real(problem.crank.L1 * cos(s.u[0]) + problem.crank.L2 * cos(s.u[1]));
-                    }, "m"}};
+                    },
+                    "m"}};
   return scene;
 }
 
 std::vector<Parameter> parameters() {
   std::vector<Parameter> all = slider_crank::bodyParameters();
-  all.insert(all.end(),
-             {positiveParameter("U", "V", "supply voltage", "12"),
-              numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
-              positiveParameter("L", "H", "inductance of the armature", "0.1"),
-              positiveParameter("kM", "N m/A", "motor constant", "0.1"),
-              numberParameter("Fc", "N", "Coulomb friction of the slider", "1", 0, 1e15),
-              numberParameter("wref", "rad/s", "wanted speed of the crank", "10", -1e6, 1e6),
-              numberParameter("Kp", "A s", "proportional gain", "0.5", -1e15, 1e15),
-              numberParameter("Ki", "A", "integral gain", "2", -1e15, 1e15),
-              positiveParameter("D", "A", "half width of the current's band", "1")});
+  all.insert(all.end(), {positiveParameter("U", "V", "supply voltage", "12"),
+                         numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
+                         positiveParameter("L", "H", "inductance of the armature", "0.1"),
+                         positiveParameter("kM", "N m/A", "motor constant", "0.1"),
+                         numberParameter("Fc", "N", "Coulomb friction of the slider", "1", 0, 1e15),
+                         numberParameter("wref", "rad/s", "wanted speed of the crank", "10", -1e6, 1e6),
+                         numberParameter("Kp", "A s", "proportional gain", "0.5", -1e15, 1e15),
+                         numberParameter("Ki", "A", "integral gain", "2", -1e15, 1e15),
+                         positiveParameter("D", "A", "half width of the current's band", "1")});
   return all;
 }
 

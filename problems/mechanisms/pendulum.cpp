@@ -46,8 +46,7 @@ struct Pendulum {
 
 template <class Real>
 Scene<Real> make(const Settings& settings) {
-  const Pendulum<Real> problem{number<Real>(settings, "m"), number<Real>(settings, "l"),
-                               number<Real>(settings, "g")};
+  const Pendulum<Real> problem{number<Real>(settings, "m"), number<Real>(settings, "l"), number<Real>(settings, "g")};
   Scene<Real> scene;
   setProblem(scene, problem);
   scene.t_end = 10;
@@ -58,9 +57,10 @@ Scene<Real> make(const Settings& settings) {
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
   scene.start.u[0] = problem.l;  // exact(0) gives these values up to rounding only
   scene.start.w[1] = -problem.g;
-  scene.outputs = {{"energy", [problem](const State<Real>& s) {
-                      return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1]));
-                    }, "J"}};
+  scene.outputs = {
+      {"energy",
+       [problem](const State<Real>& s) { return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1])); },
+       "J"}};
   return scene;
 }
 
@@ -71,12 +71,9 @@ SceneEntry pendulumEntry() {
           .title = "pendulum in Cartesian coordinates, one multiplier",
           .shows = "index 3, index 2 and GGL against an exact solution, multiplier included",
           .kind = SceneKind::kConstrained,
-          .parameters = {positiveParameter("m", "kg", "mass", "1"),
-                         positiveParameter("l", "m", "length", "1"),
+          .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("l", "m", "length", "1"),
                          positiveParameter("g", "m/s^2", "gravity", "9.81")},
-          .panels = {{"positions", {"x", "y"}},
-                     {"velocities", {"x'", "y'"}},
-                     {"multiplier", {"lambda"}}},
+          .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
           .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

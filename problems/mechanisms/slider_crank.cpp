@@ -24,10 +24,12 @@ template <class Real>
 void makeRedundant(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<Real>& scene) {
   setProblem(scene, Redundant<Real>{torque, d});
   setComponents(scene, {angle("theta"), angle("phi")}, {}, {{"lambda", "N", kForce}});
-  scene.outputs = {{"x3", [d](const State<Real>& s) {
+  scene.outputs = {{"x3",
+                    [d](const State<Real>& s) {
                       using std::cos;
                       return Real(d.L1 * cos(s.u[0]) + d.L2 * cos(s.u[1]));
-                    }, "m"}};
+                    },
+                    "m"}};
 }
 
 template <class Real>
@@ -44,11 +46,14 @@ void makeMinimal(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene<
                     [d, phi](const State<Real>& s) {
                       using std::cos;
                       return Real(-d.L1 * cos(s.u[0]) * s.v[0] / (d.L2 * cos(phi(s))));
-                    }, "rad/s"},
-                   {"x3", [d, phi](const State<Real>& s) {
+                    },
+                    "rad/s"},
+                   {"x3",
+                    [d, phi](const State<Real>& s) {
                       using std::cos;
                       return Real(d.L1 * cos(s.u[0]) + d.L2 * cos(phi(s)));
-                    }, "m"}};
+                    },
+                    "m"}};
 }
 
 template <class Real>
@@ -93,18 +98,16 @@ Scene<Real> make(const Settings& settings) {
 }
 
 std::vector<Parameter> parameters() {
-  Parameter coordinates = wordParameter("coordinates", "description of the same mechanism",
-                                        {"redundant", "absolute", "minimal"});
+  Parameter coordinates =
+      wordParameter("coordinates", "description of the same mechanism", {"redundant", "absolute", "minimal"});
   coordinates.changes_solution = false;
-  Parameter off = numberParameter("torque_off_at", "s", "time when the torque is switched off; inf = never", kNever, 0,
-                                  1e15);
+  Parameter off =
+      numberParameter("torque_off_at", "s", "time when the torque is switched off; inf = never", kNever, 0, 1e15);
   off.is_time = true;
   std::vector<Parameter> all = slider_crank::bodyParameters();
   all.insert(all.begin(), coordinates);
-  all.insert(all.end(),
-             {numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6),
-              off,
-              smoothingParameter("s", "half of the time in which the torque goes", "1e-3")});
+  all.insert(all.end(), {numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6), off,
+                         smoothingParameter("s", "half of the time in which the torque goes", "1e-3")});
   return all;
 }
 

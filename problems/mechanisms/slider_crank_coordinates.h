@@ -80,9 +80,8 @@ struct Minimal : SwitchedTorque<Real> {
     // phi' = slope theta'; phi'' follows from the second derivative of the constraint.
     const T slope = -ratio * (cos_theta / cos_phi);
     const T phi_rate = slope * p.v[0];
-    const T phi_acc = (ratio * (sin_theta * p.v[0] * p.v[0] - cos_theta * p.a[0]) +
-                       sin_phi * phi_rate * phi_rate) /
-                      cos_phi;
+    const T phi_acc =
+        (ratio * (sin_theta * p.v[0] * p.v[0] - cos_theta * p.a[0]) + sin_phi * phi_rate * phi_rate) / cos_phi;
     const Angles<T> q{sin_theta, cos_theta, sin_phi, cos_phi};
     const auto rows = treeRows<Real, T>(d, q, p.v[0], phi_rate, p.a[0], phi_acc);
     r.u[0] = this->torqueAt(p) + rows.theta + slope * rows.phi;

@@ -46,8 +46,8 @@ struct TreeRows {
 };
 
 template <class Real, class T>
-TreeRows<T> treeRows(const Data<Real>& d, const Angles<T>& q, const T& theta_rate,
-                     const T& phi_rate, const T& theta_acc, const T& phi_acc) {
+TreeRows<T> treeRows(const Data<Real>& d, const Angles<T>& q, const T& theta_rate, const T& phi_rate,
+                     const T& theta_acc, const T& phi_acc) {
   const Real half = d.m2 * d.L1 * d.L2 / 2;
   const T cos_diff = q.cos_theta * q.cos_phi + q.sin_theta * q.sin_phi;
   const T sin_diff = q.sin_theta * q.cos_phi - q.cos_theta * q.sin_phi;

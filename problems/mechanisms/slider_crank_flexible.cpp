@@ -76,25 +76,23 @@ class FlexibleSliderCrank {
     const auto& z = p.z;
     const T cos1 = cos(p.u[0]), sin1 = sin(p.u[0]), cos2 = cos(p.u[1]), sin2 = sin(p.u[1]);
     const T rod = d_.l2 + q4;
-    const T f1 = -half * (w22 * S) + d_.l1 * (w22 * (C * c2q - S * c1q)) -
-                 2 * d_.l1 * (w2 * (C * c1s + S * c2s));
-    r.u[0] = f1 - (d_.J1 + d_.m2 * d_.l1 * d_.l1) * a1 - M12 * a2 - M1q1 * p.a[3] - M1q3 * p.a[5] -
-             M1q4 * p.a[6] - d_.l1 * (cos1 * z[0] + sin1 * z[1]) - z[2];
+    const T f1 = -half * (w22 * S) + d_.l1 * (w22 * (C * c2q - S * c1q)) - 2 * d_.l1 * (w2 * (C * c1s + S * c2s));
+    r.u[0] = f1 - (d_.J1 + d_.m2 * d_.l1 * d_.l1) * a1 - M12 * a2 - M1q1 * p.a[3] - M1q3 * p.a[5] - M1q4 * p.a[6] -
+             d_.l1 * (cos1 * z[0] + sin1 * z[1]) - z[2];
     // q'.B q' vanishes because B is skew.
     const T f2 = half * (w11 * S) + d_.l1 * (w11 * (S * c1q - C * c2q)) - 2 * (w2 * (c12s + sMq));
-    r.u[1] = f2 - M12 * a1 - (d_.J2 + qMq + 2 * c12q) * a2 - M2q1 * p.a[3] - M2q2 * p.a[4] -
-             M2q3 * p.a[5] - M2q4 * p.a[6] - rod * (cos2 * z[0] + sin2 * z[1]);
+    r.u[1] = f2 - M12 * a1 - (d_.J2 + qMq + 2 * c12q) * a2 - M2q1 * p.a[3] - M2q2 * p.a[4] - M2q3 * p.a[5] -
+             M2q4 * p.a[6] - rod * (cos2 * z[0] + sin2 * z[1]);
     r.u[2] = -d_.m3 * p.a[2] - z[1];
     // fq = w2^2 Mq q + w2^2 c12 + l1 w1^2 (C c1 + S c2) + 2 w2 B q' - Kq q
     const T turn = d_.l1 * w11, spin = 2 * w2;
-    r.u[3] = w22 * Mq1 + turn * (c2_1_ * S) + spin * (B13_ * s3 + B14_ * s4) - K1_ * q1 -
-             M1q1 * a1 - M2q1 * a2 - FM_ / 2 * p.a[3];
+    r.u[3] = w22 * Mq1 + turn * (c2_1_ * S) + spin * (B13_ * s3 + B14_ * s4) - K1_ * q1 - M1q1 * a1 - M2q1 * a2 -
+             FM_ / 2 * p.a[3];
     r.u[4] = w22 * Mq2 + spin * (B24_ * s4) - K2_ * q2 - M2q2 * a2 - FM_ / 2 * p.a[4];
-    r.u[5] = w22 * (Mq3 + c12_3_) + turn * (c1_3_ * C) - spin * (B13_ * s1) - K33_ * q3 -
-             K34_ * q4 - M1q3 * a1 - M2q3 * a2 - FM_ * (8 * p.a[5] + p.a[6]);
-    r.u[6] = w22 * (Mq4 + c12_4_) + turn * (c1_4_ * C) - spin * (B14_ * s1 + B24_ * s2) -
-             K34_ * q3 - K44_ * q4 - M1q4 * a1 - M2q4 * a2 - FM_ * (p.a[5] + 2 * p.a[6]) -
-             sin2 * z[0] + cos2 * z[1];
+    r.u[5] = w22 * (Mq3 + c12_3_) + turn * (c1_3_ * C) - spin * (B13_ * s1) - K33_ * q3 - K34_ * q4 - M1q3 * a1 -
+             M2q3 * a2 - FM_ * (8 * p.a[5] + p.a[6]);
+    r.u[6] = w22 * (Mq4 + c12_4_) + turn * (c1_4_ * C) - spin * (B14_ * s1 + B24_ * s2) - K34_ * q3 - K44_ * q4 -
+             M1q4 * a1 - M2q4 * a2 - FM_ * (p.a[5] + 2 * p.a[6]) - sin2 * z[0] + cos2 * z[1];
   }
 
   template <class T, class U, class G>
@@ -148,7 +146,8 @@ Scene<Real> make(const Settings& settings) {
   setStart(data, scene.start);
   completeStart(scene);
   scene.t_end = 0.1;
-  setComponents(scene, {{"phi1", "rad", 1, 100},
+  setComponents(scene,
+                {{"phi1", "rad", 1, 100},
                  {"phi2", "rad", 1, 100},
                  {"x3", "m", 0.1, 10},
                  {"q1", "m", 1e-4, 0.1},

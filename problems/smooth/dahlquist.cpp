@@ -31,8 +31,7 @@ struct Dahlquist {
 
 template <class Real>
 Scene<Real> make(const Settings& settings) {
-  const Dahlquist<Real> problem{number<Real>(settings, "lambda_re"),
-                                number<Real>(settings, "lambda_im")};
+  const Dahlquist<Real> problem{number<Real>(settings, "lambda_re"), number<Real>(settings, "lambda_im")};
   Scene<Real> scene;
   setProblem(scene, problem);
   scene.t_end = 1;
@@ -45,16 +44,14 @@ Scene<Real> make(const Settings& settings) {
 }  // namespace
 
 SceneEntry dahlquistEntry() {
-  return {
-      .id = "dahlquist",
-      .title = "Dahlquist's equation y' = lambda y, lambda complex",
-      .shows = "the stability function R(h lambda) itself",
-      .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
-                     numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15,
-                                     1e15)},
-      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-      .make = make<double>,
-      .make_mp50 = make<mp50>};
+  return {.id = "dahlquist",
+          .title = "Dahlquist's equation y' = lambda y, lambda complex",
+          .shows = "the stability function R(h lambda) itself",
+          .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
+                         numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
+          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
 }
 
 }  // namespace irk

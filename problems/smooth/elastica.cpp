@@ -117,8 +117,7 @@ SceneEntry elasticaEntry() {
           .shows = "large bending against elliptic integrals: the limit of ancf_cantilever at rest",
           .parameters = {positiveParameter("L", "m", "length", "2"),
                          numberParameter("load", "", "f L^2 / EI, down", "3", 1e-2, 100)},
-          .panels = {{"angle", {"theta"}},
-                     {"shape", {"x:y"}}},
+          .panels = {{"angle", {"theta"}}, {"shape", {"x:y"}}},
           .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -66,10 +66,8 @@ Scene<Real> make(const Settings& settings) {
   setComponents(scene, {{"q1"}, {"q2"}});
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
   scene.start = problem.exact(Real(0));
-  scene.outputs = {
-      {"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }},
-      {"angular_momentum",
-       [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }}};
+  scene.outputs = {{"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }},
+                   {"angular_momentum", [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }}};
   return scene;
 }
 
@@ -80,9 +78,7 @@ SceneEntry keplerEntry() {
           .title = "Kepler's two-body problem",
           .shows = "invariants: energy and angular momentum over many revolutions",
           .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
-          .panels = {{"orbit", {"q1:q2"}},
-                     {"positions", {"q1", "q2"}},
-                     {"velocities", {"q1'", "q2'"}}},
+          .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
           .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -23,24 +23,22 @@ void check(std::string_view scene, const Parameter& p, const std::string& text) 
     for (const std::string& choice : p.choices) {
       if (text == choice) return;
     }
-    throw Misuse(fmt::format("scene {}: {}", scene,
-                             unknownName("value of parameter " + p.name, text, p.choices)));
+    throw Misuse(fmt::format("scene {}: {}", scene, unknownName("value of parameter " + p.name, text, p.choices)));
   }
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
   const bool fits = !p.whole || value == std::floor(value);
   if (!is_number || !fits || value < p.min || value > p.max) {
-    throw Misuse(fmt::format("scene {}: parameter {} = '{}' must be a {}number in [{}, {}]{}{}",
-                             scene, p.name, text, p.whole ? "whole " : "", p.min, p.max,
-                             p.unit.empty() ? "" : " ", p.unit));
+    throw Misuse(fmt::format("scene {}: parameter {} = '{}' must be a {}number in [{}, {}]{}{}", scene, p.name, text,
+                             p.whole ? "whole " : "", p.min, p.max, p.unit.empty() ? "" : " ", p.unit));
   }
 }
 
 }  // namespace
 
-Parameter numberParameter(std::string name, std::string unit, std::string meaning,
-                          std::string default_value, double min, double max) {
+Parameter numberParameter(std::string name, std::string unit, std::string meaning, std::string default_value,
+                          double min, double max) {
   Parameter p;
   p.name = std::move(name);
   p.unit = std::move(unit);
@@ -51,23 +49,21 @@ Parameter numberParameter(std::string name, std::string unit, std::string meanin
   return p;
 }
 
-Parameter positiveParameter(std::string name, std::string unit, std::string meaning,
-                            std::string default_value) {
-  return numberParameter(std::move(name), std::move(unit), std::move(meaning),
-                         std::move(default_value), 1 / kLargestQuantity, kLargestQuantity);
+Parameter positiveParameter(std::string name, std::string unit, std::string meaning, std::string default_value) {
+  return numberParameter(std::move(name), std::move(unit), std::move(meaning), std::move(default_value),
+                         1 / kLargestQuantity, kLargestQuantity);
 }
 
 Parameter smoothingParameter(std::string unit, std::string meaning, std::string default_value) {
-  Parameter p = positiveParameter("smoothing", std::move(unit),
-                                  "mode smooth: " + std::move(meaning), std::move(default_value));
+  Parameter p =
+      positiveParameter("smoothing", std::move(unit), "mode smooth: " + std::move(meaning), std::move(default_value));
   p.changes_solution = false;
   p.only_smooth = true;
   return p;
 }
 
 Parameter elementsParameter(std::string default_value) {
-  Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1,
-                                kMaxElements);
+  Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1, kMaxElements);
   p.whole = true;
   p.audit_max = 4;
   return p;
@@ -82,8 +78,7 @@ Parameter wordParameter(std::string name, std::string meaning, std::vector<std::
   return p;
 }
 
-Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters,
-                           const Settings& given) {
+Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters, const Settings& given) {
   Settings all;
   std::vector<std::string> known;
   for (const Parameter& p : parameters) {
@@ -91,8 +86,7 @@ Settings completedSettings(std::string_view scene, const std::vector<Parameter>&
     known.push_back(p.name);
   }
   for (const auto& [name, text] : given) {
-    if (known.empty())
-      throw Misuse(fmt::format("scene {} has no parameters, not '{}'", scene, name));
+    if (known.empty()) throw Misuse(fmt::format("scene {} has no parameters, not '{}'", scene, name));
     if (!all.contains(name)) {
       throw Misuse(fmt::format("scene {}: {}", scene, unknownName("parameter", name, known)));
     }
@@ -152,8 +146,7 @@ void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const st
 template <class Real>
 void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
-  const StartReport report =
-      ConsistentStart<Real>(*system, DerivativeSource::kAutomatic, true).apply(scene.start);
+  const StartReport report = ConsistentStart<Real>(*system, DerivativeSource::kAutomatic, true).apply(scene.start);
   if (report.outcome != Outcome::kSuccess) {
     throw std::logic_error("a scene's start: " + report.detail);
   }

@@ -13,12 +13,11 @@ namespace irk {
 
 /// A number with unit and range [min, max]. The default may be a word ("inf", "vb") that the scene itself
 /// interprets; this word is then allowed as a value, too.
-Parameter numberParameter(std::string name, std::string unit, std::string meaning,
-                          std::string default_value, double min, double max);
+Parameter numberParameter(std::string name, std::string unit, std::string meaning, std::string default_value,
+                          double min, double max);
 
 /// A positive physical quantity, at most 1e15.
-Parameter positiveParameter(std::string name, std::string unit, std::string meaning,
-                            std::string default_value);
+Parameter positiveParameter(std::string name, std::string unit, std::string meaning, std::string default_value);
 
 /// The width over which a regularised scene blends its modes. It has an effect with discontinuity `smooth` only.
 Parameter smoothingParameter(std::string unit, std::string meaning, std::string default_value);
@@ -31,8 +30,7 @@ Parameter wordParameter(std::string name, std::string meaning, std::vector<std::
 
 /// Returns the settings completed with defaults. Throws Misuse unless every setting names a parameter and lies within
 /// its range.
-Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters,
-                           const Settings& given);
+Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters, const Settings& given);
 
 /// A completed setting as a number, with all digits of its text.
 template <class Real>

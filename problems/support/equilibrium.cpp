@@ -64,8 +64,7 @@ Equilibrium<Real> findEquilibrium(const System<Real>& system, const State<Real>&
 }
 
 template <class Real>
-Equilibrium<Real> findEquilibrium(const LoadedSystem<Real>& system, const State<Real>& guess,
-                                  int load_steps) {
+Equilibrium<Real> findEquilibrium(const LoadedSystem<Real>& system, const State<Real>& guess, int load_steps) {
   Equilibrium<Real> found{.outcome = Outcome::kSuccess, .state = guess, .iterations = 0};
   for (int i = 1; i <= load_steps && found.outcome == Outcome::kSuccess; ++i) {
     const int before = found.iterations;
@@ -77,8 +76,7 @@ Equilibrium<Real> findEquilibrium(const LoadedSystem<Real>& system, const State<
 
 template Equilibrium<double> findEquilibrium(const System<double>&, const State<double>&);
 template Equilibrium<mp50> findEquilibrium(const System<mp50>&, const State<mp50>&);
-template Equilibrium<double> findEquilibrium(const LoadedSystem<double>&, const State<double>&,
-                                             int);
+template Equilibrium<double> findEquilibrium(const LoadedSystem<double>&, const State<double>&, int);
 template Equilibrium<mp50> findEquilibrium(const LoadedSystem<mp50>&, const State<mp50>&, int);
 
 }  // namespace irk

@@ -91,9 +91,7 @@ State<Real> PiecewiseLinear<Real>::operator()(const Real& t) const {
     Real first = step;
     Index due = -1;
     for (Index i = 0; i < after.size(); ++i) {
-      const auto g = [&](const Real& tau) {
-        return tau > 0 ? switching(*system, phase.after(tau, s))[i] : before[i];
-      };
+      const auto g = [&](const Real& tau) { return tau > 0 ? switching(*system, phase.after(tau, s))[i] : before[i]; };
       Real end = step, at_end = after[i];
       if (!(at_end > 0)) {
         end = before[i] < 0 ? positiveInside(g, step, before[i], after[i]) : Real(0);
@@ -104,11 +102,10 @@ State<Real> PiecewiseLinear<Real>::operator()(const Real& t) const {
       const auto narrow = [](const Real& a, const Real& b) {
         return b - a <= 2 * Eigen::NumTraits<Real>::epsilon() * b;
       };
-      const Real root = before[i] < 0
-                            ? boost::math::tools::toms748_solve(g, Real(0), end, before[i], at_end, narrow,
-                                                                iterations)
-                                  .second
-                            : Real(0);
+      const Real root =
+          before[i] < 0
+              ? boost::math::tools::toms748_solve(g, Real(0), end, before[i], at_end, narrow, iterations).second
+              : Real(0);
       if (due < 0 || root < first) {
         first = root;
         due = i;

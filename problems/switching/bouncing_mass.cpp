@@ -45,8 +45,7 @@ struct BouncingMass {
 template <class Real>
 Scene<Real> make(const Settings& settings) {
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const BouncingMass<Real> problem{
-      .m = value("m"), .k = value("k"), .g = value("g"), .smoothing = value("smoothing")};
+  const BouncingMass<Real> problem{.m = value("m"), .k = value("k"), .g = value("g"), .smoothing = value("smoothing")};
   Scene<Real> scene;
   setProblem(scene, problem);
   scene.start.u[0] = value("gap0");
@@ -54,8 +53,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d[0] = Real(scene.start.u[0] < 0 ? 1 : 0);
   completeStart(scene);
   scene.t_end = 0.5;
-  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
-                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
+  scene.exact =
+      PiecewiseLinear<Real>{scene.system({}), scene.start, [problem](const Vec<Real>& d) { return problem.rates(d); }};
   setComponents(scene, {{"gap", "m", 0.01, 1}});
   return scene;
 }
@@ -71,10 +70,8 @@ SceneEntry bouncingMassEntry() {
                          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
                          numberParameter("gap0", "m", "gap at the start", "0.01", -1e6, 1e6),
                          numberParameter("v0", "m/s", "velocity at the start", "-1", -1e6, 1e6),
-                         smoothingParameter(
-                             "m", "penetration until the floor has its whole stiffness", "1e-5")},
-          .panels = {{"gap", {"gap"}},
-                     {"velocity", {"gap'"}}},
+                         smoothingParameter("m", "penetration until the floor has its whole stiffness", "1e-5")},
+          .panels = {{"gap", {"gap"}}, {"velocity", {"gap'"}}},
           .reference_cases = {{.times = "0.1 0.3"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

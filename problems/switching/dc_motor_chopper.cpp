@@ -60,8 +60,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d[0] = 1;
   completeStart(scene);
   scene.t_end = 0.02;
-  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
-                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
+  scene.exact =
+      PiecewiseLinear<Real>{scene.system({}), scene.start, [problem](const Vec<Real>& d) { return problem.rates(d); }};
   setComponents(scene, {{"phi", "rad", 0.1, 10}}, {{"i", "A", 5}});
   return scene;
 }
@@ -81,9 +81,7 @@ SceneEntry dcMotorChopperEntry() {
                          numberParameter("TL", "N m", "load torque", "0.05", -1e15, 1e15),
                          numberParameter("iref", "A", "wanted current", "4", -1e15, 1e15),
                          positiveParameter("D", "A", "half width of the current's band", "1")},
-          .panels = {{"angle", {"phi"}},
-                     {"angular velocity", {"phi'"}},
-                     {"current", {"i"}}},
+          .panels = {{"angle", {"phi"}}, {"angular velocity", {"phi'"}}, {"current", {"i"}}},
           .reference_cases = {{.times = "0.005 0.01"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

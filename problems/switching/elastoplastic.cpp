@@ -65,8 +65,7 @@ struct Elastoplastic {
     const bool positive = F > T(0.0);
     const T size = positive ? F : T(-F), outwards = positive ? p.v[0] : T(-p.v[0]);
     const Real velocity = Fy / sqrt(k * m);  // kinetic energy at this velocity = energy of the spring at yield
-    d[kPlastic] = smoothStep<T>((size / Fy - 1) / smoothing + 1) *
-                  smoothStep<T>(outwards / (smoothing * velocity));
+    d[kPlastic] = smoothStep<T>((size / Fy - 1) / smoothing + 1) * smoothStep<T>(outwards / (smoothing * velocity));
   }
   // The matrix of (v', x') = rates (u, v, x, 1, sin Omega t, cos Omega t).
   Mat<Real> rates(const Vec<Real>& d) const {
@@ -95,8 +94,7 @@ Scene<Real> make(const Settings& settings) {
   completeStart(scene);
   scene.t_end = 1.8;
   scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
-                                      [problem](const Vec<Real>& d) { return problem.rates(d); },
-                                      problem.Omega};
+                                      [problem](const Vec<Real>& d) { return problem.rates(d); }, problem.Omega};
   const double yield = static_cast<double>(Real(problem.Fy / problem.k));
   setComponents(scene, {{"u", "m", yield, 10 * yield}}, {{"x", "m", yield}});
   return scene;
@@ -108,15 +106,12 @@ SceneEntry elastoplasticEntry() {
   return {.id = "elastoplastic",
           .title = "driven mass on a spring and an ideal-plastic slider in series",
           .shows = "plasticity: a memory, a rate that jumps, and a kink at every unloading",
-          .parameters = {positiveParameter("m", "kg", "mass", "1"),
-                         positiveParameter("k", "N/m", "spring", "100"),
+          .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "100"),
                          positiveParameter("Fy", "N", "yield force", "1"),
                          numberParameter("P0", "N", "amplitude of the load", "1.2", -1e15, 1e15),
                          positiveParameter("Omega", "rad/s", "frequency of the load", "5"),
-                         smoothingParameter("", "part of Fy over which the slider starts to move",
-                                            "1e-3")},
-          .panels = {{"displacements", {"u", "x"}},
-                     {"velocity", {"u'"}}},
+                         smoothingParameter("", "part of Fy over which the slider starts to move", "1e-3")},
+          .panels = {{"displacements", {"u", "x"}}, {"velocity", {"u'"}}},
           .reference_cases = {{.times = "0.5 1"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -57,9 +57,7 @@ struct HydraulicManipulator {
   Real pi, base;                // -, m: distance from the hinge to the foot of the cylinder
   Real kappa0 = 0;
 
-  Sizes sizes() const {
-    return {.nu = 2, .nx = 2, .discrete = kFirstEdge + kEdges, .switches = 1 + kEdges};
-  }
+  Sizes sizes() const { return {.nu = 2, .nx = 2, .discrete = kFirstEdge + kEdges, .switches = 1 + kEdges}; }
   Real s0() const { return L / 2; }
   template <class T>
   T length(const T& theta1) const {
@@ -114,8 +112,7 @@ struct HydraulicManipulator {
     const T F = (p.x[1] - p.x[0]) * A - c * s_rate;
     const Real J1 = L * L * (m1 / 3 + mt + m2), J2 = m2 * L2 * L2, J12 = m2 * L * L2;
     const T sine = J12 * sin(theta1 - theta2), cosine = J12 * cos(theta1 - theta2);
-    r.u[0] =
-        F * slope - load() * cos(theta1) - sine * (p.v[1] * p.v[1]) - J1 * p.a[0] - cosine * p.a[1];
+    r.u[0] = F * slope - load() * cos(theta1) - sine * (p.v[1] * p.v[1]) - J1 * p.a[0] - cosine * p.a[1];
     r.u[1] = sine * (p.v[0] * p.v[0]) - m2 * g * L2 * cos(theta2) - cosine * p.a[0] - J2 * p.a[1];
 
     const T Ai = Av * kappa<T>(p), Ao = Av - Ai;
@@ -154,9 +151,8 @@ struct HydraulicManipulator {
     }
   }
   std::string switchName(Index i) const {
-    constexpr const char* kNames[] = {"corner of the manoeuvre", "supply to chamber 1",
-                                      "chamber 1 to tank", "supply to chamber 2",
-                                      "chamber 2 to tank"};
+    constexpr const char* kNames[] = {"corner of the manoeuvre", "supply to chamber 1", "chamber 1 to tank",
+                                      "supply to chamber 2", "chamber 2 to tank"};
     return kNames[i];
   }
 
@@ -179,8 +175,7 @@ Polyline<Real> polylineOf(Manoeuvre manoeuvre) {
   const auto number = [](const char* text) { return decimal<Real>(text); };
   switch (manoeuvre) {
     case Manoeuvre::kSteps:
-      return {{2, number("2.001"), 6, number("6.002")},
-              {0, number("-0.01"), number("-0.01"), number("0.02")}};
+      return {{2, number("2.001"), 6, number("6.002")}, {0, number("-0.01"), number("-0.01"), number("0.02")}};
     case Manoeuvre::kSine:
       break;
   }
@@ -211,8 +206,7 @@ template <class Real>
 Scene<Real> make(const Settings& settings) {
   using std::sqrt;
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Manoeuvre manoeuvre =
-      settings.at("manoeuvre") == "sine" ? Manoeuvre::kSine : Manoeuvre::kSteps;
+  const Manoeuvre manoeuvre = settings.at("manoeuvre") == "sine" ? Manoeuvre::kSine : Manoeuvre::kSteps;
   HydraulicManipulator<Real> problem{.L = value("L"),
                                      .L2 = value("L2"),
                                      .m1 = value("m1"),
@@ -245,14 +239,12 @@ Scene<Real> make(const Settings& settings) {
   completeStart(scene);
   scene.t_end = 10;
   setComponents(scene, {{"theta1", "rad"}, {"theta2", "rad"}}, {{"p1", "Pa", 1e6}, {"p2", "Pa", 1e6}});
-  scene.outputs = {
-      {"s", [problem](const State<Real>& s) { return problem.template length<Real>(s.u[0]); }, "m"}};
+  scene.outputs = {{"s", [problem](const State<Real>& s) { return problem.template length<Real>(s.u[0]); }, "m"}};
   return scene;
 }
 
 std::vector<Parameter> parameters() {
-  Parameter smoothing_p =
-      smoothingParameter("Pa", "pressure drop over which an edge of the valve opens", "1e4");
+  Parameter smoothing_p = smoothingParameter("Pa", "pressure drop over which an edge of the valve opens", "1e4");
   smoothing_p.name += "_p";
   return {wordParameter("manoeuvre", "what the valve does", {"steps", "sine"}),
           positiveParameter("L", "m", "length of rod 1", "1"),
@@ -269,8 +261,7 @@ std::vector<Parameter> parameters() {
           positiveParameter("rho", "kg/m^3", "density of the oil", "850"),
           positiveParameter("pP", "Pa", "supply pressure", "7.6e6"),
           numberParameter("pT", "Pa", "tank pressure", "1e5", 0, 1e15),
-          numberParameter("a", "1/Pa", "bulk modulus (1 + a p + b p^2) / (a + 2 b p)", "6.53e-10",
-                          0, 1),
+          numberParameter("a", "1/Pa", "bulk modulus (1 + a p + b p^2) / (a + 2 b p)", "6.53e-10", 0, 1),
           numberParameter("b", "1/Pa^2", "the same", "-1.19e-18", -1, 1),
           smoothingParameter("s", "corners of the manoeuvre are rounded by it", "1e-4"),
           smoothing_p};
@@ -289,8 +280,7 @@ SceneEntry hydraulicManipulatorEntry() {
                      {"angular velocities", {"theta1'", "theta2'"}},
                      {"pressures", {"p1", "p2"}, "MPa", 1e-6},
                      {"cylinder", {"s"}}},
-          .reference_cases = {{.times = "2 4 6"},
-                              {.settings = "manoeuvre=sine", .times = "2 5"}},
+          .reference_cases = {{.times = "2 4 6"}, {.settings = "manoeuvre=sine", .times = "2 5"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

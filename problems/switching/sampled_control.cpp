@@ -60,8 +60,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.d << problem.control(scene.start.u[0], scene.start.v[0]), 1;
   completeStart(scene);
   scene.t_end = 1;
-  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
-                                      [problem](const Vec<Real>& d) { return problem.rates(d); }};
+  scene.exact =
+      PiecewiseLinear<Real>{scene.system({}), scene.start, [problem](const Vec<Real>& d) { return problem.rates(d); }};
   setComponents(scene, {{"x", "m", 1, 5}});
   return scene;
 }
@@ -79,8 +79,7 @@ SceneEntry sampledControlEntry() {
                          numberParameter("Kd", "N s/m", "derivative gain", "5", -1e15, 1e15),
                          numberParameter("r", "m", "wanted position", "1", -1e6, 1e6),
                          positiveParameter("Ts", "s", "time between samples", "0.1")},
-          .panels = {{"position", {"x"}},
-                     {"velocity", {"x'"}}},
+          .panels = {{"position", {"x"}}, {"velocity", {"x'"}}},
           .reference_cases = {{.times = "0.1 0.45"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

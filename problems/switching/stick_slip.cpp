@@ -155,8 +155,7 @@ class ExactStickSlip {
     return (p_.vb > 0 ? Real(edge - x) : Real(edge + x)) / (p_.vb > 0 ? p_.vb : Real(-p_.vb));
   }
   // `side`: the sign of the friction force; 0 while sticking.
-  State<Real> state(const Real& t, const Real& x, const Real& v, const Real& a,
-                    const Real& side) const {
+  State<Real> state(const Real& t, const Real& x, const Real& v, const Real& a, const Real& side) const {
     State<Real> s(p_.sizes());
     s.d << side * p_.Fd, Real(side == 0 ? 1 : 0);
     s.t = t;
@@ -199,27 +198,23 @@ Scene<Real> make(const Settings& settings) {
 }  // namespace
 
 SceneEntry stickSlipEntry() {
-  return {
-      .id = "stick_slip",
-      .title = "mass on a belt with Coulomb friction",
-      .shows =
-          "set-valued friction against an exact solution: what each way to treat a "
-          "discontinuity costs",
-      .parameters =
-          {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "1"),
-           positiveParameter("Fs", "N", "largest sticking force", "1.5"),
-           positiveParameter("Fd", "N", "slip force", "1"),
-           numberParameter("vb", "m/s", "belt speed", "0.1", -1e3, 1e3),
-           numberParameter("x0", "m", "position at the start", "0", -1e6, 1e6),
-           numberParameter("v0", "m/s", "velocity at the start; vb = on the belt", "vb", -1e6, 1e6),
-           smoothingParameter(
-               "m/s", "relative velocity at which friction is Fs; Fd from twice that on", "1e-4")},
-      .panels = {{"position", {"x"}},
-                 {"velocity", {"x'"}}},
-      .reference_cases = {{.times = "20 30"},
-                          {.settings = "Fs=1 k=100 v0=0 vb=0 x0=0.105"}},
-      .make = make<double>,
-      .make_mp50 = make<mp50>};
+  return {.id = "stick_slip",
+          .title = "mass on a belt with Coulomb friction",
+          .shows =
+              "set-valued friction against an exact solution: what each way to treat a "
+              "discontinuity costs",
+          .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "1"),
+                         positiveParameter("Fs", "N", "largest sticking force", "1.5"),
+                         positiveParameter("Fd", "N", "slip force", "1"),
+                         numberParameter("vb", "m/s", "belt speed", "0.1", -1e3, 1e3),
+                         numberParameter("x0", "m", "position at the start", "0", -1e6, 1e6),
+                         numberParameter("v0", "m/s", "velocity at the start; vb = on the belt", "vb", -1e6, 1e6),
+                         smoothingParameter("m/s", "relative velocity at which friction is Fs; Fd from twice that on",
+                                            "1e-4")},
+          .panels = {{"position", {"x"}}, {"velocity", {"x'"}}},
+          .reference_cases = {{.times = "20 30"}, {.settings = "Fs=1 k=100 v0=0 vb=0 x0=0.105"}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
 }
 
 }  // namespace irk

@@ -19,12 +19,11 @@ constexpr double kRoundingUnits = 50;
 void requireShape(const Tableau<mp80>& tableau) {
   const Index s = tableau.stages();
   if (s < 1 || tableau.A.rows() != s || tableau.A.cols() != s || tableau.c.size() != s) {
-    throw Misuse(fmt::format("tableau '{}': A is {} x {}, b has {}, c has {} entries", tableau.id,
-                             tableau.A.rows(), tableau.A.cols(), s, tableau.c.size()));
+    throw Misuse(fmt::format("tableau '{}': A is {} x {}, b has {}, c has {} entries", tableau.id, tableau.A.rows(),
+                             tableau.A.cols(), s, tableau.c.size()));
   }
   const auto finite = [](const Mat<mp80>& block) {
-    return std::ranges::all_of(block.reshaped(),
-                               [](const mp80& x) { return boost::multiprecision::isfinite(x); });
+    return std::ranges::all_of(block.reshaped(), [](const mp80& x) { return boost::multiprecision::isfinite(x); });
   };
   if (!finite(tableau.A) || !finite(tableau.b) || !finite(tableau.c)) {
     throw Misuse(fmt::format("tableau '{}' has a coefficient that is not finite", tableau.id));
@@ -48,15 +47,12 @@ SimplifyingResiduals simplifyingResiduals(const Tableau<mp80>& tableau) {
     const Vec<mp80> b_power = b.cwiseProduct(power);
     const Vec<mp80> power_abs = power.cwiseAbs(), b_power_abs = b_power.cwiseAbs();
     const Vec<mp80> power_next = power.cwiseProduct(c);
-    residuals.B[k - 1] =
-        residual(Vec<mp80>::Constant(1, b_power.sum()), Vec<mp80>::Constant(1, b_power_abs.sum()),
-                 Vec<mp80>::Constant(1, mp80(1) / k));
+    residuals.B[k - 1] = residual(Vec<mp80>::Constant(1, b_power.sum()), Vec<mp80>::Constant(1, b_power_abs.sum()),
+                                  Vec<mp80>::Constant(1, mp80(1) / k));
     if (k <= s + 1) {
-      residuals.C[k - 1] =
-          residual(Vec<mp80>(A * power), Vec<mp80>(A_abs * power_abs), Vec<mp80>(power_next / k));
-      residuals.D[k - 1] =
-          residual(Vec<mp80>(A.transpose() * b_power), Vec<mp80>(A_abs.transpose() * b_power_abs),
-                   Vec<mp80>(b.cwiseProduct((1 - power_next.array()).matrix()) / k));
+      residuals.C[k - 1] = residual(Vec<mp80>(A * power), Vec<mp80>(A_abs * power_abs), Vec<mp80>(power_next / k));
+      residuals.D[k - 1] = residual(Vec<mp80>(A.transpose() * b_power), Vec<mp80>(A_abs.transpose() * b_power_abs),
+                                    Vec<mp80>(b.cwiseProduct((1 - power_next.array()).matrix()) / k));
     }
     power = power_next;
   }
@@ -65,13 +61,10 @@ SimplifyingResiduals simplifyingResiduals(const Tableau<mp80>& tableau) {
 
 int countHolding(const Vec<double>& residuals, double tolerance) {
   const auto fails = [&](double residual) { return !(residual <= tolerance); };
-  return static_cast<int>(std::find_if(residuals.begin(), residuals.end(), fails) -
-                          residuals.begin());
+  return static_cast<int>(std::find_if(residuals.begin(), residuals.end(), fails) - residuals.begin());
 }
 
-double norm1(const Mat<mp80>& A) {
-  return static_cast<double>(A.cwiseAbs().colwise().sum().maxCoeff());
-}
+double norm1(const Mat<mp80>& A) { return static_cast<double>(A.cwiseAbs().colwise().sum().maxCoeff()); }
 
 double reciprocalCondition(const Mat<mp80>& A, const Eigen::FullPivLU<Mat<mp80>>& lu) {
   return lu.isInvertible() ? 1 / (norm1(A) * norm1(lu.inverse())) : 0;
@@ -85,9 +78,7 @@ void analyzeRegularity(const Tableau<mp80>& tableau, TableauAnalysis& analysis) 
 
 void analyzeStructure(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
   const auto& [id, family, A, b, c, order, stage_order] = tableau;
-  const auto maximum = [](const auto& block) {
-    return static_cast<double>(block.cwiseAbs().maxCoeff());
-  };
+  const auto maximum = [](const auto& block) { return static_cast<double>(block.cwiseAbs().maxCoeff()); };
   const Vec<mp80> row_sums = A.rowwise().sum();
   analysis.row_sum_errors = (row_sums - c).cwiseAbs().cast<double>();
   analysis.stiffly_accurate = maximum(A.row(A.rows() - 1) - b.transpose()) <= analysis.tolerance;
@@ -98,11 +89,9 @@ void analyzeStructure(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
   analysis.symplecticity_error = maximum(M);
   analysis.symplectic = analysis.symplecticity_error <= analysis.tolerance;
   // Rounding may change M by the tolerance, and its eigenvalues are computed in double precision.
-  const double slack =
-      std::max(analysis.tolerance, toleranceOfDigits(std::numeric_limits<double>::digits10));
+  const double slack = std::max(analysis.tolerance, toleranceOfDigits(std::numeric_limits<double>::digits10));
   const Eigen::SelfAdjointEigenSolver<Mat<double>> eigen(M.cast<double>(), Eigen::EigenvaluesOnly);
-  analysis.algebraically_stable =
-      b.minCoeff() >= -analysis.tolerance && eigen.eigenvalues().minCoeff() >= -slack;
+  analysis.algebraically_stable = b.minCoeff() >= -analysis.tolerance && eigen.eigenvalues().minCoeff() >= -slack;
 }
 
 }  // namespace
@@ -129,8 +118,8 @@ TableauAnalysis analyzeTableau(const Tableau<Real>& tableau, double tolerance) {
   analysis.p = countHolding(analysis.residuals.B, tolerance);
   analysis.q = countHolding(analysis.residuals.C, tolerance);
   analysis.r = countHolding(analysis.residuals.D, tolerance);
-  analysis.proven_order = std::min({analysis.p, 2 * analysis.q + 2, analysis.q + analysis.r + 1,
-                                    2 * static_cast<int>(wide.stages())});
+  analysis.proven_order =
+      std::min({analysis.p, 2 * analysis.q + 2, analysis.q + analysis.r + 1, 2 * static_cast<int>(wide.stages())});
   analyzeRegularity(wide, analysis);
   analyzeStructure(wide, analysis);
   return analysis;

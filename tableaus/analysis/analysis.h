@@ -41,7 +41,6 @@ double roundingTolerance();
 
 /// Real: double, mp50, mp80. Throws Misuse unless A is s x s, b and c have s entries, s >= 1, and all are finite.
 template <class Real>
-TableauAnalysis analyzeTableau(const Tableau<Real>& tableau,
-                               double tolerance = roundingTolerance<Real>());
+TableauAnalysis analyzeTableau(const Tableau<Real>& tableau, double tolerance = roundingTolerance<Real>());
 
 }  // namespace irk

@@ -51,10 +51,9 @@ void checkRowSums(const Subject& subject, Findings& findings) {
   }
   Index row = 0;
   const double error = subject.analysis.row_sum_errors.maxCoeff(&row);
-  findings.push_back(
-      {Verdict::kContradiction, Place::kRow, row, "row sums",
-       fmt::format("row {} of A does not sum up to c_{} = {}: it is off by {:.3g}", row + 1,
-                   row + 1, static_cast<double>(subject.tableau.c[row]), error)});
+  findings.push_back({Verdict::kContradiction, Place::kRow, row, "row sums",
+                      fmt::format("row {} of A does not sum up to c_{} = {}: it is off by {:.3g}", row + 1, row + 1,
+                                  static_cast<double>(subject.tableau.c[row]), error)});
 }
 
 // B(p) is necessary for order p, because quadrature is a special differential equation.
@@ -67,8 +66,8 @@ void checkQuadrature(const Subject& subject, Findings& findings) {
                     2 * tableau.stages()));
   } else if (declared > analysis.p) {
     add(findings, Verdict::kContradiction, Place::kOrder, "B",
-        fmt::format("order {} is contradicted by B({}), whose residual is {:.3g}", declared,
-                    analysis.p + 1, analysis.residuals.B[analysis.p]));
+        fmt::format("order {} is contradicted by B({}), whose residual is {:.3g}", declared, analysis.p + 1,
+                    analysis.residuals.B[analysis.p]));
   } else {
     add(findings, Verdict::kHolds, Place::kOrder, "B", fmt::format("B({}) holds", declared));
   }
@@ -79,12 +78,12 @@ void checkStageOrder(const Subject& subject, Findings& findings) {
   const int declared = tableau.stage_order;
   if (declared < 0 || declared > tableau.stages()) {
     add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
-        fmt::format("stage order {} is impossible: {} stages reach 0 to {}", declared,
-                    tableau.stages(), tableau.stages()));
+        fmt::format("stage order {} is impossible: {} stages reach 0 to {}", declared, tableau.stages(),
+                    tableau.stages()));
   } else if (declared > analysis.q) {
     add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
-        fmt::format("stage order {} is contradicted by C({}), whose residual is {:.3g}", declared,
-                    analysis.q + 1, analysis.residuals.C[analysis.q]));
+        fmt::format("stage order {} is contradicted by C({}), whose residual is {:.3g}", declared, analysis.q + 1,
+                    analysis.residuals.C[analysis.q]));
   } else {
     add(findings, Verdict::kHolds, Place::kStageOrder, "C", fmt::format("C({}) holds", declared));
   }
@@ -106,30 +105,29 @@ void checkFamilyMember(const Subject& subject, const Family& family, Findings& f
   };
   const auto declares = [&](Place place, std::string_view what, int declared, int theory) {
     if (declared == theory) return;
-    contradict(place, fmt::format("{} {} is declared, but {} with {} stages has {}", what, declared,
-                                  family.title, tableau.stages(), theory));
+    contradict(place, fmt::format("{} {} is declared, but {} with {} stages has {}", what, declared, family.title,
+                                  tableau.stages(), theory));
   };
   declares(Place::kOrder, "order", tableau.order, orders.p);
   declares(Place::kStageOrder, "stage order", tableau.stage_order, orders.q);
   const auto requires_at_least = [&](std::string_view condition, int holds, int theory) {
     if (holds >= theory) return;
-    contradict(Place::kFamily, fmt::format("{0} has {1}({2}), but here {1}({3}) fails",
-                                           family.title, condition, theory, holds + 1));
+    contradict(Place::kFamily,
+               fmt::format("{0} has {1}({2}), but here {1}({3}) fails", family.title, condition, theory, holds + 1));
   };
   requires_at_least("B", analysis.p, orders.p);
   requires_at_least("C", analysis.q, orders.q);
   requires_at_least("D", analysis.r, orders.r);
 
   const Tableau<mp80> expected = constructFamily(family, tableau.stages());
-  const double error = std::max({distance(tableau.A, expected.A), distance(tableau.b, expected.b),
-                                 distance(tableau.c, expected.c)});
+  const double error =
+      std::max({distance(tableau.A, expected.A), distance(tableau.b, expected.b), distance(tableau.c, expected.c)});
   if (error <= analysis.tolerance) {
     add(findings, Verdict::kHolds, Place::kFamily, "family",
-        fmt::format("coefficients are those of {}: B({}), C({}), D({})", family.title, orders.p,
-                    orders.q, orders.r));
+        fmt::format("coefficients are those of {}: B({}), C({}), D({})", family.title, orders.p, orders.q, orders.r));
   } else {
-    contradict(Place::kFamily, fmt::format("coefficients differ from those of {} by up to {:.3g}",
-                                           family.title, error));
+    contradict(Place::kFamily,
+               fmt::format("coefficients differ from those of {} by up to {:.3g}", family.title, error));
   }
 }
 
@@ -138,12 +136,10 @@ void checkFamily(const Subject& subject, Findings& findings) {
   const Index s = subject.tableau.stages();
   if (family == nullptr) {
     add(findings, Verdict::kNote, Place::kFamily, "family",
-        fmt::format("'{}' is not one of the suite's families: judged by its numbers alone",
-                    subject.tableau.family));
+        fmt::format("'{}' is not one of the suite's families: judged by its numbers alone", subject.tableau.family));
   } else if (s < family->minStages() || s > kMaxStages) {
     add(findings, Verdict::kContradiction, Place::kFamily, "family",
-        fmt::format("{} has {} to {} stages, not {}", family->title, family->minStages(),
-                    kMaxStages, s));
+        fmt::format("{} has {} to {} stages, not {}", family->title, family->minStages(), kMaxStages, s));
   } else {
     checkFamilyMember(subject, *family, findings);
   }
@@ -152,19 +148,17 @@ void checkFamily(const Subject& subject, Findings& findings) {
 void checkProof(const Subject& subject, Findings& findings) {
   const auto& [tableau, analysis] = subject;
   const int declared = tableau.order;
-  if (declared > analysis.p) return;  // checkQuadrature reports this contradiction
+  if (declared > analysis.p) return;                             // checkQuadrature reports this contradiction
   const bool of_family = findFamily(tableau.family) != nullptr;  // its order is known from theory
   if (declared > analysis.proven_order) {
     add(findings, Verdict::kUnproven, Place::kOrder, "order",
         fmt::format("order {} is not proven by B, C, D, which reach {}; it may be true", declared,
                     analysis.proven_order));
   } else if (declared == analysis.proven_order || of_family) {
-    add(findings, Verdict::kHolds, Place::kOrder, "order",
-        fmt::format("order {} is proven by B, C, D", declared));
+    add(findings, Verdict::kHolds, Place::kOrder, "order", fmt::format("order {} is proven by B, C, D", declared));
   } else {
     add(findings, Verdict::kNote, Place::kOrder, "order",
-        fmt::format("order {} is declared, B, C, D reach {} to the tolerance", declared,
-                    analysis.proven_order));
+        fmt::format("order {} is declared, B, C, D reach {} to the tolerance", declared, analysis.proven_order));
   }
 }
 
@@ -186,8 +180,8 @@ void checkTrees(const Subject& subject, Findings& findings) {
                     order, numbers));
   } else if (declared > order) {
     add(findings, Verdict::kContradiction, Place::kOrder, "trees",
-        fmt::format("order {} is contradicted by a rooted tree of order {}: the order is {}; {}",
-                    declared, order + 1, order, numbers));
+        fmt::format("order {} is contradicted by a rooted tree of order {}: the order is {}; {}", declared, order + 1,
+                    order, numbers));
   } else {
     add(findings, declared == order ? Verdict::kHolds : Verdict::kNote, Place::kOrder, "trees",
         fmt::format("by the conditions of all rooted trees the order is {}; {}", order, numbers));
@@ -216,20 +210,16 @@ std::string analysisText(const TableauAnalysis& analysis) {
   const auto condition = [&](char name, const Vec<double>& residuals, int holds) {
     std::string text = fmt::format("  {}({})", name, holds);
     text += holds == 0 ? "" : fmt::format(", residual {:.2g}", residuals.head(holds).maxCoeff());
-    text += holds == residuals.size()
-                ? ""
-                : fmt::format("; {}({}) fails by {:.2g}", name, holds + 1, residuals[holds]);
+    text += holds == residuals.size() ? "" : fmt::format("; {}({}) fails by {:.2g}", name, holds + 1, residuals[holds]);
     return text + "\n";
   };
-  return condition('B', analysis.residuals.B, analysis.p) +
-         condition('C', analysis.residuals.C, analysis.q) +
+  return condition('B', analysis.residuals.B, analysis.p) + condition('C', analysis.residuals.C, analysis.q) +
          condition('D', analysis.residuals.D, analysis.r);
 }
 
 std::string reportText(const Tableau<mp80>& tableau, const TableauReport& report) {
-  std::string text =
-      fmt::format("{}: family {}, {} stages, order {}, stage order {}\n", tableau.id,
-                  tableau.family, tableau.stages(), tableau.order, tableau.stage_order);
+  std::string text = fmt::format("{}: family {}, {} stages, order {}, stage order {}\n", tableau.id, tableau.family,
+                                 tableau.stages(), tableau.order, tableau.stage_order);
   text += analysisText(report.analysis);
   for (const Finding& finding : report.findings) {
     text += fmt::format("  {:<9} {}\n", verdictName(finding.verdict), finding.text);
@@ -246,8 +236,7 @@ TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance) {
   const Tableau<mp80> wide = tableau.template cast<mp80>();
   TableauReport report{tableau.id, analyzeTableau(wide, tolerance), {}, true, ""};
   for (const Check check : kChecks) check({wide, report.analysis}, report.findings);
-  report.ok = std::ranges::find(report.findings, Verdict::kContradiction, &Finding::verdict) ==
-              report.findings.end();
+  report.ok = std::ranges::find(report.findings, Verdict::kContradiction, &Finding::verdict) == report.findings.end();
   report.text = reportText(wide, report);
   return report;
 }

@@ -44,7 +44,6 @@ struct TableauReport {
 /// as analyzeTableau.
 /// rooted trees give. Real: double, mp50, mp80. Throws Misuse as analyzeTableau.
 template <class Real>
-TableauReport checkTableau(const Tableau<Real>& tableau,
-                           double tolerance = roundingTolerance<Real>());
+TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance = roundingTolerance<Real>());
 
 }  // namespace irk

@@ -45,8 +45,7 @@ NodesAndWeights nodesAndWeights(const Tableau<mp80>& tableau, double tolerance) 
 /// only between equal nodes.
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Tableau<mp80>& tableau, double tolerance)
-      : tableau_(tableau), tolerance_(tolerance) {}
+  SymmetrySearch(const Tableau<mp80>& tableau, double tolerance) : tableau_(tableau), tolerance_(tolerance) {}
 
   bool found() {
     if (static_cast<Index>(image_.size()) == tableau_.stages()) return true;
@@ -99,16 +98,13 @@ std::string stabilityFunctionText(const StabilityFunction& R) {
   std::string text = fmt::format("  R(z) = N / D of degrees ({}, {}){}, R(inf) = {:.6g}\n", j, k,
                                  R.isPade() ? ", a Pade approximation" : "", R.atInfinity());
   if (std::max(j, k) <= kLargestShownDegree) {
-    text += fmt::format("    N = {}\n    D = {}\n", polynomialText(R.numerator),
-                        polynomialText(R.denominator));
+    text += fmt::format("    N = {}\n    D = {}\n", polynomialText(R.numerator), polynomialText(R.denominator));
   }
   if (R.order_resolved) {
-    return text + fmt::format("  order of R {}, error constant: e^z - R(z) = {:.6g} z^{} + ...\n",
-                              R.order, R.error_constant, R.order + 1);
+    return text + fmt::format("  order of R {}, error constant: e^z - R(z) = {:.6g} z^{} + ...\n", R.order,
+                              R.error_constant, R.order + 1);
   }
-  return text +
-         fmt::format("  order of R at least {}; error constant: below what the digits tell\n",
-                     R.order);
+  return text + fmt::format("  order of R at least {}; error constant: below what the digits tell\n", R.order);
 }
 
 std::string limitText(double limit) {
@@ -116,9 +112,9 @@ std::string limitText(double limit) {
 }
 
 std::string stabilityText(const Stability& stability) {
-  std::string text = fmt::format("  A-stable: {}, L-stable: {}, |R| <= 1 on the imaginary axis: {}",
-                                 yesNo(stability.a_stable), yesNo(stability.l_stable),
-                                 limitText(stability.imaginary_limit));
+  std::string text =
+      fmt::format("  A-stable: {}, L-stable: {}, |R| <= 1 on the imaginary axis: {}", yesNo(stability.a_stable),
+                  yesNo(stability.l_stable), limitText(stability.imaginary_limit));
   if (stability.a_stable) return text + '\n';
   text += fmt::format(", on the negative real axis: {}\n", limitText(stability.real_limit));
   if (std::isnan(stability.alpha)) return text + "  not A(alpha)-stable for any alpha\n";
@@ -132,17 +128,14 @@ std::string spectrumText(const Spectrum& spectrum) {
     return text + "repeated and DEFECTIVE: A has no basis of eigenvectors (use Schur's form)\n";
   }
   return text + fmt::format("{}; condition of the unit eigenvectors {:.3g}\n",
-                            spectrum.repeated ? "repeated, not defective" : "distinct",
-                            spectrum.eigenvector_condition);
+                            spectrum.repeated ? "repeated, not defective" : "distinct", spectrum.eigenvector_condition);
 }
 
 std::string quadratureText(const NodesAndWeights& x) {
   return fmt::format(
       "  nodes {}, {}; weights {}\n", x.distinct ? "distinct" : "repeated",
-      x.within ? "in [0, 1]"
-               : fmt::format("from {:.6g} to {:.6g}, not in [0, 1]", x.lowest, x.highest),
-      x.positive ? "positive"
-                 : fmt::format("not all positive, the smallest is {:.6g}", x.smallest_weight));
+      x.within ? "in [0, 1]" : fmt::format("from {:.6g} to {:.6g}, not in [0, 1]", x.lowest, x.highest),
+      x.positive ? "positive" : fmt::format("not all positive, the smallest is {:.6g}", x.smallest_weight));
 }
 
 }  // namespace
@@ -166,8 +159,8 @@ std::string_view stageKindName(StageKind kind) {
 TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double tolerance) {
   TableauAnalysis analysis = analyzeTableau(tableau, tolerance);
   if (tableau.stages() > kMaxAnalyzedStages) {
-    throw Misuse(fmt::format("tableau '{}': {} stages, properties are analysed up to {}",
-                             tableau.id, tableau.stages(), kMaxAnalyzedStages));
+    throw Misuse(fmt::format("tableau '{}': {} stages, properties are analysed up to {}", tableau.id, tableau.stages(),
+                             kMaxAnalyzedStages));
   }
   StabilityFunction R = stabilityFunction(tableau, tolerance);
   const Stability stability = analyzeStability(R, tolerance);
@@ -182,17 +175,13 @@ TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double toleran
 
 std::string propertiesText(const TableauProperties& properties) {
   const TableauAnalysis& analysis = properties.analysis;
-  return fmt::format("  {}; ", stageKindName(properties.kind)) +
-         quadratureText(properties.quadrature).substr(2) + stabilityFunctionText(properties.R) +
-         stabilityText(properties.stability) +
-         fmt::format(
-             "  algebraically stable: {}, stiffly accurate: {}, symplectic: {}, symmetric: {}\n",
-             yesNo(analysis.algebraically_stable), yesNo(analysis.stiffly_accurate),
-             yesNo(analysis.symplectic), yesNo(properties.symmetric)) +
+  return fmt::format("  {}; ", stageKindName(properties.kind)) + quadratureText(properties.quadrature).substr(2) +
+         stabilityFunctionText(properties.R) + stabilityText(properties.stability) +
+         fmt::format("  algebraically stable: {}, stiffly accurate: {}, symplectic: {}, symmetric: {}\n",
+                     yesNo(analysis.algebraically_stable), yesNo(analysis.stiffly_accurate), yesNo(analysis.symplectic),
+                     yesNo(properties.symmetric)) +
          fmt::format("  A {}{}{}\n", analysis.regular ? "regular" : "singular",
-                     analysis.regular
-                         ? fmt::format(", condition {:.3g}", 1 / analysis.reciprocal_condition)
-                         : "",
+                     analysis.regular ? fmt::format(", condition {:.3g}", 1 / analysis.reciprocal_condition) : "",
                      analysis.explicit_first_stage ? ", first stage explicit" : "") +
          spectrumText(properties.spectrum);
 }

@@ -48,9 +48,7 @@ class Grafting {
 class Weights {
  public:
   explicit Weights(const Tableau<mp80>& tableau)
-      : tableau_(tableau),
-        A_abs_(tableau.A.cwiseAbs().cast<double>()),
-        b_abs_(tableau.b.cwiseAbs().cast<double>()) {}
+      : tableau_(tableau), A_abs_(tableau.A.cwiseAbs().cast<double>()), b_abs_(tableau.b.cwiseAbs().cast<double>()) {}
 
   void appendTime() {
     grafted_.push_back(tableau_.c);
@@ -109,8 +107,7 @@ TreeConditions treeConditions(const Tableau<mp80>& tableau, const TableauAnalysi
     const double residual = weights.append(trees[i], trees[i].order < max_order);
     if (!(residual <= worst)) worst = residual;  // also if it is NaN
   }
-  while (conditions.order < max_order &&
-         conditions.residuals[conditions.order] <= analysis.tolerance) {
+  while (conditions.order < max_order && conditions.residuals[conditions.order] <= analysis.tolerance) {
     ++conditions.order;
   }
   return conditions;

@@ -14,8 +14,7 @@ constexpr double kLargestCondition = 1e38;  // 80 digits resolve its square
 mp80 magnitude(const mp80& re, const mp80& im) { return sqrt(re * re + im * im); }
 
 /// Appends the eigenvalues of the 2 x 2 block [a b; c d].
-void appendPair(const mp80& a, const mp80& b, const mp80& c, const mp80& d,
-                std::vector<Eigenvalue>& values) {
+void appendPair(const mp80& a, const mp80& b, const mp80& c, const mp80& d, std::vector<Eigenvalue>& values) {
   const mp80 centre = (a + d) / 2, half = (a - d) / 2;
   const mp80 discriminant = half * half + b * c;
   const mp80 root = sqrt(abs(discriminant));
@@ -80,9 +79,7 @@ double condition2(const Mat<mp80>& V) {
 
 }  // namespace
 
-std::complex<double> Eigenvalue::rounded() const {
-  return {static_cast<double>(re), static_cast<double>(im)};
-}
+std::complex<double> Eigenvalue::rounded() const { return {static_cast<double>(re), static_cast<double>(im)}; }
 
 std::vector<Eigenvalue> eigenvalues(const Mat<mp80>& matrix) {
   if (matrix.rows() == 0) return {};

@@ -73,9 +73,7 @@ std::vector<mp80> positiveZeros(const Vec<mp80>& polynomial) {
 
 double alphaOf(const StabilityFunction& R, double tolerance) {
   const mp80 degree = boost::math::constants::pi<mp80>() / 180;
-  const auto holds = [&](double alpha) {
-    return stableRadius(R, -cos(alpha * degree), tolerance) == kInfinity;
-  };
+  const auto holds = [&](double alpha) { return stableRadius(R, -cos(alpha * degree), tolerance) == kInfinity; };
   double unstable = 90;  // unstable, or not known to be stable
   for (const auto& pole : R.poles) {
     const double angle = std::abs(std::arg(-pole)) / static_cast<double>(degree);
@@ -113,12 +111,11 @@ Stability analyzeStability(const StabilityFunction& R, double tolerance) {
   result.real_limit = stableRadius(R, -1, tolerance);
   result.imaginary_limit = stableRadius(R, 0, tolerance);
   result.i_stable = result.imaginary_limit == kInfinity;
-  const bool poles_right =
-      std::ranges::all_of(R.poles, [](const auto& pole) { return pole.real() > 0; });
+  const bool poles_right = std::ranges::all_of(R.poles, [](const auto& pole) { return pole.real() > 0; });
   result.a_stable = result.i_stable && poles_right;
   result.l_stable = result.a_stable && R.numeratorDegree() < R.denominatorDegree();
-  const bool poles_left_of_zero = std::ranges::any_of(
-      R.poles, [](const auto& pole) { return pole.imag() == 0 && pole.real() < 0; });
+  const bool poles_left_of_zero =
+      std::ranges::any_of(R.poles, [](const auto& pole) { return pole.imag() == 0 && pole.real() < 0; });
   if (result.a_stable) {
     result.alpha = 90;
   } else if (result.real_limit < kInfinity || poles_left_of_zero) {

@@ -164,8 +164,7 @@ StabilityFunction stabilityFunction(const Tableau<mp80>& tableau, double toleran
   } else {
     dropLeadingZeros(N, full_D, negligible);
   }
-  StabilityFunction R{
-      N.coefficients, D.coefficients, reciprocals(N.values), reciprocals(D.values), 0, 0, false};
+  StabilityFunction R{N.coefficients, D.coefficients, reciprocals(N.values), reciprocals(D.values), 0, 0, false};
   findOrder(tableau, tolerance, R);
   return R;
 }

@@ -33,8 +33,8 @@ bool isWholeNumber(std::string_view text) {
 
 [[noreturn]] void refuseId(std::string_view id) {
   if (const Family* family = findFamily(id)) {
-    throw Misuse(fmt::format("tableau '{0}' lacks its number of stages: {0}_{1} to {0}_{2}", id,
-                             family->minStages(), kMaxStages));
+    throw Misuse(fmt::format("tableau '{0}' lacks its number of stages: {0}_{1} to {0}_{2}", id, family->minStages(),
+                             kMaxStages));
   }
   const auto member = splitId(id);
   const bool numbered = member && isWholeNumber(member->stages);
@@ -45,9 +45,7 @@ bool isWholeNumber(std::string_view text) {
   throw Misuse(unknownName("tableau", id, known));
 }
 
-bool looksLikeFile(std::string_view text) {
-  return text.find('/') != std::string_view::npos || text.ends_with(".txt");
-}
+bool looksLikeFile(std::string_view text) { return text.find('/') != std::string_view::npos || text.ends_with(".txt"); }
 
 /// The member of a family; nullopt for files and unknown ids.
 std::optional<MemberId> memberOf(std::string_view id_or_file) {
@@ -63,8 +61,8 @@ Index stagesOf(std::string_view id, const MemberId& member) {
   const auto [stop, error] = std::from_chars(member.stages.data(), end, s);
   const bool canonical = error == std::errc() && stop == end && std::to_string(s) == member.stages;
   if (!canonical || s < family.minStages() || s > kMaxStages) {
-    throw Misuse(fmt::format("tableau '{}': '{}' stages, but {} has {} to {}", id, member.stages,
-                             family.id, family.minStages(), kMaxStages));
+    throw Misuse(fmt::format("tableau '{}': '{}' stages, but {} has {} to {}", id, member.stages, family.id,
+                             family.minStages(), kMaxStages));
   }
   return s;
 }
@@ -95,9 +93,7 @@ const std::vector<FamilyEntry>& familyCatalogue() {
 
 TableauFile findTableau(std::string_view id_or_file) { return locate(id_or_file, readTableau); }
 
-TableauFile findUncheckedTableau(std::string_view id_or_file) {
-  return locate(id_or_file, openTableau);
-}
+TableauFile findUncheckedTableau(std::string_view id_or_file) { return locate(id_or_file, openTableau); }
 
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file) {
@@ -109,14 +105,14 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
   const TableauFile file = findTableau(id_or_file);
   constexpr int kWanted = std::numeric_limits<Real>::digits10;
   if (kWanted > kFileDigits) {
-    throw Misuse(fmt::format("{}: a tableau file is not for this scalar of {} digits; use one of "
-                             "the families",
-                             id_or_file, kWanted));
+    throw Misuse(
+        fmt::format("{}: a tableau file is not for this scalar of {} digits; use one of "
+                    "the families",
+                    id_or_file, kWanted));
   }
   if (file.digits < kWanted) {
-    throw Misuse(fmt::format(
-        "{}: right to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
-        id_or_file, file.digits, kWanted, kWanted));
+    throw Misuse(fmt::format("{}: right to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
+                             id_or_file, file.digits, kWanted, kWanted));
   }
   return file.tableau.cast<Real>();
 }
@@ -128,9 +124,10 @@ Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
   const auto member = memberOf(id);
   if (!member && !isFamily(id)) {
     static_cast<void>(makeTableau<Real>(id));  // throws with the reason for an invalid id or file
-    throw Misuse(fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
-                             "a file is one method; use one of the families",
-                             id));
+    throw Misuse(
+        fmt::format("illegal combination: order 'variable' with the tableau file '{}': "
+                    "a file is one method; use one of the families",
+                    id));
   }
   const Family& family = familyOf(member ? member->family : id);
   // Members of stage order 0 are left out: their estimate would not see forces that change with time, see

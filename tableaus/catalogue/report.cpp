@@ -38,8 +38,8 @@ std::string showTableau(std::string_view id_or_file, int digits) {
   const std::size_t width = std::max(widest(A, digits), widest(b, digits));
   const std::size_t columns = static_cast<std::size_t>(b.size()) * (width + 2);
 
-  std::string text = fmt::format("{}: family {}, {} stages, order {}, stage order {}\n", id, family,
-                                 b.size(), order, stage_order);
+  std::string text =
+      fmt::format("{}: family {}, {} stages, order {}, stage order {}\n", id, family, b.size(), order, stage_order);
   for (Index i = 0; i < c.size(); ++i) {
     text += fmt::format("{:>{}} |", c[i].str(digits), margin);
     text += numbersText(A.row(i).transpose(), digits, width);
@@ -52,8 +52,7 @@ TableauReport checkTableau(std::string_view id_or_file) {
   const TableauFile file = findUncheckedTableau(id_or_file);
   TableauReport report = checkTableau(file);
   if (file.tableau.stages() > kMaxAnalyzedStages) {
-    report.text += fmt::format("  stability and eigenvalues: analysed up to {} stages only\n",
-                               kMaxAnalyzedStages);
+    report.text += fmt::format("  stability and eigenvalues: analysed up to {} stages only\n", kMaxAnalyzedStages);
     return report;
   }
   const auto properties = analyzeProperties(file.tableau, report.analysis.tolerance);
@@ -61,8 +60,6 @@ TableauReport checkTableau(std::string_view id_or_file) {
   return report;
 }
 
-std::string exportTableau(std::string_view id_or_file) {
-  return writeTableau(findTableau(id_or_file));
-}
+std::string exportTableau(std::string_view id_or_file) { return writeTableau(findTableau(id_or_file)); }
 
 }  // namespace irk

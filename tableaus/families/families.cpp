@@ -115,8 +115,8 @@ const Family& familyOf(std::string_view id) {
 template <class Real>
 Tableau<Real> constructFamily(const Family& family, Index s) {
   if (s < family.minStages() || s > kMaxStages) {
-    throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s,
-                             family.minStages(), kMaxStages));
+    throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s, family.minStages(),
+                             kMaxStages));
   }
   const Vec<Real> c = quadratureNodes<Real>(family.quadrature, s);
   const Mat<Real> W = legendreBasis<Real>(c);

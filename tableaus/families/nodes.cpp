@@ -25,8 +25,7 @@ Recurrence<Real> jacobiRecurrence(Index n, int alpha, int beta) {
       recurrence.center[k] = Real(beta * beta - alpha * alpha) / (m * (m + 2));
     }
     if (k > 0) {
-      recurrence.scale[k] =
-          Real(4 * k * (k + alpha) * (k + beta) * (k + alpha + beta)) / (m * m * (m + 1) * (m - 1));
+      recurrence.scale[k] = Real(4 * k * (k + alpha) * (k + beta) * (k + alpha + beta)) / (m * m * (m + 1) * (m - 1));
     }
   }
   return recurrence;

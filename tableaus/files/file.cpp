@@ -50,17 +50,14 @@ std::string blockText(const Mat<mp80>& block) {
 
 }  // namespace
 
-TableauFile openTableau(const std::string& path) {
-  return parseTableau(readInputFile(path), path);
-}
+TableauFile openTableau(const std::string& path) { return parseTableau(readInputFile(path), path); }
 
 TableauFile readTableau(const std::string& path) {
   TableauFile file = openTableau(path);
   for (const Finding& finding : checkTableau(file).findings) {
     if (finding.verdict != Verdict::kContradiction) continue;
-    throw Misuse(fmt::format("{}:{}: {} (tolerance {:.1g} for {} digits)", path,
-                             lineOf(file, finding), finding.text, toleranceOfDigits(file.digits),
-                             file.digits));
+    throw Misuse(fmt::format("{}:{}: {} (tolerance {:.1g} for {} digits)", path, lineOf(file, finding), finding.text,
+                             toleranceOfDigits(file.digits), file.digits));
   }
   return file;
 }
@@ -72,8 +69,8 @@ TableauReport checkTableau(const TableauFile& file) {
 std::string writeTableau(const TableauFile& file) {
   const Tableau<mp80>& tableau = file.tableau;
   return fmt::format("# Butcher tableau {}\n", tableau.id) +
-         fmt::format("family: {}\nstages: {}\norder: {}\nstage_order: {}\n", tableau.family,
-                     tableau.stages(), tableau.order, tableau.stage_order) +
+         fmt::format("family: {}\nstages: {}\norder: {}\nstage_order: {}\n", tableau.family, tableau.stages(),
+                     tableau.order, tableau.stage_order) +
          (file.source.empty() ? "" : fmt::format("source: {}\n", file.source)) +
          fmt::format("digits: {}\n", file.digits) + "A\n" + blockText(tableau.A) + "b\n" +
          blockText(tableau.b.transpose()) + "c\n" + blockText(tableau.c.transpose());

@@ -19,8 +19,7 @@ constexpr int kMaxDigits = 75;  // five less than mp80
 constexpr std::size_t kMaxNumberLength = 200;
 
 const std::vector<std::string>& headerKeys() {
-  static const std::vector<std::string> keys = {"family",      "stages", "order",
-                                                "stage_order", "source", "digits"};
+  static const std::vector<std::string> keys = {"family", "stages", "order", "stage_order", "source", "digits"};
   return keys;
 }
 
@@ -69,8 +68,7 @@ class Parser {
     tableau.family = header_.contains("family") ? header_["family"].text : "user";
     tableau.order = integer("order", 1, 2 * s);
     file.source = header_.contains("source") ? header_["source"].text : "";
-    file.digits =
-        header_.contains("digits") ? integer("digits", kMinDigits, kMaxDigits) : kMinDigits;
+    file.digits = header_.contains("digits") ? integer("digits", kMinDigits, kMaxDigits) : kMinDigits;
     file.family_line = header_["family"].number;
     file.order_line = header_["order"].number;
     file.stage_order_line = header_["stage_order"].number;
@@ -107,8 +105,7 @@ class Parser {
   }
 
   const Line& nextLine(std::string_view wanted) const {
-    if (position_ == lines_.size())
-      fail(last_line_, fmt::format("cut short: {} is missing", wanted));
+    if (position_ == lines_.size()) fail(last_line_, fmt::format("cut short: {} is missing", wanted));
     return lines_[position_];
   }
 
@@ -141,8 +138,7 @@ class Parser {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < low || value > high) {
-      fail(number,
-           fmt::format("{}: '{}' is not a whole number from {} to {}", key, text, low, high));
+      fail(number, fmt::format("{}: '{}' is not a whole number from {} to {}", key, text, low, high));
     }
     return value;
   }
@@ -204,8 +200,6 @@ class Parser {
 
 }  // namespace
 
-TableauFile parseTableau(std::string_view text, const std::string& name) {
-  return Parser(text, name).parse();
-}
+TableauFile parseTableau(std::string_view text, const std::string& name) { return Parser(text, name).parse(); }
 
 }  // namespace irk

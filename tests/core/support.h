@@ -25,9 +25,8 @@ inline IntegratorOptions adaptive(double tol) {
 }
 
 template <class Real, class P>
-Solution<Real> integrate(P problem, const State<Real>& start, double t_end,
-                         const Tableau<Real>& tableau, const IntegratorOptions& options,
-                         Formulation formulation = Formulation::kIndex2) {
+Solution<Real> integrate(P problem, const State<Real>& start, double t_end, const Tableau<Real>& tableau,
+                         const IntegratorOptions& options, Formulation formulation = Formulation::kIndex2) {
   Integrator<Real> integrator(makeSystem<Real>(problem, {formulation}), tableau, options);
   return integrator.integrate(start, Real(t_end));
 }

@@ -20,9 +20,8 @@ struct Result {
 template <class P>
 Result run(const P& problem, const State<double>& start, double t_end, Discontinuity mode,
            const IntegratorOptions& options, const char* method = "radau_iia_3") {
-  Integrator<double> integrator(
-      makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn, mode}),
-      makeTableau<double>(method), options);
+  Integrator<double> integrator(makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn, mode}),
+                                makeTableau<double>(method), options);
   std::vector<Event> events;
   Monitor<double> monitor;
   monitor.switched = [&](const SwitchRecord<double>& s) { events.push_back({s.t, s.index}); };

@@ -22,8 +22,8 @@ struct Taken {
 };
 
 template <class P>
-Taken taken(const P& problem, const State<double>& start, double t_end,
-            const IntegratorOptions& options, const char* method = "radau_iia_3") {
+Taken taken(const P& problem, const State<double>& start, double t_end, const IntegratorOptions& options,
+            const char* method = "radau_iia_3") {
   Integrator<double> integrator(makeSystem<double>(problem), makeTableau<double>(method), options);
   Taken all;
   Monitor<double> monitor;

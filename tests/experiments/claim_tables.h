@@ -20,9 +20,7 @@ inline const Claim& claim(std::string_view id) {
   throw std::runtime_error("no claim " + std::string(id));
 }
 
-inline Verdict verdict(std::string_view id, const ResultTables& tables) {
-  return judge(claim(id), tables).verdict;
-}
+inline Verdict verdict(std::string_view id, const ResultTables& tables) { return judge(claim(id), tables).verdict; }
 
 inline std::string text(double x) { return std::to_string(x); }
 
@@ -50,8 +48,8 @@ inline void addSeries(Table& table, const std::map<std::string, std::string>& ce
 inline Table costColumns(std::vector<std::string> more) {
   Table table;
   table.columns = std::move(more);
-  table.columns.insert(table.columns.end(), {"outcome", "error", "cpu_s", "newton_iterations",
-                                             "jacobians", "residuals"});
+  table.columns.insert(table.columns.end(),
+                       {"outcome", "error", "cpu_s", "newton_iterations", "jacobians", "residuals"});
   return table;
 }
 

@@ -46,9 +46,7 @@ class StoredRuns : public testing::Test {
     told_.str("");
     return runStudy(study(toml), options(tree, its), told_);
   }
-  Store reader(const std::string& tree = "results") {
-    return Store(folder(tree), "small", Use::kRead, {}, told_);
-  }
+  Store reader(const std::string& tree = "results") { return Store(folder(tree), "small", Use::kRead, {}, told_); }
   // Changes the only part of the folder.
   void changePart(const std::string& tree, const std::function<void(Table&)>& change) const {
     const auto parts = partsOf(folder(tree));

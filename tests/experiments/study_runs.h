@@ -34,7 +34,8 @@ inline StudyRuns runsOf(std::string_view toml) {
 }
 
 /// The part files of a study's folder whose names begin with `table`, sorted.
-inline std::vector<std::filesystem::path> partsOf(const std::filesystem::path& folder, std::string_view table = "runs") {
+inline std::vector<std::filesystem::path> partsOf(const std::filesystem::path& folder,
+                                                  std::string_view table = "runs") {
   std::vector<std::filesystem::path> parts;
   if (!std::filesystem::is_directory(folder / "parts")) return parts;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "parts")) {

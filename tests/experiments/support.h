@@ -41,8 +41,7 @@ inline std::string misuseOf(const std::function<void()>& f) {
   return {};
 }
 
-inline testing::AssertionResult containsAll(const std::string& text,
-                                            const std::vector<std::string>& parts) {
+inline testing::AssertionResult containsAll(const std::string& text, const std::vector<std::string>& parts) {
   for (const auto& part : parts) {
     if (text.find(part) == std::string::npos) {
       return testing::AssertionFailure() << "no \"" << part << "\" in: " << text;

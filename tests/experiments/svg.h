@@ -26,7 +26,7 @@ struct SvgPoint {
 struct SvgCurve {
   std::vector<SvgPoint> marks;
   std::vector<SvgPoint> line;
-  int pieces = 0;  ///< of the line, which may have gaps
+  int pieces = 0;                                                    ///< of the line, which may have gaps
   std::vector<std::pair<std::string, std::vector<SvgPoint>>> boxes;  ///< colour, corners
 };
 
@@ -82,12 +82,10 @@ class Svg {
   }
 
   /// Converts pixels of a panel to numbers on its axes. A panel without labels uses those of the previous one.
-  std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, Axis x,
-                                Axis y) const {
+  std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, Axis x, Axis y) const {
     std::vector<SvgPoint> all;
     for (const auto& p : pixels) {
-      all.push_back({onAxis(labels(letter, &SvgPanel::x), p.x, x),
-                     onAxis(labels(letter, &SvgPanel::y), p.y, y)});
+      all.push_back({onAxis(labels(letter, &SvgPanel::x), p.x, x), onAxis(labels(letter, &SvgPanel::y), p.y, y)});
     }
     return all;
   }
@@ -108,12 +106,8 @@ class Svg {
   }
 
   /// The label nearest to a position on an axis whose labels name cells.
-  std::string labelX(char letter, double pixel) const {
-    return nearest(labels(letter, &SvgPanel::x), pixel);
-  }
-  std::string labelY(char letter, double pixel) const {
-    return nearest(labels(letter, &SvgPanel::y), pixel);
-  }
+  std::string labelX(char letter, double pixel) const { return nearest(labels(letter, &SvgPanel::x), pixel); }
+  std::string labelY(char letter, double pixel) const { return nearest(labels(letter, &SvgPanel::y), pixel); }
 
  private:
   const std::vector<SvgLabel>& labels(char letter, std::vector<SvgLabel> SvgPanel::*axis) const {
@@ -139,8 +133,7 @@ class Svg {
     std::string text = "no label";
     double least = 1e300;
     for (const auto& label : labels) {
-      if (std::abs(label.pixel - pixel) < least)
-        least = std::abs(label.pixel - pixel), text = label.text;
+      if (std::abs(label.pixel - pixel) < least) least = std::abs(label.pixel - pixel), text = label.text;
     }
     return text;
   }
@@ -189,8 +182,7 @@ class Svg {
   }
 
   void readCurve(const std::string& line) {
-    static const std::regex mark(
-        "<use xlink:href='#gpPt[0-9]+' transform='translate\\((-?[0-9.]+),(-?[0-9.]+)\\)");
+    static const std::regex mark("<use xlink:href='#gpPt[0-9]+' transform='translate\\((-?[0-9.]+),(-?[0-9.]+)\\)");
     static const std::regex box("<polygon fill = '([^']*)'[^>]*points = '([^']*)'");
     // If the key is inside the panel, a titled curve has a sample there: its first line and its last mark.
     if (line.find("<text>") != line.npos) with_sample_ = first_line_ = true;
@@ -235,8 +227,7 @@ class Svg {
       return;
     }
     const bool text = to_ && line.find("<text>") != line.npos;
-    if (text && plain(line).find_first_not_of(' ') != std::string::npos)
-      to_->push_back({pixel_, plain(line)});
+    if (text && plain(line).find_first_not_of(' ') != std::string::npos) to_->push_back({pixel_, plain(line)});
     to_ = nullptr;
   }
 
@@ -272,10 +263,8 @@ inline void expectPoints(const std::vector<SvgPoint>& seen, const std::vector<Sv
                          const std::string& what, double tolerance = 5e-3) {
   ASSERT_EQ(seen.size(), expected.size()) << what;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    EXPECT_NEAR(seen[i].x, expected[i].x, tolerance * std::abs(expected[i].x) + 1e-300)
-        << what << ", point " << i;
-    EXPECT_NEAR(seen[i].y, expected[i].y, tolerance * std::abs(expected[i].y) + 1e-300)
-        << what << ", point " << i;
+    EXPECT_NEAR(seen[i].x, expected[i].x, tolerance * std::abs(expected[i].x) + 1e-300) << what << ", point " << i;
+    EXPECT_NEAR(seen[i].y, expected[i].y, tolerance * std::abs(expected[i].y) + 1e-300) << what << ", point " << i;
   }
 }
 

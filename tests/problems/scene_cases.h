@@ -41,9 +41,7 @@ inline std::vector<SceneCase> sceneCases() {
     }
   }
   cases.push_back({"slider_crank", {{"torque_off_at", "0.5"}}});
-  cases.push_back(
-      {"stick_slip",
-       {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}});
+  cases.push_back({"stick_slip", {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}});
   return cases;
 }
 
@@ -115,24 +113,22 @@ inline std::vector<Mode> modesToTest(const Scene<double>& scene) {
 
 /// `d` is the discrete state, empty if there is none.
 template <class T, class Real>
-Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y,
-                  const Vec<Real>& d = {}) {
+Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y, const Vec<Real>& d = {}) {
   const Sizes n = system.sizes();
   const Vec<T> modes = d.template cast<T>();
   const T* p = y.data();
   const T* const w = p + 2 * n.nu + n.nx;
   Vec<T> r(n.n());
-  const Point<T> point{
-      T(t),      {p, n.nu},        {p + n.nu, n.nu},        {p + 2 * n.nu, n.nx},
-      {w, n.nu}, {w + n.nu, n.nx}, {w + n.nu + n.nx, n.nz}, {modes.data(), modes.size()}};
+  const Point<T> point{T(t),      {p, n.nu},        {p + n.nu, n.nu},        {p + 2 * n.nu, n.nx},
+                       {w, n.nu}, {w + n.nu, n.nx}, {w + n.nu + n.nx, n.nz}, {modes.data(), modes.size()}};
   system.evaluate(level, point, VecView<T>(r.data(), n.n()));
   return r;
 }
 
 /// dr/d(u, v, x, a, k, z) with hand-written seeds, independent of core's Differentiator.
 template <class Real>
-Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real& t,
-                            const Vec<Real>& y, const Vec<Real>& d = {}) {
+Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real& t, const Vec<Real>& y,
+                            const Vec<Real>& d = {}) {
   Mat<Real> J(system.sizes().n(), y.size());
   for (Index first = 0; first < y.size(); first += static_cast<Index>(kChunk)) {
     Vec<Dual<Real>> dual(y.size());

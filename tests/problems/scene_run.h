@@ -22,14 +22,13 @@ struct Result {
   std::vector<Event> events;
 };
 
-inline Result run(const SceneCase& c, double t_end, Discontinuity mode,
-                  double tolerance = kTolerance, const char* method = "radau_iia_5") {
+inline Result run(const SceneCase& c, double t_end, Discontinuity mode, double tolerance = kTolerance,
+                  const char* method = "radau_iia_5") {
   const auto tableau = makeTableau<double>(method);
   const auto scene = makeScene<double>(c.id, c.settings);
   IntegratorOptions options;
   options.tolerances.rtol = options.tolerances.atol = tolerance;
-  Integrator<double> integrator(scene.system({.discontinuity = mode}), tableau, options,
-                                scene.scale);
+  Integrator<double> integrator(scene.system({.discontinuity = mode}), tableau, options, scene.scale);
   Result r;
   Monitor<double> monitor;
   monitor.switched = [&](const SwitchRecord<double>& s) { r.events.push_back({s.name, s.t}); };

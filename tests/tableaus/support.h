@@ -12,9 +12,7 @@
 
 namespace irk {
 
-inline std::string memberId(const std::string& family, Index s) {
-  return fmt::format("{}_{}", family, s);
-}
+inline std::string memberId(const std::string& family, Index s) { return fmt::format("{}_{}", family, s); }
 
 /// The message with which `action` refuses; empty if it does not refuse.
 template <class Action>

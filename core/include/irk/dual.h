@@ -106,14 +106,10 @@ struct DualNumber {
   // innermost scalar mix with any T.
   template <class S>
   requires detail::ConstantFor<S, T>
-  friend DualNumber operator*(const S& s, const DualNumber& a) {
-    return a.scaled(detail::constant(s));
-  }
+  friend DualNumber operator*(const S& s, const DualNumber& a) { return a.scaled(detail::constant(s)); }
   template <class S>
   requires detail::ConstantFor<S, T>
-  friend DualNumber operator*(const DualNumber& a, const S& s) {
-    return a.scaled(detail::constant(s));
-  }
+  friend DualNumber operator*(const DualNumber& a, const S& s) { return a.scaled(detail::constant(s)); }
   template <class S>
   requires detail::ConstantFor<S, T>
   friend DualNumber operator/(const DualNumber& a, const S& s) {
@@ -131,9 +127,7 @@ struct DualNumber {
   friend DualNumber operator+(const S& s, const DualNumber& a) { return a + s; }
   template <class S>
   requires detail::ConstantFor<S, T>
-  friend DualNumber operator-(const DualNumber& a, const S& s) {
-    return a + (-detail::constant(s));
-  }
+  friend DualNumber operator-(const DualNumber& a, const S& s) { return a + (-detail::constant(s)); }
   template <class S>
   requires detail::ConstantFor<S, T>
   friend DualNumber operator-(const S& s, const DualNumber& a) { return -a + s; }

@@ -13,8 +13,7 @@ namespace irk {
 template <class P, class Real>
 class GglSystem final : public System<Real> {
  public:
-  GglSystem(P problem, const SystemOptions& options)
-      : scene_(std::move(problem), options), inner_(scene_.sizes()) {
+  GglSystem(P problem, const SystemOptions& options) : scene_(std::move(problem), options), inner_(scene_.sizes()) {
     sizes_ = inner_;
     sizes_.nu = 0;
     sizes_.nx = 2 * inner_.nu + inner_.nx;
@@ -30,15 +29,11 @@ class GglSystem final : public System<Real> {
 
   Sizes sizes() const override { return sizes_; }
   Sizes sceneSizes() const override { return inner_; }
-  void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {
-    evaluateAt(level, p, r.data());
-  }
+  void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override { evaluateAt(level, p, r.data()); }
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
     evaluateAt(level, p, r.data());
   }
-  void switching(const Point<Real>& p, VecView<Real> g) const override {
-    scene_.switching(scenePoint(p), g);
-  }
+  void switching(const Point<Real>& p, VecView<Real> g) const override { scene_.switching(scenePoint(p), g); }
   void onSwitch(Index i, State<Real>& state) const override {
     State<Real> scene = toScene(state);
     scene_.onSwitch(i, scene);

@@ -22,8 +22,8 @@ class Integrator {
   /// combinations that cannot work; the message names both ids and the reason. Such combinations are, for
   /// example: several methods without variable order, variable order without the estimate `embedded`, a
   /// singular A with algebraic unknowns, a defective A with `eigen`, Newton `full` with a decoupled solver...
-  Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
-             const IntegratorOptions& options, const Vec<double>& scale = {});
+  Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods, const IntegratorOptions& options,
+             const Vec<double>& scale = {});
   ~Integrator();
   Integrator(Integrator&&) noexcept;
 

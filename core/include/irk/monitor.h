@@ -13,10 +13,10 @@ namespace irk {
 /// One accepted step. `state`, in the scene's unknowns (u, v, x, z), is valid during the callback only.
 template <class Real>
 struct StepRecord {
-  Real t;                       ///< at the end of the step
+  Real t;  ///< at the end of the step
   double h;
-  double error;                 ///< error estimate in the error norm; NaN without an estimate
-  int newton_iterations;        ///< of the whole attempt, all its solves together
+  double error;           ///< error estimate in the error norm; NaN without an estimate
+  int newton_iterations;  ///< of the whole attempt, all its solves together
   const State<Real>& state;
 };
 

@@ -7,12 +7,10 @@
 namespace irk {
 
 /// 50 decimal digits, without expression templates, so that `auto` is safe.
-using mp50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
-                                           boost::multiprecision::et_off>;
+using mp50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
 /// 100 decimal digits, for measuring orders from about 20 on: only errors below 1e-40 show them as a straight line.
-using mp100 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
-                                            boost::multiprecision::et_off>;
+using mp100 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
 }  // namespace irk
 

@@ -25,15 +25,17 @@ enum class JacobianTerms {
 
 /// How D0, D1, D2 and the Newton matrices are kept.
 enum class Storage {
-  kAutomatic,  ///< sparse where the system is large and its pattern sparse enough; kSparseFrom in core/derivatives/differentiator.h
+  kAutomatic,  ///< sparse where the system is large and its pattern sparse enough; kSparseFrom in
+               ///< core/derivatives/differentiator.h
   kDense,
   kSparse,
 };
 
 // The catalogue of each axis, with what the ids mean and need, stands beside its strategies: core/options/catalogue.h.
 struct NewtonKind : StrategyId<NewtonKind> {
-  static const NewtonKind kSimplified;  ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
-  static const NewtonKind kBroyden;   ///< the same with rank-one corrections of the matrix, Deuflhard's QNERR
+  static const NewtonKind
+      kSimplified;                   ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
+  static const NewtonKind kBroyden;  ///< the same with rank-one corrections of the matrix, Deuflhard's QNERR
   static const NewtonKind kModified;  ///< the paper's: stop on the residual, its restart and fallback rules, section 3
   static const NewtonKind kFull;      ///< a new stage-wise Jacobian in every iteration, stop on the residual
 };

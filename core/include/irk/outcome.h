@@ -29,19 +29,32 @@ constexpr bool isRecoverable(Outcome outcome) {
 /// The name in tables: `success`, `newton_failed`, ...
 constexpr std::string_view name(Outcome outcome) {
   switch (outcome) {
-    case Outcome::kSuccess: return "success";
-    case Outcome::kNewtonFailed: return "newton_failed";
-    case Outcome::kStepTooSmall: return "step_too_small";
-    case Outcome::kMaxSteps: return "max_steps";
-    case Outcome::kTimeout: return "timeout";
-    case Outcome::kInterrupted: return "interrupted";
-    case Outcome::kNotFinite: return "not_finite";
-    case Outcome::kSingular: return "singular";
-    case Outcome::kInconsistentStart: return "inconsistent_start";
-    case Outcome::kChattering: return "chattering";
-    case Outcome::kStalled: return "stalled";
-    case Outcome::kDrift: return "drift";
-    case Outcome::kInaccurate: return "inaccurate";
+    case Outcome::kSuccess:
+      return "success";
+    case Outcome::kNewtonFailed:
+      return "newton_failed";
+    case Outcome::kStepTooSmall:
+      return "step_too_small";
+    case Outcome::kMaxSteps:
+      return "max_steps";
+    case Outcome::kTimeout:
+      return "timeout";
+    case Outcome::kInterrupted:
+      return "interrupted";
+    case Outcome::kNotFinite:
+      return "not_finite";
+    case Outcome::kSingular:
+      return "singular";
+    case Outcome::kInconsistentStart:
+      return "inconsistent_start";
+    case Outcome::kChattering:
+      return "chattering";
+    case Outcome::kStalled:
+      return "stalled";
+    case Outcome::kDrift:
+      return "drift";
+    case Outcome::kInaccurate:
+      return "inaccurate";
   }
   return "?";
 }

@@ -29,8 +29,8 @@ constexpr Index kMaxDiscrete = 16;
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
  public:
-  /// Throws Misuse for sizes that cannot be (core/include/irk/system_check.h), for `smooth` where the problem switches but has no regularisation, and for `ignore`
-  /// and `iterate` where its state jumps: they go on over a switch.
+  /// Throws Misuse for sizes that cannot be (core/include/irk/system_check.h), for `smooth` where the problem switches
+  /// but has no regularisation, and for `ignore` and `iterate` where its state jumps: they go on over a switch.
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
     requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
@@ -51,13 +51,10 @@ class ProblemSystem final : public System<Real> {
           "switches: steps go on over them; use 'locate'");
     }
     const int index = constraintIndex();
-    const auto all = [](Index n, int power) {
-      return std::vector<int>(static_cast<std::size_t>(n), power);
-    };
+    const auto all = [](Index n, int power) { return std::vector<int>(static_cast<std::size_t>(n), power); };
     row_powers_ = all(sizes_.n(), 0);
-    error_powers_ = {all(sizes_.nu, 0),
-                     all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0),
-                     all(sizes_.nx, 0), all(sizes_.nz, algebraicIndex() - 1)};
+    error_powers_ = {all(sizes_.nu, 0), all(sizes_.nu, index == 3 && sizes_.constraints > 0 ? 1 : 0), all(sizes_.nx, 0),
+                     all(sizes_.nz, algebraicIndex() - 1)};
     for (Index i = 0; i < sizes_.nx; ++i) {
       error_powers_.x[static_cast<std::size_t>(i)] = differentialIndex(i) - 1;
     }
@@ -79,8 +76,7 @@ class ProblemSystem final : public System<Real> {
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
     evaluateAt(level, p, r.data());
   }
-  void evaluateStages(const StagePoints<Real>& at, Index first, Index last,
-                      Real* r) const override {
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
     for (Index i = first; i < last; ++i) formulated(at[i], r + i * sizes_.n());
   }
   void switching(const Point<Real>& p, VecView<Real> g) const override {
@@ -140,8 +136,7 @@ class ProblemSystem final : public System<Real> {
         problem_.constraints(Rate<T>{p.t, T(1.0)}, detail::VelocityView<T>{p.u, p.v},
                              detail::SinkRow<detail::RateSink<T>, T>{g});
       } else if (level == Level::kAcceleration) {
-        problem_.constraints(Rate<Rate<T>>{{p.t, T(1.0)}, {T(1.0), T(0.0)}},
-                             detail::AccelerationView<T>{p.u, p.v, p.a},
+        problem_.constraints(Rate<Rate<T>>{{p.t, T(1.0)}, {T(1.0), T(0.0)}}, detail::AccelerationView<T>{p.u, p.v, p.a},
                              detail::SinkRow<detail::SecondRateSink<T>, T>{g});
       } else {
         problem_.constraints(p.t, p.u, g);
@@ -152,12 +147,10 @@ class ProblemSystem final : public System<Real> {
   const P& problem() const { return problem_; }
 
  private:
-  static constexpr bool kHasConstraints =
-      requires(const P& problem, const Point<Real>& p, Real* g) {
+  static constexpr bool kHasConstraints = requires(const P& problem, const Point<Real>& p, Real* g) {
     problem.constraints(p.t, p.u, g);
   };
-  static constexpr bool kHasSwitching =
-      requires(const P& problem, const Point<Real>& p, Real* out) {
+  static constexpr bool kHasSwitching = requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.switching(p, out);
   };
   static constexpr bool kHasJump = requires(const P& problem, const Point<Real>& p, Real* out) {
@@ -172,9 +165,7 @@ class ProblemSystem final : public System<Real> {
 
   // Not inlined: in another context the compiler would contract other products and sums, and the bits
   // would depend on how many stages are asked for at once.
-  [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const {
-    evaluateAt(Level::kFormulated, p, r);
-  }
+  [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const { evaluateAt(Level::kFormulated, p, r); }
   bool smooth() const { return options_.discontinuity.sees == ModeSeen::kRegularised; }
 
   /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.
@@ -228,8 +219,8 @@ class ProblemSystem final : public System<Real> {
   void evaluateFrozen(Level level, const Point<T>& p, T* r) const {
     const Index nc = sizes_.constraints;
     T* g = r + sizes_.nu + sizes_.nx;
-    problem_.residual(p, Rows<T>{VecView<T>(r, sizes_.nu), VecView<T>(r + sizes_.nu, sizes_.nx),
-                                 VecView<T>(g + nc, sizes_.nz - nc)});
+    problem_.residual(
+        p, Rows<T>{VecView<T>(r, sizes_.nu), VecView<T>(r + sizes_.nu, sizes_.nx), VecView<T>(g + nc, sizes_.nz - nc)});
     if (nc > 0) constraintRows(constraintLevel(level), p, g);
   }
 

@@ -90,14 +90,8 @@ struct StagePoints {
   Point<Real> operator[](Index i) const {
     const Index nu = sizes.nu, nx = sizes.nx;
     const Real* const wi = w + i * sizes.n();
-    return {t[i],
-            {u + i * nu, nu},
-            {v + i * nu, nu},
-            {x + i * nx, nx},
-            {wi, nu},
-            {wi + nu, nx},
-            {wi + nu + nx, sizes.nz},
-            {d, sizes.discrete}};
+    return {t[i],     {u + i * nu, nu}, {v + i * nu, nu},         {x + i * nx, nx},
+            {wi, nu}, {wi + nu, nx},    {wi + nu + nx, sizes.nz}, {d, sizes.discrete}};
   }
 };
 

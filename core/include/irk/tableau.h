@@ -28,8 +28,7 @@ struct Tableau {
   template <class To>
   Tableau<To> cast() const {
     const auto round = [](const Real& x) { return static_cast<To>(x); };
-    return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round),
-            order, stage_order};
+    return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round), order, stage_order};
   }
 };
 
@@ -40,8 +39,7 @@ struct Methods {
   std::size_t start = 0;  ///< index of the member that takes the first step
 
   Methods(Tableau<Real> one) : members{std::move(one)} {}  // NOLINT: one method is a method
-  Methods(std::vector<Tableau<Real>> all, std::size_t first)
-      : members(std::move(all)), start(first) {}
+  Methods(std::vector<Tableau<Real>> all, std::size_t first) : members(std::move(all)), start(first) {}
 };
 
 }  // namespace irk

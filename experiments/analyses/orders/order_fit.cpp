@@ -26,16 +26,13 @@ Slope fitSlope(std::span<const ErrorPoint> window) {
   }
   const std::size_t n = x.size();
   double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
-  gsl_fit_linear(x.data(), 1, y.data(), 1, n, &c0, &slope, &cov00, &cov01, &variance,
-                 &sum_of_squares);
+  gsl_fit_linear(x.data(), 1, y.data(), 1, n, &c0, &slope, &cov00, &cov01, &variance, &sum_of_squares);
   if (n == 2) return {c0, slope, 0, INFINITY};
   const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 2));
   return {c0, slope, std::sqrt(variance), t * std::sqrt(variance)};
 }
 
-double centre(std::span<const ErrorPoint> window) {
-  return std::sqrt(window.front().h * window.back().h);
-}
+double centre(std::span<const ErrorPoint> window) { return std::sqrt(window.front().h * window.back().h); }
 
 // For error = C h^p (1 + c h^q) local slopes are p + q c h^q. The difference between the slopes of the coarse and the
 // fine half, extrapolated to h = 0, is therefore the remaining error of the fit. A slope over half the points is
@@ -58,16 +55,13 @@ bool continues(std::span<const ErrorPoint> finer, const Slope& slope) {
   const auto below = [&slope](const ErrorPoint& p) {
     return std::log(kFactor * p.error) < slope.offset + slope.value * std::log(p.h);
   };
-  return std::adjacent_find(finer.begin(), finer.end(), [&below](auto& p, auto& q) {
-           return below(p) && below(q);
-         }) == finer.end();
+  return std::adjacent_find(finer.begin(), finer.end(), [&below](auto& p, auto& q) { return below(p) && below(q); }) ==
+         finer.end();
 }
 
 // Finite positive errors, from coarse to fine.
 std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
-  std::erase_if(points, [](const ErrorPoint& p) {
-    return !(p.h > 0) || !(p.error > 0) || !std::isfinite(p.error);
-  });
+  std::erase_if(points, [](const ErrorPoint& p) { return !(p.h > 0) || !(p.error > 0) || !std::isfinite(p.error); });
   std::sort(points.begin(), points.end(), [](auto& a, auto& b) { return a.h > b.h; });
   return points;
 }
@@ -83,10 +77,9 @@ double removeNoise(std::vector<ErrorPoint>& points, const OrderFitOptions& optio
   const auto least = std::min_element(points.begin(), points.end(), less);
   if (least != points.end() && least->error <= small) {
     const double level = kLevel * least->error;
-    const auto first = std::find_if(points.begin(), points.end(),
-                                    [level](const ErrorPoint& p) { return p.error <= level; });
-    const bool shrinks =
-        std::is_sorted(first, points.end(), [](auto& a, auto& b) { return a.error > b.error; });
+    const auto first =
+        std::find_if(points.begin(), points.end(), [level](const ErrorPoint& p) { return p.error <= level; });
+    const bool shrinks = std::is_sorted(first, points.end(), [](auto& a, auto& b) { return a.error > b.error; });
     if (!shrinks) {
       std::vector<ErrorPoint> tail(first, points.end());
       const auto middle = tail.begin() + static_cast<std::ptrdiff_t>(tail.size() / 2);
@@ -108,8 +101,8 @@ OrderFit notMeasurable(std::string reason) {
 }  // namespace
 
 std::string windowText(const OrderFitOptions& options) {
-  return fmt::format("at least {} steps, the largest at least {:g} times the smallest",
-                     options.min_points, options.min_span);
+  return fmt::format("at least {} steps, the largest at least {:g} times the smallest", options.min_points,
+                     options.min_span);
 }
 
 double orderTolerance(double order) { return std::max(0.2, 0.01 * std::abs(order)); }
@@ -119,13 +112,12 @@ OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options)
   const double floor = removeNoise(points, options);
   const auto enough = static_cast<std::size_t>(options.min_points);
   if (points.size() < enough) {
-    return notMeasurable(fmt::format("{} points above the floor {:.1e}, {} are needed",
-                                     points.size(), floor, enough));
+    return notMeasurable(fmt::format("{} points above the floor {:.1e}, {} are needed", points.size(), floor, enough));
   }
   const double coarsest = points.front().h, finest = points.back().h;
   if (coarsest < options.min_span * finest * (1 - 1e-9)) {
-    return notMeasurable(fmt::format("steps only from {:.1e} to {:.1e}: less than a factor {:g}",
-                                     coarsest, finest, options.min_span));
+    return notMeasurable(
+        fmt::format("steps only from {:.1e} to {:.1e}: less than a factor {:g}", coarsest, finest, options.min_span));
   }
   // The asymptotic range is at the fine end, so a window must reach into the finest quarter of the range of steps:
   // slopes of coarser steps can be constant at a wrong value.
@@ -142,21 +134,15 @@ OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options)
       const double uncertainty = slope.confidence + drift(window, slope, options.next_power);
       if (uncertainty >= best_uncertainty) continue;
       best_uncertainty = uncertainty;
-      best = {true,
-              slope.value,
-              slope.confidence,
-              window.back().h,
-              window.front().h,
-              static_cast<int>(window.size()),
+      best = {true, slope.value, slope.confidence, window.back().h, window.front().h, static_cast<int>(window.size()),
               ""};
     }
   }
   if (!best.measurable) return notMeasurable("no window in which the errors keep to a line");
   const double scale = orderTolerance(best.order) / orderTolerance(0);
   if (best_uncertainty <= options.max_uncertainty * scale) return best;
-  return notMeasurable(
-      fmt::format("no stable slope above the floor {:.1e}: at best {:.2f}, uncertain by {:.2f}",
-                  floor, best.order, best_uncertainty));
+  return notMeasurable(fmt::format("no stable slope above the floor {:.1e}: at best {:.2f}, uncertain by {:.2f}", floor,
+                                   best.order, best_uncertainty));
 }
 
 }  // namespace irk

@@ -94,15 +94,13 @@ std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row) {
 
 // The theoretical order. For a user's method it is the order that the tableau declares, for ordinary differential
 // equations only.
-Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind,
-                 char component) {
+Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind, char component) {
   if (!kind) return {};
   const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
   // z is solved again from u, v and x, so its order is that of v.
-  const bool consistent = component == 'z' && textAt(runs, row, "multipliers") == "consistent" &&
-                          sizesOf(runs, row).constraints > 0;
-  const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind,
-                                      consistent ? 'v' : component);
+  const bool consistent =
+      component == 'z' && textAt(runs, row, "multipliers") == "consistent" && sizesOf(runs, row).constraints > 0;
+  const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind, consistent ? 'v' : component);
   if (order) return {order->order, std::string(order->source)};
   if (*kind != SystemKind::kOde) return {};
   try {
@@ -129,9 +127,8 @@ std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
     return "no integer: the steps are not yet asymptotic where round-off comes";
   }
   if (kind == SystemKind::kOde) return fit.reason;
-  return fit.order > theory
-             ? "higher than the general result: this system does not excite its worst term"
-             : "lower than theory for this kind of system";
+  return fit.order > theory ? "higher than the general result: this system does not excite its worst term"
+                            : "lower than theory for this kind of system";
 }
 
 OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional<SystemKind> kind) {
@@ -142,11 +139,10 @@ OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional
   return options;
 }
 
-TableRow orderRow(const Table& runs, const TableRow& run, char component, std::string power_of,
-                  const OrderFit& fit, const Theory& theory, const std::string& reason) {
+TableRow orderRow(const Table& runs, const TableRow& run, char component, std::string power_of, const OrderFit& fit,
+                  const Theory& theory, const std::string& reason) {
   TableRow row;
-  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "family",
-                           "stages"}) {
+  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "family", "stages"}) {
     row.push_back(textAt(runs, run, name));
   }
   row.emplace_back(1, component);
@@ -232,9 +228,24 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
-  orders.columns = {"scene",     "settings", "formulation", "multipliers", "scalar", "family",
-                    "stages",    "component", "power_of", "order",       "confidence", "h_min",  "h_max",
-                    "points",    "theory",   "source",      "verdict",    "reason",
+  orders.columns = {"scene",
+                    "settings",
+                    "formulation",
+                    "multipliers",
+                    "scalar",
+                    "family",
+                    "stages",
+                    "component",
+                    "power_of",
+                    "order",
+                    "confidence",
+                    "h_min",
+                    "h_max",
+                    "points",
+                    "theory",
+                    "source",
+                    "verdict",
+                    "reason",
                     std::string(kBlockColumn)};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {
@@ -250,8 +261,8 @@ Table orderTable(const Table& runs) {
     const std::string z = stiffnessText(scene, textAt(runs, *rows.front(), "settings"));
     if (scene.kind != SceneKind::kStiffTest || !z.ends_with("/h")) continue;
     for (const auto* row : rows) {
-      over_z[textAt(runs, *row, "method")][numberAt(runs, *row, "h")].emplace_back(
-          std::strtod(z.c_str(), nullptr), row);
+      over_z[textAt(runs, *row, "method")][numberAt(runs, *row, "h")].emplace_back(std::strtod(z.c_str(), nullptr),
+                                                                                   row);
     }
   }
   for (const auto& [method, errors] : over_z) appendPowerOfZ(runs, errors, orders);

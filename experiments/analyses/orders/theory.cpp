@@ -12,8 +12,7 @@ constexpr Index kMeasuredStages = 5;
 Order theorem(Index p) { return TheoreticalOrder{static_cast<double>(p), "theorem"}; }
 
 Order pattern(Index p, Index s) {
-  return TheoreticalOrder{static_cast<double>(p),
-                          s <= kMeasuredStages ? "measured" : "extrapolated"};
+  return TheoreticalOrder{static_cast<double>(p), s <= kMeasuredStages ? "measured" : "extrapolated"};
 }
 
 Index evenBelow(Index s) { return s - s % 2; }  // 2, 2, 4, 4 for s = 2..5
@@ -83,17 +82,15 @@ Order mechanical3(std::string_view family, Index s, char component) {
     return ofMechanical(pattern(q, s), pattern(q - 2, s), pattern(q - 4, s), component);
   }
   if (family == "radau_ia") {
-    return ofMechanical(pattern(s, s), pattern(std::max<Index>(1, s - 1), s),
-                        pattern(s == 1 ? 1 : s - 2, s), component);
+    return ofMechanical(pattern(s, s), pattern(std::max<Index>(1, s - 1), s), pattern(s == 1 ? 1 : s - 2, s),
+                        component);
   }
   if (family == "radau_iia") {
-    return ofMechanical(theorem(2 * s - 1), theorem(s), theorem(std::max<Index>(1, s - 1)),
-                        component);
+    return ofMechanical(theorem(2 * s - 1), theorem(s), theorem(std::max<Index>(1, s - 1)), component);
   }
   if (family == "lobatto_iiia") {
     const Index even = evenBelow(s);
-    return ofMechanical(pattern(2 * even - 2, s), pattern(even, s), pattern(even - 2, s),
-                        component);
+    return ofMechanical(pattern(2 * even - 2, s), pattern(even, s), pattern(even - 2, s), component);
   }
   if (family == "lobatto_iiic") {
     return ofMechanical(theorem(2 * s - 2), theorem(s - 1), theorem(s - 2), component);
@@ -103,9 +100,7 @@ Order mechanical3(std::string_view family, Index s, char component) {
 
 // Since errors of y and w are reported together, the order is that of w.
 Order index3(std::string_view family, Index s, char component) {
-  return component == 'u' || component == 'v'
-             ? Order()
-             : mechanical3(family, s, component == 'x' ? 'v' : 'z');
+  return component == 'u' || component == 'v' ? Order() : mechanical3(family, s, component == 'x' ? 'v' : 'z');
 }
 
 struct StiffOrder {
@@ -134,8 +129,7 @@ Order stiff(std::string_view family, Index s, SystemKind kind) {
 
 }  // namespace
 
-std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index s, SystemKind kind,
-                                                 char component) {
+std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index s, SystemKind kind, char component) {
   switch (kind) {
     case SystemKind::kOde:
       return component == 'z' ? Order() : odeOrder(family, s);
@@ -162,8 +156,7 @@ std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index 
 }
 
 bool isSymmetric(std::string_view family) {
-  return family == "gauss" || family == "lobatto_iiia" || family == "lobatto_iiib" ||
-         family == "lobatto_iiid";
+  return family == "gauss" || family == "lobatto_iiia" || family == "lobatto_iiib" || family == "lobatto_iiid";
 }
 
 }  // namespace irk

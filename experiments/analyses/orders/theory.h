@@ -33,8 +33,7 @@ struct TheoreticalOrder {
 /// by z1 = (1 - b^T A^-1 1) z0 + b^T A^-1 Z. nullopt if no order is known, or if the family cannot treat algebraic
 /// unknowns. HW: Hairer & Wanner II (1996), IV.5, IV.15, VI.1, VII.4. HLR: Hairer, Lubich & Roche, LNM 1409 (1989),
 /// table 4.1 and section 6. Jay, BIT 33 (1993): Lobatto IIIA of index 2, Radau IIA and Lobatto IIIC of index 3.
-std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index s, SystemKind kind,
-                                                 char component);
+std::optional<TheoreticalOrder> theoreticalOrder(std::string_view family, Index s, SystemKind kind, char component);
 
 /// Whether the methods of a family are their own adjoints: for differential equations their global error then has
 /// only even powers of the step. Hairer, Norsett & Wanner I, II.8 and II.9.

@@ -38,8 +38,6 @@ struct Arkode {
 
 }  // namespace
 
-std::unique_ptr<Peer> makeArkode(const PeerSetup& setup) {
-  return std::make_unique<sundials::OdePeer<Arkode>>(setup);
-}
+std::unique_ptr<Peer> makeArkode(const PeerSetup& setup) { return std::make_unique<sundials::OdePeer<Arkode>>(setup); }
 
 }  // namespace irk

@@ -8,14 +8,12 @@ namespace irk {
 
 const std::vector<PeerEntry>& peerCatalogue() {
   static const std::vector<PeerEntry> entries{
-      {"arkode_dirk", "SUNDIALS ARKODE, diagonally implicit Runge-Kutta, order 5", false, true,
-       makeArkode},
+      {"arkode_dirk", "SUNDIALS ARKODE, diagonally implicit Runge-Kutta, order 5", false, true, makeArkode},
       {"cvode_bdf", "SUNDIALS CVODE, BDF of orders 1 to 5", false, true, makeCvode},
       {"gsl_bsimp", "GSL, Bader and Deuflhard's extrapolation", false, false, makeGslBsimp},
       {"gsl_msbdf", "GSL, BDF of orders 1 to 5", false, false, makeGslMsbdf},
       {"gsl_rk4imp", "GSL, 2-stage Gauss, order 4", false, false, makeGslRk4imp},
-      {"ida_bdf", "SUNDIALS IDA, BDF of orders 1 to 5 for DAEs of index 1 and 2", true, true,
-       makeIda}};
+      {"ida_bdf", "SUNDIALS IDA, BDF of orders 1 to 5 for DAEs of index 1 and 2", true, true, makeIda}};
   return entries;
 }
 
@@ -29,13 +27,12 @@ namespace {
 
 template <class E>
 void refuse(const PeerEntry& peer, E value, const char* reason) {
-  throw Misuse(fmt::format("illegal combination: method '{}' with {} '{}': {}", peer.id,
-                           axisName<E>(), idOf(value), reason));
+  throw Misuse(
+      fmt::format("illegal combination: method '{}' with {} '{}': {}", peer.id, axisName<E>(), idOf(value), reason));
 }
 
 void refuseFormulation(const PeerEntry& peer, Formulation formulation) {
-  const bool explicit_form =
-      formulation == Formulation::kIndex1 || formulation == Formulation::kFirstOrder;
+  const bool explicit_form = formulation == Formulation::kIndex1 || formulation == Formulation::kFirstOrder;
   if (!peer.differential_algebraic && !explicit_form) {
     refuse(peer, formulation,
            "it solves ordinary differential equations only; use formulation 'index1', where "

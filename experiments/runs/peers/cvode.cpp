@@ -26,8 +26,6 @@ struct Cvode {
 
 }  // namespace
 
-std::unique_ptr<Peer> makeCvode(const PeerSetup& setup) {
-  return std::make_unique<sundials::OdePeer<Cvode>>(setup);
-}
+std::unique_ptr<Peer> makeCvode(const PeerSetup& setup) { return std::make_unique<sundials::OdePeer<Cvode>>(setup); }
 
 }  // namespace irk

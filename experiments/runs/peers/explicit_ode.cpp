@@ -15,10 +15,7 @@ ExplicitOde::ExplicitOde(const System<double>& system)
 // The residual is f - k; at k = 0 it equals f.
 Point<double> ExplicitOde::point(double t, const double* y) const {
   const ConstVec<double> none(nullptr, 0);
-  return {t,    none,
-          none, {y, sizes_.nx},
-          none, {no_rates_.data(), sizes_.nx},
-          none, {d_.data(), sizes_.discrete}};
+  return {t, none, none, {y, sizes_.nx}, none, {no_rates_.data(), sizes_.nx}, none, {d_.data(), sizes_.discrete}};
 }
 
 bool ExplicitOde::rates(double t, const double* y, double* f) {
@@ -29,8 +26,7 @@ bool ExplicitOde::rates(double t, const double* y, double* f) {
 }
 
 // The directions of differentiation are y and, last, t.
-bool ExplicitOde::jacobian(double t, const double* y, Eigen::Ref<Mat<double>> dfdy,
-                           Vec<double>& dfdt) {
+bool ExplicitOde::jacobian(double t, const double* y, Eigen::Ref<Mat<double>> dfdy, Vec<double>& dfdt) {
   ++jacobian_count_;
   const Index n = sizes_.nx, chunk = static_cast<Index>(kChunk);
   dual_.t = Dual<double>(t);

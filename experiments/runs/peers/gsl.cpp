@@ -37,8 +37,7 @@ class Gsl final : public Peer {
     // GSL's own handler would end the program; every call here checks the returned status instead.
     gsl_set_error_handler_off();
     // atol_i + rtol |y_i|
-    driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type, 1, 1, setup.rtol, 1, 0,
-                                                     setup.atol.data()));
+    driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type, 1, 1, setup.rtol, 1, 0, setup.atol.data()));
   }
 
   StartReport start(State<double>& state, double t_end, StartCheck) override {
@@ -57,8 +56,7 @@ class Gsl final : public Peer {
 
   Outcome step(State<double>& state) override {
     h_ = std::min(h_, h_max_);
-    status_ = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &system_, &state.t,
-                                      t_end_, &h_, y_.data());
+    status_ = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &system_, &state.t, t_end_, &h_, y_.data());
     if (status_ != GSL_SUCCESS) return Outcome::kStepTooSmall;
     if (!y_.allFinite()) return Outcome::kNotFinite;
     state.x = y_;
@@ -81,8 +79,7 @@ class Gsl final : public Peer {
     auto& gsl = *static_cast<Gsl*>(self);
     const bool done = gsl.ode_.jacobian(t, y, gsl.dfdy_, gsl.dfdt_);
     const Index n = gsl.ode_.size();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(dfdy, n, n) =
-        gsl.dfdy_;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(dfdy, n, n) = gsl.dfdy_;
     VecView<double>(dfdt, n) = gsl.dfdt_;
     return done ? GSL_SUCCESS : GSL_FAILURE;
   }

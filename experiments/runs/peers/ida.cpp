@@ -63,8 +63,7 @@ class Ida final : public Peer {
   }
 
   Outcome step(State<double>& state) override {
-    const int flag = IDASolve(solver_.memory(), solver_.end(), &state.t, workspace_.y(), yp_,
-                              sundials::kOneStep);
+    const int flag = IDASolve(solver_.memory(), solver_.end(), &state.t, workspace_.y(), yp_, sundials::kOneStep);
     if (flag >= 0) {
       const auto p = point(state.t, workspace_.y(), yp_);
       state.u = p.u;
@@ -117,16 +116,16 @@ class Ida final : public Peer {
     ++ida.residual_count_;
     const Index nu = ida.sizes_.nu, n = ida.sizes_.n();
     double* const rows = N_VGetArrayPointer(r);
-    VecView<double>(rows, nu) = ConstVec<double>(N_VGetArrayPointer(yp), nu) -
-                                ConstVec<double>(N_VGetArrayPointer(y) + nu, nu);
+    VecView<double>(rows, nu) =
+        ConstVec<double>(N_VGetArrayPointer(yp), nu) - ConstVec<double>(N_VGetArrayPointer(y) + nu, nu);
     VecView<double> rest(rows + nu, n);
     ida.system_.evaluate(Level::kFormulated, ida.point(t, y, yp), rest);
     return rest.allFinite() ? 0 : kTrySmallerStep;
   }
 
   // Columns u, v, x, z of the rows u' - v and r: dr/du = D2, dr/d(v, x) = D1 + cj D0, dr/dz = D0.
-  static int jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix J,
-                      void* self, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix J, void* self, N_Vector,
+                      N_Vector, N_Vector) {
     auto& ida = *static_cast<Ida*>(self);
     ++ida.jacobian_count_;
     const Index nu = ida.sizes_.nu, nx = ida.sizes_.nx, nz = ida.sizes_.nz, n = ida.sizes_.n();
@@ -137,8 +136,7 @@ class Ida final : public Peer {
     all.block(0, nu, nu, nu).diagonal().setConstant(-1);
     auto r = all.bottomRows(n);
     r.leftCols(nu) = ida.D_.dense2().leftCols(nu);
-    r.middleCols(nu, nu + nx) =
-        ida.D_.dense1().leftCols(nu + nx) + cj * ida.D_.dense0().leftCols(nu + nx);
+    r.middleCols(nu, nu + nx) = ida.D_.dense1().leftCols(nu + nx) + cj * ida.D_.dense0().leftCols(nu + nx);
     r.rightCols(nz) = ida.D_.dense0().rightCols(nz);
     return r.allFinite() ? 0 : kTrySmallerStep;
   }

@@ -15,8 +15,7 @@ namespace {
 
 // ODE codes always get y' = f(t, y): without constraints all formulations are equal.
 SystemOptions systemOptions(const PeerEntry& entry, const RunSpec& spec) {
-  const auto formulation =
-      entry.differential_algebraic ? spec.formulation : Formulation::kFirstOrder;
+  const auto formulation = entry.differential_algebraic ? spec.formulation : Formulation::kFirstOrder;
   return {formulation, spec.scaling, spec.discontinuity};
 }
 
@@ -31,12 +30,11 @@ bool isDetermined(const Scene<double>& scene, SystemOptions options) {
   }
 }
 
-std::unique_ptr<Peer> makePeer(const PeerEntry& entry, const Scene<double>& scene,
-                               const RunSpec& spec, const System<double>& system) {
+std::unique_ptr<Peer> makePeer(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec,
+                               const System<double>& system) {
   refuseIllegal(entry, spec, scene.sizes());
   const auto refuse = [&](std::string_view reason) {
-    throw Misuse(fmt::format("illegal combination: method '{}' with scene '{}': {}", entry.id,
-                             scene.id, reason));
+    throw Misuse(fmt::format("illegal combination: method '{}' with scene '{}': {}", entry.id, scene.id, reason));
   };
   const auto& powers = system.errorPowers().z;
   if (std::any_of(powers.begin(), powers.end(), [](int p) { return p > 1; })) {
@@ -47,35 +45,31 @@ std::unique_ptr<Peer> makePeer(const PeerEntry& entry, const Scene<double>& scen
     refuse("it solves y' = f(t, y), and the scene's index is above 1: D0 is singular");
   }
   const auto& step = spec.options.step;
-  return entry.make(
-      {.system = system,
-       .rtol = spec.options.tolerances.rtol,
-       .atol = systemScale(scene.scale, system.sizes()) * spec.options.tolerances.atol,
-       .h = step.h,
-       .h_max = step.h_max,
-       .derivatives = spec.options.derivatives,
-       .determined = determined,
-       .locate = spec.discontinuity == Discontinuity::kLocate});
+  return entry.make({.system = system,
+                     .rtol = spec.options.tolerances.rtol,
+                     .atol = systemScale(scene.scale, system.sizes()) * spec.options.tolerances.atol,
+                     .h = step.h,
+                     .h_max = step.h_max,
+                     .derivatives = spec.options.derivatives,
+                     .determined = determined,
+                     .locate = spec.discontinuity == Discontinuity::kLocate});
 }
 
 }  // namespace
 
-PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scene,
-                               const RunSpec& spec)
+PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec)
     : system_(scene.system(systemOptions(entry, spec))),
       max_steps_(spec.options.step.max_steps),
       peer_(makePeer(entry, scene, spec, *system_)),
       state_(system_->sizes()),
       switches_(*system_),
       derivatives_(spec.options.derivatives),
-      ends_consistent_(spec.options.multipliers == Multipliers::kConsistent &&
-                       system_->sizes().nz > 0) {
+      ends_consistent_(spec.options.multipliers == Multipliers::kConsistent && system_->sizes().nz > 0) {
   validate(spec.options);
   requireLegal(spec.options);
 }
 
-Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_end,
-                                           const Monitor<double>& monitor) {
+Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_end, const Monitor<double>& monitor) {
   counters_ = {};
   chatter_ = {};
   requireStart(*system_, start, t_end);

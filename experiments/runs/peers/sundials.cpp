@@ -10,8 +10,9 @@ Workspace::Workspace(Index n)
       matrix_(SUNDenseMatrix(n, n, context_)),
       solver_(SUNLinSol_Dense(y_.get(), matrix_.get(), context_)) {
 #if SUNDIALS_VERSION_MAJOR >= 7
-  const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* to,
-                       SUNContext) { *static_cast<std::string*>(to) = text ? text : ""; };
+  const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* to, SUNContext) {
+    *static_cast<std::string*>(to) = text ? text : "";
+  };
   SUNContext_ClearErrHandlers(context_);
   SUNContext_PushErrHandler(context_, keep, &message_);
 #endif
@@ -45,8 +46,6 @@ void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string(call) + " = " + std::to_string(flag));
 }
 
-void keepMessage(int, const char*, const char*, char* text, void* to) {
-  *static_cast<std::string*>(to) = text;
-}
+void keepMessage(int, const char*, const char*, char* text, void* to) { *static_cast<std::string*>(to) = text; }
 
 }  // namespace irk::sundials

@@ -61,8 +61,7 @@ void require(int flag, const char* call);
 /// context.
 void keepMessage(int code, const char* module, const char* function, char* text, void* to);
 #if SUNDIALS_VERSION_MAJOR < 7
-#define IRK_SUNDIALS_ERROR_HANDLER(prefix) \
-  static constexpr auto setErrHandlerFn = prefix##SetErrHandlerFn;
+#define IRK_SUNDIALS_ERROR_HANDLER(prefix) static constexpr auto setErrHandlerFn = prefix##SetErrHandlerFn;
 #else
 #define IRK_SUNDIALS_ERROR_HANDLER(prefix)
 #endif
@@ -100,8 +99,8 @@ class Solver {
  public:
   /// Takes ownership of `memory`. `jacobian` and `roots` are the callbacks; they get `self` as user data.
   template <class Jacobian, class Roots>
-  void setUp(void* memory, const PeerSetup& setup, N_Vector atol, Workspace& workspace, void* self,
-             Jacobian jacobian, Roots roots) {
+  void setUp(void* memory, const PeerSetup& setup, N_Vector atol, Workspace& workspace, void* self, Jacobian jacobian,
+             Roots roots) {
     memory_.reset(memory);
 #if SUNDIALS_VERSION_MAJOR < 7
     IRK_SUNDIALS(Api::setErrHandlerFn(memory, keepMessage, &workspace.message()));

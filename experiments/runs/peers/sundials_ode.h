@@ -16,12 +16,10 @@ struct OdeCallbacks {
   explicit OdeCallbacks(const System<double>& system) : ode(system), dfdt(ode.size()) {}
 
   static int rates(double t, N_Vector y, N_Vector f, void* self) {
-    const bool done = static_cast<OdeCallbacks*>(self)->ode.rates(t, N_VGetArrayPointer(y),
-                                                                  N_VGetArrayPointer(f));
+    const bool done = static_cast<OdeCallbacks*>(self)->ode.rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f));
     return done ? 0 : kTrySmallerStep;
   }
-  static int jacobian(double t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector,
-                      N_Vector) {
+  static int jacobian(double t, N_Vector y, N_Vector, SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector) {
     auto& [ode, dfdt] = *static_cast<OdeCallbacks*>(self);
     Eigen::Map<Mat<double>> dfdy(SUNDenseMatrix_Data(J), ode.size(), ode.size());
     return ode.jacobian(t, N_VGetArrayPointer(y), dfdy, dfdt) ? 0 : kTrySmallerStep;
@@ -38,10 +36,7 @@ template <class Api>
 class OdePeer final : public Peer {
  public:
   explicit OdePeer(const PeerSetup& setup)
-      : setup_(setup),
-        callbacks_(setup.system),
-        workspace_(callbacks_.ode.size()),
-        atol_(workspace_.add(setup.atol)) {
+      : setup_(setup), callbacks_(setup.system), workspace_(callbacks_.ode.size()), atol_(workspace_.add(setup.atol)) {
     createMemory();
   }
 
@@ -76,8 +71,7 @@ class OdePeer final : public Peer {
  private:
   void createMemory() {
     void* const memory = Api::create(workspace_.context(), workspace_.y());
-    solver_.setUp(memory, setup_, atol_, workspace_, &callbacks_, OdeCallbacks::jacobian,
-                  OdeCallbacks::roots);
+    solver_.setUp(memory, setup_, atol_, workspace_, &callbacks_, OdeCallbacks::jacobian, OdeCallbacks::roots);
     Api::set(memory);
   }
 

@@ -46,8 +46,7 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
       (void)controller->decide(steps[0].error, steps[0].h);
       for (int i = 1; i < 3; ++i) {
         const auto decision = controller->decide(steps[i].error, steps[i].h);
-        const double wish =
-            gustafsson(p, steps[i].error, steps[i].h, steps[i - 1].error, steps[i - 1].h);
+        const double wish = gustafsson(p, steps[i].error, steps[i].h, steps[i - 1].error, steps[i - 1].h);
         const double ratio = wish / steps[i].h;
         const double expected = ratio >= 1 && ratio <= 1.2 ? steps[i].h : wish;
         EXPECT_TRUE(decision.accept);
@@ -70,8 +69,7 @@ TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
   controller->changeOrder(5, 1e-9, 0.05);
   EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 1e-2, 0.05), 1e-12);
   controller->forget();
-  EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14)
-      << "no trend";
+  EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14) << "no trend";
 }
 
 TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {

@@ -55,8 +55,7 @@ TEST(PaperController, GammaFollowsTheErrorAfterAChangeOfStep) {
   // The halved step's error fell by 2^3 / 0.95: gamma = 0.95; f = 0.95 (1 / (4 eps))^(1/4).
   const double eps = 0.5 / 8 * 0.95;
   EXPECT_EQ(controller->decide(eps, 0.05).h, 0.05);
-  EXPECT_NEAR(controller->decide(1e-4, 0.05).h, 0.05 * std::min(5.0, 0.95 * std::pow(2500, 0.25)),
-              1e-12);
+  EXPECT_NEAR(controller->decide(1e-4, 0.05).h, 0.05 * std::min(5.0, 0.95 * std::pow(2500, 0.25)), 1e-12);
 }
 
 TEST(PaperController, HalvesAfterAFailedNewton) {

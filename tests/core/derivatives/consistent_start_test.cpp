@@ -35,8 +35,7 @@ Found start(Equation equation, double x, double z, bool w_required = true) {
   Found found{{}, State<double>(system->sizes())};
   found.state.x[0] = x;
   found.state.w << z, z;
-  found.report =
-      ConsistentStart<double>(*system, DerivativeSource::kAutomatic, w_required).apply(found.state);
+  found.report = ConsistentStart<double>(*system, DerivativeSource::kAutomatic, w_required).apply(found.state);
   return found;
 }
 
@@ -55,13 +54,11 @@ TEST(ConsistentStart, KeptDerivativesDoNotLeadToAnotherRoot) {
 TEST(ConsistentStart, FailuresNameThePlaceAndKeepWhatIsGiven) {
   const auto none = start(Equation::kSquare, -1, 0.7);
   EXPECT_EQ(none.report.outcome, Outcome::kInconsistentStart);
-  EXPECT_NE(none.report.detail.find("row 1: Newton does not converge"), std::string::npos)
-      << none.report.detail;
+  EXPECT_NE(none.report.detail.find("row 1: Newton does not converge"), std::string::npos) << none.report.detail;
   EXPECT_EQ(none.state.z()[0], 0.7);
   const auto nan = start(Equation::kRoot, -1, 0.7);
   EXPECT_EQ(nan.report.outcome, Outcome::kNotFinite);
-  EXPECT_NE(nan.report.detail.find("at the start, t = 0: row 1: residual"), std::string::npos)
-      << nan.report.detail;
+  EXPECT_NE(nan.report.detail.find("at the start, t = 0: row 1: residual"), std::string::npos) << nan.report.detail;
   EXPECT_EQ(nan.state.z()[0], 0.7);
 }
 

@@ -17,8 +17,7 @@ struct Chain {
     using std::sin;
     for (Index i = 0; i < nu; ++i) {
       const Index j = (i + 1) % nu;
-      r.u[i] = sin(p.u[i] - p.u[j]) - p.v[i] * p.v[j] + p.x[i % nx] * p.u[i] -
-               (2.0 + p.u[j] * p.v[i]) * p.a[i];
+      r.u[i] = sin(p.u[i] - p.u[j]) - p.v[i] * p.v[j] + p.x[i % nx] * p.u[i] - (2.0 + p.u[j] * p.v[i]) * p.a[i];
     }
     for (Index i = 0; i < nx; ++i) r.x[i] = p.u[i % nu] * p.v[i % nu] - p.x[i] * p.x[i] - p.k[i];
   }
@@ -74,8 +73,7 @@ TEST(Linearization, AutomaticIsExactToRoundOff) {
 TEST(Linearization, ConstraintRowsAreTheDerivativesOfTheirLevel) {
   for (const auto& formulation : named<Formulation>()) {
     const auto system = makeSystem<double>(CartesianPendulum{}, {formulation.value});
-    expectNear(linearize(*system, DerivativeSource::kAutomatic),
-               linearize(*system, DerivativeSource::kCentral), 1e-9);
+    expectNear(linearize(*system, DerivativeSource::kAutomatic), linearize(*system, DerivativeSource::kCentral), 1e-9);
   }
 }
 

@@ -18,10 +18,9 @@ Scene<double> sceneOf(const char* id, const char* parameter, int value) {
   return makeScene<double>(id, {{parameter, std::to_string(value)}});
 }
 
-Linearization<double> linearize(const System<double>& system, const State<double>& at,
-                                Storage storage, std::size_t* directions = nullptr) {
-  Differentiator<double> differentiator(system, DerivativeSource::kAutomatic, JacobianTerms::kFull,
-                                        storage);
+Linearization<double> linearize(const System<double>& system, const State<double>& at, Storage storage,
+                                std::size_t* directions = nullptr) {
+  Differentiator<double> differentiator(system, DerivativeSource::kAutomatic, JacobianTerms::kFull, storage);
   Linearization<double> D;
   differentiator.evaluate(Level::kFormulated, pointOf(at), D);
   if (directions) *directions = differentiator.directions();
@@ -71,8 +70,8 @@ TEST(Sparse, DerivativesOfEverySceneEqualThoseColumnByColumn) {
       const Scene<double> scene = makeScene<double>(entry.id, {});
       const auto system = scene.system({formulation});
       const State<double> start = system->fromScene(scene.start);
-      Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic,
-                                            JacobianTerms::kFull, Storage::kSparse);
+      Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull,
+                                            Storage::kSparse);
       for (const State<double>& at : {start, moved(start)}) {
         Linearization<double> D;
         differentiator.evaluate(Level::kFormulated, pointOf(at), D);
@@ -122,9 +121,7 @@ TEST(Sparse, ColoursOfOneRowDiffer) {
 // Springs between neighbours; in mode 1 the last mass also pulls at the first one.
 struct LateContact {
   Index m = 60;
-  Sizes sizes() const {
-    return {.nu = m, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = m, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     for (Index i = 0; i < m; ++i) {
@@ -139,7 +136,9 @@ struct LateContact {
     g[0] = p.d[0] > T(0.5) ? T(-1.0) : p.t - 0.3;
   }
   template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const { d[0] = T(1.0); }
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
 };
 
 State<double> plucked(Index m) {
@@ -149,10 +148,9 @@ State<double> plucked(Index m) {
 }
 
 TEST(Sparse, APatternThatASwitchChangesIsSeen) {
-  const auto system = makeSystem<double>(
-      LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
-  Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull,
-                                        Storage::kSparse);
+  const auto system =
+      makeSystem<double>(LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
+  Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull, Storage::kSparse);
   State<double> s = plucked(60);
   Linearization<double> D;
   differentiator.evaluate(Level::kFormulated, pointOf(s), D);
@@ -179,24 +177,19 @@ struct NarrowContact {
 
 TEST(Sparse, APatternThatTheFirstLookMissesIsSeen) {
   const auto system = makeSystem<double>(NarrowContact{});
-  Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull,
-                                        Storage::kSparse);
+  Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull, Storage::kSparse);
   const State<double> s(Sizes{.nu = 40});
   Linearization<double> D;
   differentiator.evaluate(Level::kFormulated, pointOf(s), D);
   EXPECT_EQ(dense(*D.pattern, D.d2)(0, 39), 7);
 }
 
-
-Solution<double> solve(const std::shared_ptr<const System<double>>& system,
-                       const State<double>& start, double t_end, const IntegratorOptions& options,
-                       const char* method = "radau_iia_5") {
-  return Integrator<double>(system, makeTableau<double>(method), options)
-      .integrate(start, t_end);
+Solution<double> solve(const std::shared_ptr<const System<double>>& system, const State<double>& start, double t_end,
+                       const IntegratorOptions& options, const char* method = "radau_iia_5") {
+  return Integrator<double>(system, makeTableau<double>(method), options).integrate(start, t_end);
 }
 
-void expectSame(const Solution<double>& a, const Solution<double>& b, double tolerance,
-                const std::string& what) {
+void expectSame(const Solution<double>& a, const Solution<double>& b, double tolerance, const std::string& what) {
   ASSERT_EQ(a.outcome, Outcome::kSuccess) << what << ": " << a.detail;
   ASSERT_EQ(b.outcome, Outcome::kSuccess) << what << ": " << b.detail;
   EXPECT_LE((a.state.u - b.state.u).norm(), tolerance * (1 + a.state.u.norm())) << what;
@@ -207,8 +200,8 @@ void expectSame(const Solution<double>& a, const Solution<double>& b, double tol
 
 TEST(Sparse, RunsEqualTheirDenseTwins) {
   const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 8);
-  const auto contact = makeSystem<double>(
-      LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
+  const auto contact =
+      makeSystem<double>(LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
   for (const StageSolverKind kind : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
     IntegratorOptions o = fixedSteps(2e-3);
     o.solver = kind;
@@ -236,8 +229,7 @@ TEST(Sparse, CoupledSparseEqualsCoupledDense) {
     o.solver = StageSolverKind::kCoupledDense;
     const auto a = solve(ancf.system({}), ancf.start, 0.02, o, "gauss_3");
     o.solver = StageSolverKind::kCoupledSparse;
-    expectSame(a, solve(ancf.system({}), ancf.start, 0.02, o, "gauss_3"), 1e-10,
-               std::string(newton.id));
+    expectSame(a, solve(ancf.system({}), ancf.start, 0.02, o, "gauss_3"), 1e-10, std::string(newton.id));
   }
 }
 
@@ -297,8 +289,8 @@ TEST(Sparse, WhatIsImpossibleIsRefused) {
   expectMisuse("first_order", [] {
     IntegratorOptions o = adaptive(1e-5);
     o.threads = 2;
-    Integrator<double>(makeSystem<double>(Oscillators{}, {Formulation::kFirstOrder}),
-                       makeTableau<double>("gauss_2"), o);
+    Integrator<double>(makeSystem<double>(Oscillators{}, {Formulation::kFirstOrder}), makeTableau<double>("gauss_2"),
+                       o);
   });
 }
 

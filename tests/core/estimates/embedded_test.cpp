@@ -88,8 +88,7 @@ class OneStep {
 // stages are coupled, or all eigenvalues are complex, the estimate factorizes its own; the numbers are the same.
 TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
   for (const char* method : {"radau_iia_3", "radau_iia_5", "radau_iia_4"}) {
-    OneStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05,
-                StageSolverKind::kCoupledDense);
+    OneStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, StageSolverKind::kCoupledDense);
     const double expected = own.error(true);
     EXPECT_GT(expected, 1);
     for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
@@ -105,8 +104,7 @@ TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
 
 // y1^ = y0 + h (mu f0 + sum b^_i k_i) with sum b^_i c_i^(k-1) = 1/k - mu delta_k1, k = 1..s, and
 // err = (1 - h mu J)^-1 (y1^ - y1).
-double hairerWanner(const Scheme<double>& scheme, const Mat<double>& k, double mu, double f0,
-                    double J, double h) {
+double hairerWanner(const Scheme<double>& scheme, const Mat<double>& k, double mu, double f0, double J, double h) {
   const Index s = scheme.s;
   Mat<double> powers(s, s);
   Vec<double> right(s);
@@ -120,8 +118,8 @@ double hairerWanner(const Scheme<double>& scheme, const Mat<double>& k, double m
 }
 
 TEST(EmbeddedEstimate, IsHairerAndWannersForAnOrdinaryEquation) {
-  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "gauss_4",
-                             "lobatto_iiic_3", "lobatto_iiic_4"}) {
+  for (const char* method :
+       {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "gauss_4", "lobatto_iiic_3", "lobatto_iiic_4"}) {
     for (const double h : {0.5, 0.05}) {
       OneStep step(Riccati{}, movingRiccati(), method, h);
       const double f0 = std::cos(0.7), J = -2 * (1.5 + std::sin(0.7));  // f and df/dy = -2 y
@@ -170,8 +168,7 @@ TEST(EmbeddedEstimate, SecondOrderSystemsHaveTheEstimateOfTheirFirstOrderForm) {
 
 TEST(EmbeddedEstimate, HasOrderS) {
   const auto start = movingRiccati();
-  for (const char* method :
-       {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "lobatto_iiic_3"}) {
+  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "lobatto_iiic_3"}) {
     std::vector<double> steps, errors;
     for (const double h : {0.08, 0.06, 0.04, 0.03}) {
       OneStep step(Riccati{}, start, method, h);
@@ -186,19 +183,15 @@ TEST(EmbeddedEstimate, HasOrderS) {
 TEST(EmbeddedEstimate, RefusesASingularA) {
   IntegratorOptions o = adaptive(1e-6);
   o.step.estimate = ErrorEstimate::kEmbedded;
-  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
-                                  makeTableau<double>("lobatto_iiia_3"), o),
-               Misuse);
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("lobatto_iiia_3"), o), Misuse);
 }
 
 // Radau IA with one stage has c = 0 and a = 1: neither the method nor its estimate sees a force that grows from 0.
 TEST(EmbeddedEstimate, RefusesStageOrderZero) {
   IntegratorOptions o = adaptive(1e-6);
   o.step.estimate = ErrorEstimate::kEmbedded;
-  EXPECT_THROW(
-      Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_1"), o), Misuse);
-  EXPECT_NO_THROW(
-      Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_2"), o));
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_1"), o), Misuse);
+  EXPECT_NO_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_2"), o));
 }
 
 TEST(EmbeddedEstimate, ControlsTheErrorOfRuns) {
@@ -207,8 +200,7 @@ TEST(EmbeddedEstimate, ControlsTheErrorOfRuns) {
       IntegratorOptions o = adaptive(tol);
       o.step.estimate = ErrorEstimate::kEmbedded;
       o.step.control = StepControl::kPredictive;
-      const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 5,
-                                       makeTableau<double>(method), o);
+      const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 5, makeTableau<double>(method), o);
       ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
       EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(5.0))), 20 * tol) << method << " " << tol;
     }

@@ -18,15 +18,14 @@ IntegratorOptions variable(double tol) {
 }
 
 template <class P>
-Solution<double> run(P problem, const State<double>& start, double t_end,
-                     const Methods<double>& methods, const IntegratorOptions& options) {
+Solution<double> run(P problem, const State<double>& start, double t_end, const Methods<double>& methods,
+                     const IntegratorOptions& options) {
   return Integrator<double>(makeSystem<double>(problem), methods, options).integrate(start, t_end);
 }
 
 TEST(VariableOrder, KeepsItsTolerance) {
   for (const double tol : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    const auto s = run(Riccati{}, riccatiStart<double>(), 10,
-                       makeMethods<double>("radau_iia_3", 13, 5), variable(tol));
+    const auto s = run(Riccati{}, riccatiStart<double>(), 10, makeMethods<double>("radau_iia_3", 13, 5), variable(tol));
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(10.0))), 20 * tol) << tol;
   }
@@ -37,8 +36,7 @@ TEST(VariableOrder, TakesFewerStepsThanALowOrderAtATightTolerance) {
   fixed.order = OrderControl::kFixed;
   const auto start = oscillatorsStart<double>();
   const auto low = run(Oscillators{}, start, 10, makeTableau<double>("radau_iia_3"), fixed);
-  const auto s = run(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13, 5),
-                     variable(1e-11));
+  const auto s = run(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13, 5), variable(1e-11));
   ASSERT_EQ(low.outcome, Outcome::kSuccess);
   ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
   EXPECT_LT(s.counters.steps_accepted, low.counters.steps_accepted / 5);
@@ -68,8 +66,8 @@ TEST(VariableOrder, AnIntegratorUsedAgainBeginsWithItsFirstMember) {
   for (const bool fixed : {false, true}) {
     auto options = variable(1e-10);
     if (fixed) options.order = OrderControl::kFixed;
-    const auto methods = fixed ? Methods<double>(makeTableau<double>("radau_iia_3"))
-                               : makeMethods<double>("radau_iia_3", 13, 5);
+    const auto methods =
+        fixed ? Methods<double>(makeTableau<double>("radau_iia_3")) : makeMethods<double>("radau_iia_3", 13, 5);
     Integrator<double> integrator(makeSystem<double>(Oscillators{}), methods, options);
     const auto start = oscillatorsStart<double>();
     const auto first = integrator.integrate(start, 5);
@@ -121,17 +119,13 @@ TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
 TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
   IntegratorOptions o = variable(1e-6);
   o.order = OrderControl::kFixed;
-  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
-                                  makeMethods<double>("radau_iia_3", 13, 5), o),
-               Misuse);
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeMethods<double>("radau_iia_3", 13, 5), o), Misuse);
 }
 
 TEST(VariableOrder, RefusesOtherEstimatesAndFiles) {
   IntegratorOptions o = variable(1e-6);
   o.step.estimate = ErrorEstimate::kRichardson;
-  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}),
-                                  makeMethods<double>("radau_iia_3", 13, 5), o),
-               Misuse);
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeMethods<double>("radau_iia_3", 13, 5), o), Misuse);
   EXPECT_THROW(makeMethods<double>(IRK_SOURCE_DIR "/tableaus/data/radau_iia_3.txt", 13, 5), Misuse);
 }
 

@@ -18,8 +18,7 @@ bool isKlu(void* caller) {
   Dl_info info;
   if (dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return false;
   const std::string_view library(info.dli_fname);
-  return library.find("libklu") != library.npos ||
-         library.find("libsuitesparseconfig") != library.npos;
+  return library.find("libklu") != library.npos || library.find("libsuitesparseconfig") != library.npos;
 }
 }  // namespace
 
@@ -34,8 +33,7 @@ namespace irk::test {
 namespace {
 
 long allocationsOf(const std::shared_ptr<const System<double>>& system, const State<double>& start,
-                   const Methods<double>& methods, const IntegratorOptions& options,
-                   double t_end = 1.0) {
+                   const Methods<double>& methods, const IntegratorOptions& options, double t_end = 1.0) {
   Integrator<double> integrator(system, methods, options);
   int steps = 0;
   long before_last_step = 0;
@@ -67,8 +65,8 @@ TEST(Allocation, TheCounterSeesAnAllocation) {
 TEST(Allocation, StepsAllocateNothing) {
   for (const auto& solver : named<StageSolverKind>()) {
     for (const auto& newton : named<NewtonKind>()) {
-      const bool coupled = solver.value == StageSolverKind::kCoupledDense ||
-                           solver.value == StageSolverKind::kCoupledSparse;
+      const bool coupled =
+          solver.value == StageSolverKind::kCoupledDense || solver.value == StageSolverKind::kCoupledSparse;
       if (newton.value == NewtonKind::kFull && !coupled) continue;
       for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiia_3", "radau_iia_20"}) {
         const auto tableau = makeTableau<double>(method);
@@ -81,7 +79,8 @@ TEST(Allocation, StepsAllocateNothing) {
     }
   }
   EXPECT_EQ(allocationsOf(makeSystem<double>(CartesianPendulum{}), pendulumStart<double>(),
-                          makeTableau<double>("radau_iia_5"), fixedSteps(0.01)), 0);
+                          makeTableau<double>("radau_iia_5"), fixedSteps(0.01)),
+            0);
 }
 
 // Complete adaptive runs: dense up to s n = 300, sparse for any size.
@@ -90,14 +89,11 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
     int elements;
     Storage storage;
   };
-  for (const Case& c : {Case{14, Storage::kDense}, Case{14, Storage::kSparse},
-                        Case{250, Storage::kSparse}}) {
-    const Scene<double> scene =
-        makeScene<double>("ancf_pendulum", {{"elements", std::to_string(c.elements)}});
+  for (const Case& c : {Case{14, Storage::kDense}, Case{14, Storage::kSparse}, Case{250, Storage::kSparse}}) {
+    const Scene<double> scene = makeScene<double>("ancf_pendulum", {{"elements", std::to_string(c.elements)}});
     const auto system = scene.system({});
     const auto one = Methods<double>(makeTableau<double>("radau_iia_5"));
-    for (const NewtonKind newton :
-         {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
+    for (const NewtonKind newton : {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
       for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
         IntegratorOptions o = adaptive(1e-4);
         o.storage = c.storage;
@@ -107,8 +103,8 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
         for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
           o.solver = solver;
           EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
-              << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " "
-              << idOf(estimate) << " " << idOf(solver);
+              << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " " << idOf(estimate) << " "
+              << idOf(solver);
         }
       }
     }
@@ -123,9 +119,7 @@ TEST(Allocation, VariableOrderAllocatesNothingAfterTheFirstStep) {
   o.step.control = StepControl::kPredictive;
   o.newton.kind = NewtonKind::kBroyden;
   const auto methods = makeMethods<double>("radau_iia_2", 13, 5);
-  EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), methods, o,
-                          5.0),
-            0);
+  EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), methods, o, 5.0), 0);
   for (const Storage storage : {Storage::kDense, Storage::kSparse}) {
     const Scene<double> scene = makeScene<double>("ancf_pendulum", {{"elements", "14"}});
     o.storage = storage;

@@ -8,9 +8,7 @@ namespace {
 
 /// x' = 1 - 2 sigma with sigma = [x > 0]: once x reaches 0 it can only slide, for which there is no mode.
 struct Sliding {
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = 1.0 - 2.0 * p.d[0] - p.k[0];
@@ -32,8 +30,7 @@ TEST(Chattering, IsNamed) {
   State<double> start(problem.sizes());
   start.x[0] = -0.5;
   for (const double tol : {1e-3, 1e-9}) {
-    EXPECT_EQ(run(problem, start, 1, Discontinuity::kLocate, adaptive(tol)).solution.outcome,
-              Outcome::kChattering)
+    EXPECT_EQ(run(problem, start, 1, Discontinuity::kLocate, adaptive(tol)).solution.outcome, Outcome::kChattering)
         << tol;
   }
   const Result located = run(problem, start, 1, Discontinuity::kLocate, adaptive(1e-6));
@@ -55,9 +52,7 @@ TEST(Chattering, IsNamed) {
 
 /// A relay that changes sides at every whole multiple of 1/1000.
 struct Ticker {
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = p.d[0] - p.k[0];
@@ -115,8 +110,7 @@ TEST(Chattering, NoValidModeEndsTheRun) {
 }
 
 TEST(Smooth, RefusedWithoutRegularisation) {
-  EXPECT_THROW(makeSystem<double>(Sliding{}, {Formulation::kIndex2, ConstraintScaling::kOn,
-                                              Discontinuity::kSmooth}),
+  EXPECT_THROW(makeSystem<double>(Sliding{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kSmooth}),
                Misuse);
 }
 

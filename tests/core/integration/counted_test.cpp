@@ -40,8 +40,7 @@ TEST(PapersNewton, FollowsItsRules) {
     o.newton.max_iterations = most;
     o.predictor = Predictor::kAcceleration;
     o.jacobian_point = JacobianPoint::kStart;
-    const auto solution =
-        integrate<double>(Faster{}, start, 0.2, makeTableau<double>("gauss_1"), o);
+    const auto solution = integrate<double>(Faster{}, start, 0.2, makeTableau<double>("gauss_1"), o);
     EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
     return solution.counters;
   };
@@ -69,8 +68,7 @@ TEST(Counted, IterationsOfStepsAreThoseOfTheRun) {
     IntegratorOptions o = fixedSteps(0.1);
     o.newton.kind = kind;
     o.predictor = Predictor::kAcceleration;
-    Integrator<double> integrator(makeSystem<double>(Faster{2.5}), makeTableau<double>("gauss_1"),
-                                  o);
+    Integrator<double> integrator(makeSystem<double>(Faster{2.5}), makeTableau<double>("gauss_1"), o);
     std::int64_t sum = 0;
     Monitor<double> monitor;
     monitor.accepted = [&](const StepRecord<double>& s) { sum += s.newton_iterations; };
@@ -98,8 +96,7 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   ErrorNorm<double> mixed(*system, {0.01, 0.1, NormKind::kMixed}, scale);
   mixed.update(y);
   // z is multiplied by h^2; v is integrated, but has index 2 all the same.
-  const double e[] = {1 / (0.1 + 0.1), 2 / (0.2 + 0.2), 3 / (0.3 + 0.3), 4 / (0.4 + 0.4),
-                      1.25 / (0.5 + 0.5)};
+  const double e[] = {1 / (0.1 + 0.1), 2 / (0.2 + 0.2), 3 / (0.3 + 0.3), 4 / (0.4 + 0.4), 1.25 / (0.5 + 0.5)};
   double sum = 0;
   for (const double one : e) sum += one * one;
   EXPECT_NEAR(mixed.difference(p, q, h, ones), std::sqrt(sum / 5), 1e-13);
@@ -109,8 +106,7 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   EXPECT_NEAR(mixed.difference(p, q, h, factor), std::sqrt(2.5 * 2.5 / 5), 1e-13);
   ErrorNorm<double> absolute(*system, {0.01, 0.1, NormKind::kAbsolute}, scale);
   absolute.update(y);
-  EXPECT_NEAR(absolute.difference(p, q, h, ones),
-              std::sqrt(1 + 4 + 9 + 16 + 1.25 * 1.25) / 0.1, 1e-12);
+  EXPECT_NEAR(absolute.difference(p, q, h, ones), std::sqrt(1 + 4 + 9 + 16 + 1.25 * 1.25) / 0.1, 1e-12);
 }
 
 TEST(ErrorNorms, WeighEveryComponentByItself) {
@@ -134,8 +130,7 @@ TEST(ErrorNorms, WeighEveryComponentByItself) {
 TEST(RichardsonFactors, AreOfTheComponentsOrders) {
   const auto orders = [](const char* method, Formulation formulation, ErrorEstimate estimate) {
     const auto system = makeSystem<double>(CartesianPendulum{}, {formulation});
-    const Vec<double> factor =
-        doublingFactors(Scheme<double>(makeTableau<double>(method)), *system, estimate);
+    const Vec<double> factor = doublingFactors(Scheme<double>(makeTableau<double>(method)), *system, estimate);
     std::vector<double> found;
     for (const double f : factor) found.push_back(std::round(1e6 * std::log2(1 / f + 1)) / 1e6);
     return found;
@@ -174,8 +169,7 @@ TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
     const char* method;
     int implicit;
   };
-  for (const auto& [method, s] :
-       {Case{"radau_iia_3", 3}, Case{"gauss_2", 2}, Case{"lobatto_iiia_4", 3}}) {
+  for (const auto& [method, s] : {Case{"radau_iia_3", 3}, Case{"gauss_2", 2}, Case{"lobatto_iiia_4", 3}}) {
     for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kModified, NewtonKind::kFull}) {
       const Counters few = counters(kind, method, 8), many = counters(kind, method, 24);
       const auto iterations = many.newton_iterations - few.newton_iterations;
@@ -197,8 +191,7 @@ TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
 TEST(Counted, DoublingSolvesThreeTimes) {
   State<double> start(Decay{}.sizes());
   start.x[0] = 1;
-  for (const auto estimate :
-       {ErrorEstimate::kDoubling, ErrorEstimate::kRichardson, ErrorEstimate::kDoublingScalar}) {
+  for (const auto estimate : {ErrorEstimate::kDoubling, ErrorEstimate::kRichardson, ErrorEstimate::kDoublingScalar}) {
     IntegratorOptions o = adaptive(1e-2);
     o.step.estimate = estimate;
     o.step.control = StepControl::kPaper;

@@ -14,9 +14,7 @@ namespace {
 struct Bounce {
   double k = 400;
   double ground = 0;  ///< what the switching function returns instead, to damage it
-  Sizes sizes() const {
-    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.u[0] = -2.0 - k * (p.d[0] * p.u[0]) - p.a[0];
@@ -53,8 +51,7 @@ double contactTime(double k) {
 TEST(Locate, FindsSwitchesToRoundOff) {
   const Bounce problem;
   for (const char* method : {"radau_iia_3", "radau_iia_7", "gauss_4", "lobatto_iiia_4"}) {
-    const Result r =
-        run(problem, height(problem, 1), 3, Discontinuity::kLocate, adaptive(1e-10), method);
+    const Result r = run(problem, height(problem, 1), 3, Discontinuity::kLocate, adaptive(1e-10), method);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << method << r.solution.detail;
     ASSERT_EQ(r.events.size(), 2u) << method;
     EXPECT_NEAR(r.events[0].t, 1, 1e-11) << method;
@@ -130,9 +127,7 @@ TEST(Locate, SwitchAtTheStartHappensThere) {
 struct Pulse {
   double width;
   double on = 0.5;
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = p.d[0] - p.k[0];
@@ -187,8 +182,7 @@ TEST(Locate, TwoSwitchesInOneStep) {
 TEST(SwitchingFunction, NotFiniteIsReported) {
   Bounce problem;
   problem.ground = std::numeric_limits<double>::quiet_NaN();
-  for (const Discontinuity mode :
-       {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
+  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
     const Result r = run(problem, height(problem, 1), 3, mode, adaptive(1e-6));
     EXPECT_EQ(r.solution.outcome, Outcome::kNotFinite) << idOf(mode);
     EXPECT_NE(r.solution.detail.find("'contact'"), std::string::npos) << r.solution.detail;

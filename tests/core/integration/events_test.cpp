@@ -15,9 +15,7 @@ namespace {
 /// it is), and 4 or 5 after both, so the result shows which event came first.
 struct Clocks {
   double at[2];
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 3, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 3, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     const bool one = p.d[0] > T(0.5), two = p.d[1] > T(0.5), first = p.d[2] < T(0.5);
@@ -42,17 +40,15 @@ struct Clocks {
 };
 
 TEST(Events, TheEarlierOfTwoInOneStepComesFirst) {
-  const std::pair<double, double> times[] = {{0.3, 0.7},   {0.51, 0.53},      {0.11, 0.112},
-                                             {0.01, 0.99}, {0.4, 0.4 + 1e-6}, {0.9, 0.9001},
-                                             {0.25, 0.26}};
+  const std::pair<double, double> times[] = {{0.3, 0.7},        {0.51, 0.53},  {0.11, 0.112}, {0.01, 0.99},
+                                             {0.4, 0.4 + 1e-6}, {0.9, 0.9001}, {0.25, 0.26}};
   for (const auto& [low, high] : times) {
     for (const bool swapped : {false, true}) {
       const Clocks problem{{swapped ? high : low, swapped ? low : high}};
       for (const bool fixed : {false, true}) {
         IntegratorOptions options = fixed ? fixedSteps(1) : located(1e-8);
         options.step.h = 1;  // both lie in the first step
-        const Result r =
-            run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
+        const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
         ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << low << r.solution.detail;
         ASSERT_EQ(r.events.size(), 2u) << low << " " << high;
         EXPECT_EQ(r.events[0].index, swapped ? 1 : 0) << low << " " << high;
@@ -68,8 +64,7 @@ TEST(Events, TheEarlierOfTwoInOneStepComesFirst) {
 
 TEST(Events, BothAtTheSameTimeBothHappen) {
   const Clocks problem{{0.5, 0.5}};
-  const Result r =
-      run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, located(1e-8));
+  const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, located(1e-8));
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_EQ(r.events.size(), 2u);
   EXPECT_NEAR(r.solution.state.x[0], problem.end(1), 1e-8);
@@ -78,9 +73,7 @@ TEST(Events, BothAtTheSameTimeBothHappen) {
 /// Due once, when sin(w t + phase) > 0; the first step contains two upward crossings.
 struct Wave {
   double w, phase;
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = 1.0 + p.d[0] - p.k[0];
@@ -102,8 +95,7 @@ TEST(Events, TheFirstOfTwoCrossingsOfOneFunction) {
     const Wave problem{4 * pi, -4 * pi * first};  // up at `first` and at first + 0.5
     IntegratorOptions options = located(1e-8);
     options.step.h = 1;
-    const Result r =
-        run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
+    const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
     // Due at once if it starts above 0.
     const double at = std::sin(-4 * pi * first) > 0 ? 0 : first;
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
@@ -115,9 +107,7 @@ TEST(Events, TheFirstOfTwoCrossingsOfOneFunction) {
 
 /// A point mass on a floor that returns half of the speed: v jumps; the flight between is smooth.
 struct Ball {
-  Sizes sizes() const {
-    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.u[0] = -2.0 - p.a[0];
@@ -155,9 +145,7 @@ TEST(Events, AJumpHappensAtItsEvent) {
 
 /// x' = 1, and 5 from t = 0.55 on.
 struct Kink {
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = 1.0 + 4.0 * p.d[0] - p.k[0];
@@ -176,8 +164,8 @@ struct Kink {
 // b_1 4 = 0.03.
 TEST(Events, WhatFollowsStartsWithConsistentRates) {
   const Kink problem;
-  const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate,
-                       fixedSteps(0.1), "lobatto_iiia_3");
+  const Result r =
+      run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, fixedSteps(0.1), "lobatto_iiia_3");
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_EQ(r.events.size(), 1u);
   EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-9);
@@ -187,13 +175,11 @@ TEST(Events, WhatFollowsStartsWithConsistentRates) {
 // unless values from before the event are extrapolated.
 TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
   const Kink problem;
-  for (const auto predictor :
-       {Predictor::kExtrapolated, Predictor::kPrevious, Predictor::kAcceleration}) {
+  for (const auto predictor : {Predictor::kExtrapolated, Predictor::kPrevious, Predictor::kAcceleration}) {
     IntegratorOptions options = located(1e-6);
     options.predictor = predictor;
     options.step.h = 0.2;
-    const Result r =
-        run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
+    const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
     EXPECT_EQ(r.solution.counters.newton_iterations, r.solution.counters.solves);
     const auto attempts = r.solution.counters.newton_iterations / 3;  // of Richardson: h, h/2, h/2
@@ -207,9 +193,7 @@ TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
 /// On for t in (0.5, 0.5 + width): due inside a step, but at neither end.
 struct Blink {
   double width;
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = p.d[0] - p.k[0];
@@ -232,8 +216,7 @@ TEST(Iterate, SeesAModeThatComesAndGoes) {
     const Blink problem{width};
     IntegratorOptions options = located(1e-6);
     options.step.h = 1;
-    const Result r =
-        run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
+    const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
     EXPECT_NEAR(r.solution.state.x[0], width, 1e-4);
   }
@@ -245,8 +228,7 @@ TEST(Iterate, ComesCloseToASwitchInFewSteps) {
   const Kink problem;
   IntegratorOptions options = located(1e-6);
   options.step.h = 1;
-  const Result r =
-      run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
+  const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   EXPECT_LE(r.solution.counters.steps_rejected_error, 6);
   EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-4);

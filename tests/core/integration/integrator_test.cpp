@@ -23,9 +23,7 @@ TEST(Integrator, TwoStageLobattoIiiaIsNewmark) {
   start.u[0] = 0.7;
   start.v[0] = -0.3;
   const double h = 0.1;
-  const auto force = [](double t, double u, double v) {
-    return (std::cos(t) - u - u * u * u - 0.2 * v) / 2;
-  };
+  const auto force = [](double t, double u, double v) { return (std::cos(t) - u - u * u * u - 0.2 * v) / 2; };
   double t = 0, u = 0.7, v = -0.3, a = force(t, u, v);
   for (int step = 0; step < 20; ++step) {
     double a1 = a;
@@ -37,8 +35,7 @@ TEST(Integrator, TwoStageLobattoIiiaIsNewmark) {
     a = a1;
     t += h;
   }
-  const auto s = integrate<double>(Duffing{}, start, 2, makeTableau<double>("lobatto_iiia_2"),
-                                   fixedSteps(h));
+  const auto s = integrate<double>(Duffing{}, start, 2, makeTableau<double>("lobatto_iiia_2"), fixedSteps(h));
   ASSERT_EQ(s.outcome, Outcome::kSuccess);
   EXPECT_NEAR(s.state.u[0], u, 50 * 2.2e-16);
   EXPECT_NEAR(s.state.v[0], v, 50 * 2.2e-16);
@@ -50,8 +47,7 @@ TEST(Integrator, ToleranceIsReachedByEveryNewton) {
     IntegratorOptions o = adaptive(1e-9);
     o.newton.kind = newton.value;
     o.solver = StageSolverKind::kCoupledDense;
-    const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 2,
-                                     makeTableau<double>("radau_iia_3"), o);
+    const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 2, makeTableau<double>("radau_iia_3"), o);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << newton.id << s.detail;
     EXPECT_LT(std::abs(s.state.x[0] - 1.5 - std::sin(2.0)), 1e-8) << newton.id;
     EXPECT_GT(s.counters.steps_accepted, 3) << newton.id;
@@ -59,8 +55,7 @@ TEST(Integrator, ToleranceIsReachedByEveryNewton) {
 }
 
 TEST(Integrator, MultiprecisionGoesBelowDouble) {
-  const auto s = integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 2, makeTableau<mp50>("gauss_12"),
-                                 fixedSteps(0.05));
+  const auto s = integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 2, makeTableau<mp50>("gauss_12"), fixedSteps(0.05));
   ASSERT_EQ(s.outcome, Outcome::kSuccess);
   const mp50 exact = mp50(1.5) + sin(mp50(2));
   EXPECT_LT(std::abs(static_cast<double>(mp50(s.state.x[0] - exact))), 1e-35);
@@ -96,8 +91,7 @@ TEST(Integrator, FixedStepsEndAtTheEnd) {
   State<double> start(Linear{}.sizes());
   start.x[0] = 1;
   for (const double h : {0.1, 0.3, 2.0}) {
-    const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("gauss_8"),
-                                     fixedSteps(h));
+    const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("gauss_8"), fixedSteps(h));
     EXPECT_EQ(s.outcome, Outcome::kSuccess);
     EXPECT_EQ(s.state.t, 1.0);
     EXPECT_NEAR(s.state.x[0], std::exp(-1.0), 1e-14);
@@ -108,8 +102,7 @@ TEST(Integrator, FixedStepsEndAtTheEnd) {
 TEST(Integrator, ARunStopsWhereItsCallerSays) {
   State<double> start(Linear{}.sizes());
   start.x[0] = 1;
-  Integrator<double> integrator(makeSystem<double>(Linear{}), makeTableau<double>("gauss_1"),
-                                fixedSteps(0.1));
+  Integrator<double> integrator(makeSystem<double>(Linear{}), makeTableau<double>("gauss_1"), fixedSteps(0.1));
   int steps = 0;
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>&) { ++steps; };
@@ -132,12 +125,10 @@ struct NotFinite {
 
 TEST(Integrator, NotANumberIsNamed) {
   const State<double> start(NotFinite{-1}.sizes());
-  const auto at_once = integrate<double>(NotFinite{-1}, start, 1,
-                                         makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  const auto at_once = integrate<double>(NotFinite{-1}, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(at_once.outcome, Outcome::kNotFinite);
   EXPECT_NE(at_once.detail.find("row 0"), std::string::npos) << at_once.detail;
-  const auto later = integrate<double>(NotFinite{0.5}, start, 1,
-                                       makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  const auto later = integrate<double>(NotFinite{0.5}, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(later.outcome, Outcome::kNotFinite) << later.detail;
   EXPECT_NEAR(later.state.t, 0.5, 1e-3);
 }
@@ -145,14 +136,12 @@ TEST(Integrator, NotANumberIsNamed) {
 TEST(Integrator, AnInconsistentStartIsNamed) {
   State<double> off = pendulumStart<double>();
   off.u[0] = 1.01;
-  auto s = integrate<double>(CartesianPendulum{}, off, 1, makeTableau<double>("radau_iia_2"),
-                             adaptive(1e-6));
+  auto s = integrate<double>(CartesianPendulum{}, off, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kInconsistentStart);
   EXPECT_NE(s.detail.find("constraint g = 0.01"), std::string::npos) << s.detail;
   State<double> moving = pendulumStart<double>();
   moving.v[0] = 0.1;
-  s = integrate<double>(CartesianPendulum{}, moving, 1, makeTableau<double>("radau_iia_2"),
-                        adaptive(1e-6));
+  s = integrate<double>(CartesianPendulum{}, moving, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kInconsistentStart);
   EXPECT_NE(s.detail.find("dg/dt = 0.1"), std::string::npos) << s.detail;
 }
@@ -160,8 +149,8 @@ TEST(Integrator, AnInconsistentStartIsNamed) {
 TEST(Integrator, TheStartGetsItsAccelerationsAndMultiplier) {
   State<double> start = pendulumStart<double>();
   start.v[1] = -2;  // lambda = |v|^2 - g y = 4, a = (-4, -9.81)
-  const auto s = integrate<double>(CartesianPendulum{}, start, 0,
-                                   makeTableau<double>("lobatto_iiia_3"), adaptive(1e-6));
+  const auto s =
+      integrate<double>(CartesianPendulum{}, start, 0, makeTableau<double>("lobatto_iiia_3"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kSuccess);
   EXPECT_NEAR(s.state.z()[0], 4, 1e-13);
   EXPECT_NEAR(s.state.a()[0], -4, 1e-13);

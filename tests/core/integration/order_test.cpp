@@ -1,6 +1,6 @@
 // Observed orders with two-sided bounds, on problems that damaged tableaus fail.
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "irk/multiprecision.h"
 #include "tests/core/support.h"
@@ -52,7 +52,7 @@ TEST(Order, DamagedTableausLoseTheirOrder) {
   Mat<mp50> P = Mat<mp50>::Identity(3, 3);
   const Vec<mp50> along = (Vec<mp50>(3) << mp50(1), mp50(-1), mp50(0)).finished();
   Vec<mp50> left = (Vec<mp50>(3) << good.b[1], -good.b[0], mp50(0)).finished();  // b^T left = 0
-  P += mp50(1e-2) * left * along.transpose();  // along^T 1 = 0
+  P += mp50(1e-2) * left * along.transpose();                                    // along^T 1 = 0
   similar.A = P.fullPivLu().solve(Mat<mp50>(good.A * P));
   for (const auto& damaged : {node, swapped, transposed, shifted, similar}) {
     EXPECT_LT(riccatiOrder(damaged, {40, 80}), 4.5);
@@ -71,9 +71,7 @@ PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<mp50>&
     const auto run = integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5,
                                      makeTableau<mp50>("radau_iia_" + std::to_string(s)), options);
     EXPECT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
-    const auto distance = [](const auto& a, const auto& b) {
-      return static_cast<double>(mp50((a - b).norm()));
-    };
+    const auto distance = [](const auto& a, const auto& b) { return static_cast<double>(mp50((a - b).norm())); };
     q.push_back(distance(run.state.u, exact.u));
     v.push_back(distance(run.state.v, exact.v));
     lambda.push_back(distance(run.state.z(), exact.z()));
@@ -86,8 +84,8 @@ PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<mp50>&
 TEST(Order, RadauIiaOnTheIndexTwoPendulum) {
   auto options = fixedSteps(0.5 / 12);
   options.multipliers = Multipliers::kConsistent;
-  const auto reference = integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5,
-                                         makeTableau<mp50>("radau_iia_12"), options);
+  const auto reference =
+      integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5, makeTableau<mp50>("radau_iia_12"), options);
   ASSERT_EQ(reference.outcome, Outcome::kSuccess);
   for (int s = 1; s <= 4; ++s) {
     for (const auto multipliers : {Multipliers::kStages, Multipliers::kConsistent}) {
@@ -116,8 +114,7 @@ TEST(Order, UnknownsThatDoNotFollowAtTheEndStayThoseOfTheStages) {
   const auto end = [&](Multipliers multipliers) {
     auto options = fixedSteps(0.1);
     options.multipliers = multipliers;
-    const auto run =
-        integrate<double>(PrescribedPath{}, start, 1, makeTableau<double>("radau_iia_3"), options);
+    const auto run = integrate<double>(PrescribedPath{}, start, 1, makeTableau<double>("radau_iia_3"), options);
     EXPECT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
     return run;
   };

@@ -12,9 +12,7 @@ namespace {
 
 /// x' = -rate (x - 1), with a rate a million times larger from t = 0.5 on.
 struct Stiffening {
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;
@@ -61,9 +59,7 @@ struct Step {
 /// A driven oscillator whose spring stiffness changes at t = 0.5.
 struct Spring {
   double factor;
-  Sizes sizes() const {
-    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::sin;
@@ -86,11 +82,9 @@ struct SpringRun {
   int attempts = 0, attempts_at_event = 0, attempts_of_first = 0;  // the first step after the event
 };
 
-SpringRun springRun(const Spring& problem, const State<double>& start,
-                    const IntegratorOptions& options) {
+SpringRun springRun(const Spring& problem, const State<double>& start, const IntegratorOptions& options) {
   Integrator<double> integrator(
-      makeSystem<double>(problem,
-                         {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
+      makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
       makeTableau<double>("radau_iia_3"), options);
   SpringRun run;
   Monitor<double> monitor;
@@ -125,8 +119,8 @@ TEST(Events, ARestartIsANewStart) {
         State<double> start(problem.sizes());
         start.u[0] = 0.7;
         const SpringRun whole = springRun(problem, start, options);
-        const auto after = std::find_if(whole.steps.begin(), whole.steps.end(),
-                                        [](const Step& s) { return s.t > 0.5 + 1e-6; });
+        const auto after =
+            std::find_if(whole.steps.begin(), whole.steps.end(), [](const Step& s) { return s.t > 0.5 + 1e-6; });
         ASSERT_NE(after, whole.steps.end());
         if (whole.attempts_of_first != 1) continue;  // rejected: the fresh run cannot know this
         ++compared;
@@ -167,9 +161,7 @@ TEST(Events, StepsAddUp) {
 /// A nonlinear pendulum; its switch is due once, below a level.
 struct Passing {
   double level;
-  Sizes sizes() const {
-    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1};
-  }
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::sin;
@@ -217,9 +209,7 @@ TEST(Events, AreFoundInFewAttempts) {
 struct Race {
   double level, at;
   bool swapped;
-  Sizes sizes() const {
-    return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = p.x[0] - p.k[0];
@@ -251,10 +241,8 @@ TEST(Events, OfARaceAreOrderedBySolvedSteps) {
             ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
             ASSERT_EQ(r.events.size(), 2u);
             // The switch of the clock is located to round-off, regardless of the error of the steps.
-            const auto clock =
-                static_cast<std::size_t>(r.events[0].index == (swapped ? 0 : 1) ? 0 : 1);
-            EXPECT_NEAR(r.events[clock].t, problem.at, 1e-7)
-                << tol << " " << lag << " " << crossing;
+            const auto clock = static_cast<std::size_t>(r.events[0].index == (swapped ? 0 : 1) ? 0 : 1);
+            EXPECT_NEAR(r.events[clock].t, problem.at, 1e-7) << tol << " " << lag << " " << crossing;
             if (std::abs(lag) < 200 * tol) continue;
             const bool by_level = (lag > 0) != swapped;
             EXPECT_EQ(r.events[0].index, by_level ? 0 : 1) << tol << " " << lag << " " << crossing;

@@ -47,8 +47,7 @@ TEST(Steps, AreNotBelowTheSmallestButAFailure) {
   o.step.h_min = 0.9 * least;
   EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome, Outcome::kSuccess);
   o.step.h_min = 0.3;
-  EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome,
-            Outcome::kStepTooSmall);
+  EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome, Outcome::kStepTooSmall);
 }
 
 TEST(Steps, OfVariableOrderAreNeverAboveTheLargest) {
@@ -58,8 +57,7 @@ TEST(Steps, OfVariableOrderAreNeverAboveTheLargest) {
   o.order = OrderControl::kVariable;
   for (const double largest : {0.3, 0.1, 0.05}) {
     o.step.h_max = largest;
-    Integrator<double> integrator(makeSystem<double>(Riccati{}),
-                                  makeMethods<double>("radau_iia_3", 13, 5), o);
+    Integrator<double> integrator(makeSystem<double>(Riccati{}), makeMethods<double>("radau_iia_3", 13, 5), o);
     double most = 0;
     Monitor<double> monitor;
     monitor.accepted = [&](const StepRecord<double>& s) { most = std::max(most, s.h); };

@@ -50,23 +50,20 @@ TEST(Success, JumpsOfTheStateAreLocatedOrRefused) {
 // In index 3, Gauss methods with an even number of stages have order s - 2 for velocities and do not determine
 // multipliers.
 TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
-  for (const char* method : {"gauss_2", "gauss_3", "gauss_4", "gauss_5", "radau_iia_3", "radau_iia_5",
-                             "lobatto_iiic_4", "radau_ia_4"}) {
+  for (const char* method :
+       {"gauss_2", "gauss_3", "gauss_4", "gauss_5", "radau_iia_3", "radau_iia_5", "lobatto_iiic_4", "radau_ia_4"}) {
     for (const double tol : {1e-4, 1e-6, 1e-8}) {
-      const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
-                                       makeTableau<double>(method), adaptive(tol),
-                                       Formulation::kIndex3);
+      const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1, makeTableau<double>(method),
+                                       adaptive(tol), Formulation::kIndex3);
       if (s.outcome != Outcome::kSuccess) continue;
-      const auto exact =
-          integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
-                            makeTableau<double>("radau_iia_7"), adaptive(1e-12));
+      const auto exact = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
+                                           makeTableau<double>("radau_iia_7"), adaptive(1e-12));
       EXPECT_LT((s.state.u - exact.state.u).norm(), 1e3 * tol) << method << " " << tol;
       EXPECT_LT((s.state.v - exact.state.v).norm(), 1e3 * tol) << method << " " << tol;
     }
   }
   const auto radau = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
-                                       makeTableau<double>("radau_iia_5"), adaptive(1e-6),
-                                       Formulation::kIndex3);
+                                       makeTableau<double>("radau_iia_5"), adaptive(1e-6), Formulation::kIndex3);
   EXPECT_EQ(radau.outcome, Outcome::kSuccess) << radau.detail;
 }
 
@@ -74,8 +71,8 @@ TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
 // off.
 TEST(Success, MultipliersFollowFromTheState) {
   for (const char* method : {"gauss_5", "gauss_7", "radau_iia_3", "lobatto_iiid_4"}) {
-    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
-                                     makeTableau<double>(method), adaptive(1e-6));
+    const auto s =
+        integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1, makeTableau<double>(method), adaptive(1e-6));
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << method << s.detail;
     // u u'' + v^2 = 0 with u'' = -lambda u - g e_y, |u| = 1: lambda = v^2 - g y.
     const auto& u = s.state.u;
@@ -88,8 +85,8 @@ TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
   // Index 1 differentiates the constraint twice; over many revolutions at a loose tolerance the mass moves kilometres
   // away from its circle.
   for (const char* method : {"radau_iia_2", "gauss_2"}) {
-    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1000,
-                                     makeTableau<double>(method), embedded(1e-2), Formulation::kIndex1);
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1000, makeTableau<double>(method),
+                                     embedded(1e-2), Formulation::kIndex1);
     ASSERT_EQ(s.outcome, Outcome::kDrift) << method << s.detail;
     EXPECT_GT(s.state.u.norm(), 2) << method << ": this motion does not drift, the test tests nothing";
     EXPECT_NE(s.detail.find("constraint"), std::string::npos) << s.detail;
@@ -98,8 +95,8 @@ TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
 }
 
 TEST(Success, NoDriftWhereTheToleranceIsKept) {
-  for (const Formulation f : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3,
-                              Formulation::kGgl, Formulation::kIndex2Projected}) {
+  for (const Formulation f : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl,
+                              Formulation::kIndex2Projected}) {
     const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 3,
                                      makeTableau<double>("radau_iia_4"), adaptive(1e-7), f);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << idOf(f) << ": " << s.detail;
@@ -133,8 +130,7 @@ TEST(Success, SingularMatricesInFrontOfRatesAreSolved) {
   start.w << 0, 0, -3.0 / (2e-6 * 9000), 0, 0;
   Vec<double> reference;
   for (const double tol : {1e-10, 1e-8, 1e-6, 1e-4}) {
-    const auto s = integrate<double>(Transistor{}, start, 0.05, makeTableau<double>("radau_iia_5"),
-                                     adaptive(tol));
+    const auto s = integrate<double>(Transistor{}, start, 0.05, makeTableau<double>("radau_iia_5"), adaptive(tol));
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << tol << ": " << s.detail;
     EXPECT_LT(s.counters.steps_rejected_newton, s.counters.steps_accepted) << tol;
     if (reference.size() == 0) reference = s.state.x;

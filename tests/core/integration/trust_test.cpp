@@ -47,8 +47,7 @@ TEST(Success, FastMotionThatStartsAtASwitchIsFollowed) {
           const Result r = run(ball, ball.start(), 3, Discontinuity::kLocate, options, method);
           ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
           EXPECT_EQ(r.events.size(), 2u) << method << " k " << k << " tol " << tol;
-          EXPECT_NEAR(r.solution.state.u[0], ball.heightAt(3), 300 * tol)
-              << method << " k " << k << " tol " << tol;
+          EXPECT_NEAR(r.solution.state.u[0], ball.heightAt(3), 300 * tol) << method << " k " << k << " tol " << tol;
         }
       }
     }

@@ -216,8 +216,7 @@ TEST(InterleavedLu, RefusesDifferentPivotsAndFollowsTheirChanges) {
   ASSERT_TRUE(together.assign(both, {}));
   Mat<double> Y = Mat<double>::Random(2, 2);
   const Mat<double> b = Y;
-  const std::vector<InterleavedLu::Lane> lanes{{Y.col(0).data(), nullptr, 1, 1},
-                                               {Y.col(1).data(), nullptr, 1, 1}};
+  const std::vector<InterleavedLu::Lane> lanes{{Y.col(0).data(), nullptr, 1, 1}, {Y.col(1).data(), nullptr, 1, 1}};
   together.solve(lanes);
   EXPECT_LT((swapped * Y - b).norm(), 1e-14);
 }

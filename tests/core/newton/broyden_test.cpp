@@ -78,8 +78,8 @@ TEST(Broyden, SavesIterationsWhereTheMatrixIsOld) {
     IntegratorOptions o = fixedSteps(0.05);
     o.newton.kind = newton;
     o.newton.keep_jacobian_below = 0.9;  // one Jacobian as long as it contracts
-    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 2,
-                                     makeTableau<double>("radau_iia_3"), o);
+    const auto s =
+        integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 2, makeTableau<double>("radau_iia_3"), o);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     return s;
   };

@@ -149,8 +149,8 @@ TEST(JacobianTermsOption, LeaveOutWhatTheySay) {
   const double m = 1 + 0.3 * 0.6 + 0.2 * 0.4 + 0.7 * 0.5 + 0.05 * 1.5, a = 2;
   for (const auto source : {DerivativeSource::kAutomatic, DerivativeSource::kCentral}) {
     const double tolerance = source == DerivativeSource::kAutomatic ? 1e-13 : 1e-8;
-    for (const auto terms : {JacobianTerms::kFull, JacobianTerms::kNoMassVxz,
-                             JacobianTerms::kNoMass, JacobianTerms::kConstantStiffness}) {
+    for (const auto terms :
+         {JacobianTerms::kFull, JacobianTerms::kNoMassVxz, JacobianTerms::kNoMass, JacobianTerms::kConstantStiffness}) {
       double later = 0;
       const auto D = termsOf(terms, source, &later);
       const bool vxz = terms == JacobianTerms::kNoMassVxz || terms == JacobianTerms::kNoMass;
@@ -189,8 +189,7 @@ TEST(JacobianTermsOption, NoConstraintXzDropsTheAlgebraicRows) {
   s.x << 0.5;
   const auto of = [&](JacobianTerms terms) {
     Linearization<double> D(Pattern::dense(3));
-    Differentiator<double>(*system, DerivativeSource::kAutomatic, terms)
-        .evaluate(Level::kFormulated, pointOf(s), D);
+    Differentiator<double>(*system, DerivativeSource::kAutomatic, terms).evaluate(Level::kFormulated, pointOf(s), D);
     return D;
   };
   const auto full = of(JacobianTerms::kFull), dropped = of(JacobianTerms::kNoConstraintXz);

@@ -1,6 +1,6 @@
 // All stage solvers agree with the simplest one.
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <random>
 
@@ -71,9 +71,9 @@ TEST(StageSolver, SolvesTheMatrixWrittenOut) {
     return Mat<double>(Mat<double>::NullaryExpr(rows, columns, [&] { return normal(generator); }));
   };
   // Sizes below and above the limit up to which blocks are inverted.
-  for (const Sizes& sizes : {Sizes{.nu = 3, .nx = 2, .nz = 1, .constraints = 1},
-                             Sizes{.nu = 4, .nx = 3, .nz = 1, .constraints = 1},
-                             Sizes{.nu = 6, .nx = 4, .nz = 1, .constraints = 1}}) {
+  for (const Sizes& sizes :
+       {Sizes{.nu = 3, .nx = 2, .nz = 1, .constraints = 1}, Sizes{.nu = 4, .nx = 3, .nz = 1, .constraints = 1},
+        Sizes{.nu = 6, .nx = 4, .nz = 1, .constraints = 1}}) {
     const Index n = sizes.n();
     for (const char* method : {"radau_iia_5", "gauss_4", "lobatto_iiic_3", "radau_ia_2"}) {
       const auto tableau = makeTableau<double>(method);
@@ -131,8 +131,7 @@ TEST(StageSolver, SingularAndNotFiniteAreOutcomes) {
 TEST(StageSolver, EigenRefusesADefectiveTableau) {
   const auto tableau = makeTableau<double>("lobatto_iiics_3");
   try {
-    makeStageSolver<double>(StageSolverKind::kEigen,
-                            {tableau.A, Pattern::dense(1), {0}, Sizes{.nu = 0, .nx = 1}});
+    makeStageSolver<double>(StageSolverKind::kEigen, {tableau.A, Pattern::dense(1), {0}, Sizes{.nu = 0, .nx = 1}});
     FAIL() << "accepted";
   } catch (const Misuse& misuse) {
     EXPECT_NE(std::string(misuse.what()).find("defective"), std::string::npos);

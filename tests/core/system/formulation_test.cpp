@@ -53,26 +53,19 @@ struct OrderCase {
 TEST(Formulation, OrdersPerComponent) {
   const auto reference = mechanical("radau_iia_10", 12, Formulation::kIndex2);
   ASSERT_EQ(reference.outcome, Outcome::kSuccess) << reference.detail;
-  const OrderCase cases[] = {{"gauss_2", Formulation::kIndex2, 4, 2, 0},
-                             {"gauss_3", Formulation::kIndex2, 6, 4, 2},
-                             {"gauss_3", Formulation::kGgl, 4, 4, 2},
-                             {"gauss_2", Formulation::kIndex2Projected, 4, 4, kNotStated},
-                             {"radau_ia_2", Formulation::kGgl, 2, 2, 1},
-                             {"radau_ia_2", Formulation::kIndex2Projected, 3, 3, kNotStated},
-                             {"radau_iia_2", Formulation::kGgl, 3, 3, 2},
-                             {"radau_iia_2", Formulation::kIndex3, 3, 2, 1},
-                             {"radau_iia_2", Formulation::kIndex1, 3, 3, 3},
-                             {"lobatto_iiia_3", Formulation::kGgl, 4, 4, 2},
-                             {"lobatto_iiic_3", Formulation::kGgl, 4, 4, 2},
-                             {"lobatto_iiic_3", Formulation::kIndex3, 4, 2, 1}};
+  const OrderCase cases[] = {
+      {"gauss_2", Formulation::kIndex2, 4, 2, 0},     {"gauss_3", Formulation::kIndex2, 6, 4, 2},
+      {"gauss_3", Formulation::kGgl, 4, 4, 2},        {"gauss_2", Formulation::kIndex2Projected, 4, 4, kNotStated},
+      {"radau_ia_2", Formulation::kGgl, 2, 2, 1},     {"radau_ia_2", Formulation::kIndex2Projected, 3, 3, kNotStated},
+      {"radau_iia_2", Formulation::kGgl, 3, 3, 2},    {"radau_iia_2", Formulation::kIndex3, 3, 2, 1},
+      {"radau_iia_2", Formulation::kIndex1, 3, 3, 3}, {"lobatto_iiia_3", Formulation::kGgl, 4, 4, 2},
+      {"lobatto_iiic_3", Formulation::kGgl, 4, 4, 2}, {"lobatto_iiic_3", Formulation::kIndex3, 4, 2, 1}};
   for (const OrderCase& c : cases) {
     std::vector<double> h, q, v, lambda;
     for (const int n : {64, 90, 128}) {
       const auto run = mechanical(c.method, n, c.formulation);
       ASSERT_EQ(run.outcome, Outcome::kSuccess) << c.method << ' ' << run.detail;
-      const auto distance = [](const auto& a, const auto& b) {
-        return static_cast<double>(mp50((a - b).norm()));
-      };
+      const auto distance = [](const auto& a, const auto& b) { return static_cast<double>(mp50((a - b).norm())); };
       h.push_back(1.0 / n);
       q.push_back(distance(run.state.u, reference.state.u));
       v.push_back(distance(run.state.v, reference.state.v));
@@ -94,8 +87,8 @@ double drift(const Solution<double>& s) {
 
 TEST(Formulation, OnlyGglKeepsThePosition) {
   const auto run = [](Formulation formulation) {
-    return integrate<double>(Mechanical{}, mechanicalStart<double>(), 1,
-                             makeTableau<double>("radau_iia_2"), fixedSteps(0.02), formulation);
+    return integrate<double>(Mechanical{}, mechanicalStart<double>(), 1, makeTableau<double>("radau_iia_2"),
+                             fixedSteps(0.02), formulation);
   };
   EXPECT_LT(drift(run(Formulation::kGgl)), 1e-14);
   EXPECT_LT(drift(run(Formulation::kIndex3)), 1e-14);
@@ -104,12 +97,11 @@ TEST(Formulation, OnlyGglKeepsThePosition) {
 }
 
 TEST(Formulation, ProjectionKeepsTheVelocity) {
-  const auto system =
-      makeSystem<double>(Mechanical{}, {.formulation = Formulation::kIndex2Projected});
-  for (const auto& [formulation, most] : {std::pair{Formulation::kIndex2Projected, 1e-14},
-                                          std::pair{Formulation::kIndex2, 1e-1}}) {
-    const auto s = integrate<double>(Mechanical{}, mechanicalStart<double>(), 1,
-                                     makeTableau<double>("gauss_2"), fixedSteps(0.02), formulation);
+  const auto system = makeSystem<double>(Mechanical{}, {.formulation = Formulation::kIndex2Projected});
+  for (const auto& [formulation, most] :
+       {std::pair{Formulation::kIndex2Projected, 1e-14}, std::pair{Formulation::kIndex2, 1e-1}}) {
+    const auto s = integrate<double>(Mechanical{}, mechanicalStart<double>(), 1, makeTableau<double>("gauss_2"),
+                                     fixedSteps(0.02), formulation);
     Vec<double> r(3);
     system->evaluate(Level::kVelocity, pointOf(s.state), VecView<double>(r.data(), 3));
     EXPECT_LT(std::abs(r[2]), most);
@@ -131,15 +123,13 @@ TEST(JacobianTerms, ChangeNothingWithConstantMass) {
   IntegratorOptions options = adaptive(1e-8);
   const auto run = [&](JacobianTerms terms) {
     options.jacobian = terms;
-    auto s = integrate<double>(Mechanical{}, mechanicalStart<double>(), 1,
-                               makeTableau<double>("radau_iia_3"), options);
+    auto s = integrate<double>(Mechanical{}, mechanicalStart<double>(), 1, makeTableau<double>("radau_iia_3"), options);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     s.counters.dual_residuals = 0;
     return s;
   };
   const auto full = run(JacobianTerms::kFull);
-  for (const auto terms : {JacobianTerms::kNoMassVxz, JacobianTerms::kNoMass,
-                           JacobianTerms::kNoConstraintXz}) {
+  for (const auto terms : {JacobianTerms::kNoMassVxz, JacobianTerms::kNoMass, JacobianTerms::kNoConstraintXz}) {
     const auto s = run(terms);
     EXPECT_EQ(counted(s), counted(full)) << idOf(terms);
     EXPECT_EQ(s.state.u, full.state.u) << idOf(terms);
@@ -150,8 +140,7 @@ TEST(JacobianTerms, WithVariableMassCostIterationsNotAccuracy) {
   IntegratorOptions options = adaptive(1e-9);
   const auto run = [&](JacobianTerms terms) {
     options.jacobian = terms;
-    return integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2,
-                             makeTableau<double>("radau_iia_3"), options);
+    return integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2, makeTableau<double>("radau_iia_3"), options);
   };
   const auto full = run(JacobianTerms::kFull);
   for (const auto terms : {JacobianTerms::kNoMass, JacobianTerms::kConstantStiffness}) {
@@ -168,8 +157,7 @@ TEST(JacobianPoint, EachStageConvergesFasterAndNeedsACoupledSolver) {
   const auto iterations = [&](JacobianPoint point) {
     options.jacobian_point = point;
     options.solver = StageSolverKind::kCoupledDense;
-    const auto s =
-        integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2, tableau, options);
+    const auto s = integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2, tableau, options);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     return s.counters.newton_iterations;
   };
@@ -177,21 +165,17 @@ TEST(JacobianPoint, EachStageConvergesFasterAndNeedsACoupledSolver) {
   EXPECT_LT(iterations(JacobianPoint::kPredicted), iterations(JacobianPoint::kStart));
   options.solver = StageSolverKind::kSchur;
   options.jacobian_point = JacobianPoint::kEachStage;
-  EXPECT_THROW(static_cast<void>(integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2,
-                                                   tableau, options)),
+  EXPECT_THROW(static_cast<void>(integrate<double>(Oscillators{}, oscillatorsStart<double>(), 2, tableau, options)),
                Misuse);
 }
 
 TEST(Estimate, EveryDoublingKeepsTheTolerance) {
   const auto tableau = makeTableau<double>("radau_iia_3");
-  const auto exact = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 2, tableau,
-                                       adaptive(1e-13));
-  for (const auto estimate : {ErrorEstimate::kDoubling, ErrorEstimate::kRichardson,
-                              ErrorEstimate::kDoublingScalar}) {
+  const auto exact = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 2, tableau, adaptive(1e-13));
+  for (const auto estimate : {ErrorEstimate::kDoubling, ErrorEstimate::kRichardson, ErrorEstimate::kDoublingScalar}) {
     IntegratorOptions options = adaptive(1e-7);
     options.step.estimate = estimate;
-    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 2, tableau,
-                                     options);
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 2, tableau, options);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << idOf(estimate) << s.detail;
     const double error = (s.state.u - exact.state.u).norm();
     EXPECT_LT(error, 1e-5) << idOf(estimate);

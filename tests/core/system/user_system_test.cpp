@@ -41,18 +41,17 @@ TEST(UserSystem, SizesThatCannotBeAreRefused) {
     Sizes n;
     const char* message;
   };
-  const Case cases[] = {
-      {{}, "at least one unknown"},
-      {{.nu = -1}, "nu = -1"},
-      {{.nu = 1, .nx = -2}, "nx = -2"},
-      {{.nu = 1, .nz = -3}, "nz = -3"},
-      {{.nu = 1, .constraints = -1}, "constraints = -1"},
-      {{.nu = 1, .discrete = -1}, "discrete = -1"},
-      {{.nu = 1, .switches = -1}, "switches = -1"},
-      {{.nu = 1, .nz = 1, .constraints = 2}, "constraints = 2: up to nz = 1"},
-      {{.nu = 1, .nz = 1, .constraints = 1}, "no function constraints"},
-      {{.nu = 1, .discrete = 1, .switches = 1}, "no function switching"},
-      {{.nu = 1, .discrete = 17}, "17 discrete states"}};
+  const Case cases[] = {{{}, "at least one unknown"},
+                        {{.nu = -1}, "nu = -1"},
+                        {{.nu = 1, .nx = -2}, "nx = -2"},
+                        {{.nu = 1, .nz = -3}, "nz = -3"},
+                        {{.nu = 1, .constraints = -1}, "constraints = -1"},
+                        {{.nu = 1, .discrete = -1}, "discrete = -1"},
+                        {{.nu = 1, .switches = -1}, "switches = -1"},
+                        {{.nu = 1, .nz = 1, .constraints = 2}, "constraints = 2: up to nz = 1"},
+                        {{.nu = 1, .nz = 1, .constraints = 1}, "no function constraints"},
+                        {{.nu = 1, .discrete = 1, .switches = 1}, "no function switching"},
+                        {{.nu = 1, .discrete = 17}, "17 discrete states"}};
   for (const auto& [n, message] : cases) {
     for (const auto formulation : {Formulation::kIndex2, Formulation::kGgl, Formulation::kFirstOrder}) {
       const auto text = misuseOf([&, sizes = n] { (void)makeSystem<double>(Sized{sizes}, {formulation}); });
@@ -82,8 +81,8 @@ constexpr Reshaped kReshaped[] = {{"u", [](State<double>& s) { s.u.conservativeR
 
 // In each case memory was once read beyond its end.
 TEST(UserSystem, StartsOfOtherSizesAreRefused) {
-  for (const auto formulation : {Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl, Formulation::kFirstOrder,
-                                 Formulation::kIndex2Projected}) {
+  for (const auto formulation : {Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl,
+                                 Formulation::kFirstOrder, Formulation::kIndex2Projected}) {
     Integrator<double> integrator(makeSystem<double>(CartesianPendulum{}, {formulation}),
                                   makeTableau<double>("radau_iia_3"), adaptive(1e-6));
     for (const auto& [part, reshape] : kReshaped) {
@@ -205,8 +204,9 @@ TEST(UserSystem, GoodSystemsOfEveryScalarAndFormulationPass) {
                                      makeTableau<double>("radau_iia_3"), adaptive(1e-6), formulation.value);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << formulation.id << s.detail;
   }
-  EXPECT_EQ((integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 0.1, makeTableau<mp50>("gauss_3"), fixedSteps(0.1)).outcome),
-            Outcome::kSuccess);
+  EXPECT_EQ(
+      (integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 0.1, makeTableau<mp50>("gauss_3"), fixedSteps(0.1)).outcome),
+      Outcome::kSuccess);
   // A finite number beyond the range of double.
   State<mp50> start(Riccati{}.sizes());
   start.x[0] = mp50("1e400");

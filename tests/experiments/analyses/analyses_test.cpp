@@ -15,7 +15,8 @@
 namespace irk {
 namespace {
 
-constexpr char kBlock[] = "[[block]]\nscene = \"kepler\"\nt_end = 0.5\nmethods = \"gauss_2\"\ntolerances = [1e-3, 1e-4]\n";
+constexpr char kBlock[] =
+    "[[block]]\nscene = \"kepler\"\nt_end = 0.5\nmethods = \"gauss_2\"\ntolerances = [1e-3, 1e-4]\n";
 
 Study parse(const std::string& lines) { return parseStudy(lines + kBlock, "mine.toml", StudyVariant::kFull); }
 
@@ -31,8 +32,10 @@ TEST(Analyses, AreCompleteAndWriteFilesOfTheirOwn) {
     EXPECT_TRUE(keys.insert(std::string(analysis.key)).second) << analysis.key;
     EXPECT_FALSE(analysis.meaning.empty()) << analysis.id;
     EXPECT_NE(analysis.run, nullptr) << analysis.id;
-    for (const auto& file : filesOf(analysis.reads)) EXPECT_TRUE(written.contains(file)) << file << " is written before";
-    for (const auto& file : filesOf(analysis.writes)) EXPECT_TRUE(written.insert(file).second) << file << " by one only";
+    for (const auto& file : filesOf(analysis.reads))
+      EXPECT_TRUE(written.contains(file)) << file << " is written before";
+    for (const auto& file : filesOf(analysis.writes))
+      EXPECT_TRUE(written.insert(file).second) << file << " by one only";
   }
 }
 
@@ -55,7 +58,8 @@ TEST(Analyses, WriteWhatTheySay) {
   std::ostringstream quiet;
   EXPECT_TRUE(writeSummaries(study, runs, folder.path(), quiet).empty());
   std::set<std::string> files, said;
-  for (const auto& file : std::filesystem::directory_iterator(folder.path())) files.insert(file.path().filename().string());
+  for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+    files.insert(file.path().filename().string());
   for (const Analysis* analysis : study.analyses) said.merge(filesOf(analysis->writes));
   EXPECT_EQ(files, said);
 }

@@ -22,8 +22,8 @@ TEST(CostAtError, InterpolatesTheLowerEnvelope) {
 // Every series has a row for every error, with a cause if there is no cost.
 TEST(CostAtError, SaysWhyThereIsNone) {
   Table runs;
-  runs.columns = {"scene", "outcome", "error", "cpu_s", "residuals", "newton_iterations", "jacobians",
-                  "factorizations"};
+  runs.columns = {"scene",     "outcome",           "error",     "cpu_s",
+                  "residuals", "newton_iterations", "jacobians", "factorizations"};
   const auto add = [&](const char* scene, const char* outcome, const char* error) {
     runs.rows.push_back({scene, outcome, error, "1", "1", "1", "1", "1"});
   };

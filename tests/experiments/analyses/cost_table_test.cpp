@@ -15,13 +15,11 @@ namespace {
 
 TEST(CostTable, TakesEachCostFromItsColumnAndSuccessesOnly) {
   Table runs;
-  runs.columns = {"scene",     "method",        "newton",    "outcome",
-                  "error",     "cpu_s",         "residuals", "newton_iterations",
+  runs.columns = {"scene",     "method",        "newton", "outcome", "error", "cpu_s", "residuals", "newton_iterations",
                   "jacobians", "factorizations"};
   const auto add = [&](const char* method, const char* outcome, double error, double cost) {
     TableRow row{"pendulum", method, "full", outcome, fmt::format("{}", error)};
-    for (const double factor : {1.0, 100.0, 10.0, 2.0, 3.0})
-      row.push_back(fmt::format("{}", factor * cost));
+    for (const double factor : {1.0, 100.0, 10.0, 2.0, 3.0}) row.push_back(fmt::format("{}", factor * cost));
     runs.rows.push_back(row);
   };
   add("gauss_2", "success", 1e-2, 1);

@@ -39,8 +39,8 @@ TEST(OrderFit, TellsNeighbouringOrdersApart) {
 
 TEST(OrderFit, LeavesRoundOffOut) {
   // Noise around 1e-12: without a window above it the slope would be near 3.
-  const auto fit = fitOrder(series(
-      3000, [](double h) { return std::pow(h, 5) + 1e-12 * (1 + 0.5 * std::sin(1e4 * h)); }));
+  const auto fit =
+      fitOrder(series(3000, [](double h) { return std::pow(h, 5) + 1e-12 * (1 + 0.5 * std::sin(1e4 * h)); }));
   ASSERT_TRUE(fit.measurable) << fit.reason;
   EXPECT_NEAR(fit.order, 5, 0.05);
   // The window ends above the noise: h^5 = 1e-11.
@@ -59,17 +59,14 @@ TEST(OrderFit, IsNotFooledByAnErrorThatIsAboutToChangeItsSign) {
   // Measured: radau_iia_9 on riccati_tracking in 50 digits. Order 17, slopes of 18.8 over 15
   // decades, and a zero near h = 0.035.
   const std::vector<ErrorPoint> points = {
-      {2.0 / 1, 3.331e-12},   {2.0 / 2, 4.210e-17},   {2.0 / 3, 2.445e-20},
-      {2.0 / 4, 1.059e-22},   {2.0 / 5, 1.551e-24},   {2.0 / 6, 4.977e-26},
-      {2.0 / 7, 2.740e-27},   {2.0 / 8, 2.234e-28},   {2.0 / 9, 2.455e-29},
-      {2.0 / 10, 3.411e-30},  {2.0 / 12, 1.123e-31},  {2.0 / 14, 6.256e-33},
-      {2.0 / 16, 5.114e-34},  {2.0 / 18, 5.593e-35},  {2.0 / 21, 3.058e-36},
-      {2.0 / 24, 2.432e-37},  {2.0 / 28, 1.276e-38},  {2.0 / 32, 9.602e-40},
-      {2.0 / 37, 5.421e-41},  {2.0 / 43, 2.429e-42},  {2.0 / 49, 1.242e-43},
-      {2.0 / 56, 4.410e-46},  {2.0 / 64, 1.033e-45},  {2.0 / 74, 1.711e-46},
-      {2.0 / 85, 2.256e-47},  {2.0 / 98, 2.498e-48},  {2.0 / 113, 2.441e-49},
-      {2.0 / 130, 3.106e-50}, {2.0 / 150, 1.331e-50}, {2.0 / 173, 3.550e-50},
-      {2.0 / 199, 4.881e-50}, {2.0 / 229, 3.106e-50}};
+      {2.0 / 1, 3.331e-12},   {2.0 / 2, 4.210e-17},   {2.0 / 3, 2.445e-20},   {2.0 / 4, 1.059e-22},
+      {2.0 / 5, 1.551e-24},   {2.0 / 6, 4.977e-26},   {2.0 / 7, 2.740e-27},   {2.0 / 8, 2.234e-28},
+      {2.0 / 9, 2.455e-29},   {2.0 / 10, 3.411e-30},  {2.0 / 12, 1.123e-31},  {2.0 / 14, 6.256e-33},
+      {2.0 / 16, 5.114e-34},  {2.0 / 18, 5.593e-35},  {2.0 / 21, 3.058e-36},  {2.0 / 24, 2.432e-37},
+      {2.0 / 28, 1.276e-38},  {2.0 / 32, 9.602e-40},  {2.0 / 37, 5.421e-41},  {2.0 / 43, 2.429e-42},
+      {2.0 / 49, 1.242e-43},  {2.0 / 56, 4.410e-46},  {2.0 / 64, 1.033e-45},  {2.0 / 74, 1.711e-46},
+      {2.0 / 85, 2.256e-47},  {2.0 / 98, 2.498e-48},  {2.0 / 113, 2.441e-49}, {2.0 / 130, 3.106e-50},
+      {2.0 / 150, 1.331e-50}, {2.0 / 173, 3.550e-50}, {2.0 / 199, 4.881e-50}, {2.0 / 229, 3.106e-50}};
   OrderFitOptions options;
   options.epsilon = 1e-50;
   const auto fit = fitOrder(points, options);
@@ -92,8 +89,7 @@ TEST(OrderFit, SaysWhyThereIsNone) {
 
 TEST(OrderFit, ErrorsThatStayOrGrowHaveOrdersToo) {
   for (const double p : {-2.0, -1.0, 0.0}) {
-    const auto fit =
-        fitOrder(series(200, [p](double h) { return 1e-3 * std::pow(h, p) * (1 + 0.5 * h); }));
+    const auto fit = fitOrder(series(200, [p](double h) { return 1e-3 * std::pow(h, p) * (1 + 0.5 * h); }));
     ASSERT_TRUE(fit.measurable) << p << ": " << fit.reason;
     EXPECT_NEAR(fit.order, p, 0.02);
     EXPECT_LT(fit.confidence, 0.02);

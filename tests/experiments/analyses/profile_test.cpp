@@ -15,16 +15,19 @@ namespace {
 TEST(Profile, CountsProblemsWithinARatioOfTheBest) {
   Table costs;
   costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};
-  costs.rows = {{"a", "", "variable", "1e-6", "1", ""},           {"b", "", "variable", "1e-6", "4", ""},
-                {"a", "", "cvode_bdf", "1e-6", "8", ""},          {"a", "", "cvode_bdf", "1e-6", "2", ""},
-                {"b", "", "cvode_bdf", "1e-6", "2", ""},          {"a", "", "paper:radau_iia_5", "1e-6", "nan", "not accurate enough"},
+  costs.rows = {{"a", "", "variable", "1e-6", "1", ""},
+                {"b", "", "variable", "1e-6", "4", ""},
+                {"a", "", "cvode_bdf", "1e-6", "8", ""},
+                {"a", "", "cvode_bdf", "1e-6", "2", ""},
+                {"b", "", "cvode_bdf", "1e-6", "2", ""},
+                {"a", "", "paper:radau_iia_5", "1e-6", "nan", "not accurate enough"},
                 {"b", "", "paper:radau_iia_5", "1e-6", "6", ""}};
   const Table profile = profileTable(costs);
   std::map<std::string, std::vector<std::pair<double, double>>> curves;
   for (const auto& row : profile.rows) {
     if (textAt(profile, row, "target_error") != "all") continue;
     curves[textAt(profile, row, "integrator")].emplace_back(numberAt(profile, row, "ratio"),
-                                                        numberAt(profile, row, "fraction"));
+                                                            numberAt(profile, row, "fraction"));
   }
   using Curve = std::vector<std::pair<double, double>>;
   EXPECT_EQ(curves["variable"], (Curve{{1, 0.5}, {2, 1}, {1e6, 1}}));
@@ -39,11 +42,10 @@ TEST(Profile, DividesByTheProblemsThatASolverWasGiven) {
   Table costs;
   costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};
   const std::string fails = "not accurate enough", unknown = "no reference";
-  costs.rows = {{"a", "", "wide", "1e-6", "1", ""},      {"b", "", "wide", "1e-6", "1", ""},
-                {"c", "", "wide", "1e-6", "nan", fails}, {"d", "", "wide", "1e-6", "nan", fails},
-                {"e", "", "wide", "1e-6", "nan", unknown},
-                {"b", "", "narrow", "1e-6", "2", ""},    {"c", "", "narrow", "1e-6", "2", ""},
-                {"e", "", "narrow", "1e-6", "nan", unknown}};
+  costs.rows = {{"a", "", "wide", "1e-6", "1", ""},        {"b", "", "wide", "1e-6", "1", ""},
+                {"c", "", "wide", "1e-6", "nan", fails},   {"d", "", "wide", "1e-6", "nan", fails},
+                {"e", "", "wide", "1e-6", "nan", unknown}, {"b", "", "narrow", "1e-6", "2", ""},
+                {"c", "", "narrow", "1e-6", "2", ""},      {"e", "", "narrow", "1e-6", "nan", unknown}};
   const Table profile = profileTable(costs);
   std::map<std::string, TableRow> last;
   for (const auto& row : profile.rows) last[textAt(profile, row, "integrator")] = row;

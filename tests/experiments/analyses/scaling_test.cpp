@@ -15,14 +15,12 @@ namespace {
 // A synthetic table: the time grows with n^1.5 and s^2, and n = 10 lies off the line.
 TEST(Scaling, SlopesOverUnknownsAndStages) {
   Table table;
-  table.columns = {"scene",   "formulation", "solver", "storage", "threads",
-                   "method",  "stages",      "n",      "step_s"};
+  table.columns = {"scene", "formulation", "solver", "storage", "threads", "method", "stages", "n", "step_s"};
   for (const double s : {2.0, 4.0, 8.0}) {
     for (const double n : {10.0, 200.0, 800.0, 3200.0}) {
       const double time = n < 100 ? 1 : 1e-6 * std::pow(n, 1.5) * s * s;
-      table.rows.push_back({"beam", "index2", "schur", "sparse", "1",
-                            "radau_iia_" + numberText(s), numberText(s), numberText(n),
-                            numberText(time)});
+      table.rows.push_back({"beam", "index2", "schur", "sparse", "1", "radau_iia_" + numberText(s), numberText(s),
+                            numberText(n), numberText(time)});
     }
   }
   const Table slopes = scalingSlopes(table);

@@ -32,10 +32,10 @@ TEST(Audit, StudyDrawsInsteadOfBlocks) {
   const auto small = study(quick, StudyVariant::kQuick);
   ASSERT_EQ(small.series.size(), 10u);
   EXPECT_EQ(specKey(small.series[9].runs[0]), specKey(drawnRuns({.runs = 10, .seed = 3})[9].spec));
-  EXPECT_TRUE(containsAll(misuseOf([&] { study("[audit]\nrun = 3\n", StudyVariant::kFull); }),
-                          {"audit.toml", "run", "runs"}));
-  EXPECT_TRUE(containsAll(misuseOf([&] { study("[audit]\n[[block]]\nscene='hires'\n", StudyVariant::kFull); }),
-                          {"[[block]]"}));
+  EXPECT_TRUE(
+      containsAll(misuseOf([&] { study("[audit]\nrun = 3\n", StudyVariant::kFull); }), {"audit.toml", "run", "runs"}));
+  EXPECT_TRUE(
+      containsAll(misuseOf([&] { study("[audit]\n[[block]]\nscene='hires'\n", StudyVariant::kFull); }), {"[[block]]"}));
 }
 
 constexpr const char* kSmall = "title = 'small'\n[audit]\nruns = 60\ntime_limit = 0.5\n";
@@ -85,8 +85,8 @@ TEST_F(SmallAudit, JudgesEveryRun) {
   }
   EXPECT_GT(counts["right"], 30);
   const Table summary = readTable(folder() / "audit_summary.csv");
-  for (const char* by : {"all", "configuration", "treatment", "scene", "family", "formulation",
-                         "configuration_treatment"}) {
+  for (const char* by :
+       {"all", "configuration", "treatment", "scene", "family", "formulation", "configuration_treatment"}) {
     int runs = 0, right = 0;
     for (const auto& row : summary.rows) {
       if (textAt(summary, row, "by") != by) continue;
@@ -175,9 +175,8 @@ TEST_F(SmallAudit, IsDrawn) {
   for (const std::string script : {"audit", "audit_errors"}) {
     const auto out = folder() / script;
     std::ostringstream err;
-    ASSERT_TRUE(drawFigure(script + ".gp",
-                           "data='" + folder().string() + "'; out='" + out.string() + "'",
-                           IRK_SOURCE_DIR, err))
+    ASSERT_TRUE(
+        drawFigure(script + ".gp", "data='" + folder().string() + "'; out='" + out.string() + "'", IRK_SOURCE_DIR, err))
         << err.str();
     std::ifstream in(out.string() + ".svg");
     const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

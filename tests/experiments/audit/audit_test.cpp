@@ -168,7 +168,10 @@ TEST(Run, IntegratesFromAnotherStart) {
 
 // A table of synthetic judgements.
 Table judgements(const std::vector<std::vector<std::string>>& rows) {
-  return {{}, {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command"}, rows};
+  return {
+      {},
+      {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command"},
+      rows};
 }
 
 TEST(AuditSummary, CountsAndSortsByExcess) {

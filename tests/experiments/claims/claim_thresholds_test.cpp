@@ -12,12 +12,10 @@ namespace {
 
 using namespace claims;
 
-std::string said(const char* id, const ResultTables& tables) {
-  return std::string(verdictText(verdict(id, tables)));
-}
+std::string said(const char* id, const ResultTables& tables) { return std::string(verdictText(verdict(id, tables))); }
 
-constexpr const char *kYes = "confirmed", *kLimited = "confirmed within limits",
-                     *kNo = "contradicted", *kUnknown = "not measurable";
+constexpr const char *kYes = "confirmed", *kLimited = "confirmed within limits", *kNo = "contradicted",
+                     *kUnknown = "not measurable";
 
 Table columns(std::vector<std::string> names) {
   Table table;
@@ -25,16 +23,14 @@ Table columns(std::vector<std::string> names) {
   return table;
 }
 
-Table costTable() {
-  return columns({"block", "family", "stages", "target_error", "reached", "cpu_s"});
-}
+Table costTable() { return columns({"block", "family", "stages", "target_error", "reached", "cpu_s"}); }
 
 constexpr const char* kSmoothBlocks[] = {"crank", "arm_smooth", "elastic_pendulum"};
 
-void addCost(Table& table, const char* block, const char* family, int stages, const char* error,
-             double cost, bool reached = true) {
-  table.rows.push_back({block, family, std::to_string(stages), error,
-                        reached ? "1" : "0", reached ? text(cost) : "nan"});
+void addCost(Table& table, const char* block, const char* family, int stages, const char* error, double cost,
+             bool reached = true) {
+  table.rows.push_back(
+      {block, family, std::to_string(stages), error, reached ? "1" : "0", reached ? text(cost) : "nan"});
 }
 
 // --- C1: orders up to 20 are reached, and the most efficient.
@@ -43,8 +39,8 @@ struct Costs {
   double high, middle, low;  // of orders 20 (or 18), 9 and 7
 };
 
-ResultTables highOrderTables(double order, const std::vector<Costs>& costs,
-                             const char* judged = "agrees", int high_stages = 10) {
+ResultTables highOrderTables(double order, const std::vector<Costs>& costs, const char* judged = "agrees",
+                             int high_stages = 10) {
   Table orders = columns({"family", "stages", "verdict", "order"});
   orders.rows = {{"gauss", "2", "agrees", "4"},
                  {"gauss", "10", judged, text(order)},
@@ -84,8 +80,7 @@ TEST(ClaimThresholds, HighOrders) {
   EXPECT_EQ(said("C1", highOrderTables(20, {best, far})), kYes) << "half";
   EXPECT_EQ(said("C1", highOrderTables(20, {best, nine, nine})), kLimited);
   EXPECT_EQ(said("C1", highOrderTables(20, all(best), "agrees", 9)), kYes) << "order 18";
-  EXPECT_EQ(said("C1", highOrderTables(20, all({1, 1.2, 1.2}), "agrees", 8)), kLimited)
-      << "order 16 is no high one";
+  EXPECT_EQ(said("C1", highOrderTables(20, all({1, 1.2, 1.2}), "agrees", 8)), kLimited) << "order 16 is no high one";
   EXPECT_EQ(said("C1", highOrderTables(20, {})), kUnknown);
 }
 
@@ -102,8 +97,7 @@ ResultTables manyStageTables(const std::vector<int>& fastest, int few_failed, in
   }
   Table runs = columns({"block", "rtol", "stages", "outcome"});
   const auto add = [&](const char* block, const char* rtol, int stages, bool failed) {
-    runs.rows.push_back(
-        {block, rtol, std::to_string(stages), failed ? "newton_failed" : "success"});
+    runs.rows.push_back({block, rtol, std::to_string(stages), failed ? "newton_failed" : "success"});
   };
   for (int i = 0; i < 4; ++i) {
     add("tight_tolerances", "1e-11", 10, i < few_failed);
@@ -145,8 +139,7 @@ void putSteps(ResultTables& results, const std::vector<JumpRun>& jumps) {
     runs.rows.push_back({"crank_torque_off", "slider_crank", method, "torque_off_at=0.5",
                          text(1e-8 * jump.error_factor * 1e6) + "e-6"});
     Table steps = columns({"t", "h"});
-    for (const double t : {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8})
-      steps.rows.push_back({text(t), "0.1"});
+    for (const double t : {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8}) steps.rows.push_back({text(t), "0.1"});
     // A small step at the jump, and a smaller one far from it that does not count.
     steps.rows.push_back({"0.5", fmt::format("{}", 0.1 / jump.step_factor)});
     steps.rows.push_back({"0.44", "1e-9"});
@@ -156,8 +149,8 @@ void putSteps(ResultTables& results, const std::vector<JumpRun>& jumps) {
   results.put("steps", "runs", runs);
 }
 
-ResultTables doublingTables(double reliable_v, double reliable_z, double cost, double blind,
-                            double ratio = 4.0, double beyond = 4.01) {
+ResultTables doublingTables(double reliable_v, double reliable_z, double cost, double blind, double ratio = 4.0,
+                            double beyond = 4.01) {
   ResultTables results;
   Table estimates = columns({"group", "doubling", "richardson"});
   const auto add = [&](const char* group, double part) {
@@ -173,8 +166,7 @@ ResultTables doublingTables(double reliable_v, double reliable_z, double cost, d
   for (const double spread : {0.5, 1.0, 3.0}) {  // the median counts
     const auto scene = text(spread);
     control.rows.push_back({"plain_steps", scene, "radau_iia_3", "success", "1000"});
-    control.rows.push_back(
-        {"doubled_steps", scene, "radau_iia_3", "success", text(1000 * cost * spread)});
+    control.rows.push_back({"doubled_steps", scene, "radau_iia_3", "success", text(1000 * cost * spread)});
     control.rows.push_back({"controllers_pendulums", scene, "radau_iia_3", "success", "77"});
     control.rows.push_back({"doubled_steps", scene, "radau_iia_4", "newton_failed", "1"});
   }

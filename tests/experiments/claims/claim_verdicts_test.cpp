@@ -12,11 +12,7 @@ TEST(Claims, DroppedMassDerivatives) {
     ResultTables results;
     Table runs = costColumns({"block", "method", "newton", "jacobian"});
     const auto add = [&](const char* block, const char* terms, double scale) {
-      addSeries(runs,
-                {{"block", block},
-                 {"method", "radau_iia_3"},
-                 {"newton", "simplified"},
-                 {"jacobian", terms}},
+      addSeries(runs, {{"block", block}, {"method", "radau_iia_3"}, {"newton", "simplified"}, {"jacobian", terms}},
                 scale);
     };
     add("terms_elastic_rod", "full", 1);
@@ -35,8 +31,8 @@ TEST(Claims, DroppedMassDerivatives) {
 TEST(Claims, RuleOfTheModifiedNewtonMethod) {
   const auto tables = [](double papers) {
     ResultTables results;
-    Table runs = costColumns({"scene", "settings", "method", "contractivity_limit",
-                              "contractivity_after", "max_iterations"});
+    Table runs =
+        costColumns({"scene", "settings", "method", "contractivity_limit", "contractivity_after", "max_iterations"});
     const auto add = [&](const char* limit, double scale) {
       addSeries(runs,
                 {{"scene", "slider_crank"},
@@ -79,8 +75,7 @@ TEST(Claims, Families) {
 TEST(Claims, Drift) {
   const auto tables = [](const char* drift) {
     ResultTables results;
-    Table runs =
-        costColumns({"scene", "method", "family", "stages", "formulation", "rtol", "drift"});
+    Table runs = costColumns({"scene", "method", "family", "stages", "formulation", "rtol", "drift"});
     for (const auto* formulation : {"index2", "ggl"}) {
       addSeries(runs,
                 {{"scene", "pendulum"},
@@ -115,15 +110,11 @@ TEST(Claims, SharesOfTheFactorization) {
 }
 
 TEST(Claims, RelativeTolerancesAndTheKForm) {
-  const auto tables = [](const char* study, const char* column, const char* base, const char* other,
-                         double factor) {
+  const auto tables = [](const char* study, const char* column, const char* base, const char* other, double factor) {
     ResultTables results;
     Table runs = costColumns({"scene", "method", column, "steps_accepted", "detail"});
-    addSeries(runs,
-              {{"scene", "kepler"}, {"method", "radau_iia_3"}, {column, base}, {"detail", ""}}, 1);
-    addSeries(runs,
-              {{"scene", "kepler"}, {"method", "radau_iia_3"}, {column, other}, {"detail", ""}},
-              factor);
+    addSeries(runs, {{"scene", "kepler"}, {"method", "radau_iia_3"}, {column, base}, {"detail", ""}}, 1);
+    addSeries(runs, {{"scene", "kepler"}, {"method", "radau_iia_3"}, {column, other}, {"detail", ""}}, factor);
     results.put(study, "runs", runs);
     return results;
   };
@@ -131,9 +122,7 @@ TEST(Claims, RelativeTolerancesAndTheKForm) {
   EXPECT_EQ(verdict("C14", norm(1)), Verdict::kConfirmed);
   EXPECT_EQ(verdict("C14", norm(1.4)), Verdict::kWithinLimits);
   EXPECT_EQ(verdict("C14", norm(3)), Verdict::kContradicted);
-  const auto form = [&](double f) {
-    return tables("k_form", "formulation", "first_order", "index2", f);
-  };
+  const auto form = [&](double f) { return tables("k_form", "formulation", "first_order", "index2", f); };
   EXPECT_EQ(verdict("C11", form(0.5)), Verdict::kConfirmed);
   EXPECT_EQ(verdict("C11", form(2)), Verdict::kContradicted);
 }
@@ -143,11 +132,9 @@ TEST(Claims, TinySteps) {
     Table runs;
     runs.columns = {"block",   "formulation", "scaling",           "h",
                     "outcome", "error_z",     "newton_iterations", "steps_accepted"};
-    const auto add = [&](const char* formulation, const char* scaling, const char* outcome,
-                         const char* error) {
+    const auto add = [&](const char* formulation, const char* scaling, const char* outcome, const char* error) {
       runs.rows.push_back({"known_multiplier", formulation, scaling, "1e-8", outcome, error, "20", "10"});
-      runs.rows.push_back(
-          {"known_multiplier", formulation, scaling, "1e-3", "success", "1e-9", "20", "10"});
+      runs.rows.push_back({"known_multiplier", formulation, scaling, "1e-3", "success", "1e-9", "20", "10"});
     };
     add("index3", "on", "success", error3);
     add("index3", "off", outcome_unscaled, "nan");
@@ -188,18 +175,13 @@ TEST(Claims, ReuseOfJacobiansAndFactorizations) {
     ResultTables results;
     Table runs = costColumns({"block", "method", "keep_jacobian_below"});
     const auto add = [&](const char* below, double scale) {
-      addSeries(runs,
-                {{"block", "reuse"},
-                 {"method", "radau_iia_3"},
-                 {"keep_jacobian_below", below}},
-                scale);
+      addSeries(runs, {{"block", "reuse"}, {"method", "radau_iia_3"}, {"keep_jacobian_below", below}}, scale);
     };
     add("0", 1);
     add("0.10000000000000001", time);
     results.put("jacobian", "runs", runs);
     Table phases;
-    phases.columns = {"scene",  "settings", "method",         "derivatives",
-                      "solver", "n",        "factorization_s"};
+    phases.columns = {"scene", "settings", "method", "derivatives", "solver", "n", "factorization_s"};
     phases.rows = {{"ancf_pendulum", "", "radau_iia_3", "automatic", "coupled_dense", "50", "1"},
                    {"ancf_pendulum", "", "radau_iia_3", "automatic", "schur", "50", decoupled}};
     results.put("phases", "phases", phases);

@@ -17,8 +17,7 @@ TEST(Claims, AreFifteenAndComplete) {
   std::set<std::string> known;
   for (const auto& study : builtinStudies()) known.emplace(study.id);
   std::set<std::string> figures;
-  for (const auto& figure :
-       readFigures(std::filesystem::path(IRK_SOURCE_DIR) / "plots/figures.txt")) {
+  for (const auto& figure : readFigures(std::filesystem::path(IRK_SOURCE_DIR) / "plots/figures.txt")) {
     figures.insert(figure.name);
   }
   for (std::size_t i = 0; i < claims().size(); ++i) {
@@ -43,8 +42,8 @@ TEST(Claims, WithoutResultsSayWhichStudyIsMissing) {
 
 TEST(Claims, TableForThePage) {
   const auto html = claimsHtml(ResultTables{}, "no/figures");
-  EXPECT_TRUE(containsAll(html, {"<table class=\"claims\">", "id=\"C7\"", "not_measurable",
-                                 "irk run drift &amp;&amp; irk plot drift"}));
+  EXPECT_TRUE(containsAll(
+      html, {"<table class=\"claims\">", "id=\"C7\"", "not_measurable", "irk run drift &amp;&amp; irk plot drift"}));
   EXPECT_EQ(html.find("href"), html.npos) << "no link to a figure that does not exist";
 }
 

@@ -22,18 +22,16 @@ std::set<std::string> keysOf(const nlohmann::json& object) {
 }
 
 TEST(Cli, SolveJsonHasExactlyTheKeys) {
-  const auto run = program({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10",
-                               "--t-end", "1", "--json"});
+  const auto run =
+      program({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10", "--t-end", "1", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error", "drift",
-                                                 "reference", "steps", "counters", "cpu_s", "spec"}));
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"status", "t", "u", "v", "x", "z", "error", "drift", "reference",
+                                                 "steps", "counters", "cpu_s", "spec"}));
   EXPECT_EQ(json["reference"], "file");
-  EXPECT_EQ(keysOf(json["steps"]),
-            (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
+  EXPECT_EQ(keysOf(json["steps"]), (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),
-            (std::set<std::string>{"residuals", "jacobians", "factorizations", "solves",
-                                   "newton_iterations"}));
+            (std::set<std::string>{"residuals", "jacobians", "factorizations", "solves", "newton_iterations"}));
   EXPECT_EQ(json["status"], "success");
   EXPECT_NEAR(json["u"][0].get<double>(), 14.127892217751, 1e-7);
   EXPECT_NEAR(json["v"][0].get<double>(), 20.537482851413, 1e-7);
@@ -42,16 +40,12 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
 }
 
 TEST(Cli, SolveJsonListsSwitches) {
-  const auto run = program({"solve", "stick_slip", "--method", "radau_iia_10", "--tol", "1e-10",
-                               "--discontinuity", "locate", "--json"});
+  const auto run = program(
+      {"solve", "stick_slip", "--method", "radau_iia_10", "--tol", "1e-10", "--discontinuity", "locate", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  const double times[] = {15,
-                          18.536383773289554,
-                          28.536383773289554,
-                          32.07276754657911,
-                          42.07276754657911,
-                          45.609151319868666};
+  const double times[] = {
+      15, 18.536383773289554, 28.536383773289554, 32.07276754657911, 42.07276754657911, 45.609151319868666};
   ASSERT_EQ(json["switches"].size(), std::size(times));
   for (std::size_t i = 0; i < std::size(times); ++i) {
     EXPECT_NEAR(json["switches"][i]["t"].get<double>(), times[i], 1e-10);
@@ -78,15 +72,15 @@ TEST(Cli, AnExactSolutionIsAReference) {
 
 // z = h lambda is known for fixed steps only; the names of components do not depend on it.
 TEST(Cli, ASettingOverTheStepIsSolvedAndPrinted) {
-  const auto run = program({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1",
-                               "--method", "radau_iia_3"});
+  const auto run =
+      program({"solve", "prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1", "--method", "radau_iia_3"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(containsAll(run.out, {"lambda=-1e8/h", "success", "x  y "}));
 }
 
 TEST(Cli, MultiprecisionNumbersAreText) {
-  const auto run = program({"solve", "riccati_tracking", "--scalar", "mp50", "--step", "0.5",
-                               "--method", "gauss_3", "--json"});
+  const auto run =
+      program({"solve", "riccati_tracking", "--scalar", "mp50", "--step", "0.5", "--method", "gauss_3", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(nlohmann::json::parse(run.out)["x"][0].is_string());
 }
@@ -201,8 +195,8 @@ TEST(Cli, ATableauCheckSaysWhatIsTrue) {
   };
   const auto right = check("-");
   EXPECT_EQ(right.status, 0);
-  EXPECT_TRUE(containsAll(right.out, {"SDIRK", "degrees (2, 3)", "A-stable: yes, L-stable: yes",
-                                      "0.0258971 z^4", "DEFECTIVE", "keeps what it declares"}));
+  EXPECT_TRUE(containsAll(right.out, {"SDIRK", "degrees (2, 3)", "A-stable: yes, L-stable: yes", "0.0258971 z^4",
+                                      "DEFECTIVE", "keeps what it declares"}));
   const auto wrong = check("+");
   EXPECT_EQ(wrong.status, 1);
   EXPECT_TRUE(containsAll(wrong.out, {"row 3 of A does not sum up", "L-stable: no"}));

@@ -25,12 +25,11 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   ASSERT_EQ(run("parts", {"--shard", "1/2"}).status, 0);
   ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);
   const std::string parts = results("parts") + "/small/shard_";
-  const Table one = readTable(parts + "1_of_2/runs.csv"),
-              two = readTable(parts + "2_of_2/runs.csv");
+  const Table one = readTable(parts + "1_of_2/runs.csv"), two = readTable(parts + "2_of_2/runs.csv");
   EXPECT_EQ(one.rows.size() + two.rows.size(), 8u);
   EXPECT_FALSE(one.rows.empty() || two.rows.empty());
-  const Ended merged = program({"merge", parts + "2_of_2", parts + "1_of_2", "--study", study(),
-                                "--results", results("merged")});
+  const Ended merged =
+      program({"merge", parts + "2_of_2", parts + "1_of_2", "--study", study(), "--results", results("merged")});
   ASSERT_EQ(merged.status, 0) << merged.err;
   EXPECT_TRUE(containsAll(merged.out, {"small", "8 runs of 2 folders"}));
   EXPECT_TRUE(std::filesystem::exists(results("merged") + "/small/cpu_at_error.csv"));
@@ -91,8 +90,9 @@ TEST_F(Verbs, MergePrintsCommandsThatWork) {
   std::vector<std::string> arguments{"run", study(), "--quick", "--results", results("parts"), "--shard", "1/2"};
   ASSERT_EQ(program(arguments).status, 0);
   const auto merged = [&](std::vector<std::string> more) {
-    std::vector<std::string> merge{"merge", results("parts") + "/quick/small/shard_1_of_2", "--study", study(), "--quick",
-                                   "--results", results("merged")};
+    std::vector<std::string> merge{
+        "merge",          results("parts") + "/quick/small/shard_1_of_2", "--study", study(), "--quick", "--results",
+        results("merged")};
     merge.insert(merge.end(), more.begin(), more.end());
     return program(merge);
   };

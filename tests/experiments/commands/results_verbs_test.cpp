@@ -121,10 +121,9 @@ TEST_F(Verbs, PlotAndReportFailWhereGnuplotDoes) {
 // The first signal ends the run after its current step. Finished runs are kept, and the same command continues from
 // there.
 TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
-  std::ofstream(study())
-      << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
-         "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
-         "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
+  std::ofstream(study()) << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
+                            "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
+                            "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
   const auto folder = std::filesystem::path(results()) / "small";
   std::atomic<bool> done = false;
   std::thread signal([&] {
@@ -143,10 +142,9 @@ TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
   ASSERT_GE(kept.rows.size(), 2u);
   ASSERT_LT(kept.rows.size(), 20u) << "the machine is too fast for this test";
   for (const auto& row : kept.rows) EXPECT_EQ(textAt(kept, row, "outcome"), "success");
-  std::ofstream(study())
-      << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
-         "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
-         "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
+  std::ofstream(study()) << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
+                            "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
+                            "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";
   ASSERT_EQ(program({"run", study(), "--results", results(), "--jobs", "2"}).status, 0);
   const Table whole = runs();
   ASSERT_EQ(whole.rows.size(), 20u);

@@ -51,9 +51,7 @@ class Verbs : public testing::Test {
   Table runs(const std::string& into = "results") const {
     return readTable(std::filesystem::path(results(into)) / "small" / "runs.csv");
   }
-  bool exists(const std::string& file) const {
-    return std::filesystem::exists(results() + "/" + file);
-  }
+  bool exists(const std::string& file) const { return std::filesystem::exists(results() + "/" + file); }
 
   TemporaryFolder folder_;
 };

@@ -40,8 +40,7 @@ TEST_F(Verbs, RunMakesTablesAndAgainKeepsThem) {
 }
 
 TEST_F(Verbs, RunOfAMistakeIsStatusTwo) {
-  std::ofstream(study())
-      << "title = \"Small\"\n[[block]]\nscene = \"pendulun\"\nmethods = \"gauss_2\"\n";
+  std::ofstream(study()) << "title = \"Small\"\n[[block]]\nscene = \"pendulun\"\nmethods = \"gauss_2\"\n";
   const Ended ended = run();
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(containsAll(ended.err, {"pendulun", "'pendulum'"}));
@@ -76,8 +75,7 @@ TEST_F(Verbs, CompareSeesADifference) {
     writeTable(std::filesystem::path(results("other")) / "small" / "runs.csv", other);
     return program({"compare", results() + "/small", results("other") + "/small"});
   };
-  for (const auto* column :
-       {"error", "error_v", "drift", "residuals", "outcome", "steps_accepted", "cpu_s"}) {
+  for (const auto* column : {"error", "error_v", "drift", "residuals", "outcome", "steps_accepted", "cpu_s"}) {
     const Ended ended = changed(column, "123");
     EXPECT_EQ(ended.status, 1) << column;
     EXPECT_TRUE(containsAll(ended.out, {"8 runs and 8 runs: 1 differences", "pendulum"})) << column;

@@ -81,9 +81,8 @@ TEST(Ratio, TheIntervalHasItsLevel) {
 
 // --- Tables.
 
-constexpr const char* kColumns[] = {"key",   "scene",   "method",         "h",         "rtol",  "scalar",
-                                    "outcome", "error", "residuals", "steps_accepted", "cpu_s", "cpu_runs",
-                                    "cpu_all"};
+constexpr const char* kColumns[] = {"key",   "scene",     "method",         "h",     "rtol",     "scalar", "outcome",
+                                    "error", "residuals", "steps_accepted", "cpu_s", "cpu_runs", "cpu_all"};
 
 std::string repetitions(double seconds, int count) {
   std::string all;
@@ -99,8 +98,7 @@ Runs someRuns(int count = 5) {
   for (const char* method : {"radau_iia_3", "gauss_2"}) {
     for (const char* rtol : {"1e-3", "1e-5", "1e-7"}) {
       runs.table.rows.push_back({fmt::format("{}{}", method, rtol), "kepler", method, "0", rtol, "double", "success",
-                                 "1.25e-06", "1000", "50", "0.01", std::to_string(count),
-                                 repetitions(0.01, count)});
+                                 "1.25e-06", "1000", "50", "0.01", std::to_string(count), repetitions(0.01, count)});
     }
   }
   return runs;
@@ -181,11 +179,16 @@ struct ErrorChange {
 
 TEST(Compare, ErrorsDifferByAFactorAboveRoundOff) {
   const ErrorChange changes[] = {
-      {"1e-6", "1.9e-6", "double", false},   {"1e-6", "2.1e-6", "double", true},
-      {"2.1e-6", "1e-6", "double", true},    {"1e-16", "1e-14", "double", false},
-      {"0", "1e-14", "double", false},       {"1e-14", "3e-14", "double", true},
-      {"1e-30", "1e-29", "mp50", true},      {"1e-51", "1e-49", "mp50", false},
-      {"nan", "nan", "double", false},       {"1e-6", "nan", "double", true},
+      {"1e-6", "1.9e-6", "double", false},
+      {"1e-6", "2.1e-6", "double", true},
+      {"2.1e-6", "1e-6", "double", true},
+      {"1e-16", "1e-14", "double", false},
+      {"0", "1e-14", "double", false},
+      {"1e-14", "3e-14", "double", true},
+      {"1e-30", "1e-29", "mp50", true},
+      {"1e-51", "1e-49", "mp50", false},
+      {"nan", "nan", "double", false},
+      {"1e-6", "nan", "double", true},
       {"1.25e-6", "1.25000000000001e-6", "double", false},
   };
   for (const auto& change : changes) {
@@ -195,7 +198,8 @@ TEST(Compare, ErrorsDifferByAFactorAboveRoundOff) {
     set(second, 0, "error", change.after);
     EXPECT_EQ(compareRuns(first, second, {}).differences.size(), change.differs ? 1u : 0u)
         << change.before << " -> " << change.after;
-    EXPECT_TRUE(compareRuns(first, second, {.errors = 1e15}).differences.empty() || std::isnan(std::stod(change.after)));
+    EXPECT_TRUE(compareRuns(first, second, {.errors = 1e15}).differences.empty() ||
+                std::isnan(std::stod(change.after)));
   }
 }
 

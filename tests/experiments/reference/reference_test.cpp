@@ -25,8 +25,8 @@ TEST(Agreement, RoundsUpToOneDigit) {
 }
 
 TEST(Agreement, IsTheLargestDifferenceOfTheRuns) {
-  const mp50 runs[] = {mp50("1.00000000000000000012"), mp50("1.0000000000000000001"),
-                       mp50("0.99999999999999999998"), mp50("1")};
+  const mp50 runs[] = {mp50("1.00000000000000000012"), mp50("1.0000000000000000001"), mp50("0.99999999999999999998"),
+                       mp50("1")};
   const AgreedValue found = agreed(runs, 1e-30);
   EXPECT_EQ(found.value, mp50(1)) << "the last run is the best";
   EXPECT_DOUBLE_EQ(found.accuracy, 2e-19);

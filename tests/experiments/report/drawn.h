@@ -27,8 +27,8 @@ inline std::string exact(double x) { return fmt::format("{}", x); }
 class Drawing {
  public:
   /// Writes rows by column; columns that a row does not give get `other`.
-  void put(const std::string& name, const std::vector<std::string>& columns,
-           const std::vector<Cells>& rows, const std::string& other = "nan") {
+  void put(const std::string& name, const std::vector<std::string>& columns, const std::vector<Cells>& rows,
+           const std::string& other = "nan") {
     Table table{{{"study", "made_up"}}, columns, {}};
     for (const auto& cells : rows) {
       TableRow row;
@@ -44,10 +44,9 @@ class Drawing {
   Svg draw(const std::string& script, const std::string& options) {
     const auto out = folder_.path() / fmt::format("figure_{}", ++count_);
     std::ostringstream err;
-    EXPECT_TRUE(drawFigure(
-        script,
-        fmt::format("data='{}'; out='{}'; {}", folder_.path().string(), out.string(), options),
-        IRK_SOURCE_DIR, err))
+    EXPECT_TRUE(drawFigure(script,
+                           fmt::format("data='{}'; out='{}'; {}", folder_.path().string(), out.string(), options),
+                           IRK_SOURCE_DIR, err))
         << err.str();
     EXPECT_EQ(err.str(), "") << script;
     EXPECT_TRUE(std::filesystem::exists(out.string() + ".png")) << script;
@@ -60,48 +59,46 @@ class Drawing {
 };
 
 inline const std::vector<std::string> kRunColumns = {"key",
-                                              "scene",
-                                              "settings",
-                                              "method",
-                                              "family",
-                                              "stages",
-                                              "integrator",
-                                              "formulation",
-                                              "scaling",
-                                              "discontinuity",
-                                              "scalar",
-                                              "newton",
-                                              "h",
-                                              "rtol",
-                                              "atol",
-                                              "outcome",
-                                              "error",
-                                              "error_u",
-                                              "error_v",
-                                              "error_x",
-                                              "error_z",
-                                              "drift",
-                                              "residuals",
-                                              "dual_residuals",
-                                              "jacobians",
-                                              "factorizations",
-                                              "solves",
-                                              "newton_iterations",
-                                              "newton_restarts",
-                                              "steps_accepted",
-                                              "steps_rejected_error",
-                                              "cpu_s",
-                                              "cpu_median_s",
-                                              "cpu_spread",
-                                              "detail"};
+                                                     "scene",
+                                                     "settings",
+                                                     "method",
+                                                     "family",
+                                                     "stages",
+                                                     "integrator",
+                                                     "formulation",
+                                                     "scaling",
+                                                     "discontinuity",
+                                                     "scalar",
+                                                     "newton",
+                                                     "h",
+                                                     "rtol",
+                                                     "atol",
+                                                     "outcome",
+                                                     "error",
+                                                     "error_u",
+                                                     "error_v",
+                                                     "error_x",
+                                                     "error_z",
+                                                     "drift",
+                                                     "residuals",
+                                                     "dual_residuals",
+                                                     "jacobians",
+                                                     "factorizations",
+                                                     "solves",
+                                                     "newton_iterations",
+                                                     "newton_restarts",
+                                                     "steps_accepted",
+                                                     "steps_rejected_error",
+                                                     "cpu_s",
+                                                     "cpu_median_s",
+                                                     "cpu_spread",
+                                                     "detail"};
 
 // A value for run i that differs between columns, and increases or decreases differently with i.
 inline double numberOf(const std::string& column, int i) {
-  const auto place =
-      std::find(kRunColumns.begin(), kRunColumns.end(), column) - kRunColumns.begin();
+  const auto place = std::find(kRunColumns.begin(), kRunColumns.end(), column) - kRunColumns.begin();
   const double j = static_cast<double>(place);
-  const double slope =
-      column.starts_with("error") || column == "drift" ? -0.8 - 0.03 * j : 0.1 + 0.02 * j;
+  const double slope = column.starts_with("error") || column == "drift" ? -0.8 - 0.03 * j : 0.1 + 0.02 * j;
   const double level = column.starts_with("error") || column == "drift" ? 1e-2 : 1;
   return level * (1 + 0.13 * j) * std::pow(10, slope * i);
 }
@@ -109,9 +106,9 @@ inline double numberOf(const std::string& column, int i) {
 inline Cells run(int i, const Cells& cells) {
   Cells row = cells;
   for (const auto& column :
-       {"error", "error_u", "error_v", "error_x", "error_z", "drift", "residuals", "dual_residuals",
-        "jacobians", "factorizations", "solves", "newton_iterations", "newton_restarts",
-        "steps_accepted", "steps_rejected_error", "cpu_s", "cpu_median_s", "cpu_spread"}) {
+       {"error", "error_u", "error_v", "error_x", "error_z", "drift", "residuals", "dual_residuals", "jacobians",
+        "factorizations", "solves", "newton_iterations", "newton_restarts", "steps_accepted", "steps_rejected_error",
+        "cpu_s", "cpu_median_s", "cpu_spread"}) {
     row.try_emplace(column, exact(numberOf(column, i)));
   }
   row.try_emplace("outcome", "success");

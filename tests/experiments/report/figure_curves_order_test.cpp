@@ -32,8 +32,8 @@ TEST(FigureCurves, ErrorVsStep) {
   add("gauss", 2, 3);
   drawing.put("runs.csv", kRunColumns, rows);
   drawing.put("orders.csv",
-              {"scene", "settings", "formulation", "component", "power_of", "family", "stages",
-               "order", "theory", "confidence", "h_min", "h_max", "verdict"},
+              {"scene", "settings", "formulation", "component", "power_of", "family", "stages", "order", "theory",
+               "confidence", "h_min", "h_max", "verdict"},
               {{{"scene", "riccati_tracking"},
                 {"settings", ""},
                 {"component", "x"},
@@ -46,12 +46,11 @@ TEST(FigureCurves, ErrorVsStep) {
                 {"h_max", "0.1"},
                 {"verdict", "agrees"}}});
   for (const std::string component : {"x", "u"}) {
-    const Svg svg = drawing.draw(
-        "error_vs_step.gp", fmt::format("families='radau_iia gauss'; component='{}'", component));
+    const Svg svg =
+        drawing.draw("error_vs_step.gp", fmt::format("families='radau_iia gauss'; component='{}'", component));
     const auto expected = [&](int from) {  // sorted by h
       std::vector<SvgPoint> points;
-      for (int i = from + 2; i >= from; --i)
-        points.push_back({std::pow(0.1, i), numberOf("error_" + component, i)});
+      for (int i = from + 2; i >= from; --i) points.push_back({std::pow(0.1, i), numberOf("error_" + component, i)});
       return points;
     };
     const auto a = svg.marked('a'), b = svg.marked('b');
@@ -63,8 +62,7 @@ TEST(FigureCurves, ErrorVsStep) {
     if (component == "x") {  // slope 3 through the middle of the window
       const auto theory = svg.line('a', 1, kLog, kLog);
       ASSERT_EQ(theory.size(), 3u);
-      EXPECT_NEAR(std::log(theory[2].y / theory[0].y) / std::log(theory[2].x / theory[0].x), 3,
-                  0.03);
+      EXPECT_NEAR(std::log(theory[2].y / theory[0].y) / std::log(theory[2].x / theory[0].x), 3, 0.03);
       EXPECT_NEAR(theory[0].x, 1e-3, 1e-5);
     }
   }
@@ -74,10 +72,7 @@ TEST(FigureCurves, EstimateRatio) {
   Drawing drawing;
   std::vector<Cells> rows;
   const auto add = [&](const char* group, double doubling, double richardson) {
-    rows.push_back({{"group", group},
-                    {"doubling", exact(doubling)},
-                    {"richardson", exact(richardson)},
-                    {"t", "1"}});
+    rows.push_back({{"group", group}, {"doubling", exact(doubling)}, {"richardson", exact(richardson)}, {"t", "1"}});
   };
   add("u", 1, 10);
   add("u", 2, 20);
@@ -95,8 +90,8 @@ TEST(FigureCurves, EstimateRatio) {
 TEST(FigureCurves, FailureMap) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](int s, const char* h, const char* rtol, const char* outcome,
-                       const char* error, const char* error_u) {
+  const auto add = [&](int s, const char* h, const char* rtol, const char* outcome, const char* error,
+                       const char* error_u) {
     rows.push_back({{"scene", "pendulum"},
                     {"settings", ""},
                     {"family", "radau_iia"},
@@ -120,16 +115,13 @@ TEST(FigureCurves, FailureMap) {
                   {"outcome", "success"},
                   {"error", "1e-6"},
                   {"error_u", "1e-6"}});
-  drawing.put("runs.csv",
-              {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error", "error_u"},
-              rows);
+  drawing.put("runs.csv", {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error", "error_u"}, rows);
   const auto cellsOf = [](const Svg& svg) {  // colour by the labels of the cell
     std::map<std::string, std::string> cells;
     for (const auto& [colour, corners] : svg.curve('a', 1).boxes) {
       double x = 0, y = 0;
       for (const auto& c : corners)
-        x += c.x / static_cast<double>(corners.size()),
-            y += c.y / static_cast<double>(corners.size());
+        x += c.x / static_cast<double>(corners.size()), y += c.y / static_cast<double>(corners.size());
       cells[svg.labelX('a', x) + " " + svg.labelY('a', y)] = colour;
     }
     return cells;
@@ -139,8 +131,7 @@ TEST(FigureCurves, FailureMap) {
   ASSERT_TRUE(cells.contains("2 10^-1") && cells.contains("2 10^-2") && cells.contains("3 10^-2"));
   EXPECT_EQ(cells["2 10^-1"], cells["3 10^-2"]) << "three digits";
   EXPECT_NE(cells["2 10^-1"], cells["2 10^-2"]);
-  auto of_u =
-      cellsOf(drawing.draw("failure_map.gp", "scene='pendulum'; quantity='error_u'; y='rtol'"));
+  auto of_u = cellsOf(drawing.draw("failure_map.gp", "scene='pendulum'; quantity='error_u'; y='rtol'"));
   EXPECT_EQ(of_u["2 10^-3"], cells["2 10^-2"]) << "twelve digits";
   EXPECT_EQ(of_u["2 10^-4"], cells["2 10^-1"]) << "three digits";
   const Svg svg = drawing.draw("failure_map.gp", "scene='pendulum'");
@@ -152,9 +143,9 @@ TEST(FigureCurves, FailureMap) {
   EXPECT_EQ(svg.occurrences("fill = 'rgb(228, 228, 228)'"), 1) << "the column of the method that there is not";
 }
 
-const std::vector<std::string> kOrderColumns = {
-    "scene",  "settings", "formulation", "component", "power_of", "family", "stages",
-    "theory", "order",    "confidence",  "h_min",     "h_max",    "points", "verdict"};
+const std::vector<std::string> kOrderColumns = {"scene",  "settings", "formulation", "component", "power_of",
+                                                "family", "stages",   "theory",      "order",     "confidence",
+                                                "h_min",  "h_max",    "points",      "verdict"};
 
 // Marks with error bars are drawn twice.
 std::vector<SvgPoint> once(const std::vector<SvgPoint>& points) {
@@ -169,8 +160,7 @@ std::vector<SvgPoint> once(const std::vector<SvgPoint>& points) {
 TEST(FigureCurves, OrderVsStages) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* component, int s, double order, double theory,
-                       const char* verdict) {
+  const auto add = [&](const char* component, int s, double order, double theory, const char* verdict) {
     rows.push_back({{"scene", "kaps"},
                     {"settings", ""},
                     {"component", component},
@@ -190,8 +180,7 @@ TEST(FigureCurves, OrderVsStages) {
   drawing.put("orders.csv", kOrderColumns, rows);
   const Svg svg = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x'");
   expectPoints(svg.line('a', 1, kLin, kLin), {{1, 1}, {2, 3}, {4, 7}}, "theory", 1e-2);
-  expectPoints(once(svg.marks('a', 2, kLin, kLin)), {{1, 1.2}, {2, 2.6}, {4, 5.4}}, "measured",
-               1e-2);
+  expectPoints(once(svg.marks('a', 2, kLin, kLin)), {{1, 1.2}, {2, 2.6}, {4, 5.4}}, "measured", 1e-2);
   expectPoints(svg.marks('a', 3, kLin, kLin), {{4, 5.4}}, "differs", 1e-2);
   const Svg both = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x z'");
   const auto z = once(both.marks('a', 4, kLin, kLin));

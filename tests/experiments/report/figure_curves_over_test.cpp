@@ -32,15 +32,12 @@ TEST(FigureCurves, OverStages) {
   add("gauss", 6, 700, 5000);
   add("radau_iia", 2, 20, 60);
   add("radau_iia", 4, 5, 900);
-  drawing.put(
-      "tableaus.csv",
-      {"family", "stages", "order", "error_constant", "condition_A", "condition_eigenvectors"},
-      rows);
+  drawing.put("tableaus.csv", {"family", "stages", "order", "error_constant", "condition_A", "condition_eigenvectors"},
+              rows);
   const Svg svg = drawing.draw("over_stages.gp", "");
   expectPoints(svg.marks('a', 1, kLin, kLog), {{2, 10}, {4, 100}, {6, 700}}, "gauss");
   expectPoints(svg.marks('a', 2, kLin, kLog), {{2, 20}, {4, 5}}, "radau");
-  expectPoints(svg.marks('b', 1, kLin, kLog), {{2, 300}, {4, 20}, {6, 5000}},
-               "gauss, eigenvectors");
+  expectPoints(svg.marks('b', 1, kLin, kLog), {{2, 300}, {4, 20}, {6, 5000}}, "gauss, eigenvectors");
   const Svg constants = drawing.draw("over_stages.gp", "quantities='error_constant'");
   expectPoints(constants.marks('a', 1, kLin, kLog), {{2, 0.01}, {4, 0.1}, {6, 0.7}}, "magnitudes");
 }
@@ -48,8 +45,7 @@ TEST(FigureCurves, OverStages) {
 TEST(FigureCurves, OverStep) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* formulation, const char* scaling, int from,
-                       const char* outcome) {
+  const auto add = [&](const char* formulation, const char* scaling, int from, const char* outcome) {
     for (int i = from; i < from + 3; ++i) {
       rows.push_back(run(i, {{"scene", "pendulum"},
                              {"method", "radau_iia_3"},
@@ -67,10 +63,9 @@ TEST(FigureCurves, OverStep) {
   const auto expected = [&](const char* quantity, int from) {
     std::vector<SvgPoint> points;  // smooth unique: by ascending h
     for (int i = from + 2; i >= from; --i) {
-      points.push_back(
-          {std::pow(0.1, i), quantity == std::string("iterations")
-                                 ? numberOf("newton_iterations", i) / numberOf("steps_accepted", i)
-                                 : numberOf(quantity, i)});
+      points.push_back({std::pow(0.1, i), quantity == std::string("iterations")
+                                              ? numberOf("newton_iterations", i) / numberOf("steps_accepted", i)
+                                              : numberOf(quantity, i)});
     }
     return points;
   };
@@ -106,8 +101,8 @@ TEST(FigureCurves, Profile) {
 TEST(FigureCurves, Scaling) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* method, const char* solver, const char* storage,
-                       const char* threads, int n, double step) {
+  const auto add = [&](const char* method, const char* solver, const char* storage, const char* threads, int n,
+                       double step) {
     rows.push_back({{"scene", "beam_chain"},
                     {"method", method},
                     {"solver", solver},
@@ -124,8 +119,7 @@ TEST(FigureCurves, Scaling) {
   add("radau_iia_3", "schur", "dense", "1", 100, 5e-2);
   add("radau_iia_5", "schur", "sparse", "1", 10, 4e-5);
   add("radau_iia_5", "schur", "sparse", "1", 1000, 6e-3);
-  drawing.put("scaling.csv",
-              {"scene", "method", "solver", "storage", "threads", "n", "steps", "step_s"}, rows);
+  drawing.put("scaling.csv", {"scene", "method", "solver", "storage", "threads", "n", "steps", "step_s"}, rows);
   const Svg svg = drawing.draw("scaling.gp", "");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{10, 1e-5}, {100, 2e-4}, {1000, 7e-3}}, "sparse");
   expectPoints(svg.marks('a', 4, kLog, kLog), {{10, 3e-5}, {100, 5e-2}}, "dense");
@@ -150,13 +144,11 @@ TEST(FigureCurves, SceneSolution) {
                     {"lambda", exact(10 + 5 * x)}});
   }
   drawing.put("pendulum.radau_iia_5.csv",
-              {"t", "h", "error", "newton_iterations", "switches", "x", "y", "x'", "y'", "lambda"},
-              rows);
-  const Svg svg = drawing.draw(
-      "scene_solution.gp",
-      "scene='pendulum'; panels='\"positions|x y|1\" \"velocities|x'' y''|1\" \"multiplier|lambda|1\"'");
-  const auto near = [&](char panel, int curve, const std::vector<SvgPoint>& expected,
-                        const char* what) {
+              {"t", "h", "error", "newton_iterations", "switches", "x", "y", "x'", "y'", "lambda"}, rows);
+  const Svg svg =
+      drawing.draw("scene_solution.gp",
+                   "scene='pendulum'; panels='\"positions|x y|1\" \"velocities|x'' y''|1\" \"multiplier|lambda|1\"'");
+  const auto near = [&](char panel, int curve, const std::vector<SvgPoint>& expected, const char* what) {
     const auto seen = svg.line(panel, curve, kLin, kLin);
     ASSERT_EQ(seen.size(), expected.size()) << what;
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -180,8 +172,8 @@ TEST(FigureCurves, SceneSolution) {
 TEST(FigureCurves, Shares) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](int n, const char* solver, double residual, double jacobian,
-                       double factorization, double solve) {
+  const auto add = [&](int n, const char* solver, double residual, double jacobian, double factorization,
+                       double solve) {
     rows.push_back({{"scene", "ancf_pendulum"},
                     {"derivatives", "difference_forward"},
                     {"solver", solver},
@@ -197,14 +189,12 @@ TEST(FigureCurves, Shares) {
   add(50, "coupled_dense", 0.05, 0.15, 0.75, 0.05);
   add(10, "schur", 0.1, 0.2, 0.3, 0.4);
   drawing.put("phases.csv",
-              {"scene", "derivatives", "solver", "method", "n", "factorization_s", "share_residual",
-               "share_jacobian", "share_factorization", "share_solve", "share_update", "share_step",
-               "share_start"},
+              {"scene", "derivatives", "solver", "method", "n", "factorization_s", "share_residual", "share_jacobian",
+               "share_factorization", "share_solve", "share_update", "share_step", "share_start"},
               rows, "0");
   const Svg svg = drawing.draw("shares.gp", "methods='radau_iia_3'");
   const auto heights = [&](char panel, int part) {
-    std::map<std::string, std::pair<double, double>>
-        by_size;  // bottom and top, by the labels of the last row
+    std::map<std::string, std::pair<double, double>> by_size;  // bottom and top, by the labels of the last row
     for (const auto& [colour, corners] : svg.curve(panel, part).boxes) {
       double x = 0;
       SvgPoint low{0, 1e300}, high{0, -1e300};
@@ -219,8 +209,7 @@ TEST(FigureCurves, Shares) {
     return by_size;
   };
   const std::vector<std::pair<double, double>> ten = {{0, 0.4}, {0.4, 0.7}, {0.7, 0.9}, {0.9, 1}},
-                                               fifty = {
-                                                   {0, 0.05}, {0.05, 0.2}, {0.2, 0.95}, {0.95, 1}};
+                                               fifty = {{0, 0.05}, {0.05, 0.2}, {0.2, 0.95}, {0.95, 1}};
   for (int part = 1; part <= 4; ++part) {
     auto seen = heights('a', part);
     const auto k = static_cast<std::size_t>(part - 1);

@@ -22,11 +22,7 @@ TEST(FigureCurves, StepSize) {
   const auto put = [&](const char* name, const std::vector<SvgPoint>& steps) {
     std::vector<Cells> rows;
     for (const auto& s : steps) {
-      rows.push_back({{"t", exact(s.x)},
-                      {"h", exact(s.y)},
-                      {"error", "0.5"},
-                      {"newton_iterations", "9"},
-                      {"x", "3"}});
+      rows.push_back({{"t", exact(s.x)}, {"h", exact(s.y)}, {"error", "0.5"}, {"newton_iterations", "9"}, {"x", "3"}});
     }
     drawing.put(name, {"t", "h", "error", "newton_iterations", "x"}, rows);
   };
@@ -34,9 +30,8 @@ TEST(FigureCurves, StepSize) {
   put("slider_crank.radau_iia_5.csv", {{0, NAN}, {0.01, 0.01}, {0.05, 0.04}, {1, 0.95}});
   put("other.radau_iia_2.csv", {{0, NAN}, {0.2, 0.2}, {1, 0.8}});
   // The file other.radau_iia_5.csv does not exist: that curve is left out without a warning.
-  const Svg svg = drawing.draw(
-      "step_size.gp",
-      "cases='slider_crank other'; methods='radau_iia_2 radau_iia_5'; marks=\"'0.5'\"");
+  const Svg svg =
+      drawing.draw("step_size.gp", "cases='slider_crank other'; methods='radau_iia_2 radau_iia_5'; marks=\"'0.5'\"");
   const auto levels = [&](char panel, int curve) {  // the size at the end of each step
     std::vector<SvgPoint> ends;
     const auto line = svg.line(panel, curve, kLin, kLog);
@@ -63,15 +58,14 @@ TEST(FigureCurves, StepSize) {
 // axis.
 TEST(FigureCurves, Stability) {
   Drawing drawing;
-  const auto root = [](const char* method, const char* family, const char* stages, const char* kind,
-                       double re, double im) {
+  const auto root = [](const char* method, const char* family, const char* stages, const char* kind, double re,
+                       double im) {
     return Cells{{"method", method}, {"family", family}, {"stages", stages},
                  {"root", kind},     {"re", exact(re)},  {"im", exact(im)}};
   };
-  drawing.put(
-      "stability.csv", {"method", "family", "stages", "root", "re", "im"},
-      {root("radau_iia_1", "radau_iia", "1", "pole", 1, 0),
-       root("gauss_1", "gauss", "1", "zero", -2, 0), root("gauss_1", "gauss", "1", "pole", 2, 0)});
+  drawing.put("stability.csv", {"method", "family", "stages", "root", "re", "im"},
+              {root("radau_iia_1", "radau_iia", "1", "pole", 1, 0), root("gauss_1", "gauss", "1", "zero", -2, 0),
+               root("gauss_1", "gauss", "1", "pole", 2, 0)});
   const Svg svg = drawing.draw("stability.gp", "families='radau_iia gauss'; stages='1'; extent=4");
   // Curves 1 and 2 are the shading of the two halves, curves 3 and 4 the contour.
   for (const int half : {3, 4}) {
@@ -86,8 +80,7 @@ TEST(FigureCurves, Stability) {
     for (const auto& p : axis) EXPECT_NEAR(p.x, 0, 0.05);
   }
   // The order star of the implicit Euler method, with its pole at 1.
-  const Svg star =
-      drawing.draw("stability.gp", "families='radau_iia'; stages='1'; view='star'; extent=4");
+  const Svg star = drawing.draw("stability.gp", "families='radau_iia'; stages='1'; view='star'; extent=4");
   const auto pole = star.marks('a', 5, kLin, kLin);
   ASSERT_EQ(pole.size(), 1u);
   EXPECT_NEAR(pole[0].x, 1, 0.02);
@@ -101,13 +94,12 @@ TEST(FigureCurves, Stability) {
 TEST(FigureCurves, Audit) {
   Drawing drawing;
   const auto row = [](const char* by, const char* group) {
-    return Cells{{"by", by},     {"group", group}, {"runs", "200"},           {"right", "100"},
+    return Cells{{"by", by},       {"group", group}, {"runs", "200"},           {"right", "100"},
                  {"failed", "60"}, {"wrong", "20"},  {"ill_conditioned", "12"}, {"unjudged", "8"}};
   };
-  drawing.put("audit_summary.csv",
-              {"by", "group", "runs", "right", "failed", "wrong", "ill_conditioned", "unjudged"},
-              {row("all", "all"), row("scene", "kepler"), row("scene", "hires"),
-               row("configuration", "default"), row("treatment", "locate"), row("family", "gauss")});
+  drawing.put("audit_summary.csv", {"by", "group", "runs", "right", "failed", "wrong", "ill_conditioned", "unjudged"},
+              {row("all", "all"), row("scene", "kepler"), row("scene", "hires"), row("configuration", "default"),
+               row("treatment", "locate"), row("family", "gauss")});
   const Svg svg = drawing.draw("audit.gp", "");
   const auto width = [&](char panel, int part) {
     double low = 1e300, high = -1e300;
@@ -127,8 +119,7 @@ TEST(FigureCurves, Audit) {
 TEST(FigureCurves, AuditErrors) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* configuration, const char* judgement, double tolerance,
-                       double ratio) {
+  const auto add = [&](const char* configuration, const char* judgement, double tolerance, double ratio) {
     rows.push_back({{"run", std::to_string(rows.size())},
                     {"configuration", configuration},
                     {"judgement", judgement},
@@ -141,8 +132,7 @@ TEST(FigureCurves, AuditErrors) {
     add(configuration, "right", 1e-8, 100);
     add(configuration, "wrong", 1e-6, 1e6);
   }
-  drawing.put("audit.csv", {"run", "configuration", "judgement", "treatment", "tolerance", "error"},
-              rows);
+  drawing.put("audit.csv", {"run", "configuration", "judgement", "treatment", "tolerance", "error"}, rows);
   const Svg svg = drawing.draw("audit_errors.gp", "");  // the third panel has labels on both axes
   auto right = svg.marks('c', 1, kLog, kLog), wrong = svg.marks('c', 3, kLog, kLog);
   ASSERT_EQ(right.size(), 2u);

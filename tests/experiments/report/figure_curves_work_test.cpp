@@ -27,26 +27,20 @@ TEST(FigureCurves, WorkPrecision) {
   std::vector<Cells> rows;
   for (int s : {3, 5}) {
     for (int i = 0; i < 4; ++i) {
-      rows.push_back(run(
-          i + s, {{"scene", "pendulum"}, {"family", "radau_iia"}, {"stages", std::to_string(s)}}));
+      rows.push_back(run(i + s, {{"scene", "pendulum"}, {"family", "radau_iia"}, {"stages", std::to_string(s)}}));
     }
   }
-  rows.push_back(run(1, {{"scene", "pendulum"},
-                         {"family", "radau_iia"},
-                         {"stages", "3"},
-                         {"outcome", "timeout"},
-                         {"rtol", "1e-4"}}));
+  rows.push_back(run(
+      1, {{"scene", "pendulum"}, {"family", "radau_iia"}, {"stages", "3"}, {"outcome", "timeout"}, {"rtol", "1e-4"}}));
   rows.push_back(run(9, {{"scene", "kepler"}, {"family", "radau_iia"}, {"stages", "3"}}));
   rows.push_back(run(9, {{"scene", "pendulum"}, {"family", "gauss"}, {"stages", "3"}}));
-  rows.push_back(run(
-      9, {{"scene", "pendulum"}, {"settings", "k=1"}, {"family", "radau_iia"}, {"stages", "3"}}));
+  rows.push_back(run(9, {{"scene", "pendulum"}, {"settings", "k=1"}, {"family", "radau_iia"}, {"stages", "3"}}));
   drawing.put("runs.csv", kRunColumns, rows);
   for (const std::string quantity : {"error", "error_u", "error_v", "error_z", "error_x"}) {
     for (const std::string cost : {"cpu_s", "residuals"}) {
-      const Svg svg = drawing.draw(
-          "work_precision.gp",
-          fmt::format("scene='pendulum'; family='radau_iia'; quantity='{}'; costs='{}'", quantity,
-                      cost));
+      const Svg svg =
+          drawing.draw("work_precision.gp",
+                       fmt::format("scene='pendulum'; family='radau_iia'; quantity='{}'; costs='{}'", quantity, cost));
       expectPoints(svg.marks('a', 1, kLog, kLog), runPoints(quantity, cost, 3, 7), quantity + cost);
       expectPoints(svg.marks('a', 2, kLog, kLog), runPoints(quantity, cost, 5, 9), quantity + cost);
       const auto failed = svg.marks('a', 3, kLog, kLog);
@@ -55,11 +49,10 @@ TEST(FigureCurves, WorkPrecision) {
       EXPECT_GT(failed[0].y, numberOf(cost, 8)) << "above all lines";
     }
   }
-  const Svg several = drawing.draw(
-      "work_precision.gp", "scene='pendulum'; costs='jacobians newton_iterations factorizations'");
+  const Svg several =
+      drawing.draw("work_precision.gp", "scene='pendulum'; costs='jacobians newton_iterations factorizations'");
   expectPoints(several.marks('a', 1, kLog, kLog), runPoints("error", "jacobians", 3, 7), "a");
-  expectPoints(several.marks('b', 1, kLog, kLog), runPoints("error", "newton_iterations", 3, 7),
-               "b");
+  expectPoints(several.marks('b', 1, kLog, kLog), runPoints("error", "newton_iterations", 3, 7), "b");
   expectPoints(several.marks('c', 1, kLog, kLog), runPoints("error", "factorizations", 3, 7), "c");
 }
 
@@ -78,35 +71,28 @@ TEST(FigureCurves, WorkBy) {
   add("kepler", "simplified", "index2", 4);
   add("kepler", "modified", "index2", 6);
   drawing.put("runs.csv", kRunColumns, rows);
-  const Svg svg =
-      drawing.draw("work_by.gp",
-                   "variant='newton'; variants='modified simplified'; cases='pendulum kepler'; "
-                   "only='formulation=index2'; costs='residuals'");
+  const Svg svg = drawing.draw("work_by.gp",
+                               "variant='newton'; variants='modified simplified'; cases='pendulum kepler'; "
+                               "only='formulation=index2'; costs='residuals'");
   expectPoints(svg.marks('a', 1, kLog, kLog), runPoints("error", "residuals", 2, 5), "modified");
   expectPoints(svg.marks('a', 2, kLog, kLog), runPoints("error", "residuals", 1, 4), "simplified");
-  expectPoints(svg.marks('b', 1, kLog, kLog), runPoints("error", "residuals", 6, 9),
-               "kepler, modified");
-  expectPoints(svg.marks('b', 2, kLog, kLog), runPoints("error", "residuals", 4, 7),
-               "kepler, simplified");
-  const Svg costs =
-      drawing.draw("work_by.gp",
-                   "variant='newton'; variants='full'; cases='pendulum'; quantity='error_v'; "
-                   "costs='cpu_s newton_iterations drift'");
+  expectPoints(svg.marks('b', 1, kLog, kLog), runPoints("error", "residuals", 6, 9), "kepler, modified");
+  expectPoints(svg.marks('b', 2, kLog, kLog), runPoints("error", "residuals", 4, 7), "kepler, simplified");
+  const Svg costs = drawing.draw("work_by.gp",
+                                 "variant='newton'; variants='full'; cases='pendulum'; quantity='error_v'; "
+                                 "costs='cpu_s newton_iterations drift'");
   expectPoints(costs.marks('a', 1, kLog, kLog), runPoints("error_v", "cpu_s", 3, 6), "cpu_s");
-  expectPoints(costs.marks('b', 1, kLog, kLog), runPoints("error_v", "newton_iterations", 3, 6),
-               "iterations");
+  expectPoints(costs.marks('b', 1, kLog, kLog), runPoints("error_v", "newton_iterations", 3, 6), "iterations");
   expectPoints(costs.marks('c', 1, kLog, kLog), runPoints("error_v", "drift", 3, 6), "drift");
 }
 
-const std::vector<std::string> kCostColumns = {"scene",     "settings",         "family",  "method",
-                                               "stages",    "target_error",     "reached", "cpu_s",
-                                               "residuals", "newton_iterations"};
+const std::vector<std::string> kCostColumns = {"scene",        "settings", "family", "method",    "stages",
+                                               "target_error", "reached",  "cpu_s",  "residuals", "newton_iterations"};
 
 TEST(FigureCurves, BestCost) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* scene, const char* family, int s, const char* error,
-                       double cost) {
+  const auto add = [&](const char* scene, const char* family, int s, const char* error, double cost) {
     rows.push_back({{"scene", scene},
                     {"settings", ""},
                     {"family", family},
@@ -129,17 +115,14 @@ TEST(FigureCurves, BestCost) {
   expectPoints(svg.marks('a', 1, kLog, kLog), {{1e-6, 0.1}, {1e-4, 0.01}}, "radau");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{1e-6, 9}, {1e-4, 0.3}}, "gauss");
   expectPoints(svg.marks('b', 2, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler");
-  const Svg other =
-      drawing.draw("best_cost.gp", "cases='pendulum'; cost='residuals'; values='gauss'");
-  expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 7000 / 9.0}, {1e-4, 7000 / 0.3}},
-               "residuals");
+  const Svg other = drawing.draw("best_cost.gp", "cases='pendulum'; cost='residuals'; values='gauss'");
+  expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 7000 / 9.0}, {1e-4, 7000 / 0.3}}, "residuals");
 }
 
 TEST(FigureCurves, CpuVsStages) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* settings, int s, const char* error, const char* cost,
-                       const char* residuals) {
+  const auto add = [&](const char* settings, int s, const char* error, const char* cost, const char* residuals) {
     rows.push_back({{"scene", "slider_crank"},
                     {"settings", settings},
                     {"family", "radau_iia"},
@@ -191,8 +174,7 @@ TEST(FigureCurves, Energy) {
   add("compensated", 1, 1e-16);
   add("compensated", 2, 0.5e-16);
   add("compensated", 4, 1.5e-16);
-  drawing.put("energy.csv",
-              {"scene", "method", "summation", "t", "h", "steps", "energy_error", "scatter"}, rows);
+  drawing.put("energy.csv", {"scene", "method", "summation", "t", "h", "steps", "energy_error", "scatter"}, rows);
   const Svg svg = drawing.draw("energy.gp", "cases='kepler:gauss_8'");
   expectPoints(svg.line('a', 1, kLin, kLin), {{1, 2}, {2, 9}, {4, 5}}, "plain");
   expectPoints(svg.line('a', 2, kLin, kLin), {{1, 1}, {2, 0.5}, {4, 1.5}}, "compensated", 2e-2);

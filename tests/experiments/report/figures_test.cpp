@@ -45,10 +45,9 @@ TEST(Figures, FailureMapsShowDigitsAndCauses) {
   writeTable(folder.path() / "runs.csv", runs);
   const auto out = folder.path() / "map";
   std::ostringstream err;
-  ASSERT_TRUE(drawFigure(
-      "failure_map.gp",
-      "data='" + folder.path().string() + "'; out='" + out.string() + "'; scene='pendulum'",
-      IRK_SOURCE_DIR, err))
+  ASSERT_TRUE(drawFigure("failure_map.gp",
+                         "data='" + folder.path().string() + "'; out='" + out.string() + "'; scene='pendulum'",
+                         IRK_SOURCE_DIR, err))
       << err.str();
   std::ifstream in(out.string() + ".svg");
   const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -58,8 +58,8 @@ class RanksOfMpi : public StoredRuns {
   }
   std::string command(const std::string& tree, const std::string& before = "") const {
     const std::string path = folder_.path().string();
-    return before + " " IRK_PROGRAM " run " + path + "/small.toml --results " + path + "/" + tree + " > " + path +
-           "/" + tree + ".out 2>&1";
+    return before + " " IRK_PROGRAM " run " + path + "/small.toml --results " + path + "/" + tree + " > " + path + "/" +
+           tree + ".out 2>&1";
   }
   std::string output(const std::string& tree) const {
     std::ifstream in(folder_.path() / (tree + ".out"));

@@ -129,8 +129,8 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
   for (const auto& row : orders.rows) {
     EXPECT_EQ(textAt(orders, row, "component"), "x");
     EXPECT_EQ(textAt(orders, row, "verdict"), "agrees")
-        << textAt(orders, row, "family") << " " << textAt(orders, row, "stages") << ": "
-        << textAt(orders, row, "order") << " " << textAt(orders, row, "reason");
+        << textAt(orders, row, "family") << " " << textAt(orders, row, "stages") << ": " << textAt(orders, row, "order")
+        << " " << textAt(orders, row, "reason");
   }
 }
 
@@ -144,7 +144,8 @@ scene = "riccati_tracking"
 scalar = "mp100"
 methods = ["gauss_20", "radau_iia_20"]
 refine_most = 40
-)").runs);
+)")
+                                      .runs);
   ASSERT_EQ(orders.rows.size(), 2u);
   for (const auto& row : orders.rows) {
     const double order = textAt(orders, row, "family") == "gauss" ? 40 : 39;
@@ -165,14 +166,14 @@ multipliers = "stages"
 formulation = ["index2", "index3", "index2_projected"]
 methods = ["gauss_2", "radau_iia_2"]
 refine_most = 128
-)").runs);
-  const std::map<std::string, std::array<double, 3>> expected = {
-      {"index2 gauss", {4, 2, 0}},
-      {"index2 radau_iia", {3, 3, 2}},
-      {"index3 gauss", {2, 0, -2}},
-      {"index3 radau_iia", {3, 2, 1}},
-      {"index2_projected gauss", {4, 4, NAN}},
-      {"index2_projected radau_iia", {3, 3, 2}}};
+)")
+                                      .runs);
+  const std::map<std::string, std::array<double, 3>> expected = {{"index2 gauss", {4, 2, 0}},
+                                                                 {"index2 radau_iia", {3, 3, 2}},
+                                                                 {"index3 gauss", {2, 0, -2}},
+                                                                 {"index3 radau_iia", {3, 2, 1}},
+                                                                 {"index2_projected gauss", {4, 4, NAN}},
+                                                                 {"index2_projected radau_iia", {3, 3, 2}}};
   ASSERT_EQ(orders.rows.size(), 18u);
   for (const auto& row : orders.rows) {
     const auto name = textAt(orders, row, "formulation") + " " + textAt(orders, row, "family");
@@ -190,8 +191,7 @@ TEST(Runner, TheOrderStudyMeasuresIndex2WithFewStages) {
   Study study = loadStudy("order", StudyVariant::kFull);
   std::erase_if(study.series, [](const Series& series) {
     const RunSpec& spec = series.runs.front();
-    return spec.scene != "index2_nonlinear" ||
-           (spec.method != "gauss_1" && spec.method != "lobatto_iiid_2");
+    return spec.scene != "index2_nonlinear" || (spec.method != "gauss_1" && spec.method != "lobatto_iiid_2");
   });
   ASSERT_EQ(study.series.size(), 2u);
   const TemporaryFolder folder;
@@ -216,7 +216,8 @@ formulation = ["index2", "index3"]
 multipliers = ["stages", "consistent"]
 methods = "radau_iia_2"
 refine_most = 128
-)").runs);
+)")
+                                      .runs);
   ASSERT_EQ(orders.rows.size(), 12u);
   for (const auto& row : orders.rows) {
     if (textAt(orders, row, "component") != "z") continue;
@@ -238,7 +239,8 @@ scalar = "mp50"
 settings = ["lambda=-1e6/h", "lambda=-1e8/h", "lambda=-1e10/h"]
 methods = "radau_iia_2"
 refine_most = 64
-)").runs);
+)")
+                                      .runs);
   ASSERT_EQ(orders.rows.size(), 4u);
   for (const auto& row : orders.rows) {
     const bool of_z = textAt(orders, row, "power_of") == "z";

@@ -116,8 +116,7 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   options.jobs = 1;
   const Table runs = runStudy(study, options, quiet);
   store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-  const auto timed = [&](double once_above, double skip_above, const char* cpu,
-                         const char* outcome) {
+  const auto timed = [&](double once_above, double skip_above, const char* cpu, const char* outcome) {
     Table table = runs;
     for (auto& row : table.rows) {
       row[table.column("cpu_s")] = cpu;
@@ -127,9 +126,7 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
     timeStudy(study, store, table, quiet);
     return table;
   };
-  const auto repetitions = [](const Table& table) {
-    return numberAt(table, table.rows.front(), "cpu_runs");
-  };
+  const auto repetitions = [](const Table& table) { return numberAt(table, table.rows.front(), "cpu_runs"); };
   EXPECT_EQ(repetitions(timed(0.5, 3, "0.4", "success")), 3);
   EXPECT_EQ(repetitions(timed(0.5, 3, "0.6", "success")), 1);
   const Table skipped = timed(0.5, 3, "3.5", "success");

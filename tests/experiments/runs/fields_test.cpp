@@ -135,9 +135,9 @@ TEST(Fields, StudiesTakeEachOne) {
   forEachChange([&](const SpecField& field, const std::string& value, const RunSpec&) {
     if (field.kind == FieldKind::kText) return;  // their keys are of another kind
     const std::string text = field.isNumeric() ? value : '"' + value + '"';
-    const Study study = parseStudy("[[block]]\nscene = \"slider_crank\"\nmethods = \"radau_iia_3\"\n" + field.name +
-                                       " = " + text + "\n",
-                                   "mine.toml", StudyVariant::kFull);
+    const Study study = parseStudy(
+        "[[block]]\nscene = \"slider_crank\"\nmethods = \"radau_iia_3\"\n" + field.name + " = " + text + "\n",
+        "mine.toml", StudyVariant::kFull);
     ASSERT_EQ(study.series.size(), 1u);
     EXPECT_EQ(field.get(study.series[0].runs.front()), value);
   });

@@ -72,8 +72,7 @@ TEST(Peers, IdasMultipliersAreSolvedAnewAtTheEnd) {
     EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
     State<double> again = solution.state;
     const auto system = scene.system({});
-    EXPECT_EQ(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).applyAtEnd(again),
-              "");
+    EXPECT_EQ(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).applyAtEnd(again), "");
     return std::abs(again.z()[0] - solution.state.z()[0]);
   };
   EXPECT_LT(change("consistent"), 1e-13);
@@ -81,8 +80,8 @@ TEST(Peers, IdasMultipliersAreSolvedAnewAtTheEnd) {
 }
 
 TEST(Peers, IdaSolvesIndex2) {
-  for (const char* rest : {"scene=pendulum", "scene=pendulum;formulation=ggl",
-                           "scene=slider_crank;t_end=1", "scene=index2_nonlinear"}) {
+  for (const char* rest :
+       {"scene=pendulum", "scene=pendulum;formulation=ggl", "scene=slider_crank;t_end=1", "scene=index2_nonlinear"}) {
     const RunRecord run = success(spec("ida_bdf", rest));
     EXPECT_LT(run.errors.all, 2e-4) << rest;
     EXPECT_GT(run.errors.all, 1e-8) << rest;
@@ -227,10 +226,8 @@ TEST(FirstOrderForm, ImplicitDerivativesAreThoseOfDifferences) {
     State<double> at = system->fromScene(scene.start);
     for (Index i = 0; i < at.x.size(); ++i) at.x[i] += 0.01 * static_cast<double>(i + 1);
     Linearization<double> exact(Pattern::dense(system->sizes().n())), differences = exact;
-    Differentiator<double>(*system, DerivativeSource::kAutomatic)
-        .evaluate(Level::kFormulated, pointOf(at), exact);
-    Differentiator<double>(*system, DerivativeSource::kCentral)
-        .evaluate(Level::kFormulated, pointOf(at), differences);
+    Differentiator<double>(*system, DerivativeSource::kAutomatic).evaluate(Level::kFormulated, pointOf(at), exact);
+    Differentiator<double>(*system, DerivativeSource::kCentral).evaluate(Level::kFormulated, pointOf(at), differences);
     const double size = exact.d1.norm();
     EXPECT_LT((exact.d1 - differences.d1).norm(), 1e-7 * size) << id;
     EXPECT_LT((exact.d0 - differences.d0).norm(), 1e-7) << id;

@@ -83,12 +83,11 @@ TEST(RunErrors, OfReferencesAtTheTime) {
     r.accuracy = accuracy;
     return r;
   };
-  const std::vector<Reference> references = {
-      reference("u1", 2, "0.6", 1e-9),  reference("u2", 2, "0.8", 1e-9),
-      reference("u2", 2, "0.7", 1e-3),   // a less accurate one
-      reference("u2", 1, "0.1", 1e-12),  // at another time
-      reference("v1", 2, "-8", 1e-9),   reference("v2", 2, "6", 1e-9),
-      reference("x", 2, "0.5", 1e-9),   reference("lambda", 2, "100", 1e-9)};
+  const std::vector<Reference> references = {reference("u1", 2, "0.6", 1e-9),  reference("u2", 2, "0.8", 1e-9),
+                                             reference("u2", 2, "0.7", 1e-3),   // a less accurate one
+                                             reference("u2", 1, "0.1", 1e-12),  // at another time
+                                             reference("v1", 2, "-8", 1e-9),   reference("v2", 2, "6", 1e-9),
+                                             reference("x", 2, "0.5", 1e-9),   reference("lambda", 2, "100", 1e-9)};
   expectGroups(errorsOf(scene(), references, off()));
   // An output contributes only to the error over all components.
   const RunErrors output = errorsOf(scene(), {reference("sum", 2, "1.0", 1e-9)}, off());

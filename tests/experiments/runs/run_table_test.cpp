@@ -1,5 +1,5 @@
-#include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/runs/block_names.h"
 
 #include <gtest/gtest.h>
 
@@ -28,9 +28,8 @@ TEST(RunTable, OldTablesHaveTheirSeries) {
 // Runs of another version are made again, and its rows are kept.
 TEST(RunTable, ATableOfAnotherVersionIsSetAside) {
   const TemporaryFolder folder;
-  const Study study = parseStudy(
-      "[[block]]\nscene = \"kepler\"\nt_end = 0.1\nmethods = \"gauss_2\"\nsteps = 0.05\n", "small.toml",
-      StudyVariant::kFull);
+  const Study study = parseStudy("[[block]]\nscene = \"kepler\"\nt_end = 0.1\nmethods = \"gauss_2\"\nsteps = 0.05\n",
+                                 "small.toml", StudyVariant::kFull);
   RunnerOptions options;
   options.results = folder.path();
   const auto results = folder.path() / "small";

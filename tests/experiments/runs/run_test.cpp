@@ -28,8 +28,7 @@ TEST(Run, IsAPureFunctionOfItsSpec) {
 }
 
 TEST(Run, ErrorsAgainstAClosedForm) {
-  const RunRecord run =
-      execute(spec("scene=riccati_tracking;method=gauss_4;h=0.25;control=fixed;estimate=none"));
+  const RunRecord run = execute(spec("scene=riccati_tracking;method=gauss_4;h=0.25;control=fixed;estimate=none"));
   ASSERT_TRUE(run.succeeded()) << run.detail;
   EXPECT_GT(run.errors.all, 0);
   EXPECT_LT(run.errors.all, 1e-6);
@@ -38,8 +37,7 @@ TEST(Run, ErrorsAgainstAClosedForm) {
 }
 
 TEST(Run, ErrorsAgainstReferences) {
-  const RunRecord run =
-      execute(spec("scene=slider_crank;t_end=1;method=radau_iia_5;rtol=1e-10;atol=1e-10"));
+  const RunRecord run = execute(spec("scene=slider_crank;t_end=1;method=radau_iia_5;rtol=1e-10;atol=1e-10"));
   ASSERT_TRUE(run.succeeded()) << run.detail;
   EXPECT_NEAR(run.u[0], 14.127892217751, 1e-7);
   EXPECT_LT(run.errors.u, 1e-7);
@@ -62,8 +60,8 @@ TEST(Run, StopsWhenAsked) {
 }
 
 TEST(Run, FiftyDigits) {
-  const RunRecord run = execute(spec(
-      "scene=riccati_tracking;scalar=mp50;method=gauss_8;h=0.125;control=fixed;estimate=none"));
+  const RunRecord run =
+      execute(spec("scene=riccati_tracking;scalar=mp50;method=gauss_8;h=0.125;control=fixed;estimate=none"));
   ASSERT_TRUE(run.succeeded()) << run.detail;
   EXPECT_LT(run.errors.all, 1e-17);  // below what double can show
   ASSERT_EQ(run.digits.size(), 1u);

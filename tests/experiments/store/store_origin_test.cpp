@@ -81,8 +81,8 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
   moveToOtherMachine("results", 5);
   const Table refused = run();
   const auto refusal = refusedTimes(refused.head);
-  EXPECT_TRUE(containsAll(refusal, {"2 processors", "'Other processor' (5 rows, environments abc)", processorName(), "(4 rows",
-                                    "--times here", "--fresh"}));
+  EXPECT_TRUE(containsAll(refusal, {"2 processors", "'Other processor' (5 rows, environments abc)", processorName(),
+                                    "(4 rows", "--times here", "--fresh"}));
   for (const auto& row : refused.rows) {
     EXPECT_TRUE(std::isnan(numberAt(refused, row, "cpu_s")));
     EXPECT_GT(numberAt(refused, row, "residuals"), 0) << "counters are joined";
@@ -105,7 +105,8 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
   Table chosen = run("results", here);
   EXPECT_TRUE(refusedTimes(chosen.head).empty());
   EXPECT_EQ(std::count_if(chosen.rows.begin(), chosen.rows.end(),
-                          [&](const auto& row) { return std::isnan(numberAt(chosen, row, "cpu_s")); }), 5);
+                          [&](const auto& row) { return std::isnan(numberAt(chosen, row, "cpu_s")); }),
+            5);
   costs.timing = {true, 1e-4, 2, 0.5, 3};
   {
     Store writer(folder(), "small", Use::kWrite, here, told_);
@@ -213,7 +214,8 @@ TEST_F(Origin, MergeReportsWhatIsMissingForeignAndInConflict) {
   EXPECT_EQ(both.foreign, 0u);
   ASSERT_EQ(both.conflicts.size(), 1u);
   EXPECT_TRUE(containsAll(both.conflicts[0].run, {"kepler", "radau_iia_3"}));
-  EXPECT_TRUE(containsAll(both.conflicts[0].what, {"newton_iterations", "/ 1", folder("a").string(), folder("b").string()}));
+  EXPECT_TRUE(
+      containsAll(both.conflicts[0].what, {"newton_iterations", "/ 1", folder("a").string(), folder("b").string()}));
   const auto second = store::reportOf(study(), keys, {&b});
   EXPECT_EQ(second.found, 8u);
   EXPECT_EQ(second.missing, 1u);

@@ -229,7 +229,8 @@ TEST_F(Results, TwoWritersAtOnceLoseNothing) {
     RunRecord record;
     record.spec.scene = "kepler";
     record.detail = "a \"detail\", with\na line end";
-    for (int i = 0; i < kRows; ++i) rows.append(runRow(hexText(first + static_cast<std::uint64_t>(i)), "small", record));
+    for (int i = 0; i < kRows; ++i)
+      rows.append(runRow(hexText(first + static_cast<std::uint64_t>(i)), "small", record));
   };
   const pid_t child = startProcess([&] {
     write(1);

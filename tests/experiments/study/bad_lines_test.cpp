@@ -33,7 +33,8 @@ class Lines : public testing::Test {
   void SetUp() override {
     namespace fs = std::filesystem;
     write("file", "no study\n");
-    write("refused.toml", "[[block]]\nscene = \"pendulum\"\nmethods = \"lobatto_iiib_3\"\nt_end = 0.1\ntolerances = 0.1\n");
+    write("refused.toml",
+          "[[block]]\nscene = \"pendulum\"\nmethods = \"lobatto_iiib_3\"\nt_end = 0.1\ntolerances = 0.1\n");
     write("good.toml", "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\nt_end = 0.1\ntolerances = 0.1\n");
     write("open.toml", "[[block]]\nscene = \"kepler\"\n[\n");
     write("brace.toml", "[[block]]\nscene = [\"kepler\", }\"pendulum\"]\n");
@@ -49,9 +50,7 @@ class Lines : public testing::Test {
     write("large.toml", "");
     fs::resize_file(folder_.path() / "large.toml", std::uintmax_t{1} << 40U);  // takes no space on disk
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_.path() / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
   Line withFolder(Line line) const {
     for (auto& argument : line) {
       const auto at = argument.find('@');
@@ -161,23 +160,24 @@ TEST_F(Lines, ValuesOutOfRange) {
 }
 
 TEST_F(Lines, OptionsWithoutEffect) {
-  expectOneLine({{2, {"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, "tol"},
-                 {2, {"solve", "kepler", "--step", "0.1", "--rtol", "1e-6"}, "--rtol"},
-                 {2, {"solve", "kepler", "--step", "0.1", "--atol", "1e-6"}, "--atol"},
-                 {2, {"solve", "kepler", "--step", "0.1", "--norm", "absolute"}, "--norm"},
-                 {2, {"solve", "kepler", "--step", "0.1", "--kappa", "0.1"}, "--kappa"},
-                 {2, {"solve", "kepler", "--step", "0.1", "--h-max", "0.1"}, "--h-max"},
-                 {2, {"solve", "kepler", "--step", "0.1", "--estimate", "doubling"}, "--estimate"},
-                 {2, {"solve", "kepler", "--tol", "0.1", "--rtol", "0.1", "--atol", "0.1"}, "--tol"},
-                 {2, {"solve", "kepler", "--max-stages", "5"}, "--max-stages"},
-                 {2, {"solve", "kepler", "--residual-tolerance", "0.1"}, "--residual-tolerance"},
-                 {2, {"solve", "kepler", "--contractivity-limit", "0.1"}, "--contractivity-limit"},
-                 {2, {"solve", "kepler", "--contractivity-after", "1"}, "--contractivity-after"},
-                 {2, {"solve", "kepler", "--newton", "modified", "--kappa", "0.1"}, "--kappa"},
-                 {2, {"solve", "kepler", "--newton", "modified", "--keep-jacobian-below", "0.1"}, "--keep-jacobian-below"},
-                 {2, {"reference", "kaps"}, "--into-sources"},
-                 {2, {"reference", "kaps", "--out", "@", "--into-sources"}, "--into-sources"},
-                 {2, {"reference", "kaps", "--check", "--into-sources"}, "--check"}});
+  expectOneLine(
+      {{2, {"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, "tol"},
+       {2, {"solve", "kepler", "--step", "0.1", "--rtol", "1e-6"}, "--rtol"},
+       {2, {"solve", "kepler", "--step", "0.1", "--atol", "1e-6"}, "--atol"},
+       {2, {"solve", "kepler", "--step", "0.1", "--norm", "absolute"}, "--norm"},
+       {2, {"solve", "kepler", "--step", "0.1", "--kappa", "0.1"}, "--kappa"},
+       {2, {"solve", "kepler", "--step", "0.1", "--h-max", "0.1"}, "--h-max"},
+       {2, {"solve", "kepler", "--step", "0.1", "--estimate", "doubling"}, "--estimate"},
+       {2, {"solve", "kepler", "--tol", "0.1", "--rtol", "0.1", "--atol", "0.1"}, "--tol"},
+       {2, {"solve", "kepler", "--max-stages", "5"}, "--max-stages"},
+       {2, {"solve", "kepler", "--residual-tolerance", "0.1"}, "--residual-tolerance"},
+       {2, {"solve", "kepler", "--contractivity-limit", "0.1"}, "--contractivity-limit"},
+       {2, {"solve", "kepler", "--contractivity-after", "1"}, "--contractivity-after"},
+       {2, {"solve", "kepler", "--newton", "modified", "--kappa", "0.1"}, "--kappa"},
+       {2, {"solve", "kepler", "--newton", "modified", "--keep-jacobian-below", "0.1"}, "--keep-jacobian-below"},
+       {2, {"reference", "kaps"}, "--into-sources"},
+       {2, {"reference", "kaps", "--out", "@", "--into-sources"}, "--into-sources"},
+       {2, {"reference", "kaps", "--check", "--into-sources"}, "--check"}});
 }
 
 // Every field of a run is either used by peers or refused with them.
@@ -257,8 +257,8 @@ TEST_F(Lines, AStudyOfRefusedRunsFails) {
 }
 
 TEST_F(Lines, OutputThatCannotBeWrittenIsAFailure) {
-  for (const Line& line : {Line{"list", "scenes"}, Line{"--help"}, Line{"--version"}, Line{"tableau", "show", "gauss_2"},
-                           Line{"solve", "kepler", "--t-end", "0.1"}}) {
+  for (const Line& line : {Line{"list", "scenes"}, Line{"--help"}, Line{"--version"},
+                           Line{"tableau", "show", "gauss_2"}, Line{"solve", "kepler", "--t-end", "0.1"}}) {
     std::ofstream full("/dev/full");
     std::ostringstream err;
     EXPECT_EQ(runProgram(line, {full, err}), 1) << line[0];

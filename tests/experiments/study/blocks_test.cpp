@@ -55,7 +55,8 @@ TEST(Blocks, BadNamesAreRefusedWithTheirLine) {
                           {"mine.toml:5", "'block_2' is another block's name"}));
   EXPECT_TRUE(containsAll(misuse("[defaults]\nname = \"a\"\n[[block]]\n" + body), {"mine.toml:2", "[defaults]"}));
   EXPECT_TRUE(containsAll(misuse("[quick]\nname = \"a\"\n[[block]]\n" + body), {"mine.toml:2", "[quick]"}));
-  EXPECT_TRUE(containsAll(misuse("[[block]]\n" + body + "[block.quick]\nname = \"a\"\n"), {"mine.toml:5", "[block.quick]"}));
+  EXPECT_TRUE(
+      containsAll(misuse("[[block]]\n" + body + "[block.quick]\nname = \"a\"\n"), {"mine.toml:5", "[block.quick]"}));
 }
 
 TEST(Blocks, WordsOfAColumn) {
@@ -110,7 +111,8 @@ TEST_F(BlockColumn, OfACopiedTableIsLeftOut) {
   const Table runs = run("results", {}, kTwo);
   const auto copied = folder("copied");
   std::filesystem::create_directories(copied);
-  for (const char* table : {"runs.csv", "environments.csv"}) std::filesystem::copy_file(folder() / table, copied / table);
+  for (const char* table : {"runs.csv", "environments.csv"})
+    std::filesystem::copy_file(folder() / table, copied / table);
   {
     const Store store(copied, "small", Use::kRead, {}, told_);
     EXPECT_EQ(store.runs().size(), 4u);

@@ -48,8 +48,7 @@ TEST(StepPlanner, ItsStepsShowOrdersFromNegativeToForty) {
 
 TEST(StepPlanner, RoundOffAndThePreAsymptoticRangeAreLeftAside) {
   // Slope 3 above h = 0.05, slope 6 below; round-off at 1e-16.
-  const auto points =
-      planned(1e-16, [](double h) { return std::pow(h, 6) / (1 + std::pow(h / 0.05, 3)); });
+  const auto points = planned(1e-16, [](double h) { return std::pow(h, 6) / (1 + std::pow(h / 0.05, 3)); });
   const auto fit = fitOrder(points);
   ASSERT_TRUE(fit.measurable) << fit.reason;
   EXPECT_NEAR(fit.order, 6, 0.15);
@@ -78,8 +77,7 @@ TEST(StepPlanner, MeasuresEveryComponentInItsOwnRange) {
     planner.record(*i, {std::pow(h, 20), kNaN, kNaN, h * (1 + 10 * h)});
   }
   const auto within = [&](double low, double high) {
-    return std::count_if(asked.begin(), asked.end(),
-                         [&](double h) { return h >= low && h <= high; });
+    return std::count_if(asked.begin(), asked.end(), [&](double h) { return h >= low && h <= high; });
   };
   // The probe continues for z until 10 h is small; meanwhile h^20 falls to 1e-47 at h = 0.0045.
   EXPECT_GE(within(0.0044, 0.019), 6);
@@ -87,8 +85,7 @@ TEST(StepPlanner, MeasuresEveryComponentInItsOwnRange) {
 }
 
 TEST(StepPlanner, DivisionsAreEvenAndGrowByATenth) {
-  EXPECT_EQ(divisions(30),
-            (std::vector<int>{2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30}));
+  EXPECT_EQ(divisions(30), (std::vector<int>{2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30}));
   const auto all = divisions(1000);
   for (std::size_t i = 20; i < all.size(); ++i) {
     EXPECT_EQ(all[i] % 2, 0);

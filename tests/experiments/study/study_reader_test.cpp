@@ -80,7 +80,8 @@ TEST(StudyReader, RefusesTablesWithoutEffect) {
   EXPECT_TRUE(containsAll(misuse("[block.quick.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
   EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\n[defaults]\nscene = \"kepler\"\n"); }),
                           {"mine.toml:3", "defaults", "[audit]"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\n" + kStart); }), {"mine.toml:3", "block", "[audit]"}));
+  EXPECT_TRUE(
+      containsAll(misuseOf([] { parse("[audit]\nruns = 2\n" + kStart); }), {"mine.toml:3", "block", "[audit]"}));
 }
 
 TEST(StudyReader, RefusesListsThatPeersDoNotTake) {
@@ -113,13 +114,46 @@ TEST(StudyReader, SurvivesMutatedTexts) {
       "title = \"A sweep\"\ntargets = [1e-4, 1e-6]\n[defaults]\nnewton = \"modified\"\n[timing]\nrepetitions = 2\n"
       "[[block]]\nscene = [\"kepler\", \"pendulum\"]\nfamilies = [\"gauss\"]\nstages = [\"1..3\", 5]\n"
       "tolerances = [1e-2, 1e-4]\n[block.quick]\nscene = \"kepler\"\nstages = 2\n",
-      "orders = true  # a comment\n[quick]\nrefine_most = 4\n[[block]]\nscene = 'kaps'\nsettings = [\"\", \"eps=0.5\"]\n"
+      "orders = true  # a comment\n[quick]\nrefine_most = 4\n[[block]]\nscene = 'kaps'\nsettings = [\"\", "
+      "\"eps=0.5\"]\n"
       "t_end = 1\nmethods = [\"gauss_2\",\n  \"radau_iia_3\"]\nrefine_most = 8\n"};
-  const std::string pieces[] = {"[",     "]",   "[[",  "]]",       "{",        "}",       "=",        ".",      "\"",
-                                "'",     "#",   "\n",  "\r",       ",",        "nan",     "-inf",     "\"\"\"", "'''",
-                                "0x",    "1_0", "1__", "99999999", "\\u0000",  "\\",      "true",     "block",  "quick",
-                                "\xff",  "\v",  " ",   "\t",       "a.b",      "\xc2\xa0", "\xe2\x80\xa8", "[block.quick]",
-                                "1979-05-27T07:32:00Z", std::string(1, '\0')};
+  const std::string pieces[] = {"[",
+                                "]",
+                                "[[",
+                                "]]",
+                                "{",
+                                "}",
+                                "=",
+                                ".",
+                                "\"",
+                                "'",
+                                "#",
+                                "\n",
+                                "\r",
+                                ",",
+                                "nan",
+                                "-inf",
+                                "\"\"\"",
+                                "'''",
+                                "0x",
+                                "1_0",
+                                "1__",
+                                "99999999",
+                                "\\u0000",
+                                "\\",
+                                "true",
+                                "block",
+                                "quick",
+                                "\xff",
+                                "\v",
+                                " ",
+                                "\t",
+                                "a.b",
+                                "\xc2\xa0",
+                                "\xe2\x80\xa8",
+                                "[block.quick]",
+                                "1979-05-27T07:32:00Z",
+                                std::string(1, '\0')};
   test::Mutations mutations(seeds, pieces, 20041);
   int studies = 0, refused = 0;
   for (int i = 0; i < 10'000; ++i) {

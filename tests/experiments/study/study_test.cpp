@@ -1,5 +1,5 @@
-#include "experiments/study/analysis.h"
 #include "experiments/study/study.h"
+#include "experiments/study/analysis.h"
 
 #include <gtest/gtest.h>
 
@@ -74,38 +74,27 @@ refine_most = 6
 
 TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
   const std::string start = "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\n";
-  const auto misuse = [&](const std::string& line) {
-    return misuseOf([&] { parse(start + line + "\n"); });
-  };
+  const auto misuse = [&](const std::string& line) { return misuseOf([&] { parse(start + line + "\n"); }); };
   EXPECT_TRUE(containsAll(misuse("newtn = \"full\""), {"mine.toml:4", "newtn", "'newton'"}));
   EXPECT_TRUE(containsAll(misuse("newton = \"ful\""), {"mine.toml:4", "'ful'", "'full'"}));
-  EXPECT_TRUE(
-      containsAll(misuse("tolerances = [1e-3, -1]"), {"mine.toml:4", "tolerances", "-1", "> 0"}));
-  EXPECT_TRUE(
-      containsAll(misuse("refine_most = 0"), {"mine.toml:4", "refine_most", "0", "an integer from 2"}));
-  EXPECT_TRUE(
-      containsAll(misuse("families = \"gaus\"\nstages = 2"), {"mine.toml:4", "gaus", "'gauss'"}));
-  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = 200"),
-                          {"mine.toml:5", "stages", "200", "100"}));
+  EXPECT_TRUE(containsAll(misuse("tolerances = [1e-3, -1]"), {"mine.toml:4", "tolerances", "-1", "> 0"}));
+  EXPECT_TRUE(containsAll(misuse("refine_most = 0"), {"mine.toml:4", "refine_most", "0", "an integer from 2"}));
+  EXPECT_TRUE(containsAll(misuse("families = \"gaus\"\nstages = 2"), {"mine.toml:4", "gaus", "'gauss'"}));
+  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = 200"), {"mine.toml:5", "stages", "200", "100"}));
   EXPECT_TRUE(containsAll(misuse("families = \"gauss\""), {"mine.toml:4", "stages"}));
   EXPECT_TRUE(containsAll(misuse("steps = []"), {"mine.toml:4", "steps", "empty"}));
   EXPECT_TRUE(containsAll(misuse("settings = \"eccentricty=0.5\""), {"mine.toml:", "eccentricty"}));
   EXPECT_TRUE(containsAll(misuse("x = = 1"), {"mine.toml:4"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("titel = 1\n[[block]]\n"); }),
-                          {"mine.toml:1", "titel", "'title'"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("titel = 1\n[[block]]\n"); }), {"mine.toml:1", "titel", "'title'"}));
   EXPECT_TRUE(containsAll(misuseOf([] { parse("title = \"x\"\n"); }), {"mine.toml", "[[block]]"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("[[block]]\nmethods=\"gauss_2\"\n"); }),
-                          {"mine.toml:1", "scene"}));
-  EXPECT_TRUE(containsAll(
-      misuseOf([] { parse("[[block]]\nscene=\"kepler\"\nmethods=\"radau_iia\"\n"); }),
-      {"mine.toml:3", "'radau_iia': that is a family", "order 'variable' only", "radau_iia_5"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("[[block]]\nmethods=\"gauss_2\"\n"); }), {"mine.toml:1", "scene"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("[[block]]\nscene=\"kepler\"\nmethods=\"radau_iia\"\n"); }),
+                          {"mine.toml:3", "'radau_iia': that is a family", "order 'variable' only", "radau_iia_5"}));
   const Study family = parse("[[block]]\nscene=\"kepler\"\nconfiguration=\"variable\"\nmethods=\"radau_iia\"\n");
   EXPECT_EQ(family.series.front().runs.front().method, "radau_iia");
-  EXPECT_TRUE(containsAll(
-      misuseOf([] { parse("orders = 3\n[[block]]\nscene=\"kepler\"\nmethods=\"gauss_2\"\n"); }),
-      {"mine.toml:1", "orders", "true or false"}));
-  EXPECT_TRUE(
-      containsAll(misuseOf([] { loadStudy("ordr", StudyVariant::kFull); }), {"ordr", "'order'"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parse("orders = 3\n[[block]]\nscene=\"kepler\"\nmethods=\"gauss_2\"\n"); }),
+                          {"mine.toml:1", "orders", "true or false"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { loadStudy("ordr", StudyVariant::kFull); }), {"ordr", "'order'"}));
 }
 
 // Such analyses would fail after all runs are made, or describe another run than the one in the table.
@@ -117,14 +106,12 @@ TEST(Study, AnalysesOfOneMethodRefuseVariableOrder) {
       const std::string text = wanted + block + "methods = \"" + methods + "\"\n";
       EXPECT_TRUE(containsAll(misuseOf([&] { parse(text + "configuration = \"variable\"\n"); }),
                               {"mine.toml:5", "order 'variable'", wanted}));
-      EXPECT_TRUE(containsAll(
-          misuseOf([&] { parse(text + "estimate = \"embedded\"\norder = \"variable\"\n"); }),
-          {"mine.toml:6", "order 'variable'", wanted}));
+      EXPECT_TRUE(containsAll(misuseOf([&] { parse(text + "estimate = \"embedded\"\norder = \"variable\"\n"); }),
+                              {"mine.toml:6", "order 'variable'", wanted}));
     }
     EXPECT_NO_THROW(parse(wanted + block + "methods = \"radau_iia_5\"\n"));
   }
-  EXPECT_NO_THROW(parse("title = \"none\"" + block +
-                        "methods = \"radau_iia\"\nconfiguration = \"variable\"\n"));
+  EXPECT_NO_THROW(parse("title = \"none\"" + block + "methods = \"radau_iia\"\nconfiguration = \"variable\"\n"));
 }
 
 TEST(Study, BuiltInStudiesLoadInBothVariants) {

@@ -11,9 +11,11 @@
 namespace irk {
 namespace {
 
-const std::string kSeeds[] = {"# study: small\n# version: 1\nkey,a,b\n0123456789abcdef,1,2\n00000000000000aa,\"x,y\",3\nff,,nan\n",
-                              "key,a,b\r\n01,\"say \"\"no\"\"\",1e-3\r\n02,\"two\nlines\",4\r\n"};
-const std::string kPieces[] = {"\"", "\"\"", ",", "\n", "\r\n", "#", "# a", "key,a,b\n", "nan", std::string(1, '\0'), "\xff", "ff,1,2\n"};
+const std::string kSeeds[] = {
+    "# study: small\n# version: 1\nkey,a,b\n0123456789abcdef,1,2\n00000000000000aa,\"x,y\",3\nff,,nan\n",
+    "key,a,b\r\n01,\"say \"\"no\"\"\",1e-3\r\n02,\"two\nlines\",4\r\n"};
+const std::string kPieces[] = {
+    "\"", "\"\"", ",", "\n", "\r\n", "#", "# a", "key,a,b\n", "nan", std::string(1, '\0'), "\xff", "ff,1,2\n"};
 
 class MutatedTables : public testing::Test {
  protected:

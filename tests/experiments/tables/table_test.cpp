@@ -15,10 +15,7 @@ namespace {
 Table sample() {
   return {{{"study", "order"}, {"flags", "-O3: all"}},
           {"key", "value", "detail"},
-          {{"a", "1", "plain"},
-           {"b", "nan", "a \"quoted\", comma"},
-           {"c", "3", "two\nlines"},
-           {"d", "", "empty"}}};
+          {{"a", "1", "plain"}, {"b", "nan", "a \"quoted\", comma"}, {"c", "3", "two\nlines"}, {"d", "", "empty"}}};
 }
 
 std::string contents(const std::filesystem::path& path) {
@@ -36,9 +33,7 @@ TEST(Table, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.rows, sample().rows);
 }
 
-TEST(Table, QuotesAsRfc4180Says) {
-  EXPECT_EQ(csvLine({"a", "b,c", "say \"x\"", ""}), "a,\"b,c\",\"say \"\"x\"\"\",");
-}
+TEST(Table, QuotesAsRfc4180Says) { EXPECT_EQ(csvLine({"a", "b,c", "say \"x\"", ""}), "a,\"b,c\",\"say \"\"x\"\"\","); }
 
 TEST(Table, DropsAHalfWrittenLastRow) {
   const TemporaryFolder folder;

@@ -21,8 +21,7 @@ std::string misuseOf(const std::function<void()>& action) {
 
 TEST(Catalogue, IsSortedWithUniqueIds) {
   const auto& entries = sceneCatalogue();
-  EXPECT_TRUE(std::is_sorted(entries.begin(), entries.end(),
-                             [](const auto& a, const auto& b) { return a.id < b.id; }));
+  EXPECT_TRUE(std::is_sorted(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.id < b.id; }));
   for (const SceneEntry& entry : entries) {
     EXPECT_FALSE(entry.title.empty()) << entry.id;
     EXPECT_FALSE(entry.shows.empty()) << entry.id;
@@ -65,8 +64,8 @@ TEST(Catalogue, KindsAreThoseOfTheSystems) {
     SCOPED_TRACE(entry.id);
     const Sizes n = makeScene<double>(entry.id).sizes();
     const bool algebraic = n.nz > 0, constrained = algebraic && n.constraints == n.nz;
-    const bool index = entry.kind == SceneKind::kIndex1 || entry.kind == SceneKind::kIndex2 ||
-                       entry.kind == SceneKind::kIndex3;
+    const bool index =
+        entry.kind == SceneKind::kIndex1 || entry.kind == SceneKind::kIndex2 || entry.kind == SceneKind::kIndex3;
     EXPECT_EQ(entry.kind == SceneKind::kConstrained, constrained);
     EXPECT_EQ(index, algebraic && !constrained);
     const bool stiff = entry.kind == SceneKind::kStiffTest || entry.kind == SceneKind::kSingularlyPerturbed;
@@ -137,14 +136,9 @@ TEST(Catalogue, NamesTheNearestScene) {
 }
 
 TEST(Catalogue, NamesTheNearestParameter) {
-  const std::string message = misuseOf([] {
-    makeScene<double>("slider_crank", {{"coordinate", "minimal"}});
-  });
+  const std::string message = misuseOf([] { makeScene<double>("slider_crank", {{"coordinate", "minimal"}}); });
   EXPECT_NE(message.find("did you mean 'coordinates'"), std::string::npos) << message;
-  EXPECT_NE(misuseOf([] {
-              makeScene<double>("hires", {{"k", "1"}});
-            }).find("no parameters"),
-            std::string::npos);
+  EXPECT_NE(misuseOf([] { makeScene<double>("hires", {{"k", "1"}}); }).find("no parameters"), std::string::npos);
 }
 
 TEST(Catalogue, RefusesAScalarThatTheSceneDoesNotOffer) {
@@ -168,9 +162,7 @@ TEST(Catalogue, RefusesWhatIsNoNumber) {
 }
 
 TEST(Catalogue, RefusesUnknownWords) {
-  const std::string message = misuseOf([] {
-    makeScene<double>("hydraulic_arm", {{"reference", "smoth"}});
-  });
+  const std::string message = misuseOf([] { makeScene<double>("hydraulic_arm", {{"reference", "smoth"}}); });
   EXPECT_NE(message.find("did you mean 'smooth'"), std::string::npos) << message;
 }
 

@@ -23,8 +23,7 @@ TEST(Exact, SolvesTheEquations) {
       const mp50 t = mp50(fraction) * scene.t_end / 2;
       const auto s = scene.exact(t);
       EXPECT_EQ(s.t, t);
-      const Vec<mp50> r =
-          residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s), s.d);
+      const Vec<mp50> r = residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s), s.d);
       // 1e8: the stiffest lambda multiplies the round-off of y - phi.
       EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-49 * 1e8 * 100)) << t;
       // Central differences have the truncation error delta^2 / 6 times the third derivative (below 1e8; that of the
@@ -48,8 +47,7 @@ TEST(Exact, SolvesTheEquations) {
 // The force exceeds the yield force for 4 ms, between two steps of the exact solution. Two integrators of different
 // families agree on the slider's displacement.
 TEST(Exact, SeesAYieldShorterThanAStep) {
-  const SceneCase c{"elastoplastic",
-                    {{"Fy", "1.85"}, {"Omega", "11.7"}, {"P0", "0.459"}, {"k", "128"}, {"m", "1.45"}}};
+  const SceneCase c{"elastoplastic", {{"Fy", "1.85"}, {"Omega", "11.7"}, {"P0", "0.459"}, {"k", "128"}, {"m", "1.45"}}};
   const auto exact = makeScene<double>(c.id, c.settings).exact(1.8);
   EXPECT_GT(exact.x[0], 1e-5);
   for (const char* method : {"radau_iia_7", "gauss_6"}) {

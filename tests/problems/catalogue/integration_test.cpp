@@ -32,8 +32,8 @@ IntegratorOptions optionsFor(const std::string& scene) {
 
 State<double> stateAt(const Scene<double>& scene, const State<double>& from, double t) {
   static const Tableau<double> tableau = makeTableau<double>("radau_iia_5");
-  Integrator<double> integrator(scene.system({.discontinuity = Discontinuity::kLocate}), tableau,
-                                optionsFor(scene.id), scene.scale);
+  Integrator<double> integrator(scene.system({.discontinuity = Discontinuity::kLocate}), tableau, optionsFor(scene.id),
+                                scene.scale);
   const Solution<double> solution = integrator.integrate(from, t);
   EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   return solution.state;

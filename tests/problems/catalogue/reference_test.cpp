@@ -61,8 +61,7 @@ TEST(Reference, ExactSolutionsAgree) {
       const mp50 value = valueOf(scene, r.component, scene.exact(mp50(fmt::format("{}", r.t))));
       if (!isfinite(value)) continue;  // the closed form does not give it
       // The guard digit of a value is rounded.
-      EXPECT_LE(abs(value - mp50(r.value)), mp50(1.1 * r.accuracy))
-          << c.name() << " " << r.component << " at " << r.t;
+      EXPECT_LE(abs(value - mp50(r.value)), mp50(1.1 * r.accuracy)) << c.name() << " " << r.component << " at " << r.t;
       ++compared;
     }
   }
@@ -75,9 +74,8 @@ TEST(Reference, EverySceneHasItsEnd) {
     const auto scene = makeScene<double>(entry.id);
     const auto all = references(entry.id);
     for (const std::string& name : scene.names) {
-      EXPECT_TRUE(std::any_of(
-          all.begin(), all.end(),
-          [&](const Reference& r) { return r.component == name && r.t == scene.t_end; }))
+      EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                              [&](const Reference& r) { return r.component == name && r.t == scene.t_end; }))
           << entry.id << " " << name;
     }
   }
@@ -92,8 +90,7 @@ TEST(Reference, EllipticFunctionsAndIntegrationAgreeToTwentyFiveDigits) {
     options.tolerances.rtol = options.tolerances.atol = 1e-28;
     options.newton.max_iterations = 100;
     options.newton.kappa = 1e-4;
-    Integrator<mp50> integrator(scene.system({}), makeTableau<mp50>("radau_iia_16"), options,
-                                scene.scale);
+    Integrator<mp50> integrator(scene.system({}), makeTableau<mp50>("radau_iia_16"), options, scene.scale);
     const auto solution = integrator.integrate(scene.start, mp50(t_end));
     ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
     const State<mp50> exact = scene.exact(mp50(t_end));

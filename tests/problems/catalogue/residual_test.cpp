@@ -9,9 +9,8 @@ namespace {
 
 // Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off are both below
 // 1e-25, relative to the terms of the row.
-Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t,
-                               const Vec<double>& y, const Vec<double>& d,
-                               const Vec<double>& scale) {
+Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t, const Vec<double>& y,
+                               const Vec<double>& d, const Vec<double>& scale) {
   const Vec<mp50> at = y.cast<mp50>(), modes = d.cast<mp50>();
   Mat<double> J(system.sizes().n(), y.size());
   for (Index j = 0; j < y.size(); ++j) {
@@ -19,8 +18,8 @@ Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp
     Vec<mp50> above = at, below = at;
     above[j] += delta;
     below[j] -= delta;
-    const Vec<mp50> difference = residualAt<mp50, mp50>(system, level, t, above, modes) -
-                                 residualAt<mp50, mp50>(system, level, t, below, modes);
+    const Vec<mp50> difference =
+        residualAt<mp50, mp50>(system, level, t, above, modes) - residualAt<mp50, mp50>(system, level, t, below, modes);
     J.col(j) = (difference / mp50(2 * delta)).cast<double>();
   }
   return J;
@@ -93,12 +92,12 @@ TEST(Residual, StagesAtOnceAreTheirResidualsOneByOne) {
           w.col(i) = at.back().tail(n.n());
         }
         Mat<double> r = Mat<double>::Constant(n.n(), kStages, -77);
-        counted.evaluateStages({n, t.data(), u.data(), v.data(), x.data(), w.data(), mode.d.data()},
-                               1, kStages, r.data());
+        counted.evaluateStages({n, t.data(), u.data(), v.data(), x.data(), w.data(), mode.d.data()}, 1, kStages,
+                               r.data());
         EXPECT_EQ(counters.residuals, kStages - 1);
         for (Index i = 1; i < kStages; ++i) {
-          const Vec<double> one = residualAt(*system, Level::kFormulated, t[i],
-                                             at[static_cast<std::size_t>(i)], mode.d);
+          const Vec<double> one =
+              residualAt(*system, Level::kFormulated, t[i], at[static_cast<std::size_t>(i)], mode.d);
           EXPECT_TRUE((r.col(i).array() == one.array()).all()) << "stage " << i;
         }
         EXPECT_TRUE((r.col(0).array() == -77).all()) << "was not asked for";
@@ -114,8 +113,8 @@ TEST(Residual, MultipliersActThroughTheConstraintJacobian) {
     const auto scene = makeScene<double>(c.id, c.settings);
     const Sizes n = scene.sizes();
     const auto system = scene.system({Formulation::kIndex3});
-    const Mat<double> J = automaticJacobian<double>(*system, Level::kPosition, 0.0,
-                                                    perturbedPoint(scene, n), scene.start.d);
+    const Mat<double> J =
+        automaticJacobian<double>(*system, Level::kPosition, 0.0, perturbedPoint(scene, n), scene.start.d);
     const Index first = n.nu + n.nx;
     const Index lambda = 2 * n.nu + n.nx + first;  // column in (u, v, x, a, k, z)
     const Mat<double> by_lambda = J.block(0, lambda, n.nu, n.constraints);
@@ -144,13 +143,11 @@ TEST(Residual, FiftyDigitsAgreeWithDouble) {
         const double t = 0.25;
         const Level level = Level::kFormulated;
         const Vec<double> r = residualAt<double, double>(*system, level, t, y, mode.d);
-        const Vec<mp50> exact =
-            residualAt<mp50, mp50>(*precise_system, level, t, y.cast<mp50>(), mode.d.cast<mp50>());
+        const Vec<mp50> exact = residualAt<mp50, mp50>(*precise_system, level, t, y.cast<mp50>(), mode.d.cast<mp50>());
         const Mat<double> J = automaticJacobian<double>(*system, level, t, y, mode.d);
         const Vec<double> rows = rowSizes(J, y, pointScale(scene, n));
         for (Index i = 0; i < r.size(); ++i) {
-          EXPECT_NEAR(r[i], static_cast<double>(exact[i]), 1e-13 * (rows[i] + std::abs(r[i])))
-              << "row " << i;
+          EXPECT_NEAR(r[i], static_cast<double>(exact[i]), 1e-13 * (rows[i] + std::abs(r[i]))) << "row " << i;
         }
       }
     }
@@ -166,10 +163,8 @@ TEST(Residual, FormulationsDifferInConstraintRowsOnly) {
     const Vec<double> y = perturbedPoint(scene, n);
     const auto index3 = scene.system({Formulation::kIndex3});
     const auto index2 = scene.system({Formulation::kIndex2, ConstraintScaling::kOff});
-    const Vec<double> r3 =
-        residualAt<double, double>(*index3, Level::kFormulated, 0, y, scene.start.d);
-    const Vec<double> r2 =
-        residualAt<double, double>(*index2, Level::kFormulated, 0, y, scene.start.d);
+    const Vec<double> r3 = residualAt<double, double>(*index3, Level::kFormulated, 0, y, scene.start.d);
+    const Vec<double> r2 = residualAt<double, double>(*index2, Level::kFormulated, 0, y, scene.start.d);
     EXPECT_EQ(r3.head(n.nu + n.nx), r2.head(n.nu + n.nx));
     const Index rest = n.nz - n.constraints;
     EXPECT_EQ(r3.tail(rest), r2.tail(rest));

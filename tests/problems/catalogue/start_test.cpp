@@ -18,8 +18,7 @@ void expectConsistent(const SceneCase& c, const Real& eps) {
   const Vec<double> y_double = pointVector(reference.start);
   for (const Level level : {Level::kPosition, Level::kVelocity, Level::kAcceleration}) {
     const Vec<Real> r = residualAt<Real, Real>(*system, level, scene.start.t, y, scene.start.d);
-    const Mat<double> J =
-        automaticJacobian<double>(*reference_system, level, 0.0, y_double, reference.start.d);
+    const Mat<double> J = automaticJacobian<double>(*reference_system, level, 0.0, y_double, reference.start.d);
     const Vec<double> rows = rowSizes(J, y_double, pointScale(reference, n));
     for (Index i = 0; i < r.size(); ++i) {
       // Solving for w multiplies the round-off of the rows' terms by its condition.

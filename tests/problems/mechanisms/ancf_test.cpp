@@ -23,8 +23,8 @@ Equilibrium<Real> bentCantilever(const std::string& elements) {
   const auto scene = makeScene<Real>("ancf_cantilever", {{"elements", elements}});
   const LoadedSystem<Real> loaded = [&](const Real& load) {
     const double f = 3 * 2.07e11 * 1e-4 / 12 / 4 * static_cast<double>(load);
-    return makeScene<Real>("ancf_cantilever", {{"elements", elements},
-                                               {"f", load == 1 ? "3EI/L^2" : std::to_string(f)}})
+    return makeScene<Real>("ancf_cantilever",
+                           {{"elements", elements}, {"f", load == 1 ? "3EI/L^2" : std::to_string(f)}})
         .system({Formulation::kIndex3});
   };
   return findEquilibrium<Real>(loaded, scene.start, 10);
@@ -35,11 +35,10 @@ struct TipDeflection {
 };
 
 TEST(Ancf, StaticCantileverHasTheCheckedDeflection) {
-  const std::map<std::string, TipDeflection> table = {
-      {"1", {-0.36224472989050, -0.99414475872497, 1e-12}},
-      {"2", {-0.48892630834, -1.17522286506, 1e-11}},
-      {"4", {-0.50742871512, -1.20553370223, 1e-11}},
-      {"8", {-0.50850923650, -1.20719775602, 1e-11}}};
+  const std::map<std::string, TipDeflection> table = {{"1", {-0.36224472989050, -0.99414475872497, 1e-12}},
+                                                      {"2", {-0.48892630834, -1.17522286506, 1e-11}},
+                                                      {"4", {-0.50742871512, -1.20553370223, 1e-11}},
+                                                      {"8", {-0.50850923650, -1.20719775602, 1e-11}}};
   for (const auto& [elements, tip] : table) {
     SCOPED_TRACE(elements);
     const auto bent = bentCantilever<double>(elements);
@@ -96,8 +95,7 @@ TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
       State<mp50> above = s, below = s;
       above.u[i] += delta;
       below.u[i] -= delta;
-      const mp50 slope =
-          (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
+      const mp50 slope = (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
       // Central differences have the error delta^2 times the ratio of third to first derivative, below 1e5 here.
       EXPECT_LT(abs(r[i] + slope), size * 1e-25) << id << " " << i;
     }

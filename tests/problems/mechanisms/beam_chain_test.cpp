@@ -46,9 +46,8 @@ TEST(BeamChain, StiffnessLosesNoDigitsOnAFineMesh) {
   const mp50 damping = mp50(1) / 1000;
   const Vec<mp50> q = s.u.cast<mp50>() + damping * s.v.cast<mp50>();
   const Vec<mp50> Kq = mp50(n4) * secondDifferences(secondDifferences(q));
-  const double neighbours =
-      (s.u.tail(m - 1) - s.u.head(m - 1)).cwiseAbs().maxCoeff() +
-      0.001 * (s.v.tail(m - 1) - s.v.head(m - 1)).cwiseAbs().maxCoeff();
+  const double neighbours = (s.u.tail(m - 1) - s.u.head(m - 1)).cwiseAbs().maxCoeff() +
+                            0.001 * (s.v.tail(m - 1) - s.v.head(m - 1)).cwiseAbs().maxCoeff();
   // Four differences and three sums, each with half an eps of its terms; at t = 0 there is no force.
   const double bound = 8 * kEps * n4 * neighbours;
   double error = 0;

@@ -12,9 +12,7 @@ namespace {
 
 /// A ball that falls with g = 2 from height 1, passes a mark at 0.1, and hits a floor that returns half of its speed.
 struct Ball {
-  Sizes sizes() const {
-    return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2};
-  }
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 2, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.u[0] = -2.0 - p.a[0];

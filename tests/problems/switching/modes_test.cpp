@@ -24,8 +24,7 @@ TEST(Modes, OfTheBouncingMass) {
       EXPECT_LT(error(mode.value, tolerance, "radau_iia_5"), 300 * tolerance) << mode.id;
     }
   }
-  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate,
-                                   Discontinuity::kLocate}) {
+  for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
     EXPECT_LT(error(mode, 1e-10, "radau_iia_5"), 300 * 1e-10) << idOf(mode);
     EXPECT_LT(error(mode, 1e-10, "radau_iia_9"), 300 * 1e-10) << idOf(mode);
   }
@@ -65,9 +64,8 @@ TEST(Modes, RegularisationsTendToTheSwitchedScene) {
 TEST(Modes, FormulationsOfTheMechatronicCrankAgree) {
   const auto scene = makeScene<double>("mechatronic_crank");
   IntegratorOptions options;
-  for (const Formulation formulation :
-       {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex2Projected,
-        Formulation::kIndex3, Formulation::kGgl}) {
+  for (const Formulation formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex2Projected,
+                                        Formulation::kIndex3, Formulation::kGgl}) {
     // In index 3 velocities have round-off divided by h: short steps after a switch cannot reach 1e-9, and if they
     // cannot reach 1e-8 either the run must fail.
     const double tol = formulation == Formulation::kIndex3 ? 1e-8 : 1e-9;

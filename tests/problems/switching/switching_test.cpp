@@ -19,8 +19,7 @@ constexpr double kThird = 1.0 / 3;
 
 const std::vector<SwitchingTimes>& switchingTimes() {
   static const std::vector<SwitchingTimes> all = {
-      {{"stick_slip",
-        {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}},
+      {{"stick_slip", {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}},
        2,
        1e-9,
        {{"reaches the belt", 1 * M_PI / 10},
@@ -105,8 +104,7 @@ void expectEvents(const Result& r, const std::vector<Event>& known, double accur
 TEST(Switching, LocatesTheKnownTimes) {
   for (const SwitchingTimes& known : switchingTimes()) {
     SCOPED_TRACE(known.scene.name());
-    expectEvents(run(known.scene, known.t_end, Discontinuity::kLocate), known.events,
-                 known.accuracy);
+    expectEvents(run(known.scene, known.t_end, Discontinuity::kLocate), known.events, known.accuracy);
   }
 }
 

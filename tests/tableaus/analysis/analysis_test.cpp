@@ -13,14 +13,11 @@ TEST(Analysis, StructureOfTheory) {
     std::string family;
     bool algebraically_stable, symplectic, stiffly_accurate, regular, explicit_first_stage;
   };
-  const Row theory[] = {{"gauss", true, true, false, true, false},
-                        {"radau_ia", true, false, false, true, false},
-                        {"radau_iia", true, false, true, true, false},
-                        {"lobatto_iiia", false, false, true, false, true},
-                        {"lobatto_iiib", false, false, false, false, false},
-                        {"lobatto_iiic", true, false, true, true, false},
-                        {"lobatto_iiics", false, false, false, false, true},
-                        {"lobatto_iiid", true, true, false, true, false}};
+  const Row theory[] = {
+      {"gauss", true, true, false, true, false},           {"radau_ia", true, false, false, true, false},
+      {"radau_iia", true, false, true, true, false},       {"lobatto_iiia", false, false, true, false, true},
+      {"lobatto_iiib", false, false, false, false, false}, {"lobatto_iiic", true, false, true, true, false},
+      {"lobatto_iiics", false, false, false, false, true}, {"lobatto_iiid", true, true, false, true, false}};
   ASSERT_EQ(std::size(theory), families().size());
   for (const Row& row : theory) {
     for (Index s : {2, 3, 4, 9, 20}) {

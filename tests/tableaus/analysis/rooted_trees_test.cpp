@@ -14,9 +14,7 @@ int countOfOrder(const std::vector<RootedTree>& trees, int order) {
   return static_cast<int>(std::ranges::count(trees, order, &RootedTree::order));
 }
 
-TreeConditions conditionsOf(const Tableau<mp80>& tableau) {
-  return treeConditions(tableau, analyzeTableau(tableau));
-}
+TreeConditions conditionsOf(const Tableau<mp80>& tableau) { return treeConditions(tableau, analyzeTableau(tableau)); }
 
 // OEIS A000081.
 TEST(RootedTrees, AreAsManyAsKnown) {

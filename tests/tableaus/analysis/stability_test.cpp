@@ -41,9 +41,8 @@ struct Degrees {
   std::string family;
   Index numerator_gap, denominator_gap;
 };
-const Degrees kPade[] = {{"gauss", 0, 0},        {"radau_ia", 1, 0},     {"radau_iia", 1, 0},
-                         {"lobatto_iiia", 1, 1}, {"lobatto_iiib", 1, 1}, {"lobatto_iiic", 2, 0},
-                         {"lobatto_iiics", 0, 2}};
+const Degrees kPade[] = {{"gauss", 0, 0},        {"radau_ia", 1, 0},     {"radau_iia", 1, 0},    {"lobatto_iiia", 1, 1},
+                         {"lobatto_iiib", 1, 1}, {"lobatto_iiic", 2, 0}, {"lobatto_iiics", 0, 2}};
 
 // HW II (IV.3.30): N_jk = sum_i binom(j, i) (j+k-i)! / (j+k)! z^i, D_jk(z) = N_kj(-z).
 mp80 padeCoefficient(Index j, Index k, Index i) {
@@ -172,8 +171,7 @@ TEST(Stability, OfTheFamilies) {
     const bool l_stable = family.id.starts_with("radau") || family.id == "lobatto_iiic";
     for (Index s = family.minStages(); s <= 20; ++s) {
       SCOPED_TRACE(memberId(family.id, s));
-      const auto stability =
-          analyzeStability(stabilityFunction(constructFamily(family, s), 5e-48), 5e-48);
+      const auto stability = analyzeStability(stabilityFunction(constructFamily(family, s), 5e-48), 5e-48);
       EXPECT_EQ(stability.a_stable, a_stable);
       EXPECT_EQ(stability.l_stable, l_stable);
       EXPECT_EQ(stability.i_stable, a_stable);
@@ -185,11 +183,8 @@ TEST(Stability, OfTheFamilies) {
 // Explicit methods with s = p <= 4 stages: HW II, Table IV.2.1.
 TEST(Stability, IntervalsOfExplicitMethods) {
   const mp80 half = mp80(1) / 2, third = mp80(1) / 3, sixth = mp80(1) / 6;
-  const auto rk4 = propertiesOf(method({{0, 0, 0, 0},
-                                        {half, 0, 0, 0},
-                                        {0, half, 0, 0},
-                                        {0, 0, 1, 0},
-                                        {sixth, third, third, sixth}}));
+  const auto rk4 = propertiesOf(
+      method({{0, 0, 0, 0}, {half, 0, 0, 0}, {0, half, 0, 0}, {0, 0, 1, 0}, {sixth, third, third, sixth}}));
   EXPECT_NEAR(rk4.stability.real_limit, 2.785293563405282, 1e-14);
   EXPECT_NEAR(rk4.stability.imaginary_limit, 2 * std::sqrt(2.0), 1e-14);
   EXPECT_FALSE(rk4.stability.a_stable);
@@ -230,10 +225,9 @@ TEST(Stability, AngleAgreesWithSampling) {
   const mp80 gamma("0.435866521508458999416019451194"), tau = (1 + gamma) / 2;
   const mp80 b1 = -(6 * gamma * gamma - 16 * gamma + 1) / 4;
   const mp80 b2 = (6 * gamma * gamma - 20 * gamma + 5) / 4;
-  const auto properties = propertiesOf(
-      method({{gamma, 0, 0}, {tau - gamma, gamma, 0}, {b1, -b2, gamma}, {b1, -b2, gamma}}));
-  const auto& [a_stable, l_stable, i_stable, alpha, real_limit, imaginary_limit] =
-      properties.stability;
+  const auto properties =
+      propertiesOf(method({{gamma, 0, 0}, {tau - gamma, gamma, 0}, {b1, -b2, gamma}, {b1, -b2, gamma}}));
+  const auto& [a_stable, l_stable, i_stable, alpha, real_limit, imaginary_limit] = properties.stability;
   ASSERT_FALSE(a_stable);
   ASSERT_GT(alpha, 0);
   ASSERT_LT(alpha, 90);
@@ -282,8 +276,8 @@ TEST(Spectrum, RepeatedEigenvaluesWithAndWithoutEigenvectors) {
 
 TEST(Structure, SymmetryOfTheFamilies) {
   for (const auto& family : families()) {
-    const bool symmetric = family.id == "gauss" || family.id == "lobatto_iiia" ||
-                           family.id == "lobatto_iiib" || family.id == "lobatto_iiid";
+    const bool symmetric = family.id == "gauss" || family.id == "lobatto_iiia" || family.id == "lobatto_iiib" ||
+                           family.id == "lobatto_iiid";
     for (Index s : {2, 3, 6, 11}) {
       EXPECT_EQ(propertiesOf(constructFamily(family, s)).symmetric, symmetric) << family.id << s;
     }
@@ -302,8 +296,7 @@ TEST(Structure, SymmetryUpToTheOrderOfStages) {
 }
 
 TEST(Structure, KindsOfStages) {
-  EXPECT_EQ(propertiesOf(method({{0, 0}, {mp80(1) / 2, mp80(1) / 2}, {0, 1}})).kind,
-            StageKind::kSinglyDiagonalRest);
+  EXPECT_EQ(propertiesOf(method({{0, 0}, {mp80(1) / 2, mp80(1) / 2}, {0, 1}})).kind, StageKind::kSinglyDiagonalRest);
   EXPECT_EQ(propertiesOf(method({{1, 0}, {1, 2}, {0, 1}})).kind, StageKind::kDiagonal);
   EXPECT_EQ(propertiesOf(constructFamily(familyOf("gauss"), 2)).kind, StageKind::kFull);
 }

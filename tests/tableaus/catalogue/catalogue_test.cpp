@@ -42,8 +42,8 @@ TEST(Catalogue, UnknownIdsNameTheNearest) {
 }
 
 TEST(Catalogue, StagesOutOfRangeNameTheRange) {
-  for (const auto id : {"radau_iia_0", "radau_iia_101", "radau_iia_-3", "radau_iia_2.5",
-                        "radau_iia_99999999999999", "radau_iia_05", "radau_iia_"}) {
+  for (const auto id : {"radau_iia_0", "radau_iia_101", "radau_iia_-3", "radau_iia_2.5", "radau_iia_99999999999999",
+                        "radau_iia_05", "radau_iia_"}) {
     EXPECT_TRUE(contains(refusedId(id), id));
     EXPECT_TRUE(contains(refusedId(id), "1 to 100")) << id;
   }

@@ -7,8 +7,7 @@
 namespace irk {
 namespace {
 
-using wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<200>,
-                                           boost::multiprecision::et_off>;
+using wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<200>, boost::multiprecision::et_off>;
 
 // All digits of the construction except five.
 template <class Precise>
@@ -92,9 +91,7 @@ Vec<wide> interpolatoryWeights(const Vec<wide>& c) {
 }
 
 /// C(s).
-Mat<wide> byC(const Vec<wide>& c) {
-  return vandermonde(c).partialPivLu().solve(integrals(c)).transpose();
-}
+Mat<wide> byC(const Vec<wide>& c) { return vandermonde(c).partialPivLu().solve(integrals(c)).transpose(); }
 
 /// D(s): V diag(b) A = (1/k - I) diag(b).
 Mat<wide> byD(const Vec<wide>& b, const Vec<wide>& c) {

@@ -38,8 +38,7 @@ TEST(Families, FulfilBCDOfTheoryAndNoMore) {
 
 // The table of families in tableaus/README.md, written out once more: B, C, D of the five-stage members.
 TEST(Families, OrdersOfFiveStages) {
-  const int expected[][3] = {{10, 5, 5}, {9, 4, 5}, {9, 5, 4}, {8, 5, 3},
-                             {8, 3, 5},  {8, 4, 4}, {8, 4, 4}, {8, 4, 4}};
+  const int expected[][3] = {{10, 5, 5}, {9, 4, 5}, {9, 5, 4}, {8, 5, 3}, {8, 3, 5}, {8, 4, 4}, {8, 4, 4}, {8, 4, 4}};
   ASSERT_EQ(families().size(), std::size(expected));
   for (std::size_t i = 0; i < families().size(); ++i) {
     SCOPED_TRACE(families()[i].id);
@@ -79,8 +78,7 @@ TEST(Families, DoublesAreTheDecimalsRoundedOnce) {
     const auto exact = constructFamily(family, 17);
     const auto rounded = makeTableau<double>(memberId(family.id, 17));
     for (Index i = 0; i < exact.A.size(); ++i) {
-      EXPECT_EQ(rounded.A.reshaped()[i],
-                std::strtod(exact.A.reshaped()[i].str(70).c_str(), nullptr));
+      EXPECT_EQ(rounded.A.reshaped()[i], std::strtod(exact.A.reshaped()[i].str(70).c_str(), nullptr));
     }
   }
 }
@@ -131,9 +129,7 @@ Block filled(Index rows, Index columns, std::initializer_list<mp50> values) {
   return block;
 }
 
-Mat<mp50> square(Index s, std::initializer_list<mp50> values) {
-  return filled<Mat<mp50>>(s, s, values);
-}
+Mat<mp50> square(Index s, std::initializer_list<mp50> values) { return filled<Mat<mp50>>(s, s, values); }
 
 Vec<mp50> column(std::initializer_list<mp50> values) {
   return filled<Vec<mp50>>(static_cast<Index>(values.size()), 1, values);
@@ -142,36 +138,30 @@ Vec<mp50> column(std::initializer_list<mp50> values) {
 // HW II, tables IV.5.2, IV.5.4, IV.5.6.
 TEST(Families, EqualTheSurdsOfTheBooks) {
   const mp50 r3 = sqrt(mp50(3)), r6 = sqrt(mp50(6)), one = 1;
-  expectKnown({"gauss_2", square(2, {one / 4, one / 4 - r3 / 6, one / 4 + r3 / 6, one / 4}),
-               column({one / 2, one / 2}), column({one / 2 - r3 / 6, one / 2 + r3 / 6})});
+  expectKnown({"gauss_2", square(2, {one / 4, one / 4 - r3 / 6, one / 4 + r3 / 6, one / 4}), column({one / 2, one / 2}),
+               column({one / 2 - r3 / 6, one / 2 + r3 / 6})});
   expectKnown({"radau_ia_3",
                square(3, {one / 9, (-1 - r6) / 18, (-1 + r6) / 18,             //
                           one / 9, (88 + 7 * r6) / 360, (88 - 43 * r6) / 360,  //
                           one / 9, (88 + 43 * r6) / 360, (88 - 7 * r6) / 360}),
-               column({one / 9, (16 + r6) / 36, (16 - r6) / 36}),
-               column({0, (6 - r6) / 10, (6 + r6) / 10})});
+               column({one / 9, (16 + r6) / 36, (16 - r6) / 36}), column({0, (6 - r6) / 10, (6 + r6) / 10})});
   expectKnown({"radau_iia_3",
-               square(3, {(88 - 7 * r6) / 360, (296 - 169 * r6) / 1800, (-2 + 3 * r6) / 225,
-                          (296 + 169 * r6) / 1800, (88 + 7 * r6) / 360, (-2 - 3 * r6) / 225,
-                          (16 - r6) / 36, (16 + r6) / 36, one / 9}),
-               column({(16 - r6) / 36, (16 + r6) / 36, one / 9}),
-               column({(4 - r6) / 10, (4 + r6) / 10, 1})});
+               square(3, {(88 - 7 * r6) / 360, (296 - 169 * r6) / 1800, (-2 + 3 * r6) / 225, (296 + 169 * r6) / 1800,
+                          (88 + 7 * r6) / 360, (-2 - 3 * r6) / 225, (16 - r6) / 36, (16 + r6) / 36, one / 9}),
+               column({(16 - r6) / 36, (16 + r6) / 36, one / 9}), column({(4 - r6) / 10, (4 + r6) / 10, 1})});
 }
 
 // HW II, tables IV.5.8 to IV.5.12; IIIC* and IIID: Chan, BIT 30 (1990), and their mean.
 TEST(Families, EqualTheFractionsOfTheBooks) {
   const mp50 one = 1;
   const Vec<mp50> b = column({one / 6, 2 * one / 3, one / 6}), c = column({0, one / 2, 1});
-  const Mat<mp50> iiic = square(3, {one / 6, -one / 3, one / 6, one / 6, 5 * one / 12, -one / 12,
-                                    one / 6, 2 * one / 3, one / 6});
+  const Mat<mp50> iiic =
+      square(3, {one / 6, -one / 3, one / 6, one / 6, 5 * one / 12, -one / 12, one / 6, 2 * one / 3, one / 6});
   const Mat<mp50> iiics = square(3, {0, 0, 0, one / 4, one / 4, 0, 0, 1, 0});
   expectKnown(
-      {"lobatto_iiia_3",
-       square(3, {0, 0, 0, 5 * one / 24, one / 3, -one / 24, one / 6, 2 * one / 3, one / 6}), b,
-       c});
-  expectKnown({"lobatto_iiib_3",
-               square(3, {one / 6, -one / 6, 0, one / 6, one / 3, 0, one / 6, 5 * one / 6, 0}), b,
-               c});
+      {"lobatto_iiia_3", square(3, {0, 0, 0, 5 * one / 24, one / 3, -one / 24, one / 6, 2 * one / 3, one / 6}), b, c});
+  expectKnown(
+      {"lobatto_iiib_3", square(3, {one / 6, -one / 6, 0, one / 6, one / 3, 0, one / 6, 5 * one / 6, 0}), b, c});
   expectKnown({"lobatto_iiic_3", iiic, b, c});
   expectKnown({"lobatto_iiics_3", iiics, b, c});
   expectKnown({"lobatto_iiid_3", (iiic + iiics) / mp50(2), b, c});

@@ -133,13 +133,8 @@ Verdict verdictOn(const TableauReport& report, const std::string& name) {
 }
 
 TEST(Check, OrderBeyondBCDIsUnprovenNotWrong) {
-  Tableau<double> kutta{"kutta",
-                        "user",
-                        Mat<double>::Zero(4, 4),
-                        Vec<double>{{1, 2, 2, 1}} / 6.0,
-                        Vec<double>{{0, 0.5, 0.5, 1}},
-                        4,
-                        1};
+  Tableau<double> kutta{
+      "kutta", "user", Mat<double>::Zero(4, 4), Vec<double>{{1, 2, 2, 1}} / 6.0, Vec<double>{{0, 0.5, 0.5, 1}}, 4, 1};
   kutta.A(1, 0) = kutta.A(2, 1) = 0.5;
   kutta.A(3, 2) = 1;
   auto report = checkTableau(kutta);

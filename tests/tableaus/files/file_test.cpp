@@ -15,8 +15,7 @@ namespace {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
-      : path_(testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() +
-              ".txt") {
+      : path_(testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt") {
     std::ofstream(path_, std::ios::binary) << text;
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -100,8 +99,7 @@ TEST(File, RefusesEveryWayOfBeingCutShort) {
   for (std::size_t lines = 0; lines < kRadau2.size(); ++lines) {
     const TemporaryFile file(joined({kRadau2.begin(), kRadau2.begin() + static_cast<long>(lines)}));
     const std::string message = refusal([&] { readTableau(file.path()); });
-    EXPECT_TRUE(contains(
-        message, fmt::format("{}:{}: cut short", file.path(), std::max<std::size_t>(lines, 1))));
+    EXPECT_TRUE(contains(message, fmt::format("{}:{}: cut short", file.path(), std::max<std::size_t>(lines, 1))));
   }
 }
 
@@ -117,8 +115,8 @@ TEST(File, RefusesWrongCounts) {
 }
 
 TEST(File, RefusesWhatIsNoFiniteNumber) {
-  for (const std::string word : {"x", "nan", "inf", "-inf", "1e99999", "1e+", "0x1p3", "1.2.3",
-                                 "--1", "1/", "/2", "1/2/3", "1,5", "."}) {
+  for (const std::string word :
+       {"x", "nan", "inf", "-inf", "1e99999", "1e+", "0x1p3", "1.2.3", "--1", "1/", "/2", "1/2/3", "1,5", "."}) {
     expectRefused(changed({{8, word + " -1/12"}}), 8, "is not a finite number");
   }
   expectRefused(changed({{8, "1/0 -1/12"}}), 8, "divides by zero");
@@ -148,8 +146,7 @@ TEST(File, RefusesNumbersThatContradictTheHeader) {
   expectRefused(changed({no_family, {9, "0.75 0.2501"}}), 9, "row 2 of A does not sum up");
   expectRefused(changed({no_family, {4, "order: 4"}}), 4, "order 4 is contradicted by B(4)");
   expectRefused(changed({no_family, {8, "4/12 0"}}), 5, "stage order 2 is contradicted by C(2)");
-  expectRefused(changed({no_family, {6, "digits: 50"}, {9, "0.75 0.25000000000000000000001"}}), 9,
-                "for 50 digits");
+  expectRefused(changed({no_family, {6, "digits: 50"}, {9, "0.75 0.25000000000000000000001"}}), 9, "for 50 digits");
 }
 
 TEST(File, RefusesNumbersThatContradictTheFamily) {
@@ -163,8 +160,7 @@ TEST(File, RefusesNumbersThatContradictTheFamily) {
 }
 
 TEST(File, RefusesWhatCannotBeRead) {
-  EXPECT_TRUE(
-      contains(refusal([] { readTableau("missing.txt"); }), "'missing.txt' cannot be read"));
+  EXPECT_TRUE(contains(refusal([] { readTableau("missing.txt"); }), "'missing.txt' cannot be read"));
   EXPECT_TRUE(contains(refusal([] { readTableau(testing::TempDir()); }), "is a folder"));
 }
 

@@ -14,9 +14,10 @@ TEST(TableauFile, SurvivesMutatedTexts) {
   const std::string folder = IRK_SOURCE_DIR "/tableaus/data/";
   const std::string seeds[] = {readInputFile(folder + "gauss_2.txt"), readInputFile(folder + "lobatto_iiic_3.txt"),
                                "family: none\nstages: 1\norder: 2\nstage_order: 1\ndigits: 16\nA\n0.5\nb\n1\nc\n0.5\n"};
-  const std::string pieces[] = {"A\n", "b\n",   "c\n",   "\n",   "stages: 3", "stages: -1", "stages: 99999999999", "nan",
-                                "inf", "1e999", "1e-999", "0x1p3", ":",        "#",          "digits: 0",           "\r",
-                                "\t",  "+",     "-",      ".",     "1/2",      "1e",         std::string(1, '\0'),  "\xff"};
+  const std::string pieces[] = {
+      "A\n", "b\n",   "c\n",    "\n",    "stages: 3", "stages: -1", "stages: 99999999999", "nan",
+      "inf", "1e999", "1e-999", "0x1p3", ":",         "#",          "digits: 0",           "\r",
+      "\t",  "+",     "-",      ".",     "1/2",       "1e",         std::string(1, '\0'),  "\xff"};
   Mutations mutations(seeds, pieces, 20042);
   int read = 0, refused = 0;
   for (int i = 0; i < 50'000; ++i) {
