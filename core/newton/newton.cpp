@@ -5,7 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/newton/broyden.h"
+#include "core/newton/newton_base.h"
+#include "core/newton/residual_newton.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -23,16 +24,6 @@ double power(double x, int n) {
   return result;
 }
 
-template <class Real>
-double epsilon() {
-  return static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
-}
-
-// Increments below this many units of round-off cannot be reduced further.
-constexpr double kRoundOffUnits = 10;
-// Increments that stop contracting below this many units of round-off are round-off of the residual.
-constexpr double kStagnationUnits = 1e4;
-
 // Round-off up to this many tolerances is accepted, and told; increments up to so many times the measured
 // round-off are round-off.
 constexpr double kMaxRoundOff = 0.3;
@@ -48,59 +39,6 @@ constexpr Index kUpdatesFrom = 3;
 
 // Fixed steps iterate to round-off and cannot be shortened: slow convergence is waited for.
 constexpr int kFixedStepFactor = 4;
-
-// Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
-template <class Real>
-double unitRoundOff(const IntegratorOptions& options) {
-  return epsilon<Real>() / std::max(options.tolerances.rtol, options.tolerances.atol);
-}
-
-/// Iterations that share their pieces: residual, solve, update.
-template <class Real>
-class NewtonBase : public Newton<Real> {
- protected:
-  NewtonBase(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : options_(options),
-        round_off_(unitRoundOff<Real>(options)),
-        first_(scheme.first),
-        R_(sizes.n(), scheme.s),
-        W0_(sizes.n(), scheme.s),
-        row_weights_(sizes.n()) {}
-
-  /// A new step: keeps its start values for restarts.
-  void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
-    W0_ = W;
-    c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
-  }
-
-  /// A new Jacobian where one is asked for, and where there is none.
-  void refresh(NewtonContext<Real>& c, const Mat<Real>& W) {
-    auto& shared = c.matrix.shared();
-    const bool wanted = shared.stale() && c.use == JacobianUse::kRefreshIfStale;
-    if (shared.version() == 0 || wanted) shared.evaluate(c.eq, W);
-  }
-
-  /// R(W); false if not finite.
-  bool residual(NewtonContext<Real>& c, const Mat<Real>& W) { return c.eq.residual(W, R_); }
-
-  /// Solves for the increment, applies it, and returns its norm; NaN if not finite.
-  template <class Matrix>
-  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W, BroydenUpdates<Real>* updates = nullptr) {
-    matrix.solve(R_.rightCols(R_.cols() - first_));
-    VecView<Real> increment = implicit();
-    if (updates) updates->apply(increment);
-    VecView<Real>(W.col(first_).data(), increment.size()) -= increment;
-    return c.norm.increment(R_, first_, row_weights_);
-  }
-  VecView<Real> implicit() { return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)}; }
-
-  const IntegratorOptions& options_;
-  double round_off_;
-  Index first_;
-  Mat<Real> R_;   // residual, then increment
-  Mat<Real> W0_;  // start values, for restarts
-  Vec<double> row_weights_;
-};
 
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
@@ -152,7 +90,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
-    double eta = std::pow(std::max(eta_, epsilon<Real>()), 0.8);
+    double eta = std::pow(std::max(eta_, roundOff<Real>()), 0.8);
     double previous = 0;
     if (updates_) updates_->begin(theta_ > kWorthUpdates);
     for (int m = 0; m < limit; ++m) {
@@ -235,104 +173,6 @@ class BroydenNewton final : public SimplifiedNewton<Real> {
   }
 };
 
-/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
-/// the iteration as well: then the residual cannot shrink by the asked factor.
-template <class Real>
-class ResidualNewton : public NewtonBase<Real> {
- public:
-  ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : NewtonBase<Real>(options, sizes, scheme) {}
-
- protected:
-  enum Jacobian { kKept, kStagewise };
-
-  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W, Jacobian jacobian) {
-    const NewtonOptions& o = this->options_.newton;
-    NewtonResult result;
-    if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
-    const double eps0 = residualNorm();
-    double eps = eps0;
-    if (eps0 == 0) return result;
-    for (int i = 1; i <= o.max_iterations; ++i) {
-      ++result.iterations;
-      ++c.counters.newton_iterations;
-      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W) : c.matrix.prepare(c.eq.h());
-      if (result.outcome != Outcome::kSuccess) return result;
-      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W) : this->update(c, c.matrix, W);
-      if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
-      const double previous = eps;
-      eps = residualNorm();
-      result.theta = eps / previous;
-      if (eps <= o.residual_tolerance * eps0) return result;
-      if (norm <= kRoundOffUnits * this->round_off_) return result;
-      if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
-      // (3.4). Full Newton is the last resort and uses all its iterations.
-      if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
-        return fail(result, Outcome::kNewtonFailed);
-      }
-    }
-    return fail(result, Outcome::kNewtonFailed);
-  }
-
- private:
-  double residualNorm() const { return static_cast<double>(Real(this->R_.norm())); }
-  static NewtonResult fail(NewtonResult result, Outcome outcome) {
-    result.outcome = outcome;
-    return result;
-  }
-};
-
-/// With the kept Jacobian, then with a new one, then with those of the stages.
-template <class Real>
-class ModifiedNewton final : public ResidualNewton<Real> {
-  using Base = ResidualNewton<Real>;
-
- public:
-  using Base::Base;
-  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
-    this->begin(c, W);
-    auto& shared = c.matrix.shared();
-    this->refresh(c, W);
-    c.stagewise.reserve();
-    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
-    NewtonResult result = this->iterate(c, W, Base::kKept);
-    if (result.outcome != Outcome::kSuccess && had_old) {
-      ++c.counters.newton_restarts;
-      W = this->W0_;
-      shared.evaluate(c.eq, W);
-      result = again(c, W, Base::kKept, result);
-    }
-    if (result.outcome != Outcome::kSuccess) {
-      ++c.counters.newton_restarts;
-      W = this->W0_;
-      result = again(c, W, Base::kStagewise, result);
-    }
-    if (result.outcome != Outcome::kSuccess) shared.markStale();
-    return result;
-  }
-
- private:
-  NewtonResult again(NewtonContext<Real>& c, Mat<Real>& W, typename Base::Jacobian jacobian,
-                     const NewtonResult& before) {
-    NewtonResult result = this->iterate(c, W, jacobian);
-    result.iterations += before.iterations;
-    return result;
-  }
-};
-
-/// With those of the stages, new in every iteration.
-template <class Real>
-class FullNewton final : public ResidualNewton<Real> {
-  using Base = ResidualNewton<Real>;
-
- public:
-  using Base::Base;
-  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
-    this->begin(c, W);
-    return this->iterate(c, W, Base::kStagewise);
-  }
-};
-
 }  // namespace
 
 template <>
@@ -344,16 +184,8 @@ Catalogue<NewtonKind>& catalogue<NewtonKind>() {
       {.id = NewtonKind::kBroyden,
        .meaning = "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on",
        .make = makes<NewtonMaker, BroydenNewton>()},
-      {.id = NewtonKind::kModified,
-       .meaning = "the paper's, with its restart and fallback rules",
-       .uses_stage_matrices = true,
-       .make = makes<NewtonMaker, ModifiedNewton>()},
-      {.id = NewtonKind::kFull,
-       .meaning = "a new stage-wise Jacobian in every iteration",
-       .needs = {.coupled_solver = true},
-       .keeps_jacobian = false,
-       .uses_stage_matrices = true,
-       .make = makes<NewtonMaker, FullNewton>()},
+      modifiedNewton(),
+      fullNewton(),
   });
   return all;
 }

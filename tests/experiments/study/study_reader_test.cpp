@@ -108,53 +108,55 @@ TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
   EXPECT_NO_THROW(parse(kStart + "steps = [\n  1,\n  2]\r\n"));
 }
 
+const std::string kSeeds[] = {
+    "title = \"A sweep\"\ntargets = [1e-4, 1e-6]\n[defaults]\nnewton = \"modified\"\n[timing]\nrepetitions = 2\n"
+    "[[block]]\nscene = [\"kepler\", \"pendulum\"]\nfamilies = [\"gauss\"]\nstages = [\"1..3\", 5]\n"
+    "tolerances = [1e-2, 1e-4]\n[block.quick]\nscene = \"kepler\"\nstages = 2\n",
+    "orders = true  # a comment\n[quick]\nrefine_most = 4\n[[block]]\nscene = 'kaps'\nsettings = [\"\", "
+    "\"eps=0.5\"]\n"
+    "t_end = 1\nmethods = [\"gauss_2\",\n  \"radau_iia_3\"]\nrefine_most = 8\n"};
+
+const std::string kPieces[] = {"[",
+                               "]",
+                               "[[",
+                               "]]",
+                               "{",
+                               "}",
+                               "=",
+                               ".",
+                               "\"",
+                               "'",
+                               "#",
+                               "\n",
+                               "\r",
+                               ",",
+                               "nan",
+                               "-inf",
+                               "\"\"\"",
+                               "'''",
+                               "0x",
+                               "1_0",
+                               "1__",
+                               "99999999",
+                               "\\u0000",
+                               "\\",
+                               "true",
+                               "block",
+                               "quick",
+                               "\xff",
+                               "\v",
+                               " ",
+                               "\t",
+                               "a.b",
+                               "\xc2\xa0",
+                               "\xe2\x80\xa8",
+                               "[block.quick]",
+                               "1979-05-27T07:32:00Z",
+                               std::string(1, '\0')};
+
 // 10 000 texts made from two valid ones by a few random changes: each gives a study or a misuse of one line.
 TEST(StudyReader, SurvivesMutatedTexts) {
-  const std::string seeds[] = {
-      "title = \"A sweep\"\ntargets = [1e-4, 1e-6]\n[defaults]\nnewton = \"modified\"\n[timing]\nrepetitions = 2\n"
-      "[[block]]\nscene = [\"kepler\", \"pendulum\"]\nfamilies = [\"gauss\"]\nstages = [\"1..3\", 5]\n"
-      "tolerances = [1e-2, 1e-4]\n[block.quick]\nscene = \"kepler\"\nstages = 2\n",
-      "orders = true  # a comment\n[quick]\nrefine_most = 4\n[[block]]\nscene = 'kaps'\nsettings = [\"\", "
-      "\"eps=0.5\"]\n"
-      "t_end = 1\nmethods = [\"gauss_2\",\n  \"radau_iia_3\"]\nrefine_most = 8\n"};
-  const std::string pieces[] = {"[",
-                                "]",
-                                "[[",
-                                "]]",
-                                "{",
-                                "}",
-                                "=",
-                                ".",
-                                "\"",
-                                "'",
-                                "#",
-                                "\n",
-                                "\r",
-                                ",",
-                                "nan",
-                                "-inf",
-                                "\"\"\"",
-                                "'''",
-                                "0x",
-                                "1_0",
-                                "1__",
-                                "99999999",
-                                "\\u0000",
-                                "\\",
-                                "true",
-                                "block",
-                                "quick",
-                                "\xff",
-                                "\v",
-                                " ",
-                                "\t",
-                                "a.b",
-                                "\xc2\xa0",
-                                "\xe2\x80\xa8",
-                                "[block.quick]",
-                                "1979-05-27T07:32:00Z",
-                                std::string(1, '\0')};
-  test::Mutations mutations(seeds, pieces, 20041);
+  test::Mutations mutations(kSeeds, kPieces, 20041);
   int studies = 0, refused = 0;
   for (int i = 0; i < 10'000; ++i) {
     const std::string text = mutations.next();

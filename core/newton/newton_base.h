@@ -1,0 +1,74 @@
+// What Newton methods share: residual, solve, update, and the units of round-off.
+#pragma once
+
+#include <algorithm>
+
+#include "core/newton/broyden.h"
+#include "core/newton/newton.h"
+
+namespace irk {
+
+template <class Real>
+double roundOff() {
+  return static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
+}
+
+// Increments below this many units of round-off cannot be reduced further.
+inline constexpr double kRoundOffUnits = 10;
+// Increments that stop contracting below this many units of round-off are round-off of the residual.
+inline constexpr double kStagnationUnits = 1e4;
+
+// Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
+template <class Real>
+double unitRoundOff(const IntegratorOptions& options) {
+  return roundOff<Real>() / std::max(options.tolerances.rtol, options.tolerances.atol);
+}
+
+/// Iterations that share their pieces: residual, solve, update.
+template <class Real>
+class NewtonBase : public Newton<Real> {
+ protected:
+  NewtonBase(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : options_(options),
+        round_off_(unitRoundOff<Real>(options)),
+        first_(scheme.first),
+        R_(sizes.n(), scheme.s),
+        W0_(sizes.n(), scheme.s),
+        row_weights_(sizes.n()) {}
+
+  /// A new step: keeps its start values for restarts.
+  void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
+    W0_ = W;
+    c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
+  }
+
+  /// A new Jacobian where one is asked for, and where there is none.
+  void refresh(NewtonContext<Real>& c, const Mat<Real>& W) {
+    auto& shared = c.matrix.shared();
+    const bool wanted = shared.stale() && c.use == JacobianUse::kRefreshIfStale;
+    if (shared.version() == 0 || wanted) shared.evaluate(c.eq, W);
+  }
+
+  /// R(W); false if not finite.
+  bool residual(NewtonContext<Real>& c, const Mat<Real>& W) { return c.eq.residual(W, R_); }
+
+  /// Solves for the increment, applies it, and returns its norm; NaN if not finite.
+  template <class Matrix>
+  double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W, BroydenUpdates<Real>* updates = nullptr) {
+    matrix.solve(R_.rightCols(R_.cols() - first_));
+    VecView<Real> increment = implicit();
+    if (updates) updates->apply(increment);
+    VecView<Real>(W.col(first_).data(), increment.size()) -= increment;
+    return c.norm.increment(R_, first_, row_weights_);
+  }
+  VecView<Real> implicit() { return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)}; }
+
+  const IntegratorOptions& options_;
+  double round_off_;
+  Index first_;
+  Mat<Real> R_;   // residual, then increment
+  Mat<Real> W0_;  // start values, for restarts
+  Vec<double> row_weights_;
+};
+
+}  // namespace irk

@@ -1,0 +1,127 @@
+#include "core/newton/residual_newton.h"
+
+#include <cmath>
+
+#include "core/newton/newton_base.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
+/// the iteration as well: then the residual cannot shrink by the asked factor.
+template <class Real>
+class ResidualNewton : public NewtonBase<Real> {
+ public:
+  ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : NewtonBase<Real>(options, sizes, scheme) {}
+
+ protected:
+  enum Jacobian { kKept, kStagewise };
+
+  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W, Jacobian jacobian) {
+    const NewtonOptions& o = this->options_.newton;
+    NewtonResult result;
+    if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+    const double eps0 = residualNorm();
+    double eps = eps0;
+    if (eps0 == 0) return result;
+    for (int i = 1; i <= o.max_iterations; ++i) {
+      ++result.iterations;
+      ++c.counters.newton_iterations;
+      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W) : c.matrix.prepare(c.eq.h());
+      if (result.outcome != Outcome::kSuccess) return result;
+      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W) : this->update(c, c.matrix, W);
+      if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+      const double previous = eps;
+      eps = residualNorm();
+      result.theta = eps / previous;
+      if (eps <= o.residual_tolerance * eps0) return result;
+      if (norm <= kRoundOffUnits * this->round_off_) return result;
+      if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+      // (3.4). Full Newton is the last resort and uses all its iterations.
+      if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
+        return fail(result, Outcome::kNewtonFailed);
+      }
+    }
+    return fail(result, Outcome::kNewtonFailed);
+  }
+
+ private:
+  double residualNorm() const { return static_cast<double>(Real(this->R_.norm())); }
+  static NewtonResult fail(NewtonResult result, Outcome outcome) {
+    result.outcome = outcome;
+    return result;
+  }
+};
+
+/// With the kept Jacobian, then with a new one, then with those of the stages.
+template <class Real>
+class ModifiedNewton final : public ResidualNewton<Real> {
+  using Base = ResidualNewton<Real>;
+
+ public:
+  using Base::Base;
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    this->begin(c, W);
+    auto& shared = c.matrix.shared();
+    this->refresh(c, W);
+    c.stagewise.reserve();
+    const bool had_old = !shared.evaluatedAt(c.eq.from().t);
+    NewtonResult result = this->iterate(c, W, Base::kKept);
+    if (result.outcome != Outcome::kSuccess && had_old) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      shared.evaluate(c.eq, W);
+      result = again(c, W, Base::kKept, result);
+    }
+    if (result.outcome != Outcome::kSuccess) {
+      ++c.counters.newton_restarts;
+      W = this->W0_;
+      result = again(c, W, Base::kStagewise, result);
+    }
+    if (result.outcome != Outcome::kSuccess) shared.markStale();
+    return result;
+  }
+
+ private:
+  NewtonResult again(NewtonContext<Real>& c, Mat<Real>& W, typename Base::Jacobian jacobian,
+                     const NewtonResult& before) {
+    NewtonResult result = this->iterate(c, W, jacobian);
+    result.iterations += before.iterations;
+    return result;
+  }
+};
+
+/// With those of the stages, new in every iteration.
+template <class Real>
+class FullNewton final : public ResidualNewton<Real> {
+  using Base = ResidualNewton<Real>;
+
+ public:
+  using Base::Base;
+  NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
+    this->begin(c, W);
+    return this->iterate(c, W, Base::kStagewise);
+  }
+};
+
+}  // namespace
+
+Strategy<NewtonKind> modifiedNewton() {
+  return {.id = NewtonKind::kModified,
+          .meaning = "the paper's, with its restart and fallback rules",
+          .uses_stage_matrices = true,
+          .make = makes<NewtonMaker, ModifiedNewton>()};
+}
+
+Strategy<NewtonKind> fullNewton() {
+  return {.id = NewtonKind::kFull,
+          .meaning = "a new stage-wise Jacobian in every iteration",
+          .needs = {.coupled_solver = true},
+          .keeps_jacobian = false,
+          .uses_stage_matrices = true,
+          .make = makes<NewtonMaker, FullNewton>()};
+}
+
+}  // namespace irk
