@@ -67,7 +67,7 @@ std::string solveJson(const RunRecord& record) {
   const Counters& c = record.counters;
   std::size_t place = 0;
   Json json;
-  json["status"] = record.outcome;
+  json["outcome"] = record.outcome;
   json["t"] = record.t;
   json["u"] = numbers(record, record.u, place);
   json["v"] = numbers(record, record.v, place);

@@ -32,7 +32,7 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
   EXPECT_EQ(keysOf(json["steps"]), (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),
             (std::set<std::string>{"residuals", "jacobians", "factorizations", "solves", "newton_iterations"}));
-  EXPECT_EQ(json["status"], "success");
+  EXPECT_EQ(json["outcome"], "success");
   EXPECT_NEAR(json["u"][0].get<double>(), 14.127892217751, 1e-7);
   EXPECT_NEAR(json["v"][0].get<double>(), 20.537482851413, 1e-7);
   EXPECT_EQ(json["spec"]["method"], "radau_iia_5");
@@ -96,7 +96,7 @@ TEST(Cli, StepMeansFixedSteps) {
 TEST(Cli, AFailedRunIsStatusOneWithItsCause) {
   const auto run = program({"solve", "kepler", "--tol", "1e-10", "--max-steps", "2", "--json"});
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(nlohmann::json::parse(run.out)["status"], "max_steps");
+  EXPECT_EQ(nlohmann::json::parse(run.out)["outcome"], "max_steps");
 }
 
 struct BadInput {
