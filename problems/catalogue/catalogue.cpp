@@ -3,41 +3,50 @@
 #include "core/base/text.h"
 #include "irk/misuse.h"
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 
+// The scenes, sorted by id: a function of each scene's file.
+// clang-format off
+#define IRK_SCENES(scene) \
+  scene(ancfCantileverEntry) \
+  scene(ancfPendulumEntry) \
+  scene(beamChainEntry) \
+  scene(bouncingMassEntry) \
+  scene(dahlquistEntry) \
+  scene(dcMotorChopperEntry) \
+  scene(elasticaEntry) \
+  scene(elastoplasticEntry) \
+  scene(hiresEntry) \
+  scene(hydraulicArmEntry) \
+  scene(hydraulicManipulatorEntry) \
+  scene(index1NonlinearEntry) \
+  scene(index2NonlinearEntry) \
+  scene(index3NonlinearEntry) \
+  scene(kapsEntry) \
+  scene(keplerEntry) \
+  scene(mechanicalDaeEntry) \
+  scene(mechatronicCrankEntry) \
+  scene(pendulumEntry) \
+  scene(protheroRobinsonEntry) \
+  scene(riccatiTrackingEntry) \
+  scene(robertsonEntry) \
+  scene(sampledControlEntry) \
+  scene(sliderCrankEntry) \
+  scene(sliderCrankFlexibleEntry) \
+  scene(stickSlipEntry) \
+  scene(stickSlipLugreEntry) \
+  scene(vanDerPolEntry)
+// clang-format on
+
+#define IRK_DECLARE(entry) SceneEntry entry();
+IRK_SCENES(IRK_DECLARE)
+#undef IRK_DECLARE
+
 const std::vector<SceneEntry>& sceneCatalogue() {
-  static const std::vector<SceneEntry> entries = {
-      ancfCantileverEntry(),
-      ancfPendulumEntry(),
-      beamChainEntry(),
-      bouncingMassEntry(),
-      dahlquistEntry(),
-      dcMotorChopperEntry(),
-      elasticaEntry(),
-      elastoplasticEntry(),
-      hiresEntry(),
-      hydraulicArmEntry(),
-      hydraulicManipulatorEntry(),
-      index1NonlinearEntry(),
-      index2NonlinearEntry(),
-      index3NonlinearEntry(),
-      kapsEntry(),
-      keplerEntry(),
-      mechanicalDaeEntry(),
-      mechatronicCrankEntry(),
-      pendulumEntry(),
-      protheroRobinsonEntry(),
-      riccatiTrackingEntry(),
-      robertsonEntry(),
-      sampledControlEntry(),
-      sliderCrankEntry(),
-      sliderCrankFlexibleEntry(),
-      stickSlipEntry(),
-      stickSlipLugreEntry(),
-      vanDerPolEntry(),
-  };
+#define IRK_CALL(entry) entry(),
+  static const std::vector<SceneEntry> entries = {IRK_SCENES(IRK_CALL)};
+#undef IRK_CALL
   return entries;
 }
 

@@ -3,7 +3,6 @@
 
 #include "problems/mechanisms/ancf_beam.h"
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

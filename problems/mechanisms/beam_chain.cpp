@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

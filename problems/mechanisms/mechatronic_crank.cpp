@@ -6,7 +6,6 @@
 
 #include "problems/mechanisms/slider_crank_data.h"
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "problems/support/build.h"
 #include "problems/support/elliptic.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

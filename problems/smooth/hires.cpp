@@ -1,6 +1,5 @@
 // HIRES: high irradiance responses of photomorphogenesis, Schaefer (1975). HW II (IV.10).
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

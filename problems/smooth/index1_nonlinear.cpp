@@ -3,7 +3,6 @@
 #include <array>
 
 #include "problems/smooth/exponential_dae.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

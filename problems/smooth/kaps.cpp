@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 
 namespace irk {
 namespace {

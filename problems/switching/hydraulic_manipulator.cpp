@@ -8,7 +8,6 @@
 
 #include "irk/misuse.h"
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 #include "problems/support/regularised.h"
 
 namespace irk {

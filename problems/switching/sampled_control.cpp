@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 #include "problems/support/piecewise_linear.h"
 
 namespace irk {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "problems/support/build.h"
-#include "problems/support/entries.h"
 #include "problems/support/regularised.h"
 
 namespace irk {
