@@ -17,7 +17,7 @@ namespace {
 constexpr Named<ScalarKind> kScalars[] = {
     {ScalarKind::kDouble, "double", "53 bits"},
     {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"},
-    {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on: riccati_tracking only"}};
+    {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on; few scenes offer it"}};
 
 }  // namespace
 
