@@ -1,4 +1,4 @@
-#include "core/newton/newton.h"
+#include "core/newton/simplified_newton.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,9 @@
 #include <optional>
 
 #include "core/newton/newton_base.h"
-#include "core/newton/residual_newton.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
-
-IRK_STRATEGIES(NewtonKind, "newton")
 
 namespace {
 
@@ -175,29 +172,16 @@ class BroydenNewton final : public SimplifiedNewton<Real> {
 
 }  // namespace
 
-template <>
-Catalogue<NewtonKind>& catalogue<NewtonKind>() {
-  static Catalogue<NewtonKind> all({
-      {.id = NewtonKind::kSimplified,
-       .meaning = "increment test in the error norm, HW II (IV.8)",
-       .make = makes<NewtonMaker, SimplifiedNewton>()},
-      {.id = NewtonKind::kBroyden,
-       .meaning = "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on",
-       .make = makes<NewtonMaker, BroydenNewton>()},
-      modifiedNewton(),
-      fullNewton(),
-  });
-  return all;
+Strategy<NewtonKind> simplifiedNewton() {
+  return {.id = NewtonKind::kSimplified,
+          .meaning = "increment test in the error norm, HW II (IV.8)",
+          .make = makes<NewtonMaker, SimplifiedNewton>()};
 }
 
-template <class Real>
-std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
-                                         const Scheme<Real>& scheme) {
-  return catalogue<NewtonKind>()[options.newton.kind].make.template of<Real>()(options, sizes, scheme);
+Strategy<NewtonKind> broydenNewton() {
+  return {.id = NewtonKind::kBroyden,
+          .meaning = "simplified; Broyden's updates of the matrix (QNERR) from 3 unknowns on",
+          .make = makes<NewtonMaker, BroydenNewton>()};
 }
-
-template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<double>&);
-template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<mp50>&);
-template std::unique_ptr<Newton<mp100>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<mp100>&);
 
 }  // namespace irk
