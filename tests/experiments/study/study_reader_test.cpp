@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/support.h"
 #include "tests/mutate.h"
 

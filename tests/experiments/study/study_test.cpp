@@ -1,4 +1,4 @@
-#include "experiments/study/study.h"
+#include "experiments/study/study_reader.h"
 #include "experiments/study/analysis.h"
 
 #include <gtest/gtest.h>
