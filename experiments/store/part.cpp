@@ -90,7 +90,7 @@ PartReading readPart(const std::filesystem::path& file, const std::vector<std::s
       if (text.starts_with('#')) continue;
       TableRow header = plainRow(cells);
       width = header.size();
-      if (header.back() == kBlockColumn) header.pop_back();  // the table was exported
+      if (!header.empty() && header.back() == kBlockColumn) header.pop_back();  // the table was exported
       if (!whole || header != columns) return reading;
       reading.columns_match = true;
     } else if (!whole || cells.size() != width || !take(cells, start)) {

@@ -21,7 +21,7 @@
 
 namespace irk {
 
-// The scenes and formulations are those of the built-in study `drift`, so that its figures can be drawn.
+// The block, the scene and the formulations are those of the built-in study `drift`, so that its figures can be drawn.
 inline constexpr char kSmall[] = R"(
 title = "Small"
 targets = [1e-2, 1e-4]
@@ -33,6 +33,7 @@ tolerances = [1e-3, 1e-5]
 min_time_s = 0.0005
 repetitions = 2
 [[block]]
+name = "pendulum"
 scene = "pendulum"
 t_end = 0.5
 )";
