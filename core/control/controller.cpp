@@ -163,9 +163,9 @@ template <>
 Catalogue<StepControl>& catalogue<StepControl>() {
   const Needs estimate{.estimate = true};
   static Catalogue<StepControl> all({
-      {StepControl::kPredictive, "Gustafsson's, HW II (IV.8.25)", estimate, construct<PredictiveController>},
-      {StepControl::kPaper, "section 6 of the paper", estimate, construct<PaperController>},
-      {StepControl::kHotint, "the paper's, as the later source has it", estimate, construct<HotintController>},
+      {StepControl::kPredictive, "Gustafsson's, HW II (IV.8.25)", estimate, kConstruct<PredictiveController>},
+      {StepControl::kPaper, "section 6 of the paper", estimate, kConstruct<PaperController>},
+      {StepControl::kHotint, "the paper's, as the later source has it", estimate, kConstruct<HotintController>},
       {StepControl::kFixed, "constant steps", {}, nullptr},
   });
   return all;

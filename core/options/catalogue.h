@@ -46,12 +46,12 @@ struct PerScalar {
 
 /// A factory that passes its arguments to the constructor of T.
 template <class T>
-inline constexpr auto construct = [](auto&&... args) { return std::make_unique<T>(args...); };
+inline constexpr auto kConstruct = [](auto&&... args) { return std::make_unique<T>(args...); };
 
 /// T<Real> of every scalar.
 template <template <class> class Maker, template <class> class T>
 PerScalar<Maker> makes() {
-  return {construct<T<double>>, construct<T<mp50>>, construct<T<mp100>>};
+  return {kConstruct<T<double>>, kConstruct<T<mp50>>, kConstruct<T<mp100>>};
 }
 
 /// One entry of the axis `Id`: specialised beside its strategies, with at least `Id id`, `std::string meaning` and

@@ -196,6 +196,7 @@ double valueOf(const DualNumber<T, N>& x) {
 namespace Eigen {
 template <class T, std::size_t N>
 struct NumTraits<irk::DualNumber<T, N>> : GenericNumTraits<irk::DualNumber<T, N>> {
+  // NOLINTNEXTLINE(readability-identifier-naming): the names are Eigen's.
   enum { RequireInitialization = 1, ReadCost = int(N) + 1, AddCost = int(N) + 1, MulCost = 2 * int(N) + 1 };
 };
 }  // namespace Eigen

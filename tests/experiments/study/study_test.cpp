@@ -1,5 +1,5 @@
-#include "experiments/study/study_reader.h"
 #include "experiments/study/analysis.h"
+#include "experiments/study/study_reader.h"
 
 #include <gtest/gtest.h>
 
