@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# Checks the includes of a room's files. Stops at an include that the room may not have; warns of units (x.h with
-# x.cpp) that include each other in a circle.
+# Checks the includes of a room's files. Stops at an include that the room may not have, and at units (x.h with x.cpp)
+# that include each other in a circle.
 #   ROOM     the room, library/room
 #   USES     the rooms that it may include, library/room;...
 #   HEADERS  public headers and their rooms, irk/x.h=library/room;...
