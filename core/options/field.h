@@ -34,9 +34,10 @@ struct Field {
   std::string name;     ///< `max_steps`: in options, files, tables and messages
   std::string meaning;  ///< one sentence
   FieldKind kind = FieldKind::kText;
-  std::vector<Choice> choices{};  ///< axes only; the default first
-  Range range{};                  ///< numbers and integers only
-  std::string form{};             ///< texts only: what is expected, in words
+  Range range{};       ///< numbers and integers only
+  std::string form{};  ///< texts only: what is expected, in words
+  /// Axes only: the ids that there are now, the default first.
+  std::function<std::vector<Choice>()> choices{};
 
   /// As text that `set` reads back to the same value.
   std::function<std::string(const Spec&)> get{};
@@ -53,7 +54,7 @@ struct Field {
   std::string allowed() const {
     if (isNumeric()) return range.text();
     std::string ids;
-    for (const auto& choice : choices) ids += (ids.empty() ? "" : " | ") + choice.id;
+    for (const auto& choice : kind == FieldKind::kAxis ? choices() : std::vector<Choice>{}) ids += (ids.empty() ? "" : " | ") + choice.id;
     return kind == FieldKind::kAxis ? ids : form;
   }
   /// The value in a Spec that nobody has changed.
@@ -69,9 +70,11 @@ Field<Spec> axisField(std::string meaning, Member member) {
                     .kind = FieldKind::kAxis,
                     .get = [member](const Spec& spec) { return std::string(idOf(member(spec))); },
                     .set = [member](Spec& spec, std::string_view id) { member(spec) = parseId<Axis>(id); }};
-  for (const auto& entry : named<Axis>()) {
-    field.choices.push_back({std::string(entry.id), std::string(entry.meaning)});
-  }
+  field.choices = [] {
+    std::vector<Choice> choices;
+    for (const auto& entry : named<Axis>()) choices.push_back({std::string(entry.id), std::string(entry.meaning)});
+    return choices;
+  };
   return field;
 }
 
@@ -106,9 +109,9 @@ Field<Outer> fieldOfMember(const Field<Inner>& inner, Inner Outer::*member) {
   Field<Outer> field{.name = inner.name,
                      .meaning = inner.meaning,
                      .kind = inner.kind,
-                     .choices = inner.choices,
                      .range = inner.range,
                      .form = inner.form,
+                     .choices = inner.choices,
                      .get = [get = inner.get, member](const Outer& s) { return get(s.*member); },
                      .set = [set = inner.set, member](Outer& s, std::string_view text) { set(s.*member, text); }};
   if (inner.number) {

@@ -9,8 +9,11 @@
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
 #include "experiments/commands/commands.h"
+#include "experiments/own/compiler.h"
+#include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/tables/build_info.h"
+#include "irk/registration.h"
 
 namespace irk {
 namespace {
@@ -50,6 +53,7 @@ class Program {
     addPaper();
     addRun();
     addSolve();
+    addNew();
     addList();
     addTableau();
     addPlots();
@@ -186,6 +190,7 @@ class Program {
   void addSolve() {
     auto* sub = verb(app_, "solve", "one integration", [this](Streams s) { return solve(s); });
     sub->add_option("--tol", solve_.tol, "Sets both rtol and atol. [0 < x < 1]")->type_name("NUMBER");
+    addLoad(*sub);
     sub->add_flag("--json", solve_.json, "Print one JSON object.");
     sub->add_option("--plot", solve_.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
         ->type_name("FILE");
@@ -223,15 +228,37 @@ class Program {
     return "TEXT";
   }
 
+  void addLoad(CLI::App& sub) {
+    sub.add_option("--load", load_, "A file of your own with scenes, integrators or strategies: FILE.cpp.")
+        ->take_all()
+        ->expected(1)
+        ->type_name("FILE");
+  }
+  void loadFiles() const {
+    for (const auto& file : load_) own::loadFile(file);
+  }
+
   int solve(Streams streams) {
+    loadFiles();
     for (const auto& [field, value] : fields_) {
       if (!value.empty()) solve_.fields.emplace_back(field, value);
     }
     return solveCommand(solve_, streams);
   }
 
+  void addNew() {
+    auto* sub =
+        verb(app_, "new", "write a file to begin with", [this](Streams s) { return newCommand(what_, out_, s); });
+    sub->add_option("what", what_, "scene")->required();
+    sub->add_option("file", out_, "the file, such as four_bar.cpp; the scene's id is its name")->required();
+  }
+
   void addList() {
-    auto* sub = verb(app_, "list", "what there is", [this](Streams s) { return listCommand(what_, s); });
+    auto* sub = verb(app_, "list", "scenes, methods, studies and options with their values", [this](Streams s) {
+      loadFiles();
+      return listCommand(what_, s);
+    });
+    addLoad(*sub);
     sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies or numbers");
   }
 
@@ -321,7 +348,7 @@ class Program {
   std::string study_, shard_, what_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::string out_ = "stability";
-  std::vector<std::string> folders_, methods_;
+  std::vector<std::string> folders_, methods_, load_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
   CompareOptions compare_;
@@ -332,8 +359,13 @@ class Program {
 
 int runProgram(const std::vector<std::string>& arguments, Streams streams) {
   int status = 0;
+  const own::ReportTo report(streams.err);
   try {
+    runRegistrations("");
     status = Program().run(arguments, streams);
+  } catch (const own::CompilerRefusal& refusal) {
+    streams.err << refusal.messages();
+    status = reportException(streams.err);
   } catch (...) {
     status = reportException(streams.err);
   }

@@ -43,6 +43,10 @@ int paperCommand(const RunOptions& options, Streams streams);
 /// `what`: scenes, methods, studies, strategies, numbers, or empty for all. Throws Misuse.
 int listCommand(const std::string& what, Streams streams);
 
+/// Writes the file `file` for a scene of the user's own, which runs as it is. `kind`: scene. Throws Misuse if the file
+/// exists.
+int newCommand(const std::string& kind, const std::string& file, Streams streams);
+
 struct ReferenceOptions {
   std::vector<std::string> scenes;  ///< empty: all
   int jobs = 0;                     ///< threads; 0 = one per processor

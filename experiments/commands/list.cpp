@@ -14,6 +14,7 @@ namespace irk {
 namespace {
 
 std::string rangeText(const Parameter& p) {
+  if (p.text) return "text";
   std::string text;
   for (const auto& choice : p.choices) text += (text.empty() ? "" : " | ") + choice;
   return p.choices.empty() ? fmt::format("{:g} .. {:g}", p.min, p.max) : text;
@@ -58,7 +59,7 @@ void listStrategies(std::ostream& out) {
   for (const auto& field : specFields()) {
     if (field.kind != FieldKind::kAxis) continue;
     fmt::print(out, "{}  {}\n", field.name, field.meaning);
-    for (const auto& choice : field.choices) fmt::print(out, "    {:<20} {}\n", choice.id, choice.meaning);
+    for (const auto& choice : field.choices()) fmt::print(out, "    {:<20} {}\n", choice.id, choice.meaning);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/reference/tables.h"
 #include "experiments/runner/runner.h"
+#include "experiments/runs/fields.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 
@@ -26,7 +27,7 @@ std::vector<ReferenceValue> independentValues() {
 
 std::vector<std::string> scenesWanted(const std::vector<std::string>& given) {
   std::vector<std::string> scenes;
-  for (const auto& scene : given) scenes.push_back(findScene(scene).id);
+  for (const auto& scene : given) scenes.push_back(sceneNamed(scene));
   if (given.empty()) {
     for (const auto& scene : sceneCatalogue()) scenes.push_back(scene.id);
   }

@@ -12,6 +12,7 @@
 
 #include "core/base/text.h"
 #include "core/options/option_fields.h"
+#include "experiments/own/files.h"
 #include "experiments/runs/configurations.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
@@ -35,9 +36,9 @@ void setFields(RunSpec& spec, std::string_view text) {
 Field<RunSpec> sceneField() {
   return {.name = "scene",
           .meaning = "The system to integrate.",
-          .form = "irk list scenes",
+          .form = "irk list scenes, or a file of your own: scene.cpp",
           .get = [](const RunSpec& s) { return s.scene; },
-          .set = [](RunSpec& s, std::string_view id) { s.scene = findScene(id).id; }};
+          .set = [](RunSpec& s, std::string_view id) { s.scene = sceneNamed(std::string(id)); }};
 }
 
 Field<RunSpec> settingsField() {
@@ -68,9 +69,13 @@ Field<RunSpec> configurationField() {
                              s.configuration = id;
                              setFields(s, configuration.fields);
                            }};
-  for (const auto& [id, meaning, fields] : configurations()) {
-    field.choices.push_back({std::string(id), fmt::format("{}{}{}", meaning, fields.empty() ? "" : ": ", fields)});
-  }
+  field.choices = [] {
+    std::vector<Choice> choices;
+    for (const auto& [id, meaning, fields] : configurations()) {
+      choices.push_back({std::string(id), fmt::format("{}{}{}", meaning, fields.empty() ? "" : ": ", fields)});
+    }
+    return choices;
+  };
   return field;
 }
 
@@ -146,6 +151,13 @@ std::vector<SpecField> makeFields() {
 #undef IRK_MEMBER
 
 }  // namespace
+
+std::string sceneNamed(const std::string& id_or_file) {
+  if (!own::isFile(id_or_file)) return findScene(id_or_file).id;
+  const std::string id = own::loadFile(id_or_file);
+  if (id.empty()) throw Misuse(id_or_file + ": it holds no scene: IRK_SCENE(...) is expected");
+  return id;
+}
 
 std::span<const SpecField> specFields() {
   static const std::vector<SpecField> fields = makeFields();

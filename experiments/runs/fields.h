@@ -25,6 +25,9 @@ std::span<const SpecField> specFields();
 /// Throws Misuse naming the nearest field.
 const SpecField& findField(std::string_view name);
 
+/// The id of a scene that is named by its id or by a user's file, which is loaded. Throws Misuse.
+std::string sceneNamed(const std::string& id_or_file);
+
 /// On the command line: `--max-steps`; but `scene`, the argument, `--set` for settings and `--step` for h.
 std::string optionName(std::string_view field);
 /// `The meaning. [legal values; default ...]`

@@ -6,6 +6,7 @@
 
 #include "core/base/input_file.h"
 #include "experiments/base/numbers.h"
+#include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_spec.h"
@@ -59,6 +60,20 @@ std::string coefficients(const RunSpec& spec) {
   return known[name] = text;
 }
 
+// Hashes of the users' files that the spec needs; empty for a spec of the program's own parts.
+std::string ownFiles(const RunSpec& spec) {
+  std::string text;
+  const auto add = [&text](const std::string& kind, const std::string& id) {
+    const std::string hash = own::hashOf(kind, id);
+    if (!hash.empty()) text.append(";").append(kind).append(" from=").append(hash);
+  };
+  add("scene", spec.scene);
+  for (const auto& field : specFields()) {
+    if (field.kind == FieldKind::kAxis) add(field.name, field.get(spec));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameters) {
@@ -68,7 +83,7 @@ std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameter
       text.append(";").append(parameter.name).append("=").append(parameter.default_value);
     }
   }
-  return text + ";coefficients=" + coefficients(spec);
+  return text + ";coefficients=" + coefficients(spec) + ownFiles(spec);
 }
 
 std::string specKey(const RunSpec& spec) {

@@ -77,7 +77,7 @@ class FileReader {
 };
 
 std::vector<std::string> studyKeys() {
-  std::vector<std::string> keys{"title", "trajectories", "timing", "audit", "defaults", "quick", "block"};
+  std::vector<std::string> keys{"title", "load", "trajectories", "timing", "audit", "defaults", "quick", "block"};
   for (const Analysis& analysis : analyses()) keys.emplace_back(analysis.key);
   return keys;
 }

@@ -2,6 +2,7 @@
 //
 //   title = "..."                  orders, trajectories, estimates, energy, phases, profile, scaling = true
 //   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...
+//   load = "my_control.cpp"        files of the user's own, relative to the study's
 //   [audit]                        runs, seed, ... instead of blocks; [audit.quick] the same, --quick only
 //   [defaults]                     keys of every block   [quick]        the same, --quick only
 //   [[block]]                      one sweep             [block.quick]  the same, --quick only

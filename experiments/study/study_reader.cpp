@@ -12,6 +12,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
+#include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
@@ -285,13 +286,38 @@ void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
   }
 }
 
+// Files of the user's own are named relative to the study's file.
+void findOwnFiles(StudyValue& value, const std::string& study_file) {
+  const auto folder = std::filesystem::path(study_file).parent_path();
+  for (auto& item : value.items) {
+    if (own::isFile(item) && std::filesystem::path(item).is_relative()) item = (folder / item).string();
+  }
+}
+
+void loadOwnFiles(StudyFile& text, const std::string& study_file) {
+  const auto load = text.study.find("load");
+  if (load != text.study.end()) {
+    findOwnFiles(load->second, study_file);
+    for (const auto& item : load->second.items) {
+      atPlace(load->second, [&] { return own::loadFile(item); });
+    }
+  }
+  for (auto& block : text.blocks) {
+    for (const auto* key : {"scene", "methods"}) {
+      const auto at = block.find(key);
+      if (at != block.end()) findOwnFiles(at->second, study_file);
+    }
+  }
+}
+
 }  // namespace
 
 Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
-  const StudyFile text = parseStudyFile(toml, file, variant);
+  StudyFile text = parseStudyFile(toml, file, variant);
   // Also parse the other variant, so that its mistakes are found now.
   static_cast<void>(
       parseStudyFile(toml, file, variant == StudyVariant::kQuick ? StudyVariant::kFull : StudyVariant::kQuick));
+  loadOwnFiles(text, file);
   Study study;
   study.id = std::filesystem::path(file).stem();
   if (const auto* title = find(text.study, "title")) study.title = single("title", *title);

@@ -2,7 +2,9 @@
 
 #include "core/base/text.h"
 #include "irk/misuse.h"
-#include "problems/support/build.h"
+#include "irk/registration.h"
+#include "irk/scene.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 
@@ -43,11 +45,34 @@ namespace irk {
 IRK_SCENES(IRK_DECLARE)
 #undef IRK_DECLARE
 
-const std::vector<SceneEntry>& sceneCatalogue() {
+namespace {
+
+// A deque: entries keep their addresses when others are added.
+std::deque<SceneEntry>& catalogue() {
 #define IRK_CALL(entry) entry(),
-  static const std::vector<SceneEntry> entries = {IRK_SCENES(IRK_CALL)};
+  static std::deque<SceneEntry> entries = {IRK_SCENES(IRK_CALL)};
 #undef IRK_CALL
   return entries;
+}
+
+std::string sourceOf(const std::string& source) { return source.empty() ? "a scene of the program" : source; }
+
+}  // namespace
+
+const std::deque<SceneEntry>& sceneCatalogue() { return catalogue(); }
+
+void registerScene(SceneEntry entry) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  entry.source = registeringSource();
+  if (entry.id.empty() || entry.id.find_first_not_of(kAllowed) != std::string::npos) {
+    throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) +
+                 "): small letters, digits and '_' are allowed");
+  }
+  for (const SceneEntry& other : catalogue()) {
+    if (other.id != entry.id) continue;
+    throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) + ") is taken by " + sourceOf(other.source));
+  }
+  catalogue().push_back(std::move(entry));
 }
 
 const SceneEntry& findScene(std::string_view id) {

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "problems/catalogue/embedded.h"
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

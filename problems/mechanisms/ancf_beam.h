@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "irk/problem.h"
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 

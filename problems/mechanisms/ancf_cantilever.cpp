@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "problems/mechanisms/ancf_beam.h"
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

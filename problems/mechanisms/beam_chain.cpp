@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -5,8 +5,8 @@
 // to the point of the arm at L/4 from the hinge; its length is s = L/4 sqrt(2 + 2 sin angle).
 #include <cmath>
 
-#include "problems/support/build.h"
-#include "problems/support/regularised.h"
+#include "irk/scene_file.h"
+#include "irk/regularised.h"
 
 namespace irk {
 namespace {

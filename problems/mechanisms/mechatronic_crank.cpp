@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "problems/mechanisms/slider_crank_data.h"
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -1,7 +1,7 @@
 // The planar pendulum in Cartesian coordinates, released from the horizontal.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 #include "problems/support/elliptic.h"
 
 namespace irk {

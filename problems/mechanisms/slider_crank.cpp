@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "problems/mechanisms/slider_crank_coordinates.h"
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "problems/mechanisms/slider_crank_data.h"
-#include "problems/support/regularised.h"
+#include "irk/regularised.h"
 
 namespace irk::slider_crank {
 

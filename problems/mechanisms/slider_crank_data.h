@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk::slider_crank {
 

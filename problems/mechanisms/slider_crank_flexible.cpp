@@ -5,7 +5,7 @@
 // those of the source; B is its skew matrix, c.q a dot product.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -1,7 +1,7 @@
 // Dahlquist's equation y' = lambda y with complex lambda, written as two real equations.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

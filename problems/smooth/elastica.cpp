@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 #include "problems/support/elliptic.h"
 
 namespace irk {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 

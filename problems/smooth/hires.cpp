@@ -1,5 +1,5 @@
 // HIRES: high irradiance responses of photomorphogenesis, Schaefer (1975). HW II (IV.10).
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -2,7 +2,7 @@
 // for every eps.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -1,7 +1,7 @@
 // The planar two-body problem q'' = -q / |q|^3 with eccentricity e, started at the pericentre.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

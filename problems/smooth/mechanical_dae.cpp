@@ -1,6 +1,6 @@
 // A small mechanical system with gyroscopic and nonlinear forces, for measuring the orders of q, v and lambda:
 // M = diag(1, 2), constraint x^2 + y^2 (1 + 0.3 x) = 1.
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -2,7 +2,7 @@
 // HW II (IV.15).
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -3,7 +3,7 @@
 // of some damaged tableaus.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -1,5 +1,5 @@
 // Robertson's chemical kinetics to t = 1e11. HW II (IV.10), "ROBER".
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

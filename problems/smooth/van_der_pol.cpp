@@ -1,6 +1,6 @@
 // Van der Pol's equation, singularly perturbed: y1' = y2, eps y2' = (1 - y1^2) y2 - y1. HW II
 // (IV.10).
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

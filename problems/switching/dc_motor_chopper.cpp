@@ -3,7 +3,7 @@
 // u = phi, angle of the rotor; x = i, current.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
 
 namespace irk {

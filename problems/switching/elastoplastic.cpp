@@ -3,9 +3,9 @@
 // u = displacement of the mass, x = displacement of the slider.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
-#include "problems/support/regularised.h"
+#include "irk/regularised.h"
 
 namespace irk {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 
 #include "irk/misuse.h"
-#include "problems/support/build.h"
-#include "problems/support/regularised.h"
+#include "irk/scene_file.h"
+#include "irk/regularised.h"
 
 namespace irk {
 namespace {

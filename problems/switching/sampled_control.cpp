@@ -1,7 +1,7 @@
 // An oscillator under a PD controller whose force is computed at sampling times and held constant in between.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
 
 namespace irk {

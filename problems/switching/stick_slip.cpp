@@ -2,8 +2,8 @@
 // that decay by Coulomb friction.
 #include <cmath>
 
-#include "problems/support/build.h"
-#include "problems/support/regularised.h"
+#include "irk/scene_file.h"
+#include "irk/regularised.h"
 
 namespace irk {
 namespace {

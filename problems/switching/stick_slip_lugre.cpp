@@ -4,7 +4,7 @@
 // moves at the speed vb.
 #include <cmath>
 
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

@@ -1,6 +1,7 @@
 // A scene: a problem with its parameters, start, end, names, units, magnitudes, diagrams and reference values.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,6 +30,7 @@ struct Parameter {
   double audit_max = 0;              ///< > 0: the audit draws whole numbers up to this value
   bool is_time = false;              ///< a time during the run: the audit draws it between start and end
   bool only_smooth = false;          ///< has an effect only with discontinuity `smooth`
+  bool text = false;                 ///< any text; neither a number nor one of several words
 };
 
 /// A scene over one scalar, with fixed parameters. A value type: copies are independent and own all that they need.
@@ -117,10 +119,16 @@ struct SceneEntry {
   std::function<Scene<mp50>(const Settings&)> make_mp50;
   /// Needed only if orders from 20 on are measured with the scene.
   std::function<Scene<mp100>(const Settings&)> make_mp100 = {};
+  /// Of a registered scene: the file that it comes from. Set by registerScene.
+  std::string source = {};
 };
 
-/// All scenes, sorted by id. Ids never change.
-const std::vector<SceneEntry>& sceneCatalogue();
+/// All scenes: those of the library sorted by id, then those that were registered. Ids never change.
+const std::deque<SceneEntry>& sceneCatalogue();
+
+/// Adds a scene; from then on it is one like all others. Throws Misuse for an id that is taken, naming both sources,
+/// and for an id that is not made of small letters, digits and '_'. Not while other threads use the catalogue.
+void registerScene(SceneEntry entry);
 
 /// The entry of a scene; it lives as long as the program. Throws Misuse for an unknown id, naming the nearest one.
 const SceneEntry& findScene(std::string_view id);

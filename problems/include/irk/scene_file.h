@@ -1,4 +1,19 @@
-// Helpers for scene files: parameters from settings, names, systems, consistent starts. Internal.
+// What a scene's file needs: parameters from settings, names, systems, consistent starts, and IRK_SCENE.
+//
+// A scene outside the tree is one file. It is a struct template over the scalar, a problem as in irk/problem.h, with
+// two more functions:
+//
+//   template <class Real>
+//   struct FourBar {
+//     static SceneEntry entry();                       // id, title, parameters, ...; without its makers
+//     static Scene<Real> make(const Settings& values);  // with the parameters' values
+//     ...
+//   };
+//   IRK_SCENE(FourBar)
+//
+// `irk new scene four_bar.cpp` writes a complete one. The program compiles such a file when it is named
+// (`irk solve four_bar.cpp`). The same file linked with irk::program is a program with all verbs, which knows the
+// scene.
 #pragma once
 
 #include <memory>
@@ -7,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "irk/registration.h"
 #include "irk/scene.h"
 
 namespace irk {
@@ -27,6 +43,9 @@ Parameter elementsParameter(std::string default_value);
 
 /// A choice among words, the default first.
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices);
+
+/// Any text, such as the name of a file with measured data; without blanks and ';'.
+Parameter textParameter(std::string name, std::string meaning, std::string default_value);
 
 /// Returns the settings completed with defaults. Throws Misuse unless every setting names a parameter and lies within
 /// its range.
@@ -68,9 +87,42 @@ void setProblem(Scene<Real>& scene, P problem) {
   };
 }
 
-/// Computes start.w = (a, k, z) from start.u, v, x. Throws std::logic_error if the start is not consistent, which is
-/// a mistake in the scene.
+/// Computes start.w = (a, k, z) from start.u, v, x. Throws Misuse if the start is not consistent, which is a mistake in
+/// the scene.
 template <class Real>
 void completeStart(Scene<Real>& scene);
 
+/// The same for a start that is known in part: first changes the components of u and v with these names (as
+/// setComponents names them: "phi", "phi'") such that the position constraints g(t, u) = 0 and their derivatives
+/// dg/dt = 0 hold; their values in start.u and start.v are first guesses. Gauss-Newton steps, the least change where
+/// more components are named than needed. Throws Misuse for an unknown name, and where the constraints cannot be met.
+template <class Real>
+void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown);
+
+/// The entry of a scene's struct with the makers of the scalars that this file is compiled for: double and mp50, or
+/// with IRK_DIGITS set to 16, 50 or 100 the one that it names.
+template <template <class> class S>
+SceneEntry sceneEntryOf() {
+  SceneEntry entry = S<double>::entry();
+#if !defined(IRK_DIGITS) || IRK_DIGITS == 16
+  entry.make = S<double>::make;
+#endif
+#if !defined(IRK_DIGITS) || IRK_DIGITS == 50
+  entry.make_mp50 = S<mp50>::make;
+#endif
+#if defined(IRK_DIGITS) && IRK_DIGITS == 100
+  entry.make_mp100 = S<mp100>::make;
+#endif
+  return entry;
+}
+
 }  // namespace irk
+
+/// Makes the struct template S a scene of the program. One per file.
+#ifdef IRK_DIGITS
+#define IRK_SCENE(S) \
+  extern "C" void irk_scene(::irk::SceneEntry* entry) { *entry = ::irk::sceneEntryOf<S>(); }
+#else
+#define IRK_SCENE(S) \
+  IRK_REGISTER { ::irk::registerScene(::irk::sceneEntryOf<S>()); }
+#endif

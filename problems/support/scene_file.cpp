@@ -1,11 +1,13 @@
-#include "problems/support/build.h"
+#include "irk/scene_file.h"
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <stdexcept>
+#include <limits>
 
 #include "core/base/text.h"
 #include "core/derivatives/consistent_start.h"
@@ -18,7 +20,7 @@ constexpr double kLargestQuantity = 1e15;
 constexpr double kMaxElements = 10000;
 
 void check(std::string_view scene, const Parameter& p, const std::string& text) {
-  if (text == p.default_value) return;
+  if (p.text || text == p.default_value) return;
   if (!p.choices.empty()) {
     for (const std::string& choice : p.choices) {
       if (text == choice) return;
@@ -78,6 +80,15 @@ Parameter wordParameter(std::string name, std::string meaning, std::vector<std::
   return p;
 }
 
+Parameter textParameter(std::string name, std::string meaning, std::string default_value) {
+  Parameter p;
+  p.name = std::move(name);
+  p.meaning = std::move(meaning);
+  p.default_value = std::move(default_value);
+  p.text = true;
+  return p;
+}
+
 Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters, const Settings& given) {
   Settings all;
   std::vector<std::string> known;
@@ -103,6 +114,10 @@ double decimal<double>(const char* text) {
 template <>
 mp50 decimal<mp50>(const char* text) {
   return mp50(text);
+}
+template <>
+mp100 decimal<mp100>(const char* text) {
+  return mp100(text);
 }
 
 template <class Real>
@@ -148,14 +163,80 @@ void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
   const StartReport report = ConsistentStart<Real>(*system, DerivativeSource::kAutomatic, true).apply(scene.start);
   if (report.outcome != Outcome::kSuccess) {
-    throw std::logic_error("a scene's start: " + report.detail);
+    throw Misuse("a scene's start: " + report.detail);
   }
+}
+
+namespace {
+
+constexpr int kMaxGaussNewton = 50;
+
+// The rows of the position constraints: g, dg/dt.
+template <class Real>
+Vec<Real> constraintRows(const System<Real>& system, Level level, const State<Real>& state) {
+  const Sizes n = system.sizes();
+  Vec<Real> r(n.n());
+  system.evaluate(level, pointOf(state), {r.data(), r.size()});
+  return r.segment(n.nu + n.nx, n.constraints);
+}
+
+// The columns of G = dg/du that belong to the coordinates `columns`: dg/dt = G v + dg/dt(u, 0).
+template <class Real>
+Mat<Real> constraintMatrix(const System<Real>& system, State<Real> state, const std::vector<Index>& columns) {
+  state.v.setZero();
+  const Vec<Real> at_rest = constraintRows(system, Level::kVelocity, state);
+  Mat<Real> G(at_rest.size(), static_cast<Index>(columns.size()));
+  for (Index j = 0; j < G.cols(); ++j) {
+    Real& v = state.v[columns[static_cast<std::size_t>(j)]];
+    v = Real(1);
+    G.col(j) = constraintRows(system, Level::kVelocity, state) - at_rest;
+    v = Real(0);
+  }
+  return G;
+}
+
+// Subtracts the least solution of G dy = r from the components `columns` of y; returns its norm.
+template <class Real>
+Real correct(const Mat<Real>& G, const Vec<Real>& r, const std::vector<Index>& columns, Vec<Real>& y) {
+  if (columns.empty()) return Real(0);
+  const Vec<Real> dy = G.completeOrthogonalDecomposition().solve(r);
+  for (Index j = 0; j < dy.size(); ++j) y[columns[static_cast<std::size_t>(j)]] -= dy[j];
+  return dy.norm();
+}
+
+}  // namespace
+
+template <class Real>
+void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) {
+  const auto system = scene.system({});
+  const Index nu = system->sizes().nu;
+  std::vector<std::string> known(scene.names.begin(),
+                                 scene.names.begin() + std::min<std::ptrdiff_t>(2 * nu, std::ssize(scene.names)));
+  std::vector<Index> u, v;
+  for (const auto& name : unknown) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) throw Misuse("a scene's start: " + unknownName("component of u and v", name, known));
+    const Index i = at - known.begin();
+    (i < nu ? u : v).push_back(i < nu ? i : i - nu);
+  }
+  State<Real>& start = scene.start;
+  Real last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxGaussNewton; ++i) {
+    const Real step =
+        correct(constraintMatrix(*system, start, u), constraintRows(*system, Level::kPosition, start), u, start.u);
+    if (!(step < last) || step == Real(0)) break;  // round-off, or no convergence: completeStart says so
+    last = step;
+  }
+  correct(constraintMatrix(*system, start, v), constraintRows(*system, Level::kVelocity, start), v, start.v);
+  completeStart(scene);
 }
 
 template double number<double>(const Settings&, const std::string&);
 template mp50 number<mp50>(const Settings&, const std::string&);
+template mp100 number<mp100>(const Settings&, const std::string&);
 template double piOf<double>();
 template mp50 piOf<mp50>();
+template mp100 piOf<mp100>();
 template void setComponents<double>(Scene<double>&, const std::vector<Component>&, const std::vector<Component>&,
                                     const std::vector<Component>&);
 template void setComponents<mp50>(Scene<mp50>&, const std::vector<Component>&, const std::vector<Component>&,
@@ -164,5 +245,9 @@ template void setComponents<mp100>(Scene<mp100>&, const std::vector<Component>&,
                                    const std::vector<Component>&);
 template void completeStart<double>(Scene<double>&);
 template void completeStart<mp50>(Scene<mp50>&);
+template void completeStart<mp100>(Scene<mp100>&);
+template void completeStart<double>(Scene<double>&, const std::vector<std::string>&);
+template void completeStart<mp50>(Scene<mp50>&, const std::vector<std::string>&);
+template void completeStart<mp100>(Scene<mp100>&, const std::vector<std::string>&);
 
 }  // namespace irk

@@ -1,0 +1,178 @@
+#include "experiments/own/compiler.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "core/base/input_file.h"
+#include "experiments/base/cache_folder.h"
+#include "experiments/base/child_process.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/numbers.h"
+#include "experiments/own/command.h"
+#include "experiments/tables/build_info.h"
+
+namespace irk::own {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxLines = 60;
+
+std::vector<std::string> words(std::string_view list) {
+  std::vector<std::string> all;
+  std::istringstream in{std::string(list)};
+  for (std::string word; std::getline(in, word, ';');) {
+    if (!word.empty()) all.push_back(word);
+  }
+  return all;
+}
+
+// The program's own headers: beside an installed program, else in the sources of this build.
+std::vector<std::string> ownFolders() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  const fs::path installed = program.parent_path().parent_path() / "include";
+  if (fs::exists(installed / "irk" / "scene_file.h", none)) return {installed, installed / "irk" / "internal"};
+  return words(compileCommand().own_folders);
+}
+
+std::string shortName(const fs::path& source) {
+  std::error_code none;
+  const fs::path relative = fs::proximate(source, none);
+  return none || relative.string().size() > source.string().size() ? source.string() : relative.string();
+}
+
+std::vector<std::string> commandFor(const fs::path& source, int digits) {
+  std::vector<std::string> command{std::string(compileCommand().compiler)};
+  for (auto& word : words(compileCommand().options)) command.push_back(word);
+  for (auto& folder : ownFolders()) command.push_back("-I" + folder);
+  for (auto& folder : words(compileCommand().folders)) {
+    const bool searched_anyway = folder == "/usr/include";  // gcc finds its own headers no longer if this is given
+    if (!searched_anyway) command.insert(command.end(), {"-isystem", folder});
+  }
+  command.insert(command.end(), {fmt::format("-DIRK_DIGITS={}", digits), "-shared", "-fPIC", "-fmax-errors=5",
+                                 "-fdiagnostics-color=never", source.string()});
+  return command;
+}
+
+// What an object depends on besides the file and what it includes.
+std::string identity(const fs::path& source, int digits) {
+  std::string text = fmt::format("{} {} {}", buildInfo().version, buildInfo().code, buildInfo().compiler);
+  for (const auto& word : commandFor(source, digits)) text += ' ' + word;
+  return text;
+}
+
+// The prerequisites in a rule of make, without those in the folders of headers.
+std::vector<fs::path> userFiles(const fs::path& rule) {
+  std::vector<std::string> theirs = ownFolders();
+  for (auto& folder : words(compileCommand().folders)) theirs.push_back(folder);
+  theirs.insert(theirs.end(), {"/usr/include/", "/usr/lib/"});
+  std::ifstream in(rule);
+  std::vector<fs::path> files;
+  std::string word;
+  in >> word;  // the target
+  while (in >> word) {
+    const auto within = [&word](const std::string& folder) { return word.starts_with(folder); };
+    if (word != "\\" && std::none_of(theirs.begin(), theirs.end(), within)) files.emplace_back(word);
+  }
+  return files;
+}
+
+std::string hashOfFiles(const std::vector<fs::path>& files) {
+  std::string text;
+  for (const auto& file : files) text += readInputFile(file.string()) + '\0';
+  return hexText(fnv1a(text));
+}
+
+// The record beside an object: the hash of the files that it was made of, then their names, one a line.
+struct Record {
+  std::string hash;
+  std::vector<fs::path> files;
+};
+
+Record readRecord(const fs::path& path) {
+  Record record;
+  std::ifstream in(path);
+  std::getline(in, record.hash);
+  for (std::string line; std::getline(in, line);) record.files.emplace_back(line);
+  return record;
+}
+
+// Whether the files are still those that the object was made of.
+bool isCurrent(const Record& record) {
+  if (record.hash.empty() || record.files.empty()) return false;
+  try {
+    return hashOfFiles(record.files) == record.hash;
+  } catch (const std::exception&) {
+    return false;  // an included file is gone
+  }
+}
+
+void moveTo(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw Failure(fmt::format("{}: {}", to.string(), error.message()));
+}
+
+}  // namespace
+
+std::string messagesAbout(const std::string& source, const std::string& messages) {
+  std::istringstream in(messages);
+  std::string kept;
+  std::size_t lines = 0;
+  bool follows = false;
+  for (std::string line; std::getline(in, line) && lines < kMaxLines;) {
+    const bool continues = line.starts_with(' ');
+    follows = continues ? follows : line.starts_with(source) || line.find(" error: ") != line.npos;
+    if (!follows) continue;
+    kept += line + '\n';
+    ++lines;
+  }
+  return kept;
+}
+
+Compiled compile(const fs::path& source, int digits, std::ostream& log) {
+  (void)readInputFile(source.string());  // for its message
+  const fs::path file = fs::canonical(source);
+  const fs::path folder = cacheFolder("compiled");
+  const std::string name =
+      fmt::format("{}_{}_{}", file.stem().string(), hexText(fnv1a(file.string() + identity(file, digits))), digits);
+  const fs::path object = folder / (name + ".so"), record = folder / (name + ".files");
+  const Record known = readRecord(record);
+  std::error_code none;
+  if (isCurrent(known) && fs::exists(object, none)) return {object, known.hash};
+
+  fmt::print(log, "irk: compiling {}{}\n", shortName(source), digits > 16 ? fmt::format(" in {} digits", digits) : "");
+  log.flush();
+  const fs::path made = folder / fmt::format("{}.{}", name, getpid());
+  const fs::path rule = made.string() + ".d";
+  auto command = commandFor(file, digits);
+  command.insert(command.end(), {"-o", made.string(), "-MMD", "-MF", rule.string()});
+  const ChildResult child = runChild(command);
+  if (child.status != 0) {
+    fs::remove(made, none);
+    fs::remove(rule, none);
+    const std::string about = messagesAbout(file.string(), child.messages);
+    throw CompilerRefusal(fmt::format("{}: it does not compile", source.string()),
+                          about.empty() ? child.messages : about);
+  }
+  const auto files = userFiles(rule);
+  fs::remove(rule, none);
+  const std::string hash = hashOfFiles(files);
+  std::ofstream text(made.string() + ".files");
+  text << hash << '\n';
+  for (const auto& one : files) text << one.string() << '\n';
+  text.close();
+  moveTo(made, object);
+  moveTo(made.string() + ".files", record);
+  return {object, hash};
+}
+
+}  // namespace irk::own

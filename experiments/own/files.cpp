@@ -1,0 +1,168 @@
+#include "experiments/own/files.h"
+
+#include <fmt/format.h>
+
+#define BOOST_DLL_USE_STD_FS
+#include <algorithm>
+#include <boost/dll/shared_library.hpp>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <vector>
+
+#include "experiments/own/compiler.h"
+#include "irk/options.h"
+#include "irk/registration.h"
+#include "irk/scene.h"
+
+namespace irk::own {
+namespace {
+
+using boost::dll::shared_library;
+
+std::ostream* report = nullptr;
+std::ostream& log() { return report ? *report : std::cerr; }
+
+// Objects stay loaded as long as the program runs: catalogues point into them.
+shared_library& load(const std::filesystem::path& object, const std::filesystem::path& source) {
+  static std::vector<std::unique_ptr<shared_library>> loaded;
+  try {
+    loaded.push_back(std::make_unique<shared_library>(object, boost::dll::load_mode::rtld_now));
+  } catch (const std::exception& error) {
+    throw Misuse(fmt::format("{}: it cannot be loaded: {}", source.string(), error.what()));
+  }
+  return *loaded.back();
+}
+
+SceneEntry entryIn(const shared_library& object) {
+  SceneEntry entry;
+  object.get<void(SceneEntry*)>("irk_scene")(&entry);
+  return entry;
+}
+
+/// Makes the scene of a file with more digits: compiles and loads the file anew when this is asked for first.
+template <class Real>
+class MoreDigits {
+ public:
+  using Make = std::function<Scene<Real>(const Settings&)>;
+
+  MoreDigits(std::filesystem::path source, int digits, Make SceneEntry::*make)
+      : source_(std::move(source)), digits_(digits), make_(make) {}
+
+  Scene<Real> operator()(const Settings& settings) {
+    const std::lock_guard lock(mutex_);
+    if (!made_) {
+      const Compiled compiled = compile(source_, digits_, log());
+      made_ = entryIn(load(compiled.object, source_)).*make_;
+    }
+    return made_(settings);
+  }
+
+ private:
+  std::filesystem::path source_;
+  int digits_;
+  Make SceneEntry::*make_;
+  std::mutex mutex_;
+  Make made_;
+};
+
+template <class Real>
+std::function<Scene<Real>(const Settings&)> whenAsked(const std::filesystem::path& source, int digits,
+                                                      std::function<Scene<Real>(const Settings&)> SceneEntry::*make) {
+  const auto maker = std::make_shared<MoreDigits<Real>>(source, digits, make);
+  return [maker](const Settings& settings) { return (*maker)(settings); };
+}
+
+using Id = std::pair<std::string, std::string>;  // kind, id
+
+template <class... Axes>
+std::set<Id> idsOfAxes() {
+  std::set<Id> ids;
+  const auto add = [&ids](std::string_view axis, const auto& entries) {
+    for (const auto& entry : entries) ids.insert({std::string(axis), std::string(entry.id)});
+  };
+  (add(axisName<Axes>(), named<Axes>()), ...);
+  return ids;
+}
+
+// All that a file can register.
+std::set<Id> knownIds() {
+  auto ids =
+      idsOfAxes<NewtonKind, StageSolverKind, Predictor, ErrorEstimate, StepControl, OrderControl, Discontinuity>();
+  for (const auto& scene : sceneCatalogue()) ids.insert({"scene", scene.id});
+  return ids;
+}
+
+struct LoadedFile {
+  std::string scene, hash;
+};
+std::map<std::filesystem::path, LoadedFile>& loadedFiles() {
+  static std::map<std::filesystem::path, LoadedFile> files;
+  return files;
+}
+std::map<Id, std::string>& hashes() {
+  static std::map<Id, std::string> all;
+  return all;
+}
+
+// Runs registrations as those of a file.
+void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
+  static SceneEntry next;
+  next = std::move(entry);
+  const Registration registration([] { registerScene(std::move(next)); });
+  runRegistrations(source.string());
+}
+
+LoadedFile loadNew(const std::filesystem::path& given, const std::filesystem::path& file) {
+  const Compiled compiled = compile(given, 16, log());
+  const auto before = knownIds();
+  const shared_library& object = load(compiled.object, given);
+  LoadedFile loaded{"", compiled.hash};
+  const bool registers = runRegistrations(given.string()) > 0;
+  if (object.has("irk_scene")) {
+    SceneEntry entry = entryIn(object);
+    loaded.scene = entry.id;
+    entry.make_mp50 = whenAsked<mp50>(file, 50, &SceneEntry::make_mp50);
+    entry.make_mp100 = whenAsked<mp100>(file, 100, &SceneEntry::make_mp100);
+    registerSceneOf(std::move(entry), given);
+  }
+  for (const auto& id : knownIds()) {
+    if (!before.contains(id)) hashes()[id] = compiled.hash;
+  }
+  if (!registers && loaded.scene.empty()) {
+    throw Misuse(
+        fmt::format("{}: it registers nothing: IRK_SCENE(...) or IRK_REGISTER {{ ... }} is expected", given.string()));
+  }
+  return loaded;
+}
+
+}  // namespace
+
+bool isFile(std::string_view text) { return text.ends_with(".cpp"); }
+
+ReportTo::ReportTo(std::ostream& log) { report = &log; }
+ReportTo::~ReportTo() { report = nullptr; }
+
+std::string loadFile(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto path = std::filesystem::canonical(file, error);
+  const auto known = loadedFiles().find(path);
+  if (!error && known != loadedFiles().end()) return known->second.scene;
+  LoadedFile loaded = loadNew(file, path);
+  return (loadedFiles()[path] = std::move(loaded)).scene;
+}
+
+std::string hashOfFile(const std::string& file) {
+  std::error_code error;
+  const auto known = loadedFiles().find(std::filesystem::canonical(file, error));
+  return error || known == loadedFiles().end() ? "" : known->second.hash;
+}
+
+std::string hashOf(std::string_view kind, std::string_view id) {
+  const auto at = hashes().find({std::string(kind), std::string(id)});
+  return at == hashes().end() ? "" : at->second;
+}
+
+}  // namespace irk::own

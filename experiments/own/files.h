@@ -1,0 +1,35 @@
+// A user's files: scenes, integrators and strategies that are compiled and loaded when they are named.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace irk::own {
+
+/// Whether a text names a file of C++: it ends with `.cpp`.
+bool isFile(std::string_view text);
+
+/// While an object lives, loadFile tells to `log` that it compiles; else to standard error.
+class ReportTo {
+ public:
+  explicit ReportTo(std::ostream& log);
+  ~ReportTo();
+  ReportTo(const ReportTo&) = delete;
+  ReportTo& operator=(const ReportTo&) = delete;
+};
+
+/// Compiles and loads a file once, and runs its registrations. Returns the id of its scene, empty if it has none.
+/// Numbers of 50 and 100 digits are compiled when a run asks for them. Throws as `compile`, and Misuse for a file that
+/// registers nothing, for an id that is taken, and for an object that cannot be loaded.
+std::string loadFile(const std::filesystem::path& file);
+
+/// The hash of the loaded file that has registered `id`, for `kind` scene or the name of an axis; empty for what
+/// belongs to the program. Part of a run's key. Safe from any number of threads, but not beside loadFile.
+std::string hashOf(std::string_view kind, std::string_view id);
+
+/// The hash of a loaded file, by its name; empty for others.
+std::string hashOfFile(const std::string& file);
+
+}  // namespace irk::own
