@@ -18,17 +18,6 @@ constexpr double kDualCheck = 1e-8, kDifferenceCheck = 1e-3;
 // If a check fails but no new entry is found, it was round-off: the tolerance grows by this factor.
 constexpr double kLooser = 10;
 
-template <class F>
-void forEachEntry(const Pattern& pattern, Index first_column, Index columns, Index first_row, Index rows, F&& f) {
-  for (Index j = first_column; j < first_column + columns; ++j) {
-    const auto c = static_cast<std::size_t>(j);
-    for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
-      const Index i = pattern.row[static_cast<std::size_t>(k)];
-      if (i >= first_row && i < first_row + rows) f(static_cast<Index>(k));
-    }
-  }
-}
-
 }  // namespace
 
 template <class Real>
@@ -37,7 +26,7 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
     : system_(system),
       source_(source),
       sizes_(system.sizes()),
-      terms_(terms),
+      terms_(catalogue<JacobianTerms>()[terms]),
       storage_(storage),
       dual_(sizes_),
       real_(sizes_),
@@ -51,14 +40,12 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
     }
     storage_ = Storage::kDense;
   }
-  const bool no_mass = terms == JacobianTerms::kNoMass;
-  const bool no_vxz = no_mass || terms == JacobianTerms::kNoMassVxz;
   // Only the rows F2 have a constant stiffness. If there are other rows, D2 has to be evaluated for them anyway.
-  const bool once = terms == JacobianTerms::kConstantStiffness && sizes_.n() == sizes_.nu;
+  const bool once = terms_.stiffness_once && sizes_.n() == sizes_.nu;
   const Index rates = sizes_.nu + sizes_.nx;
   for (const Direction& d : allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1)) {
     const bool vxz = d.matrix == 1 || (d.matrix == 0 && d.column >= rates);
-    const bool at_zero = (no_vxz && vxz) || (no_mass && d.matrix == 2);
+    const bool at_zero = (terms_.mass_without_vxz && vxz) || (terms_.mass_without_u && d.matrix == 2);
     (at_zero ? at_zero_ : once && d.matrix == 2 ? stiffness_ : at_a_).directions.push_back(d);
   }
   forgetPattern();
@@ -151,8 +138,8 @@ void Differentiator<Real>::differentiate(Level level, const Point<Real>& p, Line
     const ConstVec<Real> zero(zero_a_.data(), sizes_.nu);
     evaluateGroup(at_zero_, level, {p.t, p.u, p.v, p.x, zero, p.k, p.z, p.d}, out);
   }
-  if (terms_ == JacobianTerms::kNoConstraintXz) dropConstraintXz(out);
-  if (terms_ == JacobianTerms::kConstantStiffness) keepStiffness(out);
+  if (const auto& change = terms_.change.template of<Real>()) change(sizes_, out);
+  if (terms_.stiffness_once) keepStiffness(out);
 }
 
 template <class Real>
@@ -174,20 +161,13 @@ void Differentiator<Real>::evaluateGroup(const Group& group, Level level, const 
 }
 
 template <class Real>
-void Differentiator<Real>::dropConstraintXz(Linearization<Real>& out) const {
-  const Index nz = sizes_.nz, first = sizes_.nu + sizes_.nx;
-  forEachEntry(*out.pattern, first, nz, first, nz, [&](Index k) { out.d0[k] = Real(0); });
-  forEachEntry(*out.pattern, sizes_.nu, sizes_.nx, first, nz, [&](Index k) { out.d1[k] = Real(0); });
-}
-
-template <class Real>
 void Differentiator<Real>::keepStiffness(Linearization<Real>& out) {
   if (!stiffness_known_) {
     kept_stiffness_ = out.d2;
     stiffness_known_ = true;
     return;
   }
-  forEachEntry(*out.pattern, 0, sizes_.nu, 0, sizes_.nu, [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
+  out.pattern->forEachInBlock(0, sizes_.nu, 0, sizes_.nu, [&](Index k) { out.d2[k] = kept_stiffness_[k]; });
 }
 
 /// Stores the changes along a colour, given by row, in the matrices.

@@ -6,6 +6,7 @@
 
 #include "core/derivatives/colouring.h"
 #include "core/derivatives/point_buffers.h"
+#include "core/options/catalogue.h"
 #include "irk/options.h"
 #include "irk/system.h"
 
@@ -27,6 +28,24 @@ struct Linearization {
   DenseView dense1() const { return {d1.data(), pattern->n, pattern->n}; }
   DenseView dense2() const { return {d2.data(), pattern->n, pattern->n}; }
 };
+
+/// Sets entries of the matrices to zero, or replaces them, after they have been evaluated.
+template <class Real>
+using JacobianChange = std::function<void(const Sizes&, Linearization<Real>&)>;
+
+/// A simplification of the Jacobian.
+template <>
+struct Strategy<JacobianTerms> {
+  JacobianTerms id;
+  std::string meaning;
+  Needs needs = {};
+  bool mass_without_vxz = false;  ///< derivatives with respect to v, x and z are taken at a = 0
+  bool mass_without_u = false;    ///< those with respect to u are
+  bool stiffness_once = false;    ///< dF2/du is kept for the whole integration
+  PerScalar<JacobianChange> change = {};
+};
+template <>
+Catalogue<JacobianTerms>& catalogue<JacobianTerms>();
 
 /// Which matrices a Differentiator evaluates; the others stay zero.
 enum class Matrices { kAll, kOnlyD0 };
@@ -80,13 +99,12 @@ class Differentiator {
   void take(const ColouredDirections& group, std::size_t colour, const Change& change, Linearization<Real>& out);
   template <class Change>
   void check(const Change& change, Linearization<Real>& out);
-  void dropConstraintXz(Linearization<Real>& out) const;
   void keepStiffness(Linearization<Real>& out);
 
   const System<Real>& system_;
   DerivativeSource source_;
   Sizes sizes_;
-  JacobianTerms terms_;
+  const Strategy<JacobianTerms>& terms_;
   Storage storage_;
   Group at_a_, at_zero_;  // directions differentiated at the point's a, and at a = 0
   Group stiffness_;       // directions of D2 that `constant_stiffness` evaluates only once

@@ -20,6 +20,18 @@ struct Pattern {
   static std::shared_ptr<const Pattern> dense(Index n);
   Index nonzeros() const { return static_cast<Index>(row.size()); }
 
+  /// Calls f(k) for the entries in a block of the matrix.
+  template <class F>
+  void forEachInBlock(Index first_row, Index rows, Index first_column, Index columns, F&& f) const {
+    for (Index j = first_column; j < first_column + columns; ++j) {
+      const auto c = static_cast<std::size_t>(j);
+      for (int k = column_start[c]; k < column_start[c + 1]; ++k) {
+        const Index i = row[static_cast<std::size_t>(k)];
+        if (i >= first_row && i < first_row + rows) f(static_cast<Index>(k));
+      }
+    }
+  }
+
   /// Calls f(k, row) for all entries k, in their order.
   template <class F>
   void forEach(F&& f) const {

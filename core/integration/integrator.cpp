@@ -88,6 +88,7 @@ class Integrator<Real>::Run {
     const std::string not_finite = notFinite(start);
     if (!not_finite.empty()) return {Outcome::kNotFinite, "at the start: " + not_finite, start, counters_};
     length_ = static_cast<double>(Real(t_end - start.t));
+    beginTimes(start.t, t_end);
     const Outcome outcome = trajectory_.begin(start, length_, monitor);
     if (outcome != Outcome::kSuccess) return trajectory_.failed(outcome, 0, "no step taken");
     const bool fixed = options_.step.control == StepControl::kFixed;
@@ -113,15 +114,20 @@ class Integrator<Real>::Run {
   // One of size h where it is whole, else what is left to its end. A located switch splits it.
   Stop fixedStep(const Real& h, const Real& end, bool whole) {
     while (state().t < end) {
-      const Real step = whole ? h : Real(end - state().t);
+      const Real stop_at = beforeTime(end);
+      if (stop_at < end) whole = false;
+      const Real step = whole ? h : Real(stop_at - state().t);
       const double size = static_cast<double>(step);
       Stop stop = askCaller(size);
       if (stop) return stop;
       const AttemptResult result = trajectory_.attempt(step);
       if (result.outcome != Outcome::kSuccess) return {result.outcome, size, "step not solved"};
-      const Outcome outcome = trajectory_.commit(result, step, end);
-      if (outcome != Outcome::kSuccess) return {outcome, size, "switch not passed"};
-      reach(end);
+      Outcome outcome = trajectory_.commit(result, step, stop_at);
+      if (outcome == Outcome::kSuccess) {
+        reach(stop_at);
+        outcome = passTimes();
+      }
+      if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
       whole = false;
     }
     return {};
@@ -136,10 +142,31 @@ class Integrator<Real>::Run {
     for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
       Stop stop = askCaller(h);
       if (!stop) stop = cannotGoOn(attempts, h, t_end);
-      if (!stop) stop = adaptiveStep(h, t_end);
+      if (!stop) stop = adaptiveStep(h, beforeTime(t_end));
+      const Outcome outcome = stop ? Outcome::kSuccess : passTimes();
+      if (outcome != Outcome::kSuccess) stop = {outcome, h, "the switch cannot be passed"};
       if (stop) return stop;
     }
     return {};
+  }
+
+  // The times of the system between the start and the end of the integration.
+  void beginTimes(const Real& t0, const Real& t_end) {
+    times_ = system_->times();
+    next_time_ = 0;
+    while (next_time_ < times_.size() && times_[next_time_] <= t0) ++next_time_;
+    while (times_.size() > next_time_ && times_.back() >= t_end) times_.pop_back();
+  }
+  // `end`, or the next time of the system if it is earlier.
+  Real beforeTime(const Real& end) const {
+    return next_time_ < times_.size() && times_[next_time_] < end ? times_[next_time_] : end;
+  }
+  Outcome passTimes() {
+    Outcome outcome = Outcome::kSuccess;
+    while (outcome == Outcome::kSuccess && next_time_ < times_.size() && state().t >= times_[next_time_]) {
+      outcome = trajectory_.passTime(static_cast<Index>(next_time_++));
+    }
+    return outcome;
   }
 
   // One attempt; h: of this attempt, then of the next.
@@ -170,10 +197,10 @@ class Integrator<Real>::Run {
       h = trajectory_.shorten(size);
       return {};
     }
-    if (outcome != Outcome::kSuccess) return {outcome, size, "switch not passed"};
+    if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
     error_sum_.add(result.added);
     if (error_sum_.aboveBar()) {
-      return {Outcome::kInaccurate, size, "the steps' errors add up " + trajectory_.rejections()};
+      return {Outcome::kInaccurate, size, "the sum of the estimated errors is too large " + trajectory_.rejections()};
     }
     h = std::min(trajectory_.nextSize(result, size, h), options_.step.h_max);
     reach(t_end);
@@ -239,6 +266,8 @@ class Integrator<Real>::Run {
   ErrorSum error_sum_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
+  std::vector<Real> times_;                     // of the system, those before the end
+  std::size_t next_time_ = 0;                   // the first that is not reached
   Outcome too_small_ = Outcome::kStepTooSmall;  // what a step below the smallest is called
 };
 

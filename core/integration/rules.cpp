@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/control/controller.h"
+#include "core/derivatives/differentiator.h"
 #include "core/estimates/step_attempt.h"
 #include "core/estimates/variable_order.h"
 #include "core/newton/newton.h"
@@ -37,12 +38,14 @@ struct Facts {
         control(catalogue<StepControl>()[o.step.control]),
         order(catalogue<OrderControl>()[o.order]),
         predictor(catalogue<Predictor>()[o.predictor]),
+        jacobian(catalogue<JacobianTerms>()[o.jacobian]),
         chosen{{{"newton", newton.id.id, newton.needs},
                 {"solver", solver.id.id, solver.needs},
                 {"estimate", estimate.id.id, estimate.needs},
                 {"control", control.id.id, control.needs},
                 {"order", order.id.id, order.needs},
-                {"predictor", predictor.id.id, predictor.needs}}} {}
+                {"predictor", predictor.id.id, predictor.needs},
+                {"jacobian", jacobian.id.id, jacobian.needs}}} {}
 
   /// The first strategy that has this need; null without one.
   const Chosen* whoNeeds(bool Needs::*need) const {
@@ -59,7 +62,8 @@ struct Facts {
   const Strategy<StepControl>& control;
   const Strategy<OrderControl>& order;
   const Strategy<Predictor>& predictor;
-  std::array<Chosen, 6> chosen;
+  const Strategy<JacobianTerms>& jacobian;
+  std::array<Chosen, 7> chosen;
   // Of the method.
   std::string method;
   bool invertible = true, determines_algebraic = true;

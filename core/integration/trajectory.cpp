@@ -139,6 +139,12 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
 }
 
 template <class Real>
+Outcome Trajectory<Real>::passTime(Index i) {
+  system_.onTime(i, state_);
+  return restartAtSwitch();
+}
+
+template <class Real>
 void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   const AttemptResult& attempt = step.attempt;
   std::swap(state_, next_);
@@ -171,6 +177,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     if (report.outcome != Outcome::kSuccess) return report.outcome;
     // In index 3 the stages' accelerations are of low order: what they miss at the start says nothing.
     if (report.determined && !projection_) attempt_->restart();
+    if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
     blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;
     if (at.outcome != Outcome::kSuccess || blamed_ < 0) return at.outcome;

@@ -43,6 +43,8 @@ class Trajectory {
 
   const State<Real>& state() const { return state_; }
   const State<Real>& next() const { return next_; }
+  /// At time i of the system's `times`: the mode after it, and a restart.
+  [[nodiscard]] Outcome passTime(Index i);
   /// What is left to t_end after a switch close to it is no step.
   void endAt(const Real& t_end) { state_.t = t_end; }
 

@@ -54,7 +54,8 @@ struct Field {
   std::string allowed() const {
     if (isNumeric()) return range.text();
     std::string ids;
-    for (const auto& choice : kind == FieldKind::kAxis ? choices() : std::vector<Choice>{}) ids += (ids.empty() ? "" : " | ") + choice.id;
+    for (const auto& choice : kind == FieldKind::kAxis ? choices() : std::vector<Choice>{})
+      ids += (ids.empty() ? "" : " | ") + choice.id;
     return kind == FieldKind::kAxis ? ids : form;
   }
   /// The value in a Spec that nobody has changed.

@@ -38,12 +38,6 @@ constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},
     {JacobianPoint::kPredicted, "predicted", "at the start values' stage nearest to t0 + 0.6 h"},
     {JacobianPoint::kEachStage, "each_stage", "at the stages' start values; coupled solvers only"}};
-constexpr Named<JacobianTerms> kTerms[] = {
-    {JacobianTerms::kFull, "full", "everything"},
-    {JacobianTerms::kNoMassVxz, "no_mass_vxz", "(4.4): without d(M a)/d(v, x, z)"},
-    {JacobianTerms::kNoConstraintXz, "no_constraint_xz", "(4.5): without dG/d(x, z)"},
-    {JacobianTerms::kNoMass, "no_mass", "(4.4) and (4.8): without d(M a)/d(u, v, x, z)"},
-    {JacobianTerms::kConstantStiffness, "constant_stiffness", "(4.7): dF2/du evaluated once"}};
 constexpr Named<NormKind> kNorms[] = {{NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
                                       {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
 
@@ -75,7 +69,6 @@ IRK_AXIS(Storage, kStorages, "storage")
 IRK_AXIS(Summation, kSummations, "summation")
 IRK_AXIS(Multipliers, kMultipliers, "multipliers")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
-IRK_AXIS(JacobianTerms, kTerms, "jacobian")
 IRK_AXIS(NormKind, kNorms, "norm")
 #undef IRK_AXIS
 

@@ -34,6 +34,8 @@ class CountingSystem final : public System<Real> {
   void switching(const Point<Real>& p, VecView<Real> g) const override { inner_.switching(p, g); }
   void onSwitch(Index i, State<Real>& state) const override { inner_.onSwitch(i, state); }
   void jump(Index i, State<Real>& state) const override { inner_.jump(i, state); }
+  std::vector<Real> times() const override { return inner_.times(); }
+  void onTime(Index i, State<Real>& state) const override { inner_.onTime(i, state); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }
   Discontinuity discontinuity() const override { return inner_.discontinuity(); }
   bool projectsVelocity() const override { return inner_.projectsVelocity(); }

@@ -267,6 +267,14 @@ void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
 }
 
 template <class Real>
+void FirstOrderForm<Real>::onTime(Index i, State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  inner_->onTime(i, scene);
+  state.d = scene.d;
+  static_cast<void>(classify(scene));
+}
+
+template <class Real>
 void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->jump(i, scene);

@@ -34,6 +34,8 @@ class FirstOrderForm final : public System<Real> {
   void switching(const Point<Real>& p, VecView<Real> g) const override;
   void onSwitch(Index i, State<Real>& state) const override;
   void jump(Index i, State<Real>& state) const override;
+  std::vector<Real> times() const override { return inner_->times(); }
+  void onTime(Index i, State<Real>& state) const override;
   std::string switchName(Index i) const override { return inner_->switchName(i); }
   Discontinuity discontinuity() const override { return inner_->discontinuity(); }
   bool secondOrder() const override { return false; }

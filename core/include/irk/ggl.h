@@ -44,6 +44,12 @@ class GglSystem final : public System<Real> {
     scene_.jump(i, scene);
     state.x << scene.u, scene.v, scene.x;
   }
+  std::vector<Real> times() const override { return scene_.times(); }
+  void onTime(Index i, State<Real>& state) const override {
+    State<Real> scene = toScene(state);
+    scene_.onTime(i, scene);
+    state.d = scene.d;
+  }
   std::string switchName(Index i) const override { return scene_.switchName(i); }
   Discontinuity discontinuity() const override { return scene_.discontinuity(); }
   bool secondOrder() const override { return false; }

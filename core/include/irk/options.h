@@ -13,16 +13,6 @@ namespace irk {
 
 enum class DerivativeSource { kAutomatic, kCentral, kForward };
 
-/// What is left out of (D0, D1, D2), paper (4.4)-(4.8). M a enters the residual linearly in a, so
-/// its derivatives are left out by differentiating at a = 0.
-enum class JacobianTerms {
-  kFull,
-  kNoMassVxz,          ///< (4.4): without d(M a)/d(v, x, z)
-  kNoConstraintXz,     ///< (4.5): without dG/d(x, z)
-  kNoMass,             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
-  kConstantStiffness,  ///< (4.7): dF2/du evaluated once
-};
-
 /// How D0, D1, D2 and the Newton matrices are kept.
 enum class Storage {
   kAutomatic,  ///< sparse where the system is large and its pattern sparse enough; kSparseFrom in
@@ -32,6 +22,21 @@ enum class Storage {
 };
 
 // The catalogue of each axis, with what the ids mean and need, stands beside its strategies: core/options/catalogue.h.
+/// What is left out of (D0, D1, D2), paper (4.4)-(4.8). M a enters the residual linearly in a, so its derivatives are
+/// left out by differentiating at a = 0.
+struct JacobianTerms : StrategyId<JacobianTerms> {
+  static const JacobianTerms kFull;
+  static const JacobianTerms kNoMassVxz;          ///< (4.4): without d(M a)/d(v, x, z)
+  static const JacobianTerms kNoConstraintXz;     ///< (4.5): without dG/d(x, z)
+  static const JacobianTerms kNoMass;             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
+  static const JacobianTerms kConstantStiffness;  ///< (4.7): dF2/du evaluated once
+};
+inline constexpr JacobianTerms JacobianTerms::kFull{{"full"}};
+inline constexpr JacobianTerms JacobianTerms::kNoMassVxz{{"no_mass_vxz"}};
+inline constexpr JacobianTerms JacobianTerms::kNoConstraintXz{{"no_constraint_xz"}};
+inline constexpr JacobianTerms JacobianTerms::kNoMass{{"no_mass"}};
+inline constexpr JacobianTerms JacobianTerms::kConstantStiffness{{"constant_stiffness"}};
+
 struct NewtonKind : StrategyId<NewtonKind> {
   static const NewtonKind
       kSimplified;                   ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)

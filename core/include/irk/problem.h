@@ -44,6 +44,11 @@
 //     template <class T>
 //     void smoothed(const Point<T>& p, T* d) const;
 //     std::string switchName(Index i) const;  // for messages
+//     // Times, ascending, at which the residual jumps or has a kink: steps end there, nothing is searched. What
+//     // jumps must depend on p.d, which onTime changes; a kink (of a table of measured data) needs no p.d.
+//     std::vector<Real> times() const;
+//     template <class T>
+//     void onTime(Index i, const Point<T>& p, T* d) const;
 //
 // A switching function that has no meaning in a mode returns -1 in this mode.
 #pragma once

@@ -50,6 +50,14 @@ class ProblemSystem final : public System<Real> {
           "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
           "switches: steps go on over them; use 'locate'");
     }
+    const std::vector<Real> times = this->times();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      using std::isfinite;
+      if (!isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
+        throw Misuse("a problem's times: number " + std::to_string(i) +
+                     " is not finite, or not later than the one before");
+      }
+    }
     const int index = constraintIndex();
     const auto all = [](Index n, int power) { return std::vector<int>(static_cast<std::size_t>(n), power); };
     row_powers_ = all(sizes_.n(), 0);
@@ -97,6 +105,17 @@ class ProblemSystem final : public System<Real> {
     if constexpr (kHasSnap) {
       const State<Real> before = state;
       problem_.snap(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+    }
+  }
+  std::vector<Real> times() const override {
+    if constexpr (requires { problem_.times(); }) return problem_.times();
+    return {};
+  }
+  void onTime(Index i, State<Real>& state) const override {
+    if constexpr (requires(const Point<Real>& p, Real* d) { problem_.onTime(i, p, d); }) {
+      Vec<Real> d = state.d;
+      problem_.onTime(i, pointOf(state), d.data());
+      state.d = d;
     }
   }
   std::string switchName(Index i) const override {

@@ -187,6 +187,14 @@ class System {
     static_cast<void>(i);
     static_cast<void>(state);
   }
+  /// Times at which the right-hand side jumps or has a kink, ascending. A step ends at each of them, whatever the
+  /// treatment of switches is, and the integration starts again from there.
+  virtual std::vector<Real> times() const { return {}; }
+  /// The discrete state after time i.
+  virtual void onTime(Index i, State<Real>& state) const {
+    static_cast<void>(i);
+    static_cast<void>(state);
+  }
   /// For messages: "contact".
   virtual std::string switchName(Index i) const { return std::to_string(i); }
   /// How its evaluations treat the discrete state.

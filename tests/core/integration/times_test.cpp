@@ -1,0 +1,140 @@
+// Times that a system declares: steps end exactly there, and nothing of the steps before is used after.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "irk/ggl.h"
+#include "irk/integrator.h"
+#include "irk/misuse.h"
+#include "irk/problem.h"
+#include "irk/tableaus.h"
+
+namespace irk::test {
+namespace {
+
+const std::vector<double> kTimes{std::sqrt(0.1), std::sqrt(0.9), 1.5};
+
+/// x' = -x + cos t + 100 d, d grows by 1 at each time: x = x_0 e^-(t - t_0) + particular solutions, exact in pieces.
+struct Pulses {
+  bool declares = true;
+  std::vector<double> at = kTimes;
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    r.x[0] = -p.x[0] + cos(p.t) + 100 * p.d[0] - p.k[0];
+  }
+  std::vector<double> times() const { return declares ? at : std::vector<double>{}; }
+  template <class T>
+  void onTime(Index i, const Point<T>&, T* d) const {
+    d[0] = static_cast<double>(i + 1);
+  }
+  // (cos t + sin t) / 2 is a particular solution for d = 0; each pulse adds 100 (1 - e^-(t - t_i)).
+  double exact(double t) const {
+    double x = (std::cos(t) + std::sin(t)) / 2 - std::exp(-t) / 2;
+    for (const double start : at) {
+      if (t > start) x += 100 * (1 - std::exp(start - t));
+    }
+    return x;
+  }
+};
+
+struct Run {
+  Solution<double> solution;
+  std::vector<double> ends;
+};
+
+Run integrate(const Pulses& problem, const IntegratorOptions& options, double t_end,
+              Formulation formulation = Formulation::kIndex2) {
+  Run run;
+  Monitor<double> monitor;
+  monitor.accepted = [&](const StepRecord<double>& step) { run.ends.push_back(step.t); };
+  Integrator<double> integrator(makeSystem<double>(problem, {.formulation = formulation}),
+                                makeTableau<double>("radau_iia_5"), options);
+  run.solution = integrator.integrate(State<double>(problem.sizes()), t_end, monitor);
+  return run;
+}
+
+void expectStepsEndAtTimes(const Run& run) {
+  for (const double t : kTimes) {
+    EXPECT_NE(std::find(run.ends.begin(), run.ends.end(), t), run.ends.end()) << t;
+  }
+}
+
+TEST(Times, StepsOfAnySizeEndThere) {
+  IntegratorOptions options;
+  options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
+  for (const auto formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
+    const Run run = integrate({}, options, 2, formulation);
+    ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
+    expectStepsEndAtTimes(run);
+    EXPECT_NEAR(run.solution.state.x[0], Pulses{}.exact(2), 1e-8);
+    EXPECT_EQ(run.solution.state.d[0], 3);
+  }
+}
+
+TEST(Times, FixedStepsAreSplitThere) {
+  IntegratorOptions options;
+  options.step.control = StepControl::kFixed;
+  options.step.h = 0.125;
+  const Run run = integrate({}, options, 2);
+  ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
+  expectStepsEndAtTimes(run);
+  EXPECT_EQ(run.ends.size(), 16u + 2u);  // 1.5 is a multiple of h
+  EXPECT_NEAR(run.solution.state.x[0], Pulses{}.exact(2), 1e-9);
+}
+
+TEST(Times, AtTheEndAndTheStartNothingHappens) {
+  IntegratorOptions options;
+  options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
+  const Run at_end = integrate({}, options, kTimes.front());
+  EXPECT_EQ(at_end.solution.state.d[0], 0);
+  EXPECT_NEAR(at_end.solution.state.x[0], Pulses{}.exact(kTimes.front()), 1e-9);
+  Pulses at_start;
+  at_start.at = {0};
+  EXPECT_EQ(integrate(at_start, options, 1).solution.state.d[0], 0);
+}
+
+TEST(Times, OutOfOrderAreRefused) {
+  Pulses problem;
+  problem.at = {1, 0.5};
+  EXPECT_THROW((void)makeSystem<double>(problem), Misuse);
+  problem.at = {std::nan("")};
+  EXPECT_THROW((void)makeSystem<double>(problem), Misuse);
+}
+
+/// A kink of |t - 1|^1 in a constrained system: no discrete state. u = (cos phi, sin phi), phi'' = |t - 1|.
+struct Wheel {
+  Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 1, .constraints = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T force = p.t > T(1.0) ? T(p.t - 1) : T(1 - p.t);
+    r.u[0] = -p.a[0] - p.u[1] * force - p.u[0] * p.z[0];
+    r.u[1] = -p.a[1] + p.u[0] * force - p.u[1] * p.z[0];
+  }
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    g[0] = (u[0] * u[0] + u[1] * u[1] - 1) * 0.5;
+  }
+  std::vector<double> times() const { return {1}; }
+};
+
+TEST(Times, KinksNeedNoModeInAnyFormulation) {
+  const double t = 2, phi = t * t / 2 - t * t * t / 6 + (t - 1) * (t - 1) * (t - 1) / 3;
+  for (const auto formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl}) {
+    IntegratorOptions options;
+    options.step.control = StepControl::kFixed;
+    options.step.h = 0.3;
+    State<double> start({.nu = 2, .nx = 0, .nz = 1, .constraints = 1});
+    start.u << 1, 0;
+    Integrator<double> integrator(makeSystem<double>(Wheel{}, {.formulation = formulation}),
+                                  makeTableau<double>("radau_iia_7"), options);
+    const auto solution = integrator.integrate(start, t);
+    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << idOf(formulation) << solution.detail;
+    EXPECT_NEAR(solution.state.u[0], std::cos(phi), 1e-10) << idOf(formulation);
+    EXPECT_NEAR(solution.state.u[1], std::sin(phi), 1e-10) << idOf(formulation);
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

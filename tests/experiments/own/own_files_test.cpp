@@ -1,0 +1,166 @@
+// A user's files through the program, in processes of their own: what is registered stays in a process.
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include "experiments/own/compiler.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+struct Ran {
+  int status;
+  std::string text;  ///< standard output and standard error
+};
+
+class OwnFiles : public testing::Test {
+ protected:
+  /// The program in this test's folder, with a cache of its own.
+  Ran irk(const std::string& arguments) const {
+    const std::string command = "cd " + folder_.path().string() + " && IRK_CACHE=" + folder_.path().string() +
+                                "/cache " IRK_PROGRAM " " + arguments + " 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    Ran ran{0, {}};
+    char buffer[4096];
+    for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) ran.text.append(buffer, n);
+    const int status = pclose(pipe);
+    ran.status = WEXITSTATUS(status);
+    return ran;
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
+  std::string read(const std::string& name) const {
+    std::ifstream in(folder_.path() / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::string replaced(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string text = read(name);
+    EXPECT_NE(text.find(from), text.npos) << from;
+    return text.replace(text.find(from), from.size(), to);
+  }
+
+  TemporaryFolder folder_;
+};
+
+// x'' = -x, x(0) = 1 is exact, and has no other reference.
+constexpr const char* kOscillator = R"(#include <irk/scene_file.h>
+#include "stiffness.h"
+using namespace irk;
+template <class Real>
+struct Oscillator {
+  Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const { r.u[0] = p.a[0] + kStiffness * p.u[0]; }
+  static SceneEntry entry() {
+    return {.id = "oscillator", .title = "t", .shows = "s", .parameters = {textParameter("file", "a file", "none")}};
+  }
+  static Scene<Real> make(const Settings&) {
+    Scene<Real> scene;
+    setProblem(scene, Oscillator{});
+    setComponents(scene, {{"x", "m"}});
+    scene.start.u << Real(1);
+    scene.exact = [](const Real& t) {
+      using std::cos;
+      using std::sin;
+      State<Real> s(Oscillator{}.sizes());
+      s.t = t;
+      s.u << cos(t);
+      s.v << -sin(t);
+      return s;
+    };
+    return scene;
+  }
+};
+IRK_SCENE(Oscillator)
+)";
+
+TEST_F(OwnFiles, AreCompiledOnceAndAnewWhenAnIncludedFileChanges) {
+  write("oscillator.cpp", kOscillator);
+  write("stiffness.h", "constexpr double kStiffness = 1;\n");
+  const std::string solve = "solve oscillator.cpp --method gauss_5 --tol 1e-10 --set file=a.txt";
+  const Ran first = irk(solve);
+  EXPECT_EQ(first.status, 0) << first.text;
+  EXPECT_TRUE(containsAll(first.text, {"compiling oscillator.cpp", "0.54030230", "file=a.txt"}));
+  const Ran second = irk(solve);
+  EXPECT_EQ(second.text.find("compiling"), std::string::npos) << second.text;
+  write("stiffness.h", "constexpr double kStiffness = 4;\n");
+  const Ran changed = irk(solve);
+  EXPECT_TRUE(containsAll(changed.text, {"compiling oscillator.cpp", "-0.416146"}));  // cos 2
+  // 50 digits are compiled when a run asks for them.
+  write("stiffness.h", "constexpr double kStiffness = 1;\n");
+  const Ran digits = irk("solve oscillator.cpp --method gauss_10 --tol 1e-30 --scalar mp50");
+  EXPECT_TRUE(containsAll(digits.text, {"in 50 digits", "0.54030230586813971740093660744297"}));
+}
+
+TEST_F(OwnFiles, TheTemplateRunsAndStudiesTakeItFromTheirFolder) {
+  EXPECT_EQ(irk("new scene lift.cpp").status, 0);
+  const Ran again = irk("new scene lift.cpp");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_TRUE(containsAll(again.text, {"'lift.cpp' exists"}));
+  std::filesystem::create_directory(folder_.path() / "sub");
+  std::filesystem::rename(folder_.path() / "lift.cpp", folder_.path() / "sub" / "lift.cpp");
+  write("sub/mine.toml", "[[block]]\nscene = 'lift.cpp'\nmethods = ['gauss_3']\ntolerances = [1e-4, 1e-6]\n");
+  const Ran run = irk("run sub/mine.toml");
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_TRUE(containsAll(read("results/mine/runs.csv"), {",lift,", "gauss_3"}));
+  EXPECT_TRUE(containsAll(irk("run sub/mine.toml").text, {"2 success"}));
+  // Changed equations are other runs.
+  write("sub/lift.cpp", replaced("sub/lift.cpp", "sin(5 * p.t)", "sin(6 * p.t)"));
+  const std::string before = read("results/mine/runs.csv");
+  EXPECT_EQ(irk("run sub/mine.toml").status, 0);
+  EXPECT_NE(read("results/mine/runs.csv"), before);
+}
+
+TEST_F(OwnFiles, MistakesAreNamed) {
+  ASSERT_EQ(irk("new scene lift.cpp").status, 0);
+  const std::string solve = " --method gauss_3 --tol 1e-6";
+  write("broken.cpp", replaced("lift.cpp", "p.v[0]", "p.velocity[0]"));
+  write("taken.cpp", replaced("lift.cpp", "\"lift\"", "\"pendulum\""));
+  write("id.cpp", replaced("lift.cpp", "\"lift\"", "\"My Lift\""));
+  write("empty.cpp", "int unused = 0;\n");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
+      {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp: it does not compile"}},
+      {"taken.cpp", {"'pendulum' (taken.cpp) is taken by a scene of the program"}},
+      {"id.cpp", {"'My Lift' (id.cpp)", "small letters"}},
+      {"empty.cpp", {"empty.cpp: it registers nothing"}},
+      {"missing.cpp", {"'missing.cpp' cannot be read"}}};
+  for (const auto& [file, parts] : cases) {
+    const Ran ran = irk("solve " + file + solve);
+    EXPECT_EQ(ran.status, 2) << file;
+    EXPECT_TRUE(containsAll(ran.text, parts));
+  }
+}
+
+TEST_F(OwnFiles, StrategiesAreOptionsLikeAllOthers) {
+  const std::vector<std::vector<std::string>> examples{{"pi_control.cpp", "control", "pi"},
+                                                       {"linear_predictor.cpp", "predictor", "linear"},
+                                                       {"chord_newton.cpp", "newton", "chord"},
+                                                       {"smoothness_estimate.cpp", "estimate", "smoothness"},
+                                                       {"full_pivot_solver.cpp", "solver", "full_pivot"},
+                                                       {"no_stiffness.cpp", "jacobian", "no_stiffness"}};
+  for (const auto& example : examples) {
+    const std::string load = " --load " IRK_SOURCE_DIR "/experiments/examples/" + example[0];
+    const std::string solve =
+        "solve slider_crank --method radau_iia_5 --tol 1e-7 --t-end 1 --" + example[1] + ' ' + example[2];
+    const Ran ran = irk(solve + load);
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    EXPECT_TRUE(containsAll(ran.text, {"14.1278"})) << example[0];
+    EXPECT_TRUE(containsAll(irk("list strategies" + load).text, {"    " + example[2]})) << example[0];
+    EXPECT_EQ(irk(solve).status, 2) << "unknown without its file: " << example[2];
+  }
+}
+
+TEST(CompilerMessages, KeepErrorsAndWhatBelongsToTheFile) {
+  const std::string text =
+      "In file included from /usr/include/x.h:1,\n                 from mine.cpp:2:\nmine.cpp: In function 'f':\n"
+      "mine.cpp:3:1: warning: w\n    3 | x\n/usr/include/x.h:7:2: note: n\n    7 | y\n/usr/include/x.h:9:2: error: e\n"
+      "    9 | z\n";
+  EXPECT_EQ(
+      own::messagesAbout("mine.cpp", text),
+      "mine.cpp: In function 'f':\nmine.cpp:3:1: warning: w\n    3 | x\n/usr/include/x.h:9:2: error: e\n    9 | z\n");
+}
+
+}  // namespace
+}  // namespace irk
