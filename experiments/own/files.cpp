@@ -25,9 +25,9 @@ using boost::dll::shared_library;
 std::ostream* report = nullptr;
 std::ostream& log() { return report ? *report : std::cerr; }
 
-// Objects stay loaded as long as the program runs: catalogues point into them.
+// Objects are never unloaded, not at the program's end either: what they registered is destroyed after that.
 shared_library& load(const std::filesystem::path& object, const std::filesystem::path& source) {
-  static std::vector<std::unique_ptr<shared_library>> loaded;
+  static auto& loaded = *new std::vector<std::unique_ptr<shared_library>>;
   try {
     loaded.push_back(std::make_unique<shared_library>(object, boost::dll::load_mode::rtld_now));
   } catch (const std::exception& error) {

@@ -44,7 +44,8 @@ std::string textOf(const Field<Spec>& field, double x) {
 template <class Spec>
 std::vector<std::string> otherValues(const Field<Spec>& field) {
   std::vector<std::string> values;
-  for (const auto& choice : field.choices) values.push_back(choice.id);
+  for (const auto& choice : field.kind == FieldKind::kAxis ? field.choices() : std::vector<Choice>{})
+    values.push_back(choice.id);
   if (field.isNumeric()) {
     for (const double x : legalValues(field.range)) values.push_back(textOf(field, x));
   }

@@ -1,7 +1,9 @@
 // Times that a system declares: steps end exactly there, and nothing of the steps before is used after.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "irk/ggl.h"
 #include "irk/integrator.h"
@@ -39,14 +41,14 @@ struct Pulses {
   }
 };
 
-struct Run {
+struct Integrated {
   Solution<double> solution;
   std::vector<double> ends;
 };
 
-Run integrate(const Pulses& problem, const IntegratorOptions& options, double t_end,
+Integrated integrate(const Pulses& problem, const IntegratorOptions& options, double t_end,
               Formulation formulation = Formulation::kIndex2) {
-  Run run;
+  Integrated run;
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>& step) { run.ends.push_back(step.t); };
   Integrator<double> integrator(makeSystem<double>(problem, {.formulation = formulation}),
@@ -55,7 +57,7 @@ Run integrate(const Pulses& problem, const IntegratorOptions& options, double t_
   return run;
 }
 
-void expectStepsEndAtTimes(const Run& run) {
+void expectStepsEndAtTimes(const Integrated& run) {
   for (const double t : kTimes) {
     EXPECT_NE(std::find(run.ends.begin(), run.ends.end(), t), run.ends.end()) << t;
   }
@@ -65,7 +67,7 @@ TEST(Times, StepsOfAnySizeEndThere) {
   IntegratorOptions options;
   options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
   for (const auto formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
-    const Run run = integrate({}, options, 2, formulation);
+    const Integrated run = integrate({}, options, 2, formulation);
     ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
     expectStepsEndAtTimes(run);
     EXPECT_NEAR(run.solution.state.x[0], Pulses{}.exact(2), 1e-8);
@@ -77,7 +79,7 @@ TEST(Times, FixedStepsAreSplitThere) {
   IntegratorOptions options;
   options.step.control = StepControl::kFixed;
   options.step.h = 0.125;
-  const Run run = integrate({}, options, 2);
+  const Integrated run = integrate({}, options, 2);
   ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
   expectStepsEndAtTimes(run);
   EXPECT_EQ(run.ends.size(), 16u + 2u);  // 1.5 is a multiple of h
@@ -87,7 +89,7 @@ TEST(Times, FixedStepsAreSplitThere) {
 TEST(Times, AtTheEndAndTheStartNothingHappens) {
   IntegratorOptions options;
   options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
-  const Run at_end = integrate({}, options, kTimes.front());
+  const Integrated at_end = integrate({}, options, kTimes.front());
   EXPECT_EQ(at_end.solution.state.d[0], 0);
   EXPECT_NEAR(at_end.solution.state.x[0], Pulses{}.exact(kTimes.front()), 1e-9);
   Pulses at_start;

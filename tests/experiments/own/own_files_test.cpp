@@ -133,24 +133,32 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   }
 }
 
-TEST_F(OwnFiles, StrategiesAreOptionsLikeAllOthers) {
-  const std::vector<std::vector<std::string>> examples{{"pi_control.cpp", "control", "pi"},
-                                                       {"linear_predictor.cpp", "predictor", "linear"},
-                                                       {"chord_newton.cpp", "newton", "chord"},
-                                                       {"smoothness_estimate.cpp", "estimate", "smoothness"},
-                                                       {"full_pivot_solver.cpp", "solver", "full_pivot"},
-                                                       {"no_stiffness.cpp", "jacobian", "no_stiffness"}};
-  for (const auto& example : examples) {
-    const std::string load = " --load " IRK_SOURCE_DIR "/experiments/examples/" + example[0];
-    const std::string solve =
-        "solve slider_crank --method radau_iia_5 --tol 1e-7 --t-end 1 --" + example[1] + ' ' + example[2];
-    const Ran ran = irk(solve + load);
-    EXPECT_EQ(ran.status, 0) << ran.text;
-    EXPECT_TRUE(containsAll(ran.text, {"14.1278"})) << example[0];
-    EXPECT_TRUE(containsAll(irk("list strategies" + load).text, {"    " + example[2]})) << example[0];
-    EXPECT_EQ(irk(solve).status, 2) << "unknown without its file: " << example[2];
-  }
+struct Example {
+  const char *file, *axis, *id;
+};
+
+class OwnStrategy : public OwnFiles, public testing::WithParamInterface<Example> {};
+
+TEST_P(OwnStrategy, IsAnOptionLikeAllOthers) {
+  const auto [file, axis, id] = GetParam();
+  const std::string load = std::string(" --load " IRK_SOURCE_DIR "/experiments/examples/") + file;
+  const std::string solve =
+      std::string("solve slider_crank --method radau_iia_5 --tol 1e-7 --t-end 1 --") + axis + ' ' + id;
+  const Ran ran = irk(solve + load);
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_TRUE(containsAll(ran.text, {"14.1278"}));
+  EXPECT_TRUE(containsAll(irk("list strategies" + load).text, {std::string("    ") + id}));
+  EXPECT_EQ(irk(solve).status, 2) << "unknown without its file";
 }
+
+INSTANTIATE_TEST_SUITE_P(Examples, OwnStrategy,
+                         testing::Values(Example{"pi_control.cpp", "control", "pi"},
+                                         Example{"linear_predictor.cpp", "predictor", "linear"},
+                                         Example{"chord_newton.cpp", "newton", "chord"},
+                                         Example{"smoothness_estimate.cpp", "estimate", "smoothness"},
+                                         Example{"full_pivot_solver.cpp", "solver", "full_pivot"},
+                                         Example{"no_stiffness.cpp", "jacobian", "no_stiffness"}),
+                         [](const auto& example) { return std::string(example.param.id); });
 
 TEST(CompilerMessages, KeepErrorsAndWhatBelongsToTheFile) {
   const std::string text =
