@@ -18,12 +18,14 @@ row(case) = isCase(case) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
 reached(case, error) = at(case, error) && !absent(cost) ? column(cost) : outside
 # A line joins neighbours that both reach the error; it is drawn as a vector from the previous row to this one.
+# The line is broken at several methods of one number of stages.
 from(case, error) = ($0 == 0 ? (this_y = 0) : 0, !at(case, error) ? outside : \
-  (last_x = this_x, last_y = this_y, this_x = column("stages"), this_y = absent(cost) ? 0 : column(cost), \
+  (last_x = this_x, last_y = this_y, this_x = column("stages"), this_y = absent(cost) || position(clashing, pairWord(0)) ? 0 : column(cost), \
    last_y > 0 && this_y > 0 ? last_x : outside))
 last_x = 1; last_y = 0; this_x = 1; this_y = 0
 missed(case, error) = at(case, error) && absent(cost) ? column("stages") : outside
 
+eval clashes(file)
 rows = 0; tried = 0; most = 0; least = 1e300; s_max = 1
 do for [i = 1 : n] {
   undefine N_*

@@ -142,7 +142,7 @@ OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional
 TableRow orderRow(const Table& runs, const TableRow& run, char component, std::string power_of, const OrderFit& fit,
                   const Theory& theory, const std::string& reason) {
   TableRow row;
-  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "family", "stages"}) {
+  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "method", "family", "stages"}) {
     row.push_back(textAt(runs, run, name));
   }
   row.emplace_back(1, component);
@@ -233,6 +233,7 @@ Table orderTable(const Table& runs) {
                     "formulation",
                     "multipliers",
                     "scalar",
+                    "method",
                     "family",
                     "stages",
                     "component",
