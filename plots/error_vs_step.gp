@@ -64,9 +64,16 @@ interval(i, k) = 1 + Count[slot(i, k)] / 24   # draws a mark only at some of the
 seriesTitle(i, k) = sprintf("%s%s", methodTitle(methods, k), \
   Fitted[slot(i, k)] == Fitted[slot(i, k)] ? sprintf(": %.2f", Fitted[slot(i, k)]) : "")
 
-margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.2 : 0.125; margin_bottom = 0.14; gap_x = n == 1 ? 0 : 0.17
+# The names of twins need room beside each panel.
+longest = 0
+do for [i = 1 : n] { do for [k = 1 : words(methods)] { length = strlen(seriesTitle(i, k)); longest = length > longest ? length : longest } }
+room = longest > 8 ? 7.0 * (longest - 8) : 0
+usual = n == 1 ? 640.0 : 540.0 * n
+width = usual + n * room
+margin_left = (n == 1 ? 0.12 : 0.075) * usual / width; margin_right = ((n == 1 ? 0.2 : 0.125) * usual + room) / width
+margin_bottom = 0.14; gap_x = n == 1 ? 0 : (0.17 * usual + room) / width
 do for [format in formats] {
-  eval open(format, n == 1 ? 640 : 540 * n, 420)
+  eval open(format, width, 420)
   if (rows == 0) { eval nothing(caseName) } else {
     set multiplot
     eval decades("x"); eval decades("y")

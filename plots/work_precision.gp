@@ -14,9 +14,8 @@ if (variant ne '') {
   if (strlen(cases)) { cases = '"'.cases.'"' }
   if (exists("family")) { only = only.' family='.family }
   if (exists("formulation")) { only = only.' formulation='.formulation }
-  load here."/work_by.gp"
-  exit
 }
+if (variant ne '') load here."/work_by.gp"; exit
 if (!exists("family")) family = 'radau_iia'
 if (!exists("formulation")) formulation = ''
 if (!exists("stages_shown")) stages_shown = '1 2 3 5 7 10 15 20'
@@ -56,10 +55,16 @@ if (failures > 0) {
 
 columns = n == 1 ? 1 : 2
 lines = (n + columns - 1) / columns
-margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.17 : 0.1
+# The names of twins need room beside the panels.
+longest = 0
+do for [k = 1 : count] { length = strlen(methodTitle(curves, k)); longest = length > longest ? length : longest }
+room = longest > 6 ? 7.5 * (longest - 6) : 0
+usual = n == 1 ? 640.0 : 1080.0
+width = usual + room
+margin_left = (n == 1 ? 0.12 : 0.075) * usual / width; margin_right = ((n == 1 ? 0.17 : 0.1) * usual + room) / width
 margin_bottom = lines == 1 ? 0.14 : 0.09; gap_x = 0.1
 do for [format in formats] {
-  eval open(format, n == 1 ? 640 : 1080, lines == 1 ? 420 : 640)
+  eval open(format, width, lines == 1 ? 420 : 640)
   if (rows == 0) { eval nothing(caseName) } else {
     set multiplot
     eval decades("x"); eval decades("y")

@@ -11,6 +11,7 @@
 
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/trajectory.h"
 #include "experiments/study/analysis.h"
 #include "irk/misuse.h"
 #include "irk/tableaus.h"
@@ -174,13 +175,13 @@ void choose(FigureTable& figure, const std::vector<Axis>& axes, const Cells& cel
     only.push_back(axes[i].column + "=" + cells[i]);
     figure.title += ", " + only.back();
   }
-  if (!only.empty()) figure.options.push_back({"only", only});
+  if (!only.empty()) figure.options.push_back({"only", only, FigureOption::Kind::kList});
 }
 
 FigureOption casesOf(const std::string& block, Cells scenes, std::size_t most) {
   if (scenes.size() > most) scenes.resize(most);
   for (auto& scene : scenes) scene = fmt::format("block={}:{}", block, scene);
-  return {"cases", scenes};
+  return {"cases", scenes, FigureOption::Kind::kList};
 }
 
 void Block::work(std::vector<FigureTable>& figures) const {
@@ -192,7 +193,7 @@ void Block::work(std::vector<FigureTable>& figures) const {
     auto figure = start("work_by", "Work and accuracy");
     figure.options = {
         {"variant", {axes_[curves].column}}, casesOf(name_, scenes_, kMostPanels), {"costs", {costColumn()}}};
-    if (scenes_.size() > 2) figure.options.push_back({"columns", {"3"}, true});
+    if (scenes_.size() > 2) figure.options.push_back({"columns", {"3"}, FigureOption::Kind::kNumber});
     choose(figure, fixed, cells);
     figure.caption = fmt::format("{} over the error reached; accuracy increases to the right, lower curves are {}.",
                                  study_.timing.wanted ? "CPU time" : "Residual evaluations",
@@ -220,7 +221,10 @@ void Block::errors(std::vector<FigureTable>& figures) const {
     const std::string component = componentsOf(spec).front();
     for (const auto& cells : combinations(besideMethods())) {
       auto figure = start("error_vs_step", "Error over step");
-      figure.options = {blockOption(), {"scene", {scene}}, {"component", {component}}, {"families", families}};
+      figure.options = {blockOption(),
+                        {"scene", {scene}},
+                        {"component", {component}},
+                        {"families", families, FigureOption::Kind::kList}};
       figure.title += ", " + scene;
       choose(figure, besideMethods(), cells);
       figure.caption = fmt::format("Fixed steps; error of {}.", component == "u" ? "the positions" : "the states");
@@ -238,13 +242,16 @@ void Block::orders(std::vector<FigureTable>& figures) const {
     const auto spec = *std::find_if(specs_.begin(), specs_.end(), [&](auto& s) { return s.scene == scene; });
     for (const auto& cells : combinations(besideMethods())) {
       auto figure = start("order_vs_stages", "Observed order");
-      figure.options = {blockOption(), {"scene", {scene}}, {"components", componentsOf(spec)}};
+      figure.options = {
+          blockOption(), {"scene", {scene}}, {"components", componentsOf(spec), FigureOption::Kind::kList}};
       figure.title += ", " + scene;
       for (std::size_t i = 0; i < cells.size(); ++i) {
         if (!cells[i].empty()) figure.options.push_back({axes_[i + 1].column, {cells[i]}});
         figure.title += fmt::format(", {}={}", axes_[i + 1].column, cells[i]);
       }
-      figure.caption = "Line: theory, or the order that a tableau declares. Mark: slope of the error over the step.";
+      figure.caption =
+          "Line: theory, or the order that a tableau declares. Mark: slope of the error over the step; a "
+          "red cross: it differs.";
       figures.push_back(std::move(figure));
     }
   }
@@ -301,6 +308,13 @@ void appendAnalyses(const Study& study, std::vector<FigureTable>& figures) {
     addNew(scenes, spec.scene);
     if (!findPeer(spec.method)) addNew(methods, spec.method);
   }
+  for (const auto& scene : study.trajectories ? scenes : Cells()) {
+    const auto of = [&](const Series& series) { return series.runs.front().scene == scene; };
+    const RunSpec spec = std::find_if(study.series.begin(), study.series.end(), of)->runs.front();
+    add("scene_solution", "Solution over time: " + scene,
+        {{"scene", {scene}}, {"file_name", {trajectoryPath({}, spec).stem().string()}}});
+    figures.back().caption = spec.method;
+  }
   for (const Analysis* analysis : study.analyses) {
     if (analysis->id == "profile") add("profile", "Performance profiles over all scenes", {{"targets", {"all"}}});
     if (analysis->id == "estimates") add("estimate_ratio", "True error of a step over its estimate");
@@ -309,7 +323,7 @@ void appendAnalyses(const Study& study, std::vector<FigureTable>& figures) {
     for (const auto& scene : scenes) {
       add(phases ? "shares" : "scaling",
           fmt::format("{}: {}", phases ? "Where the time goes" : "Time of a step over the number of unknowns", scene),
-          {{"scene", {scene}}, {"methods", methods}});
+          {{"scene", {scene}}, {"methods", methods, FigureOption::Kind::kList}});
     }
   }
 }

@@ -61,7 +61,8 @@ std::vector<std::string> knownColumns() {
 void requireColumn(const FigureOption& option, std::string_view column) {
   static const auto known = knownColumns();
   if (isIn(known, column)) return;
-  throw Misuse(fmt::format("{}: {}: {}", option.place, option.name, unknownName("column", column, known)));
+  throw Misuse(fmt::format("{}: {}: unknown column '{}'; did you mean '{}'?", option.place, option.name, column,
+                           nearestName(column, known)));
 }
 
 void checkColumns(const FigureOption& option) {
@@ -69,7 +70,7 @@ void checkColumns(const FigureOption& option) {
     for (const auto& word : wordsOf(option)) requireColumn(option, word);
   }
   if (option.name != "only") return;
-  for (const auto& item : option.items.size() == 1 ? wordsOf(option) : option.items) {
+  for (const auto& item : option.kind == FigureOption::Kind::kText ? wordsOf(option) : option.items) {
     const auto equals = item.find('=');
     if (equals == item.npos) {
       throw Misuse(fmt::format("{}: only: '{}': column=value is expected", option.place, item));
@@ -98,7 +99,7 @@ Script readScript(const std::filesystem::path& home, const std::string& name) {
   if (!isIn(names, name)) throw Misuse(unknownName("script", name, names));
   const std::string text = readInputFile(home / "plots" / (name + ".gp"));
   Script script;
-  script.options = matches(text, "!exists\\(\"(\\w+)\"\\)");
+  script.options = matches(text, "if \\(!exists\\(\"(\\w+)\"\\)\\)");
   const auto uses = [&](std::string_view part) { return text.find(part) != text.npos; };
   if (uses("ofScene(") || uses("ofCase(")) script.options.insert(script.options.end(), {"block", "scene"});
   if (uses("ofCase(")) script.options.emplace_back("settings");

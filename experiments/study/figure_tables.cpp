@@ -41,14 +41,15 @@ class Reader {
   }
 
   FigureOption option(const std::string& key, const toml::node& node) const {
-    FigureOption option{key, {}, false, place(node)};
+    FigureOption option{key, {}, FigureOption::Kind::kText, place(node)};
     if (const auto* integer = node.as_integer()) {
       option.items.push_back(std::to_string(integer->get()));
-      option.is_number = true;
+      option.kind = FigureOption::Kind::kNumber;
     } else if (const auto* number = node.as_floating_point()) {
       option.items.push_back(numberText(number->get()));
-      option.is_number = true;
+      option.kind = FigureOption::Kind::kNumber;
     } else if (const auto* list = node.as_array()) {
+      option.kind = FigureOption::Kind::kList;
       for (const auto& item : *list) option.items.push_back(value(key, item));
     } else {
       option.items.push_back(value(key, node));
@@ -101,8 +102,8 @@ std::string inQuotes(std::string_view text) {
 }
 
 std::string valueText(const FigureOption& option) {
-  if (option.is_number) return option.items.front();
-  if (option.items.size() == 1) return inQuotes(option.items.front());
+  if (option.kind == FigureOption::Kind::kNumber) return option.items.front();
+  if (option.kind == FigureOption::Kind::kText) return inQuotes(option.items.front());
   std::string text;
   for (const auto& item : option.items) text += (text.empty() ? "" : ", ") + inQuotes(item);
   return "[" + text + "]";
@@ -147,12 +148,12 @@ std::string assignmentsOf(const std::vector<FigureOption>& options) {
   for (const auto& option : options) {
     if (!text.empty()) text += "; ";
     std::string value;
-    const bool several = option.items.size() > 1;
     for (const auto& item : option.items) {
-      const bool quotes = several && (item.empty() || item.find(' ') != item.npos);
+      const bool quotes = option.kind == FigureOption::Kind::kList && (item.empty() || item.find(' ') != item.npos);
       value += (value.empty() ? "" : " ") + (quotes ? '"' + item + '"' : item);
     }
-    text += option.is_number ? fmt::format("{}={}", option.name, value) : fmt::format("{}='{}'", option.name, value);
+    text += option.kind == FigureOption::Kind::kNumber ? fmt::format("{}={}", option.name, value)
+                                                       : fmt::format("{}='{}'", option.name, value);
   }
   return text;
 }

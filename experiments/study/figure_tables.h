@@ -19,8 +19,8 @@ namespace irk {
 /// One option of a script.
 struct FigureOption {
   std::string name;
-  std::vector<std::string> items;  ///< words, or one number
-  bool is_number = false;
+  std::vector<std::string> items;  ///< one text of words, or a list of single words, or one number
+  enum class Kind { kText, kList, kNumber } kind = Kind::kText;
   std::string place = {};  ///< `file:line`
 };
 
