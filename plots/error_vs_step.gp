@@ -67,7 +67,7 @@ seriesTitle(i, k) = sprintf("%s%s", methodTitle(methods, k), \
 # The names of twins need room beside each panel.
 longest = 0
 do for [i = 1 : n] { do for [k = 1 : words(methods)] { length = strlen(seriesTitle(i, k)); longest = length > longest ? length : longest } }
-room = longest > 8 ? 7.0 * (longest - 8) : 0
+room = longest > 9 ? 7.0 * (longest - 9) : 0
 usual = n == 1 ? 640.0 : 540.0 * n
 width = usual + n * room
 margin_left = (n == 1 ? 0.12 : 0.075) * usual / width; margin_right = ((n == 1 ? 0.2 : 0.125) * usual + room) / width

@@ -54,7 +54,7 @@ TEST_F(OwnFigures, ScriptsSayWhatTheyTake) {
   for (const auto& figure : readFigures(std::filesystem::path(IRK_SOURCE_DIR) / "plots" / "figures.txt")) {
     const auto known = readScript(IRK_SOURCE_DIR, std::filesystem::path(figure.script).stem()).options;
     for (const std::string name : {"scene", "block", "settings", "cases", "only", "columns", "families", "parameter"}) {
-      const bool given = (" " + figure.assignments).find(" " + name + "=") != std::string::npos;
+      const bool given = ("; " + figure.assignments).find("; " + name + "=") != std::string::npos;
       EXPECT_TRUE(!given || std::find(known.begin(), known.end(), name) != known.end()) << figure.name << ": " << name;
     }
   }
