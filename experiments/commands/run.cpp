@@ -212,7 +212,10 @@ int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::
     id = study.id;
     const auto folder = options.results / id;
     const auto figures = figuresOfStudy(study, id_or_file);
-    if (std::filesystem::is_directory(folder)) keepFigures(figures, folder);
+    if (!std::filesystem::is_directory(folder)) {
+      throw Failure(fmt::format("no results of study '{}' in '{}': irk run {} makes them", id, results, id_or_file));
+    }
+    keepFigures(figures, folder);
   }
   return drawFigures(id, options, streams.err) == 0 ? 0 : 1;
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/figure_tables.h"
 #include "experiments/study/study.h"
+#include "experiments/study/toml/figure_tables.h"
 
 namespace irk {
 

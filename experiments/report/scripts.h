@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/figure_tables.h"
+#include "experiments/study/toml/figure_tables.h"
 
 namespace irk {
 

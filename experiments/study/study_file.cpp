@@ -9,8 +9,8 @@
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
 #include "experiments/study/analysis.h"
-#include "experiments/study/figure_tables.h"
-#include "experiments/study/toml_text.h"
+#include "experiments/study/toml/figure_tables.h"
+#include "experiments/study/toml/toml_text.h"
 
 namespace irk {
 namespace {

@@ -228,26 +228,10 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
-  orders.columns = {"scene",
-                    "settings",
-                    "formulation",
-                    "multipliers",
-                    "scalar",
-                    "method",
-                    "family",
-                    "stages",
-                    "component",
-                    "power_of",
-                    "order",
-                    "confidence",
-                    "h_min",
-                    "h_max",
-                    "points",
-                    "theory",
-                    "source",
-                    "verdict",
-                    "reason",
-                    std::string(kBlockColumn)};
+  orders.columns = {"scene",  "settings",   "formulation", "multipliers", "scalar",
+                    "method", "family",     "stages",      "component",   "power_of",
+                    "order",  "confidence", "h_min",       "h_max",       "points",
+                    "theory", "source",     "verdict",     "reason",      std::string(kBlockColumn)};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {
     const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";

@@ -50,6 +50,12 @@ TEST_F(OwnStudies, AFileThatChangesAfterTheRunIsDrawnAsItIsNow) {
   EXPECT_FALSE(exists("report/figures/small_work_by.svg"));
 }
 
+TEST_F(OwnStudies, WithoutResultsAreStatusOne) {
+  const Ended ended = program({"plot", study(), "--results", results()});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_TRUE(containsAll(ended.err, {"no results of study 'small'", "irk run " + study()}));
+}
+
 TEST_F(OwnStudies, MergedShardsHaveTheirFigures) {
   ASSERT_EQ(run("parts", {"--shard", "1/2"}).status, 0);
   ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);

@@ -1,8 +1,8 @@
 // Tables [[figure]] of a study file.
 #include <gtest/gtest.h>
 
-#include "experiments/study/figure_tables.h"
 #include "experiments/study/study_reader.h"
+#include "experiments/study/toml/figure_tables.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -38,6 +38,8 @@ script = "profile"
                                         "only='method=gauss_3 \"settings=a=1 b=2\"'", "titles='\"one panel\"'",
                                         "cases='kepler pendulum'"}));
   EXPECT_EQ(tables.figures.back().name, "profile") << "the script's name by default";
+
+  EXPECT_EQ(parseFigureTables("title = \"two\\nlines\"\n", "mine.toml").title, "two lines");
 
   const auto again = parseFigureTables(figureTablesText(tables), "again.toml");
   EXPECT_EQ(again.title, tables.title);

@@ -1,4 +1,4 @@
-#include "experiments/study/toml_text.h"
+#include "experiments/study/toml/toml_text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/study/figure_tables.h"
+#include "experiments/study/toml/figure_tables.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,13 @@
 #include <cctype>
 
 #include "experiments/base/numbers.h"
-#include "experiments/study/toml_text.h"
+#include "experiments/study/toml/toml_text.h"
 #include "irk/misuse.h"
 
 namespace irk {
 namespace {
+
+bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20; }
 
 class Reader {
  public:
@@ -58,8 +60,6 @@ class Reader {
   }
 
  private:
-  static bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20; }
-
   std::string value(const std::string& key, const toml::node& node) const {
     std::string value = text(key, node);
     const auto at = value.find_first_of("'\"`\\");
@@ -115,7 +115,10 @@ FigureTables parseFigureTables(std::string_view toml, const std::string& file) {
   const Reader reader(file);
   const toml::table root = parseToml(toml, file);
   FigureTables tables;
-  if (const auto* title = root.get("title"); title && title->is_string()) tables.title = reader.text("title", *title);
+  if (const auto* title = root.get("title"); title && title->is_string()) {
+    tables.title = title->as_string()->get();
+    std::replace_if(tables.title.begin(), tables.title.end(), isControl, ' ');
+  }
   const auto* node = root.get("figure");
   if (!node) return tables;
   if (!node->is_array()) reader.refuse(*node, "figure: tables [[figure]] are expected");
