@@ -18,12 +18,14 @@ row(case) = isCase(case) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01
 reached(case, error) = at(case, error) && !absent(cost) ? column(cost) : outside
 # A line joins neighbours that both reach the error; it is drawn as a vector from the previous row to this one.
+# The line is broken at several methods of one number of stages.
 from(case, error) = ($0 == 0 ? (this_y = 0) : 0, !at(case, error) ? outside : \
-  (last_x = this_x, last_y = this_y, this_x = column("stages"), this_y = absent(cost) ? 0 : column(cost), \
+  (last_x = this_x, last_y = this_y, this_x = column("stages"), this_y = absent(cost) || position(clashing, pairWord(0)) ? 0 : column(cost), \
    last_y > 0 && this_y > 0 ? last_x : outside))
 last_x = 1; last_y = 0; this_x = 1; this_y = 0
 missed(case, error) = at(case, error) && absent(cost) ? column("stages") : outside
 
+eval clashes(file)
 rows = 0; tried = 0; most = 0; least = 1e300; s_max = 1
 do for [i = 1 : n] {
   undefine N_*
@@ -46,8 +48,10 @@ errorColour(k) = stageColour(1 + (k - 1) * 19.0 / (count > 1 ? count - 1 : 1))
 errorPoint(k) = int(word("6 4 9 7 5 11 13 15", (k - 1) % 8 + 1))
 errorDash(k) = k <= 3 ? 5 - k : 1
 
-margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.24 : 0.14
-margin_bottom = 0.14; gap_x = 0.03
+# Labels 1, 2, 5 are wider than decades, and all panels have them.
+few = rows > 0 && most / least < 99
+margin_left = n == 1 ? 0.14 : few ? 0.1 : 0.075; margin_right = n == 1 ? 0.24 : 0.14
+margin_bottom = 0.14; gap_x = few ? 0.085 : 0.03
 do for [format in formats] {
   eval open(format, n == 1 ? 640 : 1080, 400)
   if (rows == 0) { eval nothing(cases) } else {
@@ -55,6 +59,7 @@ do for [format in formats] {
     eval decades("y")
     set logscale x
     set mytics (most / least < 1e3 ? 10 : 1)
+    eval logTics('y', least, most)
     set xtics (1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 50, 100) nomirror
     unset mxtics
     level(k) = most * (most / least) ** (0.05 + 0.03 * k)

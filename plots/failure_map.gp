@@ -25,19 +25,18 @@ cause_titles = "'Newton fails' 'step too small' 'too many steps' 'too slow' 'sin
 causeTitle(k) = word(cause_titles, k)
 causePoint(k) = k > 0 ? int(word(cause_points, k)) : 0
 
-equals(pair) = strstrt(pair, '=')
-holds(pair) = is(pair[1 : equals(pair) - 1], pair[equals(pair) + 1 : strlen(pair)])
-allowed(d) = words(only) == 0 ? 1 : (sum [i = 1 : words(only)] holds(word(only, i))) == words(only)
 # The number behind "name=" in the settings; settings omit parameters at their defaults.
 scientific(x) = (exponent = strstrt(x, 'e'), exponent == 0 ? real(x) : real(x[1 : exponent - 1]) * 10.0 ** int(x[exponent + 1 : strlen(x)]))
 behind(name) = (found = strstrt(' '.strcol("settings"), ' '.name.'='), found == 0 ? y_default : \
   scientific(word(strcol("settings")[found + strlen(name) + 1 : strlen(strcol("settings"))], 1)))
 level(d) = y eq 'h' || y eq 'rtol' ? column(y) : abs(behind(y))
-row(d) = ofScene(0) && allowed(0) && level(0) >= y_min && level(0) <= y_max
+row(d) = ofScene(0) && allowed(only) && level(0) >= y_min && level(0) <= y_max
 good(d) = row(0) && succeeded(0) && !absent(quantity)
 # An error of 100 % or more has no correct digit; one below round-off counts as 16.
 digits(d) = column(quantity) <= 1e-16 ? 16 : column(quantity) >= 1 ? 0 : -log10(column(quantity))
 
+eval clashes(file)
+panelValue(d) = panel_by eq 'family' ? group(0) : strcol(panel_by)
 undefine N_*
 stats file using (row(0) ? 1 : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
@@ -47,18 +46,18 @@ collected = ""
 stats file using (row(0) ? (collect(sprintf("%d", column("stages"))), 1) : NaN) name "L" nooutput
 stages = sorted(collected)
 collected = ""
-stats file using (row(0) ? (collect(strcol(panel_by)), 1) : NaN) name "L" nooutput
+stats file using (row(0) ? (collect(panelValue(0)), 1) : NaN) name "L" nooutput
 if (words(panels) == 0) { panels = collected }
 collected = ""
 stats file using (row(0) && !succeeded(0) ? (collect(strcol("outcome")), 1) : 0) name "L" nooutput
 seen = collected
 n = words(panels)
-panelTitle(i) = panel_by eq 'family' ? familyTitle(word(panels, i)) : panel_by.' '.word(panels, i)
+panelTitle(i) = panel_by eq 'family' ? groupTitle(word(panels, i)) : panel_by.' '.word(panels, i)
 
 # Each pair of stages and level has a cell; its coordinates are the positions in the sorted lists.
 stageNumber(d) = sum [k = 1 : words(stages)] (int(word(stages, k)) == column("stages") ? k : 0)
 levelNumber(d) = sum [k = 1 : words(levels)] (abs(real(word(levels, k)) - log10(level(0))) < 1e-5 ? k : 0)
-inPanel(i) = row(0) && is(panel_by, word(panels, i))
+inPanel(i) = row(0) && panelValue(0) eq word(panels, i)
 levelText(x) = abs(x - floor(x + 0.5)) < 1e-4 ? sprintf("10^{%d}", floor(x + 0.5)) \
   : sprintf("%.2g·10^{%d}", 10 ** (x - floor(x)), floor(x))
 # A label of two digits needs the width of two cells; the last label is always drawn.

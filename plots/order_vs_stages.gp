@@ -13,19 +13,20 @@ partTitle(c) = c eq 'u' ? 'position u' : c eq 'v' ? 'velocity v' : c eq 'z' ? 'm
 
 chosen(d) = ofCase(0) && is("power_of", 'h') && has("formulation", formulation) \
             && position(components, strcol("component"))
-row(family, k) = chosen(0) && is("family", family) && is("component", part(k))
+row(family, k) = chosen(0) && group(0) eq family && is("component", part(k))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
 measured(family, k) = row(family, k) && is_measured(0) ? column("order") : outside
 theory(family, k) = !row(family, k) ? NaN : !absent("theory") ? column("theory") \
                     : position(with_theory, family.':'.part(k)) ? NaN : outside
-remember(d) = absent("theory") ? 0 : collect(strcol("family").':'.strcol("component"))
+remember(d) = absent("theory") ? 0 : collect(group(0).':'.strcol("component"))
 differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
 unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, so that marks do not overlap
 
+eval clashes(file)
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
-stats file using (chosen(0) ? (collect(strcol("family")), column("stages")) : NaN) name "S" nooutput
+stats file using (chosen(0) ? (collect(group(0)), column("stages")) : NaN) name "S" nooutput
 found = collected
 collected = ""
 stats file using (chosen(0) ? remember(0) : 0) nooutput
@@ -55,7 +56,7 @@ do for [format in formats] {
   do for [i = 1 : n] {
     f = word(present, i)
     eval panel(i, columns, lines)
-    set title familyTitle(f) offset 0,-0.5
+    set title groupTitle(f) noenhanced offset 0,-0.5
     set format y when((i - 1) % columns == 0, '%g')
     set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 0.3,0
     set xlabel when(i > n - columns, 'stages s') offset 0,0.5

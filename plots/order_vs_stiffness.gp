@@ -20,11 +20,12 @@ magnitude(text) = text[1:1] eq '-' ? text[2:*] : text
 valueOf(text) = strstrt(text, 'e') == 0 ? text + 0 \
                 : (text[1 : strstrt(text, 'e') - 1] + 0) * 10.0 ** (text[strstrt(text, 'e') + 1 : *] + 0)
 stiffness(d) = valueOf(magnitude(textOf(strcol("settings"))))
-row(family, s) = chosen(0) && is("family", family) && column("stages") == s
+row(family, s) = chosen(0) && group(0) eq family && column("stages") == s
 
+eval clashes(file)
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
-stats file using (chosen(0) ? (collect(strcol("family")), stiffness(0)) : NaN) name "X" nooutput
+stats file using (chosen(0) ? (collect(group(0)), stiffness(0)) : NaN) name "X" nooutput
 found = collected
 collected = ""
 stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), 0) : NaN) nooutput
@@ -42,7 +43,7 @@ clear(d) = sum [j = 1 : words(levels)] (orders[j] = NaN, theories[j] = NaN, lost
 take(j) = (orders[j] = is_measured(0) ? column("order") : NaN, \
            theories[j] = absent("theory") ? NaN : column("theory"), lost[j] = is_measured(0) ? NaN : 1, 1)
 present = ""
-do for [f in families_known] { present = present.(position(found, f) ? " ".f : "") }
+do for [f in families_known.found] { present = present.(position(found, f) && !position(present, f) ? " ".f : "") }
 n = words(present)
 columns = n <= 4 ? n : (n + 1) / 2
 lines = (n + columns - 1) / columns
@@ -59,13 +60,13 @@ do for [format in formats] {
   do for [i = 1 : n] {
     f = word(present, i)
     eval panel(i, columns, lines)
-    set title familyTitle(f) offset 0,-0.5
+    set title groupTitle(f) noenhanced offset 0,-0.5
     set format y when((i - 1) % columns == 0, '%g')
     set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 0.3,0
     set xlabel when(i > n - columns, 'stiffness |λ| in 1/s') offset 0,0.5
     set xrange [*:*]; set yrange [*:*]   # stats uses only values inside the ranges
     collected = ""
-    stats file using (chosen(0) && is("family", f) ? (collect(sprintf("%d", column("stages"))), 1) : NaN) nooutput
+    stats file using (chosen(0) && group(0) eq f ? (collect(sprintf("%d", column("stages"))), 1) : NaN) nooutput
     here = sorted(collected)
     set print $D
     do for [k in here] {

@@ -88,6 +88,65 @@ ascending(list, above, n) = n == 0 ? "" : \
   sprintf("%.10g ", smallest(list, above)).ascending(list, smallest(list, above), n - 1)
 sorted(list) = ascending(list, -1e300, words(list))
 
+# --- Methods. A tableau file's method is its path, and its family what the file says: two of them can have the same
+# family and number of stages. A word of a list has no blanks.
+oneWord(text) = strstrt(text, ' ') ? text[1 : strstrt(text, ' ') - 1].'_'.oneWord(text[strstrt(text, ' ') + 1 : *]) : text
+withoutFolder(path) = strstrt(path, '/') ? withoutFolder(path[strstrt(path, '/') + 1 : *]) : path
+withoutEnding(file) = file[strlen(file) - 3 : *] eq '.txt' ? file[1 : strlen(file) - 4] : file
+# 'configuration:' stays in front of a tableau's name.
+shortName(method) = strstrt(method, ':') && strstrt(method, '/') > strstrt(method, ':') \
+  ? method[1 : strstrt(method, ':')].shortName(method[strstrt(method, ':') + 1 : *]) : withoutEnding(withoutFolder(method))
+# The short name of item k if no other item has it.
+label(list, k) = (sum [i = 1 : words(list)] (shortName(word(list, i)) eq shortName(word(list, k)))) > 1 \
+  ? word(list, k) : shortName(word(list, k))
+
+# Curves of methods: words 'stages:family:method', sorted by stages. Methods that share stages and family are twins; from
+# the second on they have other colours, marks and dashes, and all of them have their names in the legend.
+pairWord(d) = sprintf("%d:", column("stages")).oneWord(strcol("family"))
+methodWord(d) = pairWord(0).':'.oneWord(strcol("method"))
+afterColon(w) = w[strstrt(w, ':') + 1 : *]
+stagesOf(w) = int(w[1 : strstrt(w, ':') - 1])
+methodOf(w) = afterColon(afterColon(w))
+pairOf(w) = w[1 : strlen(w) - strlen(methodOf(w)) - 1]
+isMethod(w) = methodWord(0) eq w
+stageNumbers(list, k) = k == 0 ? "" : (numbers = stageNumbers(list, k - 1), \
+  position(numbers, sprintf("%d", stagesOf(word(list, k)))) ? numbers : numbers.sprintf(" %d", stagesOf(word(list, k))))
+withStages(list, s, k) = k == 0 ? "" : \
+  withStages(list, s, k - 1).(stagesOf(word(list, k)) == s ? ' '.word(list, k) : '')
+byStages(list, stages, k) = k == 0 ? "" : \
+  byStages(list, stages, k - 1).withStages(list, int(word(stages, k)), words(list))
+sortedMethods(list) = (in_order = sorted(stageNumbers(list, words(list))), byStages(list, in_order, words(in_order)))
+twinsBefore(list, k, last) = sum [i = 1 : last] (pairOf(word(list, i)) eq pairOf(word(list, k)))
+twins(list, k) = twinsBefore(list, k, words(list))
+twin(list, k) = twinsBefore(list, k, k)
+methodNames(list, k) = k == 0 ? "" : methodNames(list, k - 1).' '.methodOf(word(list, k))
+methodTitle(list, k) = sprintf("%d", stagesOf(word(list, k))) \
+  .(twins(list, k) > 1 ? ' '.label(methodNames(list, words(list)), k) : '')
+twin_colours = "0x0072B2 0x009E73 0xCC79A7 0x56B4E9 0x8C6D1F 0x555555"
+methodColour(list, k) = twin(list, k) == 1 ? stageColour(stagesOf(word(list, k))) \
+  : int(word(twin_colours, (twin(list, k) - 2) % 6 + 1))
+methodPoint(list, k) = twin(list, k) == 1 ? stagePoint(stagesOf(word(list, k))) \
+  : int(word(stage_points, (marked(stagesOf(word(list, k))) + 4 * twin(list, k)) % 13 + 1))
+methodDash(list, k) = (stageDash(stagesOf(word(list, k))) + twin(list, k) - 2) % 5 + 1
+
+# Panels of families: twins get a panel each. `eval clashes(file)` finds them.
+clashing = ""
+isOwnMethod(d) = strcol("method") ne strcol("family").sprintf("_%d", column("stages"))
+withPair(list, pair) = sum [i = 1 : words(list)] (pairOf(word(list, i)) eq pair)
+clashesIn(list, k) = k == 0 ? "" : clashesIn(list, k - 1).(twins(list, k) > 1 ? ' '.pairOf(word(list, k)) : '')
+clashes(file) = sprintf("collected = ''; " \
+  ."stats '%s' using (isOwnMethod(0) ? (collect(methodWord(0)), 1) : 0) nooutput; own = collected; " \
+  ."if (strlen(own)) { stats '%s' using (!isOwnMethod(0) && withPair(own, pairWord(0)) ? " \
+  ."(collect(methodWord(0)), 1) : 0) nooutput }; " \
+  ."clashing = clashesIn(collected, words(collected)); collected = ''", file, file)
+group(d) = position(clashing, pairWord(0)) ? oneWord(strcol("method")) : oneWord(strcol("family"))
+groupTitle(g) = known(g) ? familyTitle(g) : shortName(g)
+
+# Which rows: quoted words column=value that all must have.
+equals(pair) = strstrt(pair, '=')
+holds(pair) = is(pair[1 : equals(pair) - 1], pair[equals(pair) + 1 : strlen(pair)])
+allowed(only) = words(only) == 0 ? 1 : (sum [i = 1 : words(only)] holds(word(only, i))) == words(only)
+
 number(word) = strlen(word) ? int(word) : 1   # gnuplot evaluates the body of an empty iteration, too
 
 # --- Which runs: those of a block (its name is in the column block), of a scene, or of both; by default all. A scene
@@ -141,6 +200,6 @@ legend(height) = sprintf("unset logscale; set format '%%g'; set lmargin at scree
 
 # If no row can be drawn, the figure says so; without any row there is no figure.
 nothing(what) = sprintf("unset border; unset tics; unset key; unset grid; unset logscale; set xrange [0:1]; " \
-  ."set yrange [0:1]; set label 1 'no run succeeded: %s' at 0.5,0.5 center noenhanced; plot 2 notitle; " \
+  ."set yrange [0:1]; set label 1 'no run with a known error: %s' at 0.5,0.5 center noenhanced; plot 2 notitle; " \
   ."unset label 1; set border; set tics", what)
 absence(what) = sprintf("system \"rm -f '%s.svg' '%s.png'\"; print 'no rows for %s'; exit", out, out, what)

@@ -21,11 +21,9 @@ what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the pos
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c eq 'drift' ? 'drift |g|' : c
 
-equals(pair) = strstrt(pair, '=')
-holds(pair) = is(pair[1 : equals(pair) - 1], pair[equals(pair) + 1 : strlen(pair)])
-allowed(d) = words(only) == 0 ? 1 : (sum [i = 1 : words(only)] holds(word(only, i))) == words(only)
-inCase(case) = isCase(case) && allowed(0)
-shown(d) = words(variants) == 0 || position(variants, strcol(variant))
+inCase(case) = isCase(case) && allowed(only)
+curveOf(d) = oneWord(strcol(variant))
+shown(d) = words(variants) == 0 || position(variants, curveOf(0))
 chosen(case) = inCase(case) && shown(0)
 error(d) = succeeded(0) && !absent(quantity) ? positive(column(quantity)) : NaN
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
@@ -40,7 +38,7 @@ tried = 0; rows = 0; failures = 0; coarsest = 1e-300; finest = 1e300; top = 1
 array Least[panels]; array Most[panels]
 do for [i = 1 : panels] {
   undefine N_*; undefine E_*; undefine C_*; undefine F_*
-  stats file using (chosen(caseOf(i)) ? (collect(strcol(variant)), 1) : 0) name "N" nooutput
+  stats file using (chosen(caseOf(i)) ? (collect(curveOf(0)), 1) : 0) name "N" nooutput
   tried = tried + (exists("N_sum") ? N_sum : 0)
   stats file using (chosen(caseOf(i)) && error(0) > 0 ? 1 : 0) name "N" nooutput
   Least[i] = 1; Most[i] = 10
@@ -65,7 +63,7 @@ if (words(variants) == 0) { variants = collected }
 count = words(variants)
 name(k) = word(variants, k)
 # Tables write numbers with all their digits; labels are shortened.
-shortName(name) = strlen(name) > 10 && name[1:2] eq '0.' ? sprintf("%.3g", real(name)) : name
+titleOf(k) = strlen(name(k)) > 10 && name(k)[1:2] eq '0.' ? sprintf("%.3g", real(name(k))) : label(variants, k)
 coarsest = coarsest > 1 ? 1 : coarsest   # an error of 100 % or more has no correct digit
 # Each curve has its own colour, mark and dash.
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
@@ -73,7 +71,7 @@ curve_points = "7 5 9 11 4 6 8 10 13 12"
 curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
 curvePoint(k) = int(word(curve_points, (k - 1) % 10 + 1))
 curveDash(k) = (k - 1) % 4 + 1
-at(case, k) = chosen(case) && strcol(variant) eq name(k)
+at(case, k) = chosen(case) && curveOf(0) eq name(k)
 
 if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
 lines = (panels + columns - 1) / columns
@@ -112,7 +110,7 @@ do for [format in formats] {
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
     plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 \
-           lc rgb curveColour(k) title shortName(name(k)), \
+           lc rgb curveColour(k) title titleOf(k), \
          for [k = 1 : failures > 0] keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
     eval framed
     set title; unset multiplot

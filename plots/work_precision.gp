@@ -1,9 +1,21 @@
-# Work against accuracy: CPU time or counters over the error reached, one line per number of stages.
+# Work against accuracy: CPU time or counters over the error reached, one line per number of stages (and method).
 # The error decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested.
 #   gnuplot -e "data='results/cpu_time'; out='work'; block='crank'; family='radau_iia'" work_precision.gp
 # Reads runs.csv. Options: block or scene and settings, family, formulation, stages_shown,
-# quantity (error, error_u, error_v, error_x, error_z), costs ('cpu_s', or several counters: one panel each).
+# only (quoted words column=value that all rows must have), quantity (error, error_u, error_v, error_x, error_z), costs ('cpu_s', or several counters: one panel each).
+# With variant (a column; its values are the curves) work_by.gp draws the figure, with variants and only.
 load system('dirname "'.ARG0.'"')."/style.gp"
+here = system('dirname "'.ARG0.'"')
+if (!exists("only")) only = ''
+if (!exists("variant")) variant = ''
+if (!exists("variants")) variants = ''
+if (variant ne '') {
+  cases = (block eq '' ? scene.when(settings ne '', ':'.settings) : 'block='.block.when(scene ne '', ':'.scene))
+  if (strlen(cases)) { cases = '"'.cases.'"' }
+  if (exists("family")) { only = only.' family='.family }
+  if (exists("formulation")) { only = only.' formulation='.formulation }
+}
+if (variant ne '') load here."/work_by.gp"; exit
 if (!exists("family")) family = 'radau_iia'
 if (!exists("formulation")) formulation = ''
 if (!exists("stages_shown")) stages_shown = '1 2 3 5 7 10 15 20'
@@ -16,25 +28,24 @@ n = words(costs)
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c
 
-chosen(d) = ofCase(0) && is("family", family) \
+chosen(d) = ofCase(0) && allowed(only) && is("family", family) \
             && has("formulation", formulation) && position(stages_shown, sprintf("%d", column("stages")))
-row(s) = chosen(0) && column("stages") == s
+row(k) = chosen(0) && isMethod(word(curves, k))
 error(d) = succeeded(0) ? positive(column(quantity)) : NaN
-reached(s) = row(s) ? error(0) : NaN
+reached(k) = row(k) ? error(0) : NaN
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
-failed(s) = row(s) && !succeeded(0) ? asked(0) : outside
+failed(k) = row(k) && !succeeded(0) ? asked(0) : outside
 
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
-stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), asked(0)) : NaN) name "T" nooutput
+stats file using (chosen(0) ? (collect(methodWord(0)), asked(0)) : NaN) name "T" nooutput
 drawable(d) = succeeded(0) && !absent(quantity) && !absent(word(costs, 1))
 stats file using (chosen(0) && drawable(0) ? 1 : 0) name "N" nooutput
 rows = N_sum
 if (rows > 0) { stats file using (chosen(0) && drawable(0) ? error(0) : NaN) name "E" nooutput }
 stats file using (chosen(0) && !succeeded(0) ? 1 : 0) name "F" nooutput
-stages = sorted(collected)
-count = words(stages)
-stage(k) = int(word(stages, k))
+curves = sortedMethods(collected)
+count = words(curves)
 failures = F_sum
 finest = rows > 0 ? E_min : 0
 if (failures > 0) {
@@ -44,10 +55,16 @@ if (failures > 0) {
 
 columns = n == 1 ? 1 : 2
 lines = (n + columns - 1) / columns
-margin_left = n == 1 ? 0.12 : 0.075; margin_right = n == 1 ? 0.17 : 0.1
+# The names of twins need room beside the panels.
+longest = 0
+do for [k = 1 : count] { length = strlen(methodTitle(curves, k)); longest = length > longest ? length : longest }
+room = longest > 6 ? 7.5 * (longest - 6) : 0
+usual = n == 1 ? 640.0 : 1080.0
+width = usual + room
+margin_left = (n == 1 ? 0.12 : 0.075) * usual / width; margin_right = ((n == 1 ? 0.17 : 0.1) * usual + room) / width
 margin_bottom = lines == 1 ? 0.14 : 0.09; gap_x = 0.1
 do for [format in formats] {
-  eval open(format, n == 1 ? 640 : 1080, lines == 1 ? 420 : 640)
+  eval open(format, width, lines == 1 ? 420 : 640)
   if (rows == 0) { eval nothing(caseName) } else {
     set multiplot
     eval decades("x"); eval decades("y")
@@ -66,11 +83,11 @@ do for [format in formats] {
       set ylabel cost_title(c) offset 1,0
       unset key
       if (i == columns || n == 1) { set key at graph 1.03, graph 1 left top Left reverse title 'stages' }
-      plot for [k = 1 : count] file using (reached(stage(k))):(positive(column(c))) \
-             with linespoints lw 1.2 dt stageDash(stage(k)) pt stagePoint(stage(k)) ps 0.7 \
-             lc rgb stageColour(stage(k)) title word(stages, k), \
-           for [k = 1 : count] file using (failed(stage(k))):(level(k)) \
-             with points pt failure_point ps 0.85 lw 2.2 lc rgb stageColour(stage(k)) notitle, \
+      plot for [k = 1 : count] file using (reached(k)):(positive(column(c))) \
+             with linespoints lw 1.2 dt methodDash(curves, k) pt methodPoint(curves, k) ps 0.7 \
+             lc rgb methodColour(curves, k) title methodTitle(curves, k), \
+           for [k = 1 : count] file using (failed(k)):(level(k)) \
+             with points pt failure_point ps 0.85 lw 2.2 lc rgb methodColour(curves, k) notitle, \
            keyentry with points pt failure_point ps 0.85 lw 2.2 lc rgb ink title 'failed'
     }
     unset multiplot

@@ -286,9 +286,9 @@ class Program {
   }
 
   void addPlots() {
-    auto* plot =
-        verb(app_, "plot", "the figures of a study", [this](Streams s) { return plotCommand(study_, results(), s); });
-    plot->add_option("study", study_, "id")->required();
+    auto* plot = verb(app_, "plot", "the figures of a study",
+                      [this](Streams s) { return plotCommand(study_, variant(), results(), s); });
+    plot->add_option("study", study_, "id or TOML file")->required();
     addQuick(*plot);
     addResults(*plot);
     auto* report = verb(app_, "report", "all figures and the report page",

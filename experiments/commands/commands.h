@@ -66,7 +66,8 @@ int tableauPlot(const std::vector<std::string>& methods, const std::string& out,
 /// Writes results/tableaus/: the families' members up to 20 stages.
 int tableauTable(const std::string& results, Streams streams);
 
-int plotCommand(const std::string& study, const std::string& results, Streams streams);
+/// Draws the figures of a study, given by its id or TOML file, from its results.
+int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::string& results, Streams streams);
 int reportCommand(const std::string& results, Streams streams);
 /// Prints the paper's claims and whether the results confirm them.
 int claimsCommand(const std::string& results, Streams streams);

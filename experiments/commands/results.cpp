@@ -13,6 +13,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
+#include "experiments/report/own_figures.h"
 #include "experiments/runner/merge.h"
 #include "experiments/study/study_reader.h"
 
@@ -92,6 +93,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
   streams.err << notes.str();
   if (options.study.empty()) options.study = named;
   const Study study = loadStudy(options.study, options.variant);
+  const FigureTables figures = figuresOfStudy(study, options.study);
   if (study.id != named) {
     throw Misuse(fmt::format("the folders hold the study '{}', not '{}'", named, study.id));
   }
@@ -116,6 +118,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
   for (const auto& store : stores) merged.takeOver(*store);
   merged.nameBlocks(blocksOf(study, keys));
   merged.exportTables(inOrder(keys));
+  keepFigures(figures, folder);
   const Table runs = readTable(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);
   fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(), options.folders.size(),

@@ -11,6 +11,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/claims/claims.h"
 #include "experiments/commands/commands.h"
+#include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/join_ranks.h"
 #include "experiments/runner/timing.h"
@@ -79,6 +80,12 @@ std::string allRefused(const std::string& study, const store::Store& store, cons
                      textAt(columns, store.runs().row(*first), "detail"));
 }
 
+// Figures are those of a study's id, built in or with results, or those of its file.
+bool isStudyFile(const std::string& id_or_file) {
+  const std::filesystem::path path(id_or_file);
+  return path.extension() == ".toml" || path.has_parent_path();
+}
+
 // Whether a table of all runs is needed; it takes some kilobytes of memory per run.
 bool needsTable(const Study& study) { return !study.analyses.empty() || study.audit || study.timing.wanted; }
 
@@ -109,10 +116,12 @@ std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& 
   return keys;
 }
 
-int runStored(const Study& study, const RunnerOptions& options, Ranks& ranks, Streams streams) {
+int runStored(const Study& study, const FigureTables& figures, const RunnerOptions& options, Ranks& ranks,
+              Streams streams) {
   const auto folder = studyFolder(study, options);
   std::optional<store::Store> opened;
   const auto keys = makeAllRuns(study, options, ranks, opened, streams.err);
+  keepFigures(figures, folder);
   store::Store& store = *opened;
   const auto file = folder / "runs.csv";
   std::vector<std::string> doubts;
@@ -139,9 +148,10 @@ int runStored(const Study& study, const RunnerOptions& options, Ranks& ranks, St
   return kInterruptedStatus;
 }
 
-int runOne(const Study& study, const RunnerOptions& options, Ranks& ranks, Streams streams) {
+int runOne(const Study& study, const FigureTables& figures, const RunnerOptions& options, Ranks& ranks,
+           Streams streams) {
   try {
-    return runStored(study, options, ranks, streams);
+    return runStored(study, figures, options, ranks, streams);
   } catch (const Failure& failure) {
     printErrorLine(streams.err, failure.what());
     return interruptFlag() ? kInterruptedStatus : kFailedStatus;
@@ -152,10 +162,11 @@ int runOne(const Study& study, const RunnerOptions& options, Ranks& ranks, Strea
 
 int runCommand(const RunOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant);
+  const FigureTables figures = figuresOfStudy(study, options.study);
   const auto ranks = joinRanks();
   if (ranks->count() == 1) {
     const InterruptScope interrupts;
-    return runOne(study, options.runner, *ranks, streams);
+    return runOne(study, figures, options.runner, *ranks, streams);
   }
   RunnerOptions each = options.runner;
   if (each.shard.count > 1) throw Misuse("--shard with ranks of mpirun: they share the whole study");
@@ -164,7 +175,7 @@ int runCommand(const RunOptions& options, Streams streams) {
   int status = 0;
   try {
     if (ranks->rank() == 0) {
-      status = runStored(study, each, *ranks, streams);
+      status = runStored(study, figures, each, *ranks, streams);
     } else {
       joinStudy(study, each, *ranks);
       ranks->meet();  // all parts are written
@@ -186,16 +197,27 @@ int paperCommand(const RunOptions& options, Streams streams) {
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // continue with the other studies if one fails
   for (const auto id : kPaperStudies) {
-    const int status = runOne(loadStudy(id, options.variant), options.runner, *alone, streams);
+    const int status = runOne(loadStudy(id, options.variant), {}, options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;
     worst = std::max(worst, status);
   }
   return std::max(worst, reportCommand(options.runner.results.string(), streams));
 }
 
-int plotCommand(const std::string& study, const std::string& results, Streams streams) {
+int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::string& results, Streams streams) {
   const ReportOptions options{results, homeFolder()};
-  return drawFigures(study, options, streams.err) == 0 ? 0 : 1;
+  std::string id = id_or_file;
+  if (isStudyFile(id_or_file)) {  // its figures may have changed since the study was run
+    const Study study = loadStudy(id_or_file, variant);
+    id = study.id;
+    const auto folder = options.results / id;
+    const auto figures = figuresOfStudy(study, id_or_file);
+    if (!std::filesystem::is_directory(folder)) {
+      throw Failure(fmt::format("no results of study '{}' in '{}': irk run {} makes them", id, results, id_or_file));
+    }
+    keepFigures(figures, folder);
+  }
+  return drawFigures(id, options, streams.err) == 0 ? 0 : 1;
 }
 
 int claimsCommand(const std::string& results, Streams streams) {

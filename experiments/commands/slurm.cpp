@@ -1,6 +1,7 @@
 #include <fmt/ostream.h>
 
 #include "experiments/commands/commands.h"
+#include "experiments/report/own_figures.h"
 #include "experiments/runner/shards.h"
 #include "experiments/study/study_reader.h"
 #include "irk/misuse.h"
@@ -9,6 +10,7 @@ namespace irk {
 
 int slurmCommand(const SlurmOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant);
+  (void)figuresOfStudy(study, options.study);  // its mistakes are found before the runs are made
   const int shards = static_cast<int>(parseInteger("n", options.shards, Range::integers(1, 1'000'000)));
   if (static_cast<std::size_t>(shards) > study.series.size()) {
     throw Misuse(fmt::format("n = {}: the study has {} series, and a series is not divided; 1 to {}", shards,

@@ -7,12 +7,14 @@
 #include <string>
 
 #include "experiments/commands/commands.h"
+#include "experiments/report/own_figures.h"
 #include "experiments/study/study_reader.h"
 
 namespace irk {
 
 int statusCommand(const RunOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant);
+  (void)figuresOfStudy(study, options.study);  // its mistakes are found before the runs are made
   const auto folder = studyFolder(study, options.runner);
   const store::Store store(folder, study.id, store::Use::kRead, options.runner.store, streams.err);
   fmt::print(streams.out, "{} in {}\n{}", study.id, folder.string(), textOf(statusOf(study, options.runner, store)));

@@ -22,8 +22,8 @@ std::string numberCell(const Table& table, const TableRow& row, std::string_view
 
 std::string ordersHtml(const std::string& study, const Table& orders) {
   std::string html = fmt::format("<table><caption>Study {}</caption><thead><tr>", study);
-  for (const auto* title : {"scene", "formulation", "family", "stages", "component", "power of", "order", "± (95 %)",
-                            "theory", "source", "verdict", "window", "points", "reason"}) {
+  for (const auto* title : {"scene", "formulation", "method", "component", "power of", "order", "± (95 %)", "theory",
+                            "source", "verdict", "window", "points", "reason"}) {
     html += fmt::format("<th>{}</th>", title);
   }
   html += "</tr></thead><tbody>\n";
@@ -32,7 +32,7 @@ std::string ordersHtml(const std::string& study, const Table& orders) {
     html += fmt::format("<tr class=\"{}\">", text("verdict"));
     const auto settings = text("settings");
     html += cell(text("scene") + (settings.empty() ? "" : " " + settings));
-    for (const auto* name : {"formulation", "family", "stages", "component", "power_of"}) {
+    for (const auto* name : {"formulation", "method", "component", "power_of"}) {
       html += cell(text(name));
     }
     html += numberCell(orders, row, "order", 4) + numberCell(orders, row, "confidence", 1);

@@ -24,6 +24,8 @@
 #include "experiments/claims/claims.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/html_tables.h"
+#include "experiments/report/own_figures.h"
+#include "experiments/report/scripts.h"
 #include "experiments/study/study.h"
 #include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
@@ -132,13 +134,42 @@ void requireResults(const std::string& study, const std::vector<Figure>& figures
                             commandOf(study)));
 }
 
-std::string studyTitle(const std::string& id) {
+std::string studyTitle(const std::string& id, const ReportOptions& options) {
   if (id == kTableaus) return "Tableaus: stability, order stars, conditioning";
-  try {
-    return loadStudy(id, StudyVariant::kQuick).title;
-  } catch (const Misuse&) {  // not built in: figures of a study of the user's own
-    return id;
+  const auto own = ownStudies(options.results);
+  if (std::find(own.begin(), own.end(), id) != own.end()) return keptFigures(options.results, id).title;
+  return loadStudy(id, StudyVariant::kQuick).title;
+}
+
+// Those of plots/figures.txt, then those of own studies: their names begin with the study's.
+std::vector<Figure> allFigures(const ReportOptions& options) {
+  auto figures = readFigures(options.home / "plots" / "figures.txt");
+  for (const auto& study : ownStudies(options.results)) {
+    requirePlainPath("study", study);
+    const FigureTables kept = keptFigures(options.results, study);
+    for (const auto& figure : kept.figures) {
+      checkFigure(figure, options.home, {});
+      figures.push_back({study, figure.script + ".gp", study + "_" + figure.name,
+                         figure.title.empty() ? kept.title : figure.title, figure.caption,
+                         assignmentsOf(figure.options), true});
+    }
   }
+  return figures;
+}
+
+bool isDrawn(const Figure& figure, const ReportOptions& options) {
+  return std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"));
+}
+
+// Returns whether the figure is drawn. An own figure without any row is a mistake; a built-in one belongs to a study
+// that is not complete.
+bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& err) {
+  // What is left of an earlier drawing must not pass for this one.
+  for (const auto* ending : {".svg", ".png"}) std::filesystem::remove(figureFolder(options) / (figure.name + ending));
+  if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) return false;
+  if (!figure.is_own || isDrawn(figure, options)) return true;
+  fmt::print(err, "figure {} is not drawn: it selects no rows\n", figure.name);
+  return false;
 }
 
 std::string figureHtml(const Figure& figure, const ReportOptions& options) {
@@ -157,11 +188,10 @@ std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions&
   for (const auto& study : studiesOf(figures)) {
     std::string own;
     for (const auto& figure : figures) {
-      const bool drawn = std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"));
-      if (figure.study == study && drawn) own += figureHtml(figure, options);
+      if (figure.study == study && isDrawn(figure, options)) own += figureHtml(figure, options);
     }
     if (own.empty()) continue;
-    html += fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study)), own);
+    html += fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study, options)), own);
   }
   return html;
 }
@@ -188,7 +218,7 @@ std::vector<Figure> readFigures(const std::filesystem::path& file) {
       throw Misuse(fmt::format("{}:{}: {} fields, expected study|script|name|title|caption|assignments", file.string(),
                                number, parts.size()));
     }
-    figures.push_back({parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]});
+    figures.push_back({parts[0], parts[1], parts[2], parts[3], parts[4], parts[5], false});
   }
   return figures;
 }
@@ -206,7 +236,7 @@ bool drawFigure(const std::string& script, const std::string& commands, const st
 }
 
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
-  const auto figures = readFigures(options.home / "plots" / "figures.txt");
+  const auto figures = allFigures(options);
   requireResults(study, figures, options);
   std::filesystem::create_directories(figureFolder(options));
   int failures = 0;
@@ -217,21 +247,14 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
     fmt::print(err, "figures of {} have no times: {}\n", of, refusal);
   }
   for (const auto& figure : figures) {
-    if (!study.empty() && figure.study != study) continue;
-    if (!hasResults(figure, options)) {
-      fmt::print(err, "figure {}: no results of study '{}' yet: irk {}\n", figure.name, figure.study,
-                 commandOf(figure.study));
-      continue;
-    }
-    if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) {
-      ++failures;
-    }
+    if ((!study.empty() && figure.study != study) || !hasResults(figure, options)) continue;
+    if (!drawOne(figure, options, err)) ++failures;
   }
   return failures;
 }
 
 std::filesystem::path writeReport(const ReportOptions& options) {
-  const auto figures = readFigures(options.home / "plots" / "figures.txt");
+  const auto figures = allFigures(options);
   std::string page = readInputFile(options.home / "plots" / "report.html");
   std::string orders, environment;
   for (const auto& study : studiesOf(figures)) {

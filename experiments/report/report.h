@@ -8,9 +8,10 @@
 
 namespace irk {
 
-/// One line of plots/figures.txt: study|script|name|title|caption|assignments.
+/// One line of plots/figures.txt: study|script|name|title|caption|assignments; or a figure of an own study.
 struct Figure {
   std::string study, script, name, title, caption, assignments;
+  bool is_own = false;  ///< kept beside the results (own_figures.h)
 };
 
 /// Throws Misuse if the folder does not exist.
@@ -30,8 +31,9 @@ bool drawFigure(const std::string& script, const std::string& commands, const st
 
 /// Draws results/report/figures/<name>.svg and .png for every figure whose study has results; an empty `study` means
 /// all studies. Returns the number of figures that failed plus the number of studies whose figures lack times because
-/// these come from several processors; each has a message on `err`. Throws Misuse for a study without figures and if
-/// the results are not a folder; Failure if no requested study has results.
+/// these come from several processors; each has a message on `err`. An own figure that selects no rows has failed.
+/// Throws Misuse for a study without figures and if the results are not a folder; Failure if no requested study has
+/// results.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
 /// Writes results/report/index.html from plots/report.html and returns its path.

@@ -66,7 +66,9 @@ TableRow cells(const Row& row) {
 std::filesystem::path trajectoryPath(const std::filesystem::path& folder, const RunSpec& spec) {
   std::string name = spec.scene;
   for (const auto& [key, value] : spec.settings) name += '_' + key + '_' + value;
-  return folder / (name + '.' + std::filesystem::path(spec.method).filename().string() + ".csv");
+  std::string method = spec.method;  // of a tableau file, its path
+  std::replace(method.begin(), method.end(), '/', '_');
+  return folder / (name + '.' + method + ".csv");
 }
 
 RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch, const std::filesystem::path& file) {

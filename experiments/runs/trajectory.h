@@ -7,7 +7,7 @@
 
 namespace irk {
 
-/// <scene>.<method>.csv; settings, if any, follow the scene's name.
+/// <scene>.<method>.csv; settings, if any, follow the scene's name. In the path of a tableau file _ stands for /.
 std::filesystem::path trajectoryPath(const std::filesystem::path& folder, const RunSpec& spec);
 
 /// Runs the spec and writes the columns t, h, error, newton_iterations, switches, components, outputs; the head

@@ -11,7 +11,8 @@ struct BuildInfo {
   std::string_view code;      ///< fingerprint of the sources that determine the numbers of a run
   std::string_view compiler;  ///< id and version
   std::string_view flags;
-  std::string_view source_dir;  ///< searched for plots/ when IRK_HOME is not set
+  std::string_view source_dir;
+  std::string_view data_dir;  ///< of an installed program, relative to the program's folder: `../share/irk`
 };
 
 const BuildInfo& buildInfo();

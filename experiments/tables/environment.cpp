@@ -109,16 +109,20 @@ std::filesystem::path homeFolder() {
     if (isHome(home)) return home;
     throw Misuse(fmt::format("IRK_HOME = '{}': a folder with plots/figures.txt is expected", home));
   }
+  std::error_code error;
+  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path installed = (folder / buildInfo().data_dir).lexically_normal();
+  if (!error && isHome(installed)) return installed;
   const fs::path sources = buildInfo().source_dir;
   if (isHome(sources)) return sources;
   // The source tree was moved: search upwards from the program, which lies in build/release.
-  std::error_code error;
-  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (int up = 0; up < 3 && !error; ++up, folder = folder.parent_path()) {
     if (isHome(folder)) return folder;
   }
-  throw Misuse(fmt::format("no plots/figures.txt in {} or above the program: set IRK_HOME to the folder of the sources",
-                           sources.string()));
+  throw Misuse(
+      fmt::format("no plots/figures.txt in {}, in {} or above the program: set IRK_HOME to the folder that "
+                  "contains plots/",
+                  installed.string(), sources.string()));
 }
 
 }  // namespace irk

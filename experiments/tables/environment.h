@@ -24,7 +24,8 @@ std::string hostName();
 /// The current time, UTC, in ISO 8601.
 std::string dateText();
 
-/// The folder that contains plots/: IRK_HOME, else the sources of this build, else a folder above the program. The
+/// The folder that contains plots/: IRK_HOME, else that of an installed program (share/irk beside its bin), else the
+/// sources of this build, else a folder above the program. The
 /// working folder is never used: anybody may have written scripts there. Throws Misuse if there is none.
 std::filesystem::path homeFolder();
 

@@ -142,7 +142,7 @@ OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional
 TableRow orderRow(const Table& runs, const TableRow& run, char component, std::string power_of, const OrderFit& fit,
                   const Theory& theory, const std::string& reason) {
   TableRow row;
-  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "family", "stages"}) {
+  for (const auto* name : {"scene", "settings", "formulation", "multipliers", "scalar", "method", "family", "stages"}) {
     row.push_back(textAt(runs, run, name));
   }
   row.emplace_back(1, component);
@@ -228,25 +228,10 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
-  orders.columns = {"scene",
-                    "settings",
-                    "formulation",
-                    "multipliers",
-                    "scalar",
-                    "family",
-                    "stages",
-                    "component",
-                    "power_of",
-                    "order",
-                    "confidence",
-                    "h_min",
-                    "h_max",
-                    "points",
-                    "theory",
-                    "source",
-                    "verdict",
-                    "reason",
-                    std::string(kBlockColumn)};
+  orders.columns = {"scene",  "settings",   "formulation", "multipliers", "scalar",
+                    "method", "family",     "stages",      "component",   "power_of",
+                    "order",  "confidence", "h_min",       "h_max",       "points",
+                    "theory", "source",     "verdict",     "reason",      std::string(kBlockColumn)};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {
     const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";

@@ -32,8 +32,8 @@ TEST(FigureCurves, ErrorVsStep) {
   add("gauss", 2, 3);
   drawing.put("runs.csv", kRunColumns, rows);
   drawing.put("orders.csv",
-              {"scene", "settings", "formulation", "component", "power_of", "family", "stages", "order", "theory",
-               "confidence", "h_min", "h_max", "verdict"},
+              {"scene", "settings", "formulation", "method", "component", "power_of", "family", "stages", "order",
+               "theory", "confidence", "h_min", "h_max", "verdict"},
               {{{"scene", "riccati_tracking"},
                 {"settings", ""},
                 {"component", "x"},
@@ -115,7 +115,8 @@ TEST(FigureCurves, FailureMap) {
                   {"outcome", "success"},
                   {"error", "1e-6"},
                   {"error_u", "1e-6"}});
-  drawing.put("runs.csv", {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error", "error_u"}, rows);
+  drawing.put("runs.csv",
+              {"scene", "settings", "method", "family", "stages", "h", "rtol", "outcome", "error", "error_u"}, rows);
   const auto cellsOf = [](const Svg& svg) {  // colour by the labels of the cell
     std::map<std::string, std::string> cells;
     for (const auto& [colour, corners] : svg.curve('a', 1).boxes) {
@@ -143,9 +144,9 @@ TEST(FigureCurves, FailureMap) {
   EXPECT_EQ(svg.occurrences("fill = 'rgb(228, 228, 228)'"), 1) << "the column of the method that there is not";
 }
 
-const std::vector<std::string> kOrderColumns = {"scene",  "settings", "formulation", "component", "power_of",
-                                                "family", "stages",   "theory",      "order",     "confidence",
-                                                "h_min",  "h_max",    "points",      "verdict"};
+const std::vector<std::string> kOrderColumns = {"scene",      "settings", "method", "formulation", "component",
+                                                "power_of",   "family",   "stages", "theory",      "order",
+                                                "confidence", "h_min",    "h_max",  "points",      "verdict"};
 
 // Marks with error bars are drawn twice.
 std::vector<SvgPoint> once(const std::vector<SvgPoint>& points) {

@@ -34,9 +34,10 @@ TEST(Figures, BelongToStudiesAndScriptsThatExist) {
 TEST(Figures, FailureMapsShowDigitsAndCauses) {
   const TemporaryFolder folder;
   Table runs;
-  runs.columns = {"scene", "settings", "family", "stages", "h", "rtol", "outcome", "error"};
+  runs.columns = {"scene", "settings", "method", "family", "stages", "h", "rtol", "outcome", "error"};
   const auto add = [&](const char* stages, const char* h, const char* outcome, const char* error) {
-    runs.rows.push_back({"pendulum", "", "radau_iia", stages, h, "1e-6", outcome, error});
+    runs.rows.push_back(
+        {"pendulum", "", std::string("radau_iia_") + stages, "radau_iia", stages, h, "1e-6", outcome, error});
   };
   add("2", "0.1", "success", "1e-3");
   add("2", "0.01", "success", "0");

@@ -68,6 +68,14 @@ TEST(Run, FiftyDigits) {
   EXPECT_GE(run.digits[0].size(), 40u);
 }
 
+TEST(Run, TrajectoriesOfTableausInTwoFoldersStayApart) {
+  RunSpec first = spec("scene=slider_crank"), second = first;
+  first.method = "a/mine.txt";
+  second.method = "b/mine.txt";
+  EXPECT_EQ(trajectoryPath("r", first), std::filesystem::path("r") / "slider_crank.a_mine.txt.csv");
+  EXPECT_NE(trajectoryPath("r", first), trajectoryPath("r", second));
+}
+
 TEST(Run, TrajectoryHoldsStartAndEnd) {
   const TemporaryFolder folder;
   const RunSpec run = spec("scene=slider_crank;t_end=0.3");
