@@ -205,6 +205,10 @@ class Program {
     } else if (field.name == "h") {
       describe(sub.add_option(option, solve_.step),
                "Sets h, and control fixed with estimate none unless they are given. ");
+    } else if (field.name == "reference") {
+      // A flag: `--reference` is short for `--reference=auto`.
+      sub.add_flag(option + "{auto}", fields_[field.name],
+                   "Where no reference is stored for these settings and t_end, compute one and keep it.");
     } else {
       describe(sub.add_option(option, fields_[field.name]));
     }
