@@ -206,9 +206,8 @@ class Program {
       describe(sub.add_option(option, solve_.step),
                "Sets h, and control fixed with estimate none unless they are given. ");
     } else if (field.name == "reference") {
-      // A flag: `--reference` is short for `--reference=auto`.
-      sub.add_flag(option + "{auto}", fields_[field.name],
-                   "Where no reference is stored for these settings and t_end, compute one and keep it.");
+      sub.add_flag_callback(option, [this] { fields_["reference"] = "auto"; })
+          ->description("Sets auto. " + helpText(field));
     } else {
       describe(sub.add_option(option, fields_[field.name]));
     }

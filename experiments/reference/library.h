@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiments/reference/making.h"
-#include "experiments/runs/made_reference.h"
+#include "experiments/runs/references/made_reference.h"
 
 namespace irk {
 

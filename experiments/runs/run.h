@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runs/made_reference.h"
+#include "experiments/runs/references/made_reference.h"
 #include "experiments/runs/run_errors.h"
 #include "experiments/runs/run_spec.h"
 #include "irk/outcome.h"

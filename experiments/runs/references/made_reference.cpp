@@ -1,4 +1,4 @@
-#include "experiments/runs/made_reference.h"
+#include "experiments/runs/references/made_reference.h"
 
 #include "experiments/base/decimal.h"
 #include "experiments/runs/run_errors.h"
