@@ -15,8 +15,7 @@
 namespace irk {
 namespace {
 
-constexpr std::string_view kFirstMethod = "radau_iia_16";
-constexpr std::size_t kRuns = 4;
+constexpr std::size_t kRuns = kReferenceRuns;
 // Accuracy of exact values: the closed forms lose some of their 50 digits.
 constexpr double kExact = 1e-38;
 
@@ -24,10 +23,6 @@ using Rows = std::vector<std::vector<mp50>>;  // of components and outputs, for 
 
 std::string nameOf(const ReferenceTask& task) {
   return fmt::format("{}{}{}", task.scene, task.of.settings.empty() ? "" : " ", task.of.settings);
-}
-
-RunSpec specOf(const ReferenceTask& task, std::size_t run) {
-  return referenceSpec(task, run % 2 == 0 ? task.second : kFirstMethod, run < 2 ? Fineness::kCoarse : Fineness::kFine);
 }
 
 // The values of the closed form at each time; NaN where it gives none.
@@ -56,7 +51,7 @@ class Assembly {
       : task_(task),
         times_(times),
         runs_(runs),
-        spec_(specOf(task, 0)),
+        spec_(referenceRun(task, 0)),
         scene_(makeScene<mp50>(spec_.scene, spec_.settings)) {}
 
   ComputedTask result() {
@@ -135,7 +130,7 @@ std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
   for (std::size_t turn = 0; turn < runs.size(); ++turn) {
     const std::size_t i = runs.size() - 1 - turn, task = i / kRuns;
     const double start = threadSeconds();
-    runs[i] = integrated(specOf(tasks[task], i % kRuns), times[task], {.stop = watch.stop});
+    runs[i] = integrated(referenceRun(tasks[task], i % kRuns), times[task], {.stop = watch.stop});
     const std::lock_guard lock(mutex);
     if (watch.progress) watch.progress->finished(nameOf(tasks[task]), threadSeconds() - start);
   }

@@ -56,8 +56,7 @@ std::vector<ReferenceQuestion> neededBy(const std::vector<RunSpec>& resolved) {
 ReferenceLibrary::ReferenceLibrary(Options options) : options_(std::move(options)) {}
 
 MadeReference ReferenceLibrary::of(const RunSpec& resolved) {
-  const auto question = questionOf(resolved);
-  return fill(shelfOf(question), question, options_.jobs);
+  return fill(questionOf(resolved), options_.jobs).reference;
 }
 
 void ReferenceLibrary::prepare(const std::vector<RunSpec>& resolved, const std::string& label, std::ostream& out) {
@@ -65,14 +64,18 @@ void ReferenceLibrary::prepare(const std::vector<RunSpec>& resolved, const std::
   if (questions.empty()) return;
   Progress progress(out, label);
   for (const auto& question : questions) progress.expect(question.scene);
-  // One question is computed by four threads; several questions by one thread each.
-  const int inside = questions.size() == 1 ? options_.jobs : 1;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(options_.jobs)
+  // All threads compute a single question; of several questions each thread computes its own.
+  const int threads = questions.size() == 1 ? 1 : options_.jobs, inside = questions.size() == 1 ? options_.jobs : 1;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (const auto& question : questions) {
     const double start = wallSeconds();
-    fill(shelfOf(question), question, inside);
+    const bool is_made = fill(question, inside).made;
     const std::lock_guard lock(mutex_);
-    progress.finished(question.scene, wallSeconds() - start);
+    if (is_made) {
+      progress.finished(question.scene, wallSeconds() - start);
+    } else {
+      progress.skipped(question.scene);
+    }
   }
 }
 
@@ -84,29 +87,38 @@ ReferenceLibrary::Shelf& ReferenceLibrary::shelfOf(const ReferenceQuestion& ques
   return *shelf;
 }
 
-const MadeReference& ReferenceLibrary::fill(Shelf& shelf, const ReferenceQuestion& question, int jobs) {
-  std::call_once(shelf.once, [&] { shelf.reference = forRuns(keptOrMade(question, jobs)); });
-  return shelf.reference;
+const ReferenceLibrary::Shelf& ReferenceLibrary::fill(const ReferenceQuestion& question, int jobs) {
+  Shelf& shelf = shelfOf(question);
+  std::call_once(shelf.once, [&] {
+    const auto from_cache = kept(question);
+    shelf.made = !from_cache;
+    shelf.reference = forRuns(from_cache ? *from_cache : made(question, jobs));
+  });
+  return shelf;
 }
 
-ComputedReference ReferenceLibrary::keptOrMade(const ReferenceQuestion& question, int jobs) {
+std::optional<ComputedReference> ReferenceLibrary::kept(const ReferenceQuestion& question) {
   try {
-    if (auto kept = keptReference(question)) {
-      if (kept->values.empty()) tell(lineOf(question, *kept));
-      return *kept;
-    }
-  } catch (const std::exception&) {  // `keep` tells it
+    auto reference = keptReference(question);
+    if (reference && reference->values.empty()) tell(lineOf(question, *reference));
+    return reference;
+  } catch (const std::exception&) {  // there is no cache: `keep` tells it
+    return {};
   }
-  const ComputedReference made = makeReference(question, options_.limits, std::min(jobs, 4), options_.stop);
-  if (made.interrupted) return made;
-  tell(lineOf(question, made));
-  keep(question, made);
-  return made;
 }
 
-void ReferenceLibrary::keep(const ReferenceQuestion& question, const ComputedReference& made) {
+ComputedReference ReferenceLibrary::made(const ReferenceQuestion& question, int jobs) {
+  const int threads = std::min(jobs, static_cast<int>(kReferenceRuns));
+  auto reference = makeReference(question, options_.limits, threads, options_.stop);
+  if (reference.interrupted) return reference;
+  tell(lineOf(question, reference));
+  keep(question, reference);
+  return reference;
+}
+
+void ReferenceLibrary::keep(const ReferenceQuestion& question, const ComputedReference& reference) {
   try {
-    keepReference(question, made);
+    keepReference(question, reference);
   } catch (const std::exception& error) {
     if (cache_works_.exchange(false)) tell(fmt::format("references are computed, but not kept: {}", error.what()));
   }

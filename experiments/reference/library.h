@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,13 @@ class ReferenceLibrary {
   struct Shelf {
     std::once_flag once;
     MadeReference reference;
+    bool made = false;  // not read from the cache
   };
   Shelf& shelfOf(const ReferenceQuestion& question);
-  const MadeReference& fill(Shelf& shelf, const ReferenceQuestion& question, int jobs);
-  ComputedReference keptOrMade(const ReferenceQuestion& question, int jobs);
-  void keep(const ReferenceQuestion& question, const ComputedReference& made);
+  const Shelf& fill(const ReferenceQuestion& question, int jobs);
+  std::optional<ComputedReference> kept(const ReferenceQuestion& question);
+  ComputedReference made(const ReferenceQuestion& question, int jobs);
+  void keep(const ReferenceQuestion& question, const ComputedReference& reference);
   void tell(const std::string& line);
 
   Options options_;

@@ -16,7 +16,7 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kRuns = 4;
+constexpr std::size_t kRuns = kReferenceRuns;
 using Specs = std::array<RunSpec, kRuns>;  // the best one last
 
 // Values in double are not better than this, relative to the magnitude of the component.
@@ -47,11 +47,9 @@ ReferenceCase caseOf(const ReferenceQuestion& question) {
 }
 
 Specs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase& of) {
-  const ReferenceTask task{question.scene, of};
   Specs specs;
   for (std::size_t i = 0; i < kRuns; ++i) {
-    specs[i] =
-        referenceSpec(task, i % 2 == 0 ? task.second : "radau_iia_16", i < 2 ? Fineness::kCoarse : Fineness::kFine);
+    specs[i] = referenceRun({question.scene, of}, i);
     if (question.smooth) specs[i].discontinuity = Discontinuity::kSmooth;
   }
   return specs;

@@ -98,8 +98,9 @@ TEST_F(ReferenceLibraryTest, ThatThereIsNoneIsKeptToo) {
   }
   ASSERT_EQ(lines.size(), 2u) << "each time one line";
   EXPECT_EQ(lines[0], lines[1]);
-  const auto run =
-      execute(spec(kUnknown), {.reference = [&](const RunSpec& s) { return ReferenceLibrary(options).of(s); }});
+  Watch watch;
+  watch.reference = [&](const RunSpec& s) { return ReferenceLibrary(options).of(s); };
+  const auto run = execute(spec(kUnknown), watch);
   EXPECT_TRUE(run.succeeded());
   EXPECT_TRUE(std::isnan(run.errors.all));
   EXPECT_TRUE(containsAll(run.errors.remark, {"no reference: ", "disagree"}));
