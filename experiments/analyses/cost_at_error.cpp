@@ -31,13 +31,15 @@ std::vector<CostPoint> envelope(std::vector<CostPoint> points) {
 
 // The reason why a series does not reach an error.
 std::string causeOf(const Table& runs, const RunSeries& series) {
-  bool succeeded = false, known = false;
+  bool succeeded = false, known = false, measurable = true;
   for (const auto* run : series.rows) {
     if (!succeededAt(runs, *run)) continue;
     succeeded = true;
     known = known || !std::isnan(numberAt(runs, *run, "error"));
+    measurable = measurable && !notMeasurableAt(runs, *run);
   }
   if (!succeeded) return "no success: " + textAt(runs, *series.rows.back(), "outcome");
+  if (!measurable) return std::string(kNotMeasurable);
   return known ? "not accurate enough" : std::string(kNoReference);
 }
 
@@ -57,7 +59,7 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
   std::vector<CostPoint> points;
   for (const auto* run : series.rows) {
     if (!succeededAt(runs, *run)) continue;
-    points.push_back({numberAt(runs, *run, "error"), numberAt(runs, *run, cost)});
+    points.push_back({errorBoundAt(runs, *run), numberAt(runs, *run, cost)});
   }
   return costAtError(std::move(points), target);
 }

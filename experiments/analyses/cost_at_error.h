@@ -10,6 +10,8 @@ namespace irk {
 
 /// The cause for a series whose errors are unknown.
 inline constexpr std::string_view kNoReference = "no reference";
+/// The cause of a missing cost where errors lie below what a computed reference can tell: perhaps the error is reached.
+inline constexpr std::string_view kNotMeasurable = "below the reference's accuracy";
 
 struct CostPoint {
   double error;
@@ -20,12 +22,13 @@ struct CostPoint {
 /// cheapest point is more accurate already, its cost; NaN if no point reaches the target.
 double costAtError(std::vector<CostPoint> points, double target);
 
-/// The same for the successful runs of a series. `cost` names a column; errors are taken from the column `error`.
+/// The same for the successful runs of a series. `cost` names a column. An error that is not measurable counts as the
+/// bound below which it lies.
 double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost, double target);
 
 /// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians, factorizations,
 /// reached (0 if the series does not reach the error; its costs are then nan), cause (the reason: `no reference`,
-/// `not accurate enough`, or `no success: ` with the outcome of the last run), block.
+/// `below the reference's accuracy`, `not accurate enough`, or `no success: ` with the outcome of the last run), block.
 Table costTable(const Table& runs, const std::vector<double>& targets);
 
 }  // namespace irk

@@ -67,7 +67,8 @@ Table profileTable(const Table& costs) {
     const auto& target = textAt(costs, row, "target_error");
     const std::string problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
     const auto& solver = textAt(costs, row, "integrator");
-    if (textAt(costs, row, "cause") == kNoReference) continue;
+    const auto& cause = textAt(costs, row, "cause");
+    if (cause == kNoReference || cause == kNotMeasurable) continue;
     const double cost = numberAt(costs, row, "cpu_s");
     const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
     for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {

@@ -210,6 +210,9 @@ class Program {
     } else if (field.name == "h") {
       describe(sub.add_option(option, solve_.step),
                "Sets h, and control fixed with estimate none unless they are given. ");
+    } else if (field.name == "reference") {
+      sub.add_flag_callback(option, [this] { fields_["reference"] = "auto"; })
+          ->description("Sets auto. " + helpText(field));
     } else {
       describe(sub.add_option(option, fields_[field.name]));
     }

@@ -9,6 +9,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
+#include "experiments/reference/library.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/report.h"
 #include "experiments/runs/fields.h"
@@ -68,8 +69,10 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   printComponents(out, record, names);
   if (!std::isnan(record.errors.all)) {
     fmt::print(out, "error {:.3e}\n", record.errors.all);
+  } else if (!record.errors.remark.empty()) {
+    fmt::print(out, "{}\n", record.errors.remark);
   } else if (record.succeeded()) {
-    fmt::print(out, "error unknown: no reference at t = {:.15g}\n", record.t);
+    fmt::print(out, "error unknown: no reference at t = {:.15g}; --reference makes one\n", record.t);
   }
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
@@ -152,7 +155,10 @@ RunSpec solveSpec(const SolveOptions& options) {
 int solveCommand(const SolveOptions& options, Streams streams) {
   const RunSpec spec = solveSpec(options);
   const InterruptScope interrupts;
-  const Watch watch{&interruptFlag(), {}, {}};
+  ReferenceLibrary references({.jobs = threadCount(0), .stop = &interruptFlag(), .tell = [&](const std::string& line) {
+                                 fmt::print(streams.err, "{}\n", line);
+                               }});
+  const Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
   bool drawn = true;
   const RunRecord record =
       options.plot.empty() ? execute(spec, watch) : solveAndPlot(spec, watch, options.plot, streams.err, drawn);

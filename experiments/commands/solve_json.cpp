@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
@@ -76,6 +77,8 @@ std::string solveJson(const RunRecord& record) {
   json["error"] = record.errors.all;
   json["drift"] = record.errors.drift;
   json["reference"] = referenceName(record.errors.reference);
+  if (!std::isnan(record.errors.accuracy)) json["reference_accuracy"] = record.errors.accuracy;
+  if (!record.errors.remark.empty()) json["error_remark"] = record.errors.remark;
   json["steps"] = {{"accepted", c.steps_accepted},
                    {"rejected_error", c.steps_rejected_error},
                    {"rejected_newton", c.steps_rejected_newton}};

@@ -10,64 +10,19 @@
 
 #include "experiments/base/clock.h"
 #include "experiments/reference/agreement.h"
-#include "experiments/runs/run_errors.h"
-#include "experiments/runs/setup.h"
-#include "irk/integrator.h"
-#include "irk/tableaus.h"
+#include "experiments/reference/integration.h"
 
 namespace irk {
 namespace {
 
-constexpr std::string_view kFirstMethod = "radau_iia_16";
-constexpr std::size_t kRuns = 4;
+constexpr std::size_t kRuns = kReferenceRuns;
 // Accuracy of exact values: the closed forms lose some of their 50 digits.
 constexpr double kExact = 1e-38;
 
-// Values of components and outputs, for each of a task's times.
-using Row = std::vector<mp50>;
-using Rows = std::vector<Row>;
-
-struct Integrated {
-  Rows rows;
-  std::string failure;  // empty: none
-};
+using Rows = std::vector<std::vector<mp50>>;  // of components and outputs, for each of a task's times
 
 std::string nameOf(const ReferenceTask& task) {
   return fmt::format("{}{}{}", task.scene, task.of.settings.empty() ? "" : " ", task.of.settings);
-}
-
-RunSpec specOf(const ReferenceTask& task, std::size_t run) {
-  return referenceSpec(task, run % 2 == 0 ? task.second : kFirstMethod, run < 2 ? Fineness::kCoarse : Fineness::kFine);
-}
-
-Row valuesOf(const Scene<mp50>& scene, const State<mp50>& state) {
-  const Vec<mp50> y = components(state);
-  Row row(y.begin(), y.end());
-  for (const auto& output : scene.outputs) row.push_back(output.value(state));
-  return row;
-}
-
-Integrated integrate(const RunSpec& spec, const std::vector<std::string>& times, const std::atomic<bool>* stop) {
-  const auto setup = makeSetup<mp50>(spec);
-  const Scene<mp50>& scene = setup.scene;
-  auto integrator = setup.integrator();
-  Monitor<mp50> monitor;
-  monitor.interrupt = [stop] {
-    return stop && stop->load(std::memory_order_relaxed) ? Outcome::kInterrupted : Outcome::kSuccess;
-  };
-  Integrated result;
-  State<mp50> state = scene.start;
-  for (const auto& t : times) {
-    const auto solution = integrator.integrate(state, mp50(t), monitor);
-    if (solution.outcome != Outcome::kSuccess) {
-      result.failure = fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol,
-                                   name(solution.outcome), solution.detail);
-      return result;
-    }
-    state = solution.state;
-    result.rows.push_back(valuesOf(scene, state));
-  }
-  return result;
 }
 
 // The values of the closed form at each time; NaN where it gives none.
@@ -75,7 +30,7 @@ Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) 
   Rows rows;
   for (const auto& t : times) {
     if (scene.exact) {
-      rows.push_back(valuesOf(scene, scene.exact(mp50(t))));
+      rows.push_back(componentsAndOutputs(scene, scene.exact(mp50(t))));
     } else {
       rows.emplace_back(scene.names.size() + scene.outputs.size(), std::numeric_limits<mp50>::quiet_NaN());
     }
@@ -96,7 +51,7 @@ class Assembly {
       : task_(task),
         times_(times),
         runs_(runs),
-        spec_(specOf(task, 0)),
+        spec_(referenceRun(task, 0)),
         scene_(makeScene<mp50>(spec_.scene, spec_.settings)) {}
 
   ComputedTask result() {
@@ -175,11 +130,7 @@ std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
   for (std::size_t turn = 0; turn < runs.size(); ++turn) {
     const std::size_t i = runs.size() - 1 - turn, task = i / kRuns;
     const double start = threadSeconds();
-    try {
-      runs[i] = integrate(specOf(tasks[task], i % kRuns), times[task], watch.stop);
-    } catch (const std::exception& error) {
-      runs[i].failure = error.what();
-    }
+    runs[i] = integrated(referenceRun(tasks[task], i % kRuns), times[task], {.stop = watch.stop});
     const std::lock_guard lock(mutex);
     if (watch.progress) watch.progress->finished(nameOf(tasks[task]), threadSeconds() - start);
   }

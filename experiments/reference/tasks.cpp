@@ -37,4 +37,8 @@ RunSpec referenceSpec(const ReferenceTask& task, std::string_view method, Finene
   return resolved(spec);
 }
 
+RunSpec referenceRun(const ReferenceTask& task, std::size_t run) {
+  return referenceSpec(task, run % 2 == 0 ? task.second : kFirstMethod, run < 2 ? Fineness::kCoarse : Fineness::kFine);
+}
+
 }  // namespace irk

@@ -1,6 +1,7 @@
 // The integrations of `irk reference`.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +16,7 @@ struct ReferenceTask {
   std::string scene;
   ReferenceCase of = {};
   Formulation formulation = Formulation::kIndex2;
-  std::string_view second = "lobatto_iiic_16";  ///< the other method is radau_iia_16
+  std::string_view second = "lobatto_iiic_16";  ///< the other method is kFirstMethod
 };
 
 /// Ratio of the finer tolerance to the coarser one.
@@ -28,5 +29,10 @@ enum class Fineness { kCoarse, kFine };
 
 /// The run with `method` and one of the two tolerances (or steps), up to the scene's end.
 RunSpec referenceSpec(const ReferenceTask& task, std::string_view method, Fineness fineness);
+
+inline constexpr std::string_view kFirstMethod = "radau_iia_16";
+inline constexpr std::size_t kReferenceRuns = 4;
+/// The four runs of a task: run < kReferenceRuns; the last one is the best and takes longest.
+RunSpec referenceRun(const ReferenceTask& task, std::size_t run);
 
 }  // namespace irk

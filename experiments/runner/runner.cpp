@@ -16,6 +16,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
+#include "experiments/reference/library.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/trajectory.h"
@@ -56,7 +57,12 @@ void inParallel(WorkQueue& queue, int threads, F&& f) {
 class Sweep {
  public:
   Sweep(const Study& study, const RunnerOptions& options, store::Store& store, std::ostream& out)
-      : study_(study), store_(store), keys_(runKeys(study, options)) {
+      : study_(study),
+        store_(store),
+        keys_(runKeys(study, options)),
+        references_({.jobs = threadCount(options.jobs),
+                     .stop = &interruptFlag(),
+                     .tell = [this](const std::string& line) { told_.push_back(line); }}) {
     for (std::size_t i = 0; i < study.series.size(); ++i) {
       if (!keys_[i].empty()) work_.push_back(i);
     }
@@ -67,6 +73,22 @@ class Sweep {
       const std::size_t expected = expectedRuns(series);
       for (std::size_t run = 0; run < expected; ++run) progress_->expect(kindOf(series.runs[run], series.end));
     }
+  }
+
+  /// Makes the references that the missing runs need. Ranks read from the cache what the first one has made.
+  void makeReferences(Ranks& ranks, std::ostream& out) {
+    const auto asks = [](const Series& series) { return series.runs.front().reference == ReferenceUse::kAuto; };
+    if (std::none_of(study_.series.begin(), study_.series.end(), asks)) return;
+    std::vector<RunSpec> missing;
+    for (const std::size_t i : work_) {
+      if (!asks(study_.series[i])) continue;
+      for (std::size_t run = 0; run < keys_[i].size(); ++run) {
+        if (!store_.finished(keys_[i][run])) missing.push_back(study_.series[i].runs[run]);
+      }
+    }
+    if (ranks.rank() == 0) references_.prepare(missing, study_.id + " references", out);
+    for (const auto& line : told_) fmt::print(out, "{}\n", line);
+    ranks.meet();
   }
 
   /// Throws the first exception of any thread. All ranks must have the same work in the same order.
@@ -154,6 +176,8 @@ class Sweep {
     const double start = wallSeconds();
     const RunRecord record = too_long ? notMade(spec, *too_long, columns_) : make(spec);
     if (record.outcome == name(Outcome::kInterrupted)) return {};
+    // Its reference may have been interrupted: with it the run would have an error.
+    if (interruptFlag() && spec.reference == ReferenceUse::kAuto) return {};
     const std::string text = hexText(key);
     const std::lock_guard lock(mutex_);
     if (study_.states) store_.addState(text, vectorText(componentsOf(record)));
@@ -173,8 +197,8 @@ class Sweep {
     return !study_.trajectories || std::filesystem::exists(trajectoryPath(store_.folder(), spec));
   }
 
-  RunRecord make(const RunSpec& spec) const {
-    const Watch watch{&interruptFlag(), {}, {}};
+  RunRecord make(const RunSpec& spec) {
+    const Watch watch{&interruptFlag(), {}, {}, [this](const RunSpec& run) { return references_.of(run); }};
     return withoutMachine(orRefused(spec, [&] {
       return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(store_.folder(), spec))
                                  : execute(spec, watch);
@@ -188,6 +212,8 @@ class Sweep {
   std::vector<std::size_t> work_;  // indices of series
   std::mutex mutex_;
   std::optional<Progress> progress_;
+  std::vector<std::string> told_;  // about references
+  ReferenceLibrary references_;
 };
 
 }  // namespace
@@ -225,6 +251,7 @@ std::vector<std::uint64_t> inOrder(const RunKeys& keys) {
 std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store, Ranks& ranks,
                                     std::ostream& progress) {
   Sweep sweep(study, options, store, progress);
+  sweep.makeReferences(ranks, progress);
   sweep.run(threadCount(options.jobs), ranks);
   return inOrder(sweep.keys());
 }

@@ -136,7 +136,8 @@ std::vector<SpecField> makeFields() {
   auto after = std::to_array<Field<RunSpec>>(
       {maxStagesField(), endField(),
        numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
-                            kNotNegative, IRK_MEMBER(time_limit))});
+                            kNotNegative, IRK_MEMBER(time_limit)),
+       axisField<RunSpec>("What an error is measured by where no reference is stored.", IRK_MEMBER(reference))});
   constexpr std::size_t kOwn = std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)>;
   static_assert(kOwn + 1 == memberCount<RunSpec>(), "a member of RunSpec has no field");
   std::vector<SpecField> fields;

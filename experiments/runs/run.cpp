@@ -85,7 +85,8 @@ class Prepared final : public PreparedRun {
       : method_(spec),
         spec_(method_.spec()),
         scene_(method_.scene()),
-        references_(references(spec_.scene, settingsAtStep(spec_))) {}
+        references_(references(spec_.scene, settingsAtStep(spec_))),
+        needs_reference_(needsReference(spec_)) {}
 
   RunRecord execute(const Watch& watch) override {
     Monitor<Real> monitor;
@@ -106,7 +107,7 @@ class Prepared final : public PreparedRun {
     };
     const auto t_end = decimalNumber<Real>(spec_.t_end);
     const auto solution = method_.integrate(scene_.start, t_end, monitor);
-    RunRecord result = record(solution, threadSeconds() - start);
+    RunRecord result = record(solution, threadSeconds() - start, watch);
     result.switches = std::move(switches);
     return result;
   }
@@ -133,7 +134,15 @@ class Prepared final : public PreparedRun {
     return all;
   }
 
-  RunRecord record(const Solution<Real>& solution, double seconds) const {
+  RunErrors errorsAt(const State<Real>& state, const Watch& watch) const {
+    if (!needs_reference_ || !watch.reference) return errorsOf(scene_, references_, state);
+    const MadeReference made = watch.reference(spec_);
+    RunErrors errors = errorsByComputed(scene_, made.values, state);
+    if (errors.reference == ReferenceKind::kNone) errors.remark = made.problem;
+    return errors;
+  }
+
+  RunRecord record(const Solution<Real>& solution, double seconds, const Watch& watch) const {
     const State<Real>& state = solution.state;
     RunRecord record{.spec = spec_,
                      .family = method_.family(),
@@ -152,7 +161,7 @@ class Prepared final : public PreparedRun {
                      .cpu_s = seconds};
     // A state that violates its constraints is a final state as well; its error shows how large the violation is.
     if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
-      record.errors = errorsOf(scene_, references_, state);
+      record.errors = errorsAt(state, watch);
     }
     if constexpr (!std::is_same_v<Real, double>) {
       const auto append = [&record](const auto& y) {
@@ -170,6 +179,7 @@ class Prepared final : public PreparedRun {
   const RunSpec& spec_;
   const Scene<Real>& scene_;
   std::vector<Reference> references_;
+  bool needs_reference_;
   Outcome last_ = Outcome::kSuccess;
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/runs/references/made_reference.h"
 #include "experiments/runs/run_errors.h"
 #include "experiments/runs/run_spec.h"
 #include "irk/outcome.h"
@@ -57,6 +58,9 @@ struct Watch {
   std::function<void(const AcceptedStep&)> accepted;
   /// Called at each change of the mode.
   std::function<void(double t, const std::string& name)> switched;
+  /// The reference of a run with `reference = auto` for which nothing is stored (needsReference); called after the
+  /// integration, with the resolved spec. Without it the error is unknown.
+  std::function<MadeReference(const RunSpec& spec)> reference = {};
 };
 
 /// Scene, tableau and integrator of a spec: built once, run as often as wanted. Use one object per thread.

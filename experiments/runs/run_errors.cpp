@@ -1,5 +1,7 @@
 #include "experiments/runs/run_errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -57,20 +59,37 @@ void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& s
 
 template <class Real>
 void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real>& state, const Reference& reference,
-                      RunErrors& errors) {
+                      RunErrors& errors, RunErrors& accuracies) {
   const Real value = decimalNumber<Real>(reference.value);
+  const auto accuracy = [&](double scale) {
+    return reference.accuracy / std::max(std::abs(static_cast<double>(value)), scale);
+  };
   const auto at = std::find(scene.names.begin(), scene.names.end(), reference.component);
   if (at != scene.names.end()) {
     const Index i = at - scene.names.begin();
-    const double error = relativeError(components(state)[i], value, scaleOf(scene.scale, i));
+    const double scale = scaleOf(scene.scale, i);
+    const double error = relativeError(components(state)[i], value, scale);
     raise(group(errors, n, i), error);
     raise(errors.all, error);
+    raise(group(accuracies, n, i), accuracy(scale));
+    raise(accuracies.all, accuracy(scale));
     return;
   }
   for (const auto& output : scene.outputs) {
     if (output.name == reference.component) {
       raise(errors.all, relativeError(output.value(state), value, 1));
+      raise(accuracies.all, accuracy(1));
     }
+  }
+}
+
+// The errors by the most accurate references at the state's time, and the accuracies of these.
+template <class Real>
+void compareReferences(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state,
+                       RunErrors& errors, RunErrors& accuracies) {
+  const Sizes n = scene.sizes();
+  for (const auto& [component, reference] : bestAt(references, static_cast<double>(state.t))) {
+    compareReference(scene, n, state, *reference, errors, accuracies);
   }
 }
 
@@ -97,6 +116,8 @@ std::string_view referenceName(ReferenceKind kind) {
       return "exact";
     case ReferenceKind::kFile:
       return "file";
+    case ReferenceKind::kComputed:
+      return "computed";
   }
   return "?";
 }
@@ -118,10 +139,27 @@ RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& refer
     errors.reference = ReferenceKind::kExact;
     return errors;
   }
-  for (const auto& [component, reference] : bestAt(references, static_cast<double>(state.t))) {
-    compareReference(scene, n, state, *reference, errors);
-  }
+  RunErrors ignored;
+  compareReferences(scene, references, state, errors, ignored);
   if (!std::isnan(errors.all)) errors.reference = ReferenceKind::kFile;
+  return errors;
+}
+
+template <class Real>
+RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference>& computed, const State<Real>& state) {
+  RunErrors errors, accuracies;
+  errors.drift = driftOf(scene, state);
+  compareReferences(scene, computed, state, errors, accuracies);
+  if (std::isnan(errors.all)) return errors;
+  errors.reference = ReferenceKind::kComputed;
+  errors.accuracy = accuracies.all;
+  if (errors.all < kMeasurable * accuracies.all) {
+    errors.remark = fmt::format("error below {:.0e}, ten times the reference's accuracy: not measurable",
+                                kMeasurable * accuracies.all);
+  }
+  for (auto error : {&RunErrors::all, &RunErrors::u, &RunErrors::v, &RunErrors::x, &RunErrors::z}) {
+    if (errors.*error < kMeasurable * accuracies.*error) errors.*error = std::numeric_limits<double>::quiet_NaN();
+  }
   return errors;
 }
 
@@ -129,7 +167,10 @@ template Vec<double> components(const State<double>&);
 template Vec<mp50> components(const State<mp50>&);
 template Vec<mp100> components(const State<mp100>&);
 template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&, const State<double>&);
+template RunErrors errorsByComputed(const Scene<double>&, const std::vector<Reference>&, const State<double>&);
 template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
+template RunErrors errorsByComputed(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
 template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&);
+template RunErrors errorsByComputed(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&);
 
 }  // namespace irk

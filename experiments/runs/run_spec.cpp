@@ -19,6 +19,20 @@ constexpr Named<ScalarKind> kScalars[] = {
     {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"},
     {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on; few scenes offer it"}};
 
+constexpr Named<ReferenceUse> kReferenceUses[] = {
+    {ReferenceUse::kNone, "none", "where no reference is stored, the error is unknown"},
+    {ReferenceUse::kAuto, "auto", "where no reference is stored, one is computed and kept in the user's cache"}};
+
+template <class Axis>
+Axis valueOf(std::string_view id) {
+  std::vector<std::string> known;
+  for (const auto& entry : named<Axis>()) {
+    if (entry.id == id) return entry.value;
+    known.emplace_back(entry.id);
+  }
+  throw Misuse(unknownName(axisName<Axis>(), id, known));
+}
+
 }  // namespace
 
 template <>
@@ -31,12 +45,20 @@ std::string_view axisName<ScalarKind>() {
 }
 template <>
 ScalarKind parseId<ScalarKind>(std::string_view id) {
-  std::vector<std::string> known;
-  for (const auto& entry : kScalars) {
-    if (entry.id == id) return entry.value;
-    known.emplace_back(entry.id);
-  }
-  throw Misuse(unknownName("scalar", id, known));
+  return valueOf<ScalarKind>(id);
+}
+
+template <>
+std::span<const Named<ReferenceUse>> named<ReferenceUse>() {
+  return kReferenceUses;
+}
+template <>
+std::string_view axisName<ReferenceUse>() {
+  return "reference";
+}
+template <>
+ReferenceUse parseId<ReferenceUse>(std::string_view id) {
+  return valueOf<ReferenceUse>(id);
 }
 
 double epsilonOf(ScalarKind scalar) {

@@ -20,6 +20,18 @@ ScalarKind parseId<ScalarKind>(std::string_view id);
 template <>
 std::string_view axisName<ScalarKind>();
 
+/// What an error is measured by where neither a closed form nor problems/reference knows the solution at t_end.
+enum class ReferenceUse {
+  kNone,  ///< by nothing: the error is unknown
+  kAuto,  ///< by a reference that is computed and kept (experiments/reference)
+};
+template <>
+std::span<const Named<ReferenceUse>> named<ReferenceUse>();
+template <>
+ReferenceUse parseId<ReferenceUse>(std::string_view id);
+template <>
+std::string_view axisName<ReferenceUse>();
+
 /// The unit round-off of this kind of number.
 double epsilonOf(ScalarKind scalar);
 
@@ -42,6 +54,9 @@ struct RunSpec {
   double t_end = std::numeric_limits<double>::quiet_NaN();
   /// >= 0, in seconds of the thread's CPU clock; 0 = no limit.
   double time_limit = 0;
+  /// Changes no number of a run but its errors. It is part of the key, so that a run without an error is made again
+  /// when a study begins to ask for one.
+  ReferenceUse reference = ReferenceUse::kNone;
 };
 
 /// Fills in the scene's t_end and removes settings that equal their defaults, so that equal runs have equal specs.

@@ -1,6 +1,7 @@
 #include "experiments/runs/run_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "experiments/base/numbers.h"
@@ -15,7 +16,8 @@ namespace {
 // These fields stand before the derived columns; all others of specFields() follow them.
 constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
-constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift"};
+constexpr std::string_view kAccuracy = "reference_accuracy";
+constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift", kAccuracy};
 constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all", "cpu_environment"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
 constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
@@ -26,6 +28,12 @@ void append(std::vector<std::string>& to, std::span<const std::string_view> name
 
 bool isIn(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// How the run ended, and why it has no error.
+std::string detailOf(const RunRecord& record) {
+  const bool both = !record.detail.empty() && !record.errors.remark.empty();
+  return record.detail + (both ? "; " : "") + record.errors.remark;
 }
 
 // The fields behind the derived columns, in the order of the columns.
@@ -60,10 +68,10 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
-  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift}) row.push_back(numberText(error));
+  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, e.accuracy}) row.push_back(numberText(error));
   record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
-  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", "", environment, record.detail,
+  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", "", environment, detailOf(record),
                          std::string(buildInfo().code), environment, dateText(), ""});
   return row;
 }
@@ -123,6 +131,15 @@ const std::string& textAt(const Table& table, const TableRow& row, std::string_v
 
 bool succeededAt(const Table& table, const TableRow& row) {
   return textAt(table, row, "outcome") == name(Outcome::kSuccess);
+}
+
+bool notMeasurableAt(const Table& table, const TableRow& row) {
+  return table.hasColumn(kAccuracy) && std::isnan(numberAt(table, row, "error")) &&
+         !std::isnan(numberAt(table, row, kAccuracy));
+}
+
+double errorBoundAt(const Table& table, const TableRow& row) {
+  return notMeasurableAt(table, row) ? kMeasurable * numberAt(table, row, kAccuracy) : numberAt(table, row, "error");
 }
 
 }  // namespace irk

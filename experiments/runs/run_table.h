@@ -43,5 +43,9 @@ void forgetTiming(const Table& table, TableRow& row);
 double numberAt(const Table& table, const TableRow& row, std::string_view column);
 const std::string& textAt(const Table& table, const TableRow& row, std::string_view column);
 bool succeededAt(const Table& table, const TableRow& row);
+/// Whether the run's error is below kMeasurable accuracies of its computed reference and therefore NaN.
+bool notMeasurableAt(const Table& table, const TableRow& row);
+/// The run's error; where it is not measurable, the bound below which it lies. NaN if neither is known.
+double errorBoundAt(const Table& table, const TableRow& row);
 
 }  // namespace irk

@@ -26,8 +26,8 @@ void refuseForPeer(const RunSpec& spec, const std::vector<std::string>& given) {
 
 const std::vector<std::string>& peerFields() {
   static const std::vector<std::string> fields{
-      "method", "formulation", "scaling", "discontinuity", "scalar", "derivatives", "multipliers", "norm",
-      "step",   "tol",         "rtol",    "atol",          "h_max",  "t_end",       "max_steps",   "time_limit"};
+      "method", "formulation", "scaling", "discontinuity", "scalar", "derivatives", "multipliers", "norm",     "step",
+      "tol",    "rtol",        "atol",    "h_max",         "t_end",  "max_steps",   "time_limit",  "reference"};
   return fields;
 }
 

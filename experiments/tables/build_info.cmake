@@ -8,7 +8,7 @@ endif()
 # A fingerprint of all sources that determine the numbers of a row; rows with another fingerprint are stale. Compiler
 # and flags are not included; they belong to a row's environment.
 set(deciding ${SOURCE_DIR}/experiments/study/series_rules.cpp)
-foreach(folder core tableaus problems experiments/runs)
+foreach(folder core tableaus problems experiments/runs experiments/reference)
   file(GLOB_RECURSE found ${SOURCE_DIR}/${folder}/*.cpp ${SOURCE_DIR}/${folder}/*.h)
   list(APPEND deciding ${found})
 endforeach()

@@ -44,5 +44,21 @@ TEST(CostAtError, SaysWhyThereIsNone) {
                                                         {"failed", "no success: timeout"}}));
 }
 
+// An error below ten accuracies of a computed reference is known to be at most that: the run reaches every target above
+// it, and nobody knows whether it reaches the others.
+TEST(CostAtError, CountsAnErrorThatIsNotMeasurableAsItsBound) {
+  Table runs;
+  runs.columns = {"scene",     "outcome",           "error",     "reference_accuracy", "cpu_s",
+                  "residuals", "newton_iterations", "jacobians", "factorizations"};
+  runs.rows.push_back({"a", "success", "1e-4", "1e-12", "1", "1", "1", "1", "1"});
+  runs.rows.push_back({"a", "success", "nan", "1e-12", "3", "3", "3", "3", "3"});
+  const Table costs = costTable(runs, {1e-3, 1e-11, 1e-12});
+  ASSERT_EQ(costs.rows.size(), 3u);
+  EXPECT_EQ(numberAt(costs, costs.rows[0], "cpu_s"), 1);
+  EXPECT_DOUBLE_EQ(numberAt(costs, costs.rows[1], "cpu_s"), 3) << "1e-11 is the bound of the second run";
+  EXPECT_EQ(textAt(costs, costs.rows[2], "reached"), "0");
+  EXPECT_EQ(textAt(costs, costs.rows[2], "cause"), kNotMeasurable);
+}
+
 }  // namespace
 }  // namespace irk

@@ -61,7 +61,7 @@ TEST(Cli, UnknownNumbersAreNull) {
   EXPECT_TRUE(json["error"].is_null());
   EXPECT_EQ(json["reference"], "none");
   const auto text = program({"solve", "slider_crank", "--t-end", "0.123"});
-  EXPECT_TRUE(containsAll(text.out, {"error unknown: no reference at t = 0.123\n"}));
+  EXPECT_TRUE(containsAll(text.out, {"error unknown: no reference at t = 0.123; --reference makes one\n"}));
 }
 
 TEST(Cli, AnExactSolutionIsAReference) {

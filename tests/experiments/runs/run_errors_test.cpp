@@ -101,5 +101,35 @@ TEST(RunErrors, OfNothingAreUnknown) {
   EXPECT_FALSE(std::isnan(none.drift)) << "needs no reference";
 }
 
+// Errors as in off(): u 2e-3, v 3e-2, x 1e-2, z 5e-2. The accuracies of u and x are too low for theirs.
+TEST(RunErrors, BelowTenAccuraciesOfAComputedReferenceAreNotMeasurable) {
+  const auto by = [](double u, double v, double x, double z) {
+    return errorsByComputed(scene(),
+                            {{2, "u1", "0.6", u, ""},
+                             {2, "u2", "0.8", u, ""},
+                             {2, "v1", "-8", v * 8, ""},
+                             {2, "x", "0.5", x * 10, ""},
+                             {2, "lambda", "100", z * 100, ""}},
+                            off());
+  };
+  const RunErrors good = by(1e-9, 1e-9, 1e-9, 1e-9);
+  expectGroups(good);
+  EXPECT_EQ(referenceName(good.reference), "computed");
+  EXPECT_NEAR(good.accuracy, 1e-9, 1e-15);
+  EXPECT_TRUE(good.remark.empty());
+  const RunErrors some = by(2.1e-4, 1e-9, 1.1e-3, 1e-9);
+  EXPECT_TRUE(std::isnan(some.u) && std::isnan(some.x));
+  EXPECT_NEAR(some.v, 0.03, 1e-12);
+  EXPECT_NEAR(some.all, 0.05, 1e-12) << "the largest error is above ten times 1.1e-3";
+  EXPECT_TRUE(some.remark.empty());
+  const RunErrors none = by(1e-9, 1e-9, 1e-9, 6e-3);
+  EXPECT_TRUE(std::isnan(none.all) && std::isnan(none.z));
+  EXPECT_NEAR(none.v, 0.03, 1e-12);
+  EXPECT_EQ(none.remark, "error below 6e-02, ten times the reference's accuracy: not measurable");
+  EXPECT_NEAR(none.accuracy, 6e-3, 1e-12);
+  EXPECT_EQ(errorsByComputed(scene(), {{1, "u1", "0.6", 1e-9, ""}}, off()).reference, ReferenceKind::kNone)
+      << "another time";
+}
+
 }  // namespace
 }  // namespace irk

@@ -1,0 +1,67 @@
+#include "experiments/reference/integration.h"
+
+#include <fmt/format.h>
+
+#include "experiments/base/clock.h"
+#include "experiments/base/decimal.h"
+#include "experiments/runs/run_errors.h"
+#include "experiments/runs/setup.h"
+#include "irk/integrator.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch) {
+  const double start = threadSeconds();
+  const auto setup = makeSetup<Real>(spec);
+  auto integrator = setup.integrator();
+  Monitor<Real> monitor;
+  monitor.interrupt = [&] {
+    if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
+    const bool late = watch.budget && watch.budget->exceededBy(threadSeconds() - start);
+    return late ? Outcome::kTimeout : Outcome::kSuccess;
+  };
+  Integrated result;
+  State<Real> state = setup.scene.start;
+  for (const auto& t : times) {
+    const auto solution = integrator.integrate(state, decimalNumber<Real>(t), monitor);
+    if (solution.outcome != Outcome::kSuccess) {
+      const bool late = solution.outcome == Outcome::kTimeout && watch.budget;
+      result.failure =
+          fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol, name(solution.outcome),
+                      late ? fmt::format("longer than {:g} s of CPU time", watch.budget->limit()) : solution.detail);
+      return result;
+    }
+    state = solution.state;
+    result.rows.push_back(componentsAndOutputs(setup.scene, state));
+  }
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+std::vector<mp50> componentsAndOutputs(const Scene<Real>& scene, const State<Real>& state) {
+  const Vec<Real> y = components(state);
+  std::vector<mp50> row(y.begin(), y.end());
+  for (const auto& output : scene.outputs) row.push_back(mp50(output.value(state)));
+  return row;
+}
+template std::vector<mp50> componentsAndOutputs(const Scene<double>&, const State<double>&);
+template std::vector<mp50> componentsAndOutputs(const Scene<mp50>&, const State<mp50>&);
+
+Integrated integrated(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch) {
+  const double start = threadSeconds();
+  Integrated result;
+  try {
+    result = spec.scalar == ScalarKind::kDouble ? integratedIn<double>(spec, times, watch)
+                                                : integratedIn<mp50>(spec, times, watch);
+  } catch (const std::exception& error) {
+    result.failure = error.what();
+  }
+  if (watch.budget) watch.budget->spend(threadSeconds() - start);
+  return result;
+}
+
+}  // namespace irk

@@ -1,0 +1,34 @@
+#include "experiments/reference/question.h"
+
+#include <fmt/format.h>
+
+#include "experiments/base/numbers.h"
+#include "experiments/runs/setup.h"
+#include "experiments/tables/build_info.h"
+
+namespace irk {
+
+ReferenceQuestion questionOf(const RunSpec& resolved) {
+  return {resolved.scene, settingsAtStep(resolved), resolved.t_end, resolved.discontinuity == Discontinuity::kSmooth};
+}
+
+std::string keyText(const ReferenceQuestion& question) {
+  const SceneEntry& scene = findScene(question.scene);
+  std::string settings;
+  for (const auto& parameter : scene.parameters) {
+    const auto given = question.settings.find(parameter.name);
+    const bool is_given = given != question.settings.end();
+    settings += fmt::format("{}={};", parameter.name, is_given ? given->second : parameter.default_value);
+  }
+  return fmt::format("scene={};source={};{}t_end={};smooth={};code={}", scene.id, sourceOf(scene), settings,
+                     numberText(question.t_end), question.smooth, buildInfo().code);
+}
+
+std::string placeText(const ReferenceQuestion& question) {
+  return fmt::format("{}{}{}{}, t = {}", question.scene, question.settings.empty() ? "" : " ",
+                     settingsText(question.settings), question.smooth ? " smooth" : "", numberText(question.t_end));
+}
+
+std::string sourceOf(const SceneEntry&) { return ""; }
+
+}  // namespace irk

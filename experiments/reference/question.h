@@ -1,0 +1,32 @@
+// What a computed reference is about: a scene with its settings, at the end of a run.
+#pragma once
+
+#include <string>
+
+#include "experiments/runs/run_spec.h"
+
+namespace irk {
+
+/// Runs with equal questions share one reference.
+struct ReferenceQuestion {
+  std::string scene;
+  Settings settings;  ///< without defaults; values over h are those of the run's step
+  double t_end = 0;
+  bool smooth = false;  ///< the regularized problem, which has another solution
+};
+
+ReferenceQuestion questionOf(const RunSpec& resolved);
+
+/// Everything that determines the reference, as one text: scene, the scene's source, all settings with their
+/// defaults, t_end, whether the problem is the regularized one, and the code of this program. The hash of this text
+/// names the file in the cache. Throws Misuse for an unknown scene.
+std::string keyText(const ReferenceQuestion& question);
+
+/// For messages: `slider_crank torque_off_at=0.5 smooth, t = 1`.
+std::string placeText(const ReferenceQuestion& question);
+
+/// What the scene is made from if it is not part of the program's code: a hash of the user's file. Empty for the
+/// scenes of the program, whose code is in the fingerprint of the build.
+std::string sourceOf(const SceneEntry& scene);
+
+}  // namespace irk

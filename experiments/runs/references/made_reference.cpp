@@ -1,0 +1,19 @@
+#include "experiments/runs/references/made_reference.h"
+
+#include "experiments/base/decimal.h"
+#include "experiments/runs/run_errors.h"
+#include "experiments/runs/setup.h"
+
+namespace irk {
+
+bool needsReference(const RunSpec& resolved) {
+  if (resolved.reference != ReferenceUse::kAuto) return false;
+  const auto scene = sceneOf<double>(resolved);
+  if (resolved.discontinuity == Discontinuity::kSmooth && scene.sizes().switches > 0) return true;
+  State<double> end = scene.start;  // only its time matters: which components are known there
+  end.t = resolved.t_end;
+  const auto stored = references(resolved.scene, settingsAtStep(resolved));
+  return errorsOf(scene, stored, end).reference == ReferenceKind::kNone;
+}
+
+}  // namespace irk

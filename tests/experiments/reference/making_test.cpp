@@ -1,0 +1,141 @@
+// References that are computed for runs: their values, and the reasons for which there are none.
+#include "experiments/reference/making.h"
+
+#include <gtest/gtest.h>
+
+#include "experiments/reference/integration.h"
+#include "experiments/runs/fields.h"
+#include "experiments/runs/run.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+ComputedReference make(const ReferenceQuestion& question, const ReferenceLimits& limits = {}) {
+  return makeReference(question, limits, 1, nullptr);
+}
+
+ReferenceLimits onlyDouble() {
+  ReferenceLimits limits;
+  limits.most_unknowns = 0;
+  return limits;
+}
+
+const ReferenceValue& valueOf(const ComputedReference& made, const std::string& component) {
+  for (const auto& value : made.values) {
+    if (value.component == component) return value;
+  }
+  throw std::out_of_range(component);
+}
+
+// kaps has the solution exp(-2 t), exp(-t), which the four runs know nothing of.
+void expectKaps(const ComputedReference& made, double least, double most) {
+  ASSERT_TRUE(made.problem.empty()) << made.problem;
+  ASSERT_EQ(made.values.size(), 2u);
+  for (const auto& [component, rate] : {std::pair("y1", -2), {"y2", -1}}) {
+    const auto& value = valueOf(made, component);
+    const mp50 exact = exp(rate * mp50("0.3"));
+    EXPECT_LE(abs(value.value - exact), mp50(value.accuracy)) << component;
+    EXPECT_GT(value.accuracy, least);
+    EXPECT_LT(value.accuracy, most);
+  }
+  EXPECT_GE(made.accuracy, least);
+  EXPECT_LE(made.accuracy, most);
+}
+
+TEST(Making, FiftyDigitsAgreeWithAnExactSolution) {
+  const auto made = make({"kaps", {}, 0.3});
+  expectKaps(made, 1e-35, 1e-24);
+  EXPECT_TRUE(made.in_double.empty());
+}
+
+TEST(Making, DoubleAgreesWithAnExactSolution) {
+  const auto made = make({"kaps", {}, 0.3}, onlyDouble());
+  expectKaps(made, 1e-15, 1e-10);
+  EXPECT_TRUE(containsAll(made.in_double, {"2 unknowns are too many", "up to 0"}));
+}
+
+// torque_off_at switches at a given time; chattering friction switches at times that must be located. The exact
+// solutions of these scenes are not used.
+TEST(Making, SwitchesAreLocated) {
+  for (const auto& [scene, t] : {std::pair("bouncing_mass", 0.9), {"elastoplastic", 1.1}}) {
+    const auto entry = makeScene<mp50>(scene);
+    ASSERT_TRUE(entry.exact) << scene;
+    const auto made = make({scene, {}, t});
+    ASSERT_TRUE(made.problem.empty()) << made.problem;
+    const auto exact = componentsAndOutputs(entry, entry.exact(mp50(std::to_string(t))));
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < entry.names.size(); ++i) {
+      if (!isfinite(exact[i])) continue;
+      const auto& value = valueOf(made, entry.names[i]);
+      EXPECT_LE(abs(value.value - exact[i]), 2 * mp50(value.accuracy)) << value.place();
+      EXPECT_LT(value.accuracy, 1e-20) << value.place();
+      ++compared;
+    }
+    EXPECT_GT(compared, 0u) << scene;
+  }
+}
+
+// A stiff scene at a time of which nothing is stored, against a method of another family at low tolerance.
+TEST(Making, AgreesWithAnotherFamily) {
+  const auto made = make({"van_der_pol", {}, 0.7});
+  ASSERT_TRUE(made.problem.empty()) << made.problem;
+  const auto run = execute(parseSpec("scene=van_der_pol;t_end=0.7;scalar=mp50;method=gauss_7;rtol=1e-17;atol=1e-17"));
+  ASSERT_TRUE(run.succeeded());
+  EXPECT_LT(abs(valueOf(made, "y1").value - mp50(run.digits[0])), mp50("1e-14"));
+  EXPECT_LT(abs(valueOf(made, "y2").value - mp50(run.digits[1])), mp50("1e-14"));
+  EXPECT_LT(made.accuracy, 1e-22);
+}
+
+TEST(Making, TheRegularizedProblemHasAnotherReference) {
+  const auto sharp = make({"bouncing_mass", {}, 0.9}, onlyDouble());
+  const auto smooth = make({"bouncing_mass", {}, 0.9, true}, onlyDouble());
+  ASSERT_TRUE(sharp.problem.empty() && smooth.problem.empty()) << sharp.problem << smooth.problem;
+  EXPECT_GT(abs(sharp.values[0].value - smooth.values[0].value), mp50(1e-8));
+}
+
+TEST(Making, RunsThatDisagreeGiveNone) {
+  ReferenceLimits strict;
+  strict.disagreement = 1e-45;
+  const auto made = make({"mechanical_dae", {}, 0.02}, strict);
+  EXPECT_TRUE(made.values.empty());
+  EXPECT_TRUE(containsAll(made.problem, {"in 50 digits the four runs disagree, ", " by "}));
+  strict.most_unknowns = 0;
+  const auto in_double = make({"mechanical_dae", {}, 0.02}, strict);
+  EXPECT_TRUE(in_double.values.empty());
+  EXPECT_TRUE(containsAll(in_double.problem, {"too many", "in double: the four runs disagree"}));
+}
+
+TEST(Making, TakesNoLongerThanItMay) {
+  ReferenceLimits limits;
+  limits.cpu_s = 1e-9;
+  const auto made = make({"mechanical_dae", {}, 0.02}, limits);
+  EXPECT_TRUE(made.values.empty());
+  EXPECT_TRUE(containsAll(made.problem, {"in 50 digits: ", "longer than 1e-09 s", "; in double: radau_iia_7"}))
+      << made.problem;
+}
+
+TEST(Making, AnInterruptIsNoAnswer) {
+  const std::atomic<bool> stop = true;
+  const auto made = makeReference({"mechanical_dae", {}, 0.02}, {}, 1, &stop);
+  EXPECT_TRUE(made.interrupted);
+  EXPECT_TRUE(made.values.empty());
+}
+
+TEST(Making, SaysWhatIsWrongWithTheScene) {
+  EXPECT_TRUE(containsAll(make({"kaps", {{"epsilon", "1"}}, 1}).problem, {"epsilon"}));
+}
+
+TEST(ReferenceKey, DiffersWhereTheSolutionMay) {
+  const ReferenceQuestion question{"kaps", {}, 0.3};
+  std::vector<ReferenceQuestion> others(4, question);
+  others[0].scene = "kepler";
+  others[1].settings = {{"eps", "1e-3"}};
+  others[2].t_end = 0.30000000000000004;
+  others[3].smooth = true;
+  for (const auto& other : others) EXPECT_NE(keyText(other), keyText(question));
+  EXPECT_TRUE(containsAll(keyText(question), {"scene=kaps", "source=", "eps=", "t_end=0.3", "code="}));
+}
+
+}  // namespace
+}  // namespace irk
