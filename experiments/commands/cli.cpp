@@ -189,6 +189,13 @@ class Program {
     sub->add_flag("--json", solve_.json, "Print one JSON object.");
     sub->add_option("--plot", solve_.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
         ->type_name("FILE");
+    sub->add_option("--out", solve_.out,
+                    "Write the solution over time to FILE.csv or, as JSON lines, to FILE.jsonl: components, outputs, steps, "
+                    "and a row before and after each located switch. A run that fails leaves what it has computed.")
+        ->type_name("FILE");
+    sub->add_option("--points", solve_.points,
+                    "So many equally spaced times in --out, both ends included [2 .. 1000000; default: the accepted steps]")
+        ->type_name("INTEGER");
     for (const auto& field : specFields()) addField(*sub, field);
   }
 
