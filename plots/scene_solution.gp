@@ -26,10 +26,10 @@ set datafile columnheaders
 jumps = ""; kinds = ""
 if (position(header, 'switches')) {
   stats file using (strcol('switches') eq '' || strcol('switches') eq '0' ? 0 \
-    : (strlen(jumps = jumps.sprintf(' %.8g', column('t'))), position(kinds, strcol('switches')) ? 0 : strlen(kinds = kinds.' '.strcol('switches')))) nooutput
+    : (strlen(jumps = jumps.sprintf(' %.8g', column('t'))), strstrt(kinds.',', ', '.strcol('switches').',') ? 0 : strlen(kinds = kinds.', '.strcol('switches')))) nooutput
 }
 jump_height = words(jumps) > 40 ? 0.04 : 1
-jump_note = strlen(kinds) > 60 ? 'dashed lines: switches' : 'dashed lines: '.kinds[2 : *]
+jump_note = strlen(kinds) > 60 ? 'dashed lines: switches' : 'dashed lines: '.kinds[3 : *]
 
 if (panels eq '') {  # a table of an older program
   do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
@@ -63,7 +63,7 @@ gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
   set multiplot
-  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 0.985 right font ',10' textcolor rgb ink noenhanced }
+  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.7 font ',10' textcolor rgb ink noenhanced }
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)

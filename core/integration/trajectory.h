@@ -85,10 +85,10 @@ class Trajectory {
   State<Real> state_, next_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
-  std::string start_detail_;  // of a start that is not consistent
-  std::string note_;          // of a success
-  double round_off_ = 0;      // of Newton, the largest of the accepted steps, in tolerances
-  Index blamed_ = -1;         // the switching function that a failure is to be blamed on
+  std::string start_detail_;              // of a start that is not consistent
+  std::string note_;                      // of a success
+  double round_off_ = 0;                  // of Newton, the largest of the accepted steps, in tolerances
+  Index blamed_ = -1;                     // the switching function that a failure is to be blamed on
   const char* last_rejection_ = nullptr;  // what rejected a step last; null: none was
 };
 

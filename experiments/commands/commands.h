@@ -36,7 +36,7 @@ std::string solveJson(const RunRecord& record, int indent = 2);
 /// Misuse for empty and repeated items.
 struct Sweep {
   struct Run {
-    SolveOptions options;              ///< without lists
+    SolveOptions options;             ///< without lists
     std::vector<std::string> values;  ///< of the lists
   };
   std::vector<std::string> names;  ///< of the lists: "m", "tol"; empty: one run

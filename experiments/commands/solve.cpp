@@ -133,8 +133,8 @@ class OutFile {
     if (options.points.empty()) return {};
     if (options.out.empty()) throw Misuse("--points belongs to --out, which is not given");
     if (findPeer(spec.method)) {
-      throw Misuse(fmt::format("--points: method '{}' gives the solution at the ends of its steps only; leave --points out",
-                               spec.method));
+      throw Misuse(fmt::format(
+          "--points: method '{}' gives the solution at the ends of its steps only; leave --points out", spec.method));
     }
     return {static_cast<int>(parseInteger("points", options.points, kPoints)), false};
   }

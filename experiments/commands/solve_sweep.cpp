@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -60,12 +63,23 @@ std::vector<List> listsOf(const SolveOptions& options) {
                      [i](SolveOptions& run, const std::string& value) { run.fields[i].second = value; }});
   }
   if (isList(options.step)) {
-    lists.push_back({"step", items("step", options.step), [](SolveOptions& run, const auto& value) { run.step = value; }});
+    lists.push_back(
+        {"step", items("step", options.step), [](SolveOptions& run, const auto& value) { run.step = value; }});
   }
   if (isList(options.tol)) {
     lists.push_back({"tol", items("tol", options.tol), [](SolveOptions& run, const auto& value) { run.tol = value; }});
   }
   return lists;
+}
+
+// A misspelt method is refused before the first run; a method that a scene does not allow is a refused run.
+void requireMethods(const std::vector<RunSpec>& specs) {
+  std::set<std::string> known;
+  for (const RunSpec& spec : specs) {
+    const std::string& method = spec.method;
+    if (findPeer(method) || isFamily(method) || !known.insert(method).second) continue;
+    static_cast<void>(makeTableau<double>(method));
+  }
 }
 
 // Columns as wide as the widest value.
@@ -86,10 +100,9 @@ std::string valuesText(const std::vector<std::string>& values, const std::vector
 
 void printLine(std::ostream& out, const std::string& values, const RunRecord& record) {
   const Counters& c = record.counters;
-  fmt::print(out, "{}{:<14}  {:<10.3e}  {:>8}  {:>8}  {:>8}  {:>9.3g}{}{}\n", values, record.outcome,
-             record.errors.all, c.steps_accepted, c.steps_rejected_error + c.steps_rejected_newton,
-             c.newton_iterations, record.cpu_s, record.succeeded() ? "" : "  ",
-             record.succeeded() ? "" : record.detail);
+  fmt::print(out, "{}{:<14}  {:<10.3e}  {:>8}  {:>8}  {:>8}  {:>9.3g}{}{}\n", values, record.outcome, record.errors.all,
+             c.steps_accepted, c.steps_rejected_error + c.steps_rejected_newton, c.newton_iterations, record.cpu_s,
+             record.succeeded() ? "" : "  ", record.succeeded() ? "" : record.detail);
 }
 
 }  // namespace
@@ -125,10 +138,11 @@ int solveSweep(const Sweep& sweep, Streams streams) {
   refuse("--plot", first.plot);
   std::vector<RunSpec> specs;
   for (const auto& run : sweep.runs) specs.push_back(solveSpec(run.options));
+  requireMethods(specs);
   const auto columns = widths(sweep);
   if (!first.json) {
-    fmt::print(streams.out, "{}{:<14}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9}\n", valuesText(sweep.names, columns), "outcome",
-               "error", "accepted", "rejected", "newton", "cpu_s");
+    fmt::print(streams.out, "{}{:<14}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9}\n", valuesText(sweep.names, columns),
+               "outcome", "error", "accepted", "rejected", "newton", "cpu_s");
   }
   const InterruptScope interrupts;
   bool failed = false;

@@ -25,10 +25,15 @@ std::string withNames(const std::string& message, const std::vector<std::string>
   std::string text;
   auto rest = message.begin();
   for (std::sregex_iterator found(message.begin(), message.end(), component), none; found != none; ++found) {
-    const Index place = placeOf(*(*found)[1].first, std::stoi((*found)[2].str()), scene, unknowns);
+    const char group = *(*found)[1].first;
+    const Index i = std::stoi((*found)[2].str());
+    const Index place = placeOf(group, i, scene, unknowns);
     text.append(rest, (*found)[0].first);
     const bool named = place >= 0 && place < static_cast<Index>(names.size());
-    text += named ? names[static_cast<std::size_t>(place)] : found->str();
+    const bool ggl = group == 'z' && i >= scene.nz && i < unknowns.nz;
+    text += named ? names[static_cast<std::size_t>(place)]
+            : ggl ? "GGL's multiplier " + std::to_string(i - scene.nz)
+                  : found->str();
     rest = (*found)[0].second;
   }
   return text.append(rest, message.end());

@@ -72,7 +72,8 @@ TableRow solutionCells(const SolutionRow& row) {
 
 Table solutionTable(const RunSpec& spec) {
   const auto scene = sceneOf<double>(spec);
-  Table table{environmentHead("trajectory of " + spec.scene, 1), {std::begin(kStepColumns), std::end(kStepColumns)}, {}};
+  Table table{
+      environmentHead("trajectory of " + spec.scene, 1), {std::begin(kStepColumns), std::end(kStepColumns)}, {}};
   table.head.emplace_back("run", canonicalText(spec));
   for (auto& line : panelHead(findScene(spec.scene), scene)) table.head.push_back(std::move(line));
   TableRow units{scene.time_unit, scene.time_unit, "", "", ""};

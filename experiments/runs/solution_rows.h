@@ -18,9 +18,9 @@ struct RowTimes {
 
 struct SolutionRow {
   double t;
-  double h, error;         ///< of the step that ends at t or contains it, see AcceptedStep
-  int newton_iterations;   ///< likewise
-  std::string switches;    ///< that lead to this row's state, or are in its step: names with "; " between; mostly empty
+  double h, error;        ///< of the step that ends at t or contains it, see AcceptedStep
+  int newton_iterations;  ///< likewise
+  std::string switches;   ///< that lead to this row's state, or are in its step: names with "; " between; mostly empty
   std::span<const double> values;  ///< see AcceptedStep
 };
 
