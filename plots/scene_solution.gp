@@ -22,6 +22,15 @@ if (exists("W_columns")) {
 }
 set datafile columnheaders
 
+# Switches: dashed lines over the whole height, short ones where there are many.
+jumps = ""; kinds = ""
+if (position(header, 'switches')) {
+  stats file using (strcol('switches') eq '' || strcol('switches') eq '0' ? 0 \
+    : (strlen(jumps = jumps.sprintf(' %.8g', column('t'))), strstrt(kinds.',', ', '.strcol('switches').',') ? 0 : strlen(kinds = kinds.', '.strcol('switches')))) nooutput
+}
+jump_height = words(jumps) > 40 ? 0.04 : 1
+jump_note = strlen(kinds) > 60 ? 'dashed lines: switches' : 'dashed lines: '.kinds[3 : *]
+
 if (panels eq '') {  # a table of an older program
   do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
 }
@@ -54,6 +63,7 @@ gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
   set multiplot
+  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.7 font ',10' textcolor rgb ink noenhanced }
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)
@@ -68,8 +78,14 @@ do for [format in formats] {
     set yrange [*:*]
     set size noratio; set xtics autofreq
     if (orbit) { set xrange [*:*] extend; set size ratio -1; set xtics 0.5 }
+    unset arrow
+    if (!orbit) {
+      do for [j = 1 : words(jumps)] { set arrow from first real(word(jumps, j)), graph 0 to first real(word(jumps, j)), graph jump_height \
+        nohead dt 2 lw 0.8 lc rgb 0xa0a0a0 back }
+    }
     plot for [k = 1 : words(list)] file using (column(over(word(list, k)))):(scale * column(of(word(list, k)))) \
       with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
+    unset label 99
   }
   unset multiplot
   unset output

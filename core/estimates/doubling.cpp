@@ -138,6 +138,7 @@ class Doubling : public StepAttempt<Real> {
   StepPieces<Real> pieces(const State<Real>& from) const override {
     return {{{{&from, &first_half_}, {&middle_, &half_.stages()}}}, 2};
   }
+  void keepPieces(bool keep) override { keeps_pieces_ = keep || locates_; }
 
  protected:
   /// The difference of the two solutions in the error norm.
@@ -159,7 +160,8 @@ class Doubling : public StepAttempt<Real> {
         looks_again_(ownOrders(options) && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(catalogue<Predictor>()[options.predictor].extrapolates),
-        keeps_pieces_(system.sizes().switches > 0 && system.discontinuity().at_switch == AtSwitch::kEnd),
+        locates_(system.sizes().switches > 0 && system.discontinuity().at_switch == AtSwitch::kEnd),
+        keeps_pieces_(locates_),
         coarse_(system.sizes()),
         middle_(system.sizes()) {}
   static bool ownOrders(const IntegratorOptions& options) {
@@ -187,7 +189,8 @@ class Doubling : public StepAttempt<Real> {
   double rough_whole_ = 0, rough_halves_ = 0;
   int order_;
   bool interpolate_;
-  bool keeps_pieces_;  // for the dense output of `locate`
+  bool locates_;       // switches, on the dense output
+  bool keeps_pieces_;  // for the dense output
   StagePolynomial<Real> first_half_;
   State<Real> coarse_, middle_;
 };

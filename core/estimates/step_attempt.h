@@ -56,6 +56,8 @@ class StepAttempt {
   /// The parts of which the last solved step is made, in order: their starts and stages. Valid
   /// while `from` of the attempt is.
   virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
+  /// From now on all pieces are kept or, where nobody else needs them, perhaps not.
+  virtual void keepPieces(bool keep) { static_cast<void>(keep); }
 };
 
 /// `error`, or a larger one whose leading term is h^q where the controller expects h^(p+1): so that its

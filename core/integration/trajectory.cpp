@@ -54,6 +54,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const std::vector<Schem
       start_(system, options.derivatives, schemes[start].first > 0),
       constraints_(system, norm_, options.tolerances),
       switches_(system),
+      inside_(system),
       state_(system.sizes()),
       next_(system.sizes()) {
   const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
@@ -71,7 +72,9 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   blamed_ = -1;
   note_.clear();
   round_off_ = 0;
+  last_rejection_ = nullptr;
   attempt_->begin();
+  attempt_->keepPieces(monitor.inside);
   jacobian_.forgetPattern();
   restart();
   followOrder(1, 0);
@@ -92,10 +95,18 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
   blamed_ = -1;
   if (result.outcome != Outcome::kSuccess) {
     ++counters_.steps_rejected_newton;
+    last_rejection_ = "Newton";
     blamed_ = result.switched;
     followOrder(1, 0);
   }
   return result;
+}
+
+template <class Real>
+StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
+  const StepDecision decision = controller_->decide(result.error, h);
+  if (!decision.accept) last_rejection_ = "the error";
+  return decision;
 }
 
 template <class Real>
@@ -156,9 +167,17 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
     if (modes_->restarts()) restart();
   }
   if (chatter_.step(step.switched)) noteChattering(attempt.switched);
-  if (!monitor_->accepted) return;
+  if (monitor_->accepted) report(step);
+}
+
+// The step began at what is now `next_`.
+template <class Real>
+void Trajectory<Real>::report(const CommittedStep<Real>& step) {
+  const AttemptResult& attempt = step.attempt;
   const State<Real> scene = system_.toScene(state_);
-  monitor_->accepted({state_.t, static_cast<double>(step.h), attempt.error, attempt.newton_iterations, scene});
+  const bool inside = monitor_->inside && inside_.begin(next_, state_.t, scene, attempt_->pieces(next_));
+  monitor_->accepted({state_.t, static_cast<double>(step.h), attempt.error, attempt.newton_iterations, scene,
+                      inside ? &inside_ : nullptr});
 }
 
 // The new mode and its (a, k, z), which may make further switches due.
@@ -264,6 +283,7 @@ std::string Trajectory<Real>::rejections() const {
   const Counters& c = counters_;
   std::string text = "(" + std::to_string(c.steps_accepted) + " accepted, rejected by the error " +
                      std::to_string(c.steps_rejected_error) + ", by Newton " + std::to_string(c.steps_rejected_newton);
+  if (last_rejection_) text += std::string(", the last by ") + last_rejection_;
   const Index i = attempt_->worstComponent();
   if (i >= 0) text += "; largest error in " + componentName(system_.sizes(), i);
   return text + ")";

@@ -10,6 +10,7 @@
 #include "core/derivatives/projection.h"
 #include "core/estimates/step_attempt.h"
 #include "core/integration/constraint_check.h"
+#include "core/integration/inside_attempt.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
 #include "irk/monitor.h"
@@ -33,7 +34,7 @@ class Trajectory {
   /// After a failure that a shorter step may avoid: forgets what was predicted from, and returns the size to try next.
   double shorten(double h);
   /// What the controller says to the tried step of size h; not with fixed steps.
-  StepDecision decide(const AttemptResult& result, double h) { return controller_->decide(result.error, h); }
+  StepDecision decide(const AttemptResult& result, double h);
   /// Takes over the tried step of size h, which ends at `end`; it may be shortened to the first switch in it. What is
   /// no success cannot be passed; isRecoverable: the shortened step could not be solved within the tolerance, and
   /// nothing was taken over.
@@ -58,6 +59,7 @@ class Trajectory {
   Outcome settle();
   Outcome restartAtSwitch();
   void takeOver(const CommittedStep<Real>& step);
+  void report(const CommittedStep<Real>& step);
   void followOrder(double error, double h);
   void noteChattering(Index i);
   void addNote(const std::string& text);
@@ -81,13 +83,15 @@ class Trajectory {
   std::unique_ptr<VelocityProjection<Real>> projection_;
   Switches<Real> switches_;
   ChatterDetector chatter_;
+  InsideAttempt<Real> inside_;
   State<Real> state_, next_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
-  std::string start_detail_;  // of a start that is not consistent
-  std::string note_;          // of a success
-  double round_off_ = 0;      // of Newton, the largest of the accepted steps, in tolerances
-  Index blamed_ = -1;         // the switching function that a failure is to be blamed on
+  std::string start_detail_;              // of a start that is not consistent
+  std::string note_;                      // of a success
+  double round_off_ = 0;                  // of Newton, the largest of the accepted steps, in tolerances
+  Index blamed_ = -1;                     // the switching function that a failure is to be blamed on
+  const char* last_rejection_ = nullptr;  // what rejected a step last; null: none was
 };
 
 }  // namespace irk

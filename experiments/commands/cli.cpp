@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/shell.h"
 #include "experiments/own/compiler.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
@@ -59,6 +60,7 @@ class Program {
     addPlots();
     addMerging();
     addReference();
+    addShell();
   }
 
   int run(std::vector<std::string> arguments, Streams streams) {
@@ -106,6 +108,8 @@ class Program {
 
   CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning, Action action) {
     auto* sub = parent.add_subcommand(name, meaning);
+    const std::string examples = examplesOf(&parent == &app_ ? name : parent.get_name() + ' ' + name);
+    if (!examples.empty()) sub->footer("Examples:\n" + examples);
     sub->final_callback([this, action = std::move(action)] { action_ = action; });
     return sub;
   }
@@ -189,11 +193,23 @@ class Program {
 
   void addSolve() {
     auto* sub = verb(app_, "solve", "one integration", [this](Streams s) { return solve(s); });
-    sub->add_option("--tol", solve_.tol, "Sets both rtol and atol. [0 < x < 1]")->type_name("NUMBER");
+    sub->add_option(
+           "--tol", solve_.tol,
+           "Sets both rtol and atol. A list of values, of this or of any option, makes all combinations. [0 < x < 1]")
+        ->type_name("NUMBER");
     addLoad(*sub);
     sub->add_flag("--json", solve_.json, "Print one JSON object.");
     sub->add_option("--plot", solve_.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
         ->type_name("FILE");
+    sub->add_option(
+           "--out", solve_.out,
+           "Write the solution over time to FILE.csv or, as JSON lines, to FILE.jsonl: components, outputs, steps, "
+           "and a row before and after each located switch. A run that fails leaves what it has computed.")
+        ->type_name("FILE");
+    sub->add_option(
+           "--points", solve_.points,
+           "So many equally spaced times in --out, both ends included [2 .. 1000000; default: the accepted steps]")
+        ->type_name("INTEGER");
     for (const auto& field : specFields()) addField(*sub, field);
   }
 
@@ -342,6 +358,13 @@ class Program {
                   "Write to problems/reference of the sources instead of --out.");
   }
 
+  void addShell() {
+    auto* completion = verb(app_, "completion", "a script for the shell that completes verbs, options and their values",
+                            [this](Streams s) { return printCompletion(app_, shell_, s.out), 0; });
+    completion->add_option("shell", shell_, "bash, zsh or fish")->required();
+    verb(app_, "man", "this help as a manual page (roff)", [this](Streams s) { return printManual(app_, s.out), 0; });
+  }
+
   int parseJobs() const { return integer("jobs", jobs_, kJobs); }
 
   CLI::App app_;
@@ -350,7 +373,7 @@ class Program {
   std::string stale_ = "keep", times_ = "all";
   std::string study_, shard_, what_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
-  std::string out_ = "stability";
+  std::string out_ = "stability", shell_;
   std::vector<std::string> folders_, methods_, load_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;

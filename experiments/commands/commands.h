@@ -20,6 +20,8 @@ struct SolveOptions {
   std::vector<std::string> settings;  ///< name=value
   std::string step, tol;              ///< empty: not given
   std::string plot;                   ///< a file for the figure, in a folder that exists; .svg or .png is cut off
+  std::string out;                    ///< a file for the solution over time, see solutionFile
+  std::string points;                 ///< its equally spaced times; empty: the accepted steps
   bool json = false;
 };
 int solveCommand(const SolveOptions& options, Streams streams);
@@ -27,8 +29,23 @@ int solveCommand(const SolveOptions& options, Streams streams);
 /// The spec that the options describe. Throws Misuse.
 RunSpec solveSpec(const SolveOptions& options);
 
-/// The JSON object that `irk solve --json` prints.
-std::string solveJson(const RunRecord& record);
+/// The JSON object that `irk solve --json` prints, see solve.schema.json; indent -1: in one line.
+std::string solveJson(const RunRecord& record, int indent = 2);
+
+/// The runs that options with lists describe, `m=1,2,4`: all combinations, the last list changes fastest. Throws
+/// Misuse for empty and repeated items.
+struct Sweep {
+  struct Run {
+    SolveOptions options;             ///< without lists
+    std::vector<std::string> values;  ///< of the lists
+  };
+  std::vector<std::string> names;  ///< of the lists: "m", "tol"; empty: one run
+  std::vector<Run> runs;
+};
+Sweep sweepOf(const SolveOptions& options);
+/// Makes the runs of a sweep: a table with a line per run or, with `json`, a line with its JSON object. Returns 1 if
+/// a run failed.
+int solveSweep(const Sweep& sweep, Streams streams);
 
 struct RunOptions {
   std::string study;  ///< id or file

@@ -15,6 +15,7 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
+#include "experiments/runs/solution_file.h"
 #include "experiments/runs/trajectory.h"
 #include "experiments/runs/unused_options.h"
 #include "experiments/tables/environment.h"
@@ -103,6 +104,50 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+constexpr Range kPoints = Range::integers(2, 1'000'000);
+// Curves between them show no corners.
+constexpr int kPlotPoints = 1000;
+
+/// The user's file of a run, made with its first row: a refused run leaves an older file as it is.
+class OutFile {
+ public:
+  OutFile(const SolveOptions& options, const RunSpec& spec)
+      : path_(options.out), rows_(times(options, spec), spec.t_end, [this, &spec](const SolutionRow& row) {
+          if (!file_) file_ = solutionFile(path_, spec);
+          file_->append(row);
+          t_ = row.t;
+        }) {
+    if (asked()) requireSolutionPath(path_);
+  }
+
+  void addTo(Watch& watch) {
+    if (asked()) rows_.addTo(watch);
+  }
+  void finish(const RunRecord& record, std::ostream& err) {
+    if (!asked()) return;
+    rows_.finish(record);
+    if (record.succeeded() || !file_) return;
+    printErrorLine(err, fmt::format("{} holds the solution up to t = {:.15g}: {}", path_, t_, record.outcome));
+  }
+
+ private:
+  bool asked() const { return !path_.empty(); }
+  static RowTimes times(const SolveOptions& options, const RunSpec& spec) {
+    if (options.points.empty()) return {};
+    if (options.out.empty()) throw Misuse("--points belongs to --out, which is not given");
+    if (findPeer(spec.method)) {
+      throw Misuse(fmt::format(
+          "--points: method '{}' gives the solution at the ends of its steps only; leave --points out", spec.method));
+    }
+    return {static_cast<int>(parseInteger("points", options.points, kPoints)), false};
+  }
+
+  std::string path_;
+  SolutionRows rows_;
+  std::unique_ptr<SolutionFile> file_;
+  double t_ = 0;
+};
+
 // Records the solution in a temporary folder and draws it.
 RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot, std::ostream& err,
                        bool& drawn) {
@@ -110,7 +155,7 @@ RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::strin
   const auto out = figurePath("--plot", plot);
   const ScratchFolder folder;
   const auto file = folder.path() / (spec.scene + ".csv");
-  const RunRecord record = executeWithTrajectory(spec, watch, file);
+  const RunRecord record = executeWithTrajectory(spec, watch, file, {kPlotPoints, true});
   drawn = drawFigure("scene_solution.gp",
                      fmt::format("data='{}'; out='{}'; scene='{}'; file_name='{}'", folder.path().string(),
                                  out.string(), spec.scene, file.stem().string()),
@@ -153,15 +198,20 @@ RunSpec solveSpec(const SolveOptions& options) {
 }
 
 int solveCommand(const SolveOptions& options, Streams streams) {
+  const Sweep sweep = sweepOf(options);
+  if (!sweep.names.empty()) return solveSweep(sweep, streams);
   const RunSpec spec = solveSpec(options);
+  OutFile out(options, spec);
   const InterruptScope interrupts;
   ReferenceLibrary references({.jobs = threadCount(0), .stop = &interruptFlag(), .tell = [&](const std::string& line) {
                                  fmt::print(streams.err, "{}\n", line);
                                }});
-  const Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
+  Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
+  out.addTo(watch);
   bool drawn = true;
   const RunRecord record =
       options.plot.empty() ? execute(spec, watch) : solveAndPlot(spec, watch, options.plot, streams.err, drawn);
+  out.finish(record, streams.err);
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {

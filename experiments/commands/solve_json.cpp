@@ -4,6 +4,8 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/setup.h"
+#include "experiments/tables/build_info.h"
 
 namespace irk {
 namespace {
@@ -62,18 +64,37 @@ void addSwitches(const RunRecord& record, Json& json) {
   }
 }
 
+// The components in the order of u, v, x, z.
+void addNames(const Scene<double>& scene, Json& json) {
+  const Sizes n = scene.sizes();
+  json["names"] = json["units"] = Json::object();
+  std::size_t i = 0;
+  for (const auto& [group, count] : {std::pair{"u", n.nu}, {"v", n.nu}, {"x", n.nx}, {"z", n.nz}}) {
+    Json& names = json["names"][group] = Json::array();
+    Json& units = json["units"][group] = Json::array();
+    for (Index k = 0; k < count; ++k, ++i) {
+      names.push_back(i < scene.names.size() ? scene.names[i] : "");
+      units.push_back(i < scene.units.size() ? scene.units[i] : "");
+    }
+  }
+  json["units"]["t"] = scene.time_unit;
+}
+
 }  // namespace
 
-std::string solveJson(const RunRecord& record) {
+std::string solveJson(const RunRecord& record, int indent) {
   const Counters& c = record.counters;
   std::size_t place = 0;
   Json json;
+  json["schema"] = "irk-solve-1";
+  json["version"] = buildInfo().version;
   json["outcome"] = record.outcome;
   json["t"] = record.t;
   json["u"] = numbers(record, record.u, place);
   json["v"] = numbers(record, record.v, place);
   json["x"] = numbers(record, record.x, place);
   json["z"] = numbers(record, record.z, place);
+  addNames(sceneOf<double>(record.spec), json);
   json["error"] = record.errors.all;
   json["drift"] = record.errors.drift;
   json["reference"] = referenceName(record.errors.reference);
@@ -91,7 +112,7 @@ std::string solveJson(const RunRecord& record) {
   if (!record.detail.empty()) json["detail"] = record.detail;
   json["cpu_s"] = record.cpu_s;
   json["spec"] = specObject(record.spec);
-  return json.dump(2);
+  return json.dump(indent);
 }
 
 }  // namespace irk

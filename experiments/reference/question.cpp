@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiments/base/numbers.h"
+#include "experiments/own/files.h"
 #include "experiments/runs/setup.h"
 #include "experiments/tables/build_info.h"
 
@@ -29,6 +30,6 @@ std::string placeText(const ReferenceQuestion& question) {
                      settingsText(question.settings), question.smooth ? " smooth" : "", numberText(question.t_end));
 }
 
-std::string sourceOf(const SceneEntry&) { return ""; }
+std::string sourceOf(const SceneEntry& scene) { return own::hashOf("scene", scene.id); }
 
 }  // namespace irk

@@ -24,13 +24,21 @@ std::vector<Panel> onePerColumn(const std::vector<std::string>& columns) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> namesAndUnits(const Scene<double>& scene) {
+  std::vector<std::pair<std::string, std::string>> columns;
+  for (std::size_t i = 0; i < scene.names.size(); ++i) {
+    columns.emplace_back(scene.names[i], i < scene.units.size() ? scene.units[i] : "");
+  }
+  for (const auto& output : scene.outputs) columns.emplace_back(output.name, output.unit);
+  return columns;
+}
+
 TableHead panelHead(const SceneEntry& entry, const Scene<double>& scene) {
-  std::vector<std::string> columns = scene.names;
+  std::vector<std::string> columns;
   std::map<std::string, std::string, std::less<>> units;
-  for (std::size_t i = 0; i < scene.units.size(); ++i) units[scene.names[i]] = scene.units[i];
-  for (const auto& output : scene.outputs) {
-    columns.push_back(output.name);
-    units[output.name] = output.unit;
+  for (const auto& [name, unit] : namesAndUnits(scene)) {
+    columns.push_back(name);
+    units[name] = unit;
   }
   std::string text;
   for (const Panel& panel : entry.panels.empty() ? onePerColumn(columns) : entry.panels) {

@@ -5,6 +5,7 @@
 #include "core/system/first_order.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
+#include "experiments/runs/component_names.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/setup.h"
@@ -32,6 +33,10 @@ class RungeKutta {
   Index stages() const { return isFamily(setup_.spec.method) ? 0 : setup_.stages(); }
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     auto solution = integrator_.integrate(start, t_end, monitor);
+    if (solution.detail.find('[') != std::string::npos) {
+      const Sizes sizes{.nu = start.u.size(), .nx = start.x.size(), .nz = start.z().size()};
+      solution.detail = withNames(solution.detail, scene().names, sizes, setup_.system->sizes());
+    }
     const auto* form = dynamic_cast<const FirstOrderForm<Real>*>(setup_.system.get());
     if (form && solution.detail.empty()) {
       solution.detail = "mass factorizations: " + std::to_string(form->massFactorizations());
@@ -95,15 +100,18 @@ class Prepared final : public PreparedRun {
     if (watch.accepted) {
       const double none = std::numeric_limits<double>::quiet_NaN();
       watch.accepted({static_cast<double>(scene_.start.t), none, none, 0, values(scene_.start)});
+      monitor.inside = watch.inside;
       monitor.accepted = [&](const StepRecord<Real>& step) {
-        watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations, values(step.state)});
+        Inside inside(*this, step.inside);
+        watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations, values(step.state),
+                        step.inside ? &inside : nullptr});
       };
     }
     std::vector<SwitchEvent> switches;
     monitor.switched = [&](const SwitchRecord<Real>& change) {
       const double t = static_cast<double>(change.t);
       if (switches.size() < kMaxRecordedSwitches) switches.push_back({t, change.name});
-      if (watch.switched) watch.switched(t, change.name);
+      if (watch.switched) watch.switched(t, change.name, values(change.state));
     };
     const auto t_end = decimalNumber<Real>(spec_.t_end);
     const auto solution = method_.integrate(scene_.start, t_end, monitor);
@@ -121,6 +129,16 @@ class Prepared final : public PreparedRun {
   }
 
  private:
+  class Inside final : public ValuesInside {
+   public:
+    Inside(const Prepared& run, InsideStep<Real>* step) : run_(run), step_(step) {}
+    std::vector<double> at(double t) override { return run_.values(step_->at(Real(t))); }
+
+   private:
+    const Prepared& run_;
+    InsideStep<Real>* step_;
+  };
+
   std::vector<double> values(const State<Real>& state) const {
     std::vector<double> all;
     const auto append = [&all](const Vec<double>& y) { all.insert(all.end(), y.begin(), y.end()); };

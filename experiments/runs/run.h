@@ -43,6 +43,16 @@ struct RunRecord {
 /// Limit of recorded switches: a chattering run has no end of them.
 constexpr std::size_t kMaxRecordedSwitches = 1000;
 
+/// The solution inside an accepted step, see InsideStep in irk/monitor.h.
+class ValuesInside {
+ public:
+  /// The components and outputs of PreparedRun::columns at t.
+  virtual std::vector<double> at(double t) = 0;
+
+ protected:
+  ~ValuesInside() = default;
+};
+
 /// An accepted step, or the start, where h and error are NaN and the iterations 0.
 struct AcceptedStep {
   double t;  ///< at its end
@@ -50,17 +60,20 @@ struct AcceptedStep {
   double error;  ///< estimate in units of the tolerance; NaN without one
   int newton_iterations;
   std::span<const double> values;  ///< the components and outputs of PreparedRun::columns
+  ValuesInside* inside = nullptr;  ///< valid during the callback; null: not asked for, or not known (peers)
 };
 
 /// The caller's stop flag and callbacks during a run. All are optional.
 struct Watch {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const AcceptedStep&)> accepted;
-  /// Called at each change of the mode.
-  std::function<void(double t, const std::string& name)> switched;
+  /// Called at each change of the mode with the values just after it: after the step that ends there (`locate`), or
+  /// before the step in which it happens.
+  std::function<void(double t, const std::string& name, std::span<const double> values)> switched;
   /// The reference of a run with `reference = auto` for which nothing is stored (needsReference); called after the
   /// integration, with the resolved spec. Without it the error is unknown.
   std::function<MadeReference(const RunSpec& spec)> reference = {};
+  bool inside = false;  ///< whether `accepted` asks for AcceptedStep::inside
 };
 
 /// Scene, tableau and integrator of a spec: built once, run as often as wanted. Use one object per thread.

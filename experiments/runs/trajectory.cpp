@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <utility>
 #include <vector>
 
-#include "experiments/base/numbers.h"
-#include "experiments/runs/panels.h"
-#include "experiments/tables/environment.h"
-#include "experiments/tables/table.h"
+#include "experiments/runs/solution_file.h"
 
 namespace irk {
 namespace {
@@ -17,30 +12,26 @@ namespace {
 // More rows than a figure has pixels only slow it down.
 constexpr std::size_t kMaxRows = 2000;
 
-// The columns before the components. A row summarizes the steps since the previous row.
-constexpr std::string_view kStepColumns[] = {"t", "h", "error", "newton_iterations", "switches"};
-
 struct Row {
-  double t, h, error;
-  int newton_iterations, switches;
+  SolutionRow row;
   std::vector<double> values;
 };
 
-// Combines two rows: the end of the second, the smallest step and the largest error.
+// Combines two rows: the end of the second, the smallest step, the largest error, the last switches.
 Row merged(const Row& a, const Row& b) {
-  return {b.t,
-          std::fmin(a.h, b.h),
-          std::fmax(a.error, b.error),
-          std::max(a.newton_iterations, b.newton_iterations),
-          a.switches + b.switches,
-          b.values};
+  Row both = b;
+  both.row.h = std::fmin(a.row.h, b.row.h);
+  both.row.error = std::fmax(a.row.error, b.row.error);
+  both.row.newton_iterations = std::max(a.row.newton_iterations, b.row.newton_iterations);
+  if (b.row.switches.empty()) both.row.switches = a.row.switches;
+  return both;
 }
 
 // Keeps rows at equal distances in time, not every n-th row: most rows are small steps at switches, which show
 // little.
 std::vector<Row> thinned(const std::vector<Row>& rows) {
   if (rows.size() <= kMaxRows) return rows;
-  const double spacing = (rows.back().t - rows.front().t) / static_cast<double>(kMaxRows);
+  const double spacing = (rows.back().row.t - rows.front().row.t) / static_cast<double>(kMaxRows);
   std::vector<Row> kept{rows.front()};
   bool open = false;  // the last row still absorbs the next steps
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -49,16 +40,9 @@ std::vector<Row> thinned(const std::vector<Row>& rows) {
     } else {
       kept.push_back(rows[i]);
     }
-    open = kept.back().t < kept[kept.size() - 2].t + spacing;
+    open = kept.back().row.t < kept[kept.size() - 2].row.t + spacing;
   }
   return kept;
-}
-
-TableRow cells(const Row& row) {
-  TableRow cells{numberText(row.t), numberText(row.h), numberText(row.error), std::to_string(row.newton_iterations),
-                 std::to_string(row.switches)};
-  for (const double value : row.values) cells.push_back(numberText(value));
-  return cells;
 }
 
 }  // namespace
@@ -71,28 +55,23 @@ std::filesystem::path trajectoryPath(const std::filesystem::path& folder, const 
   return folder / (name + '.' + method + ".csv");
 }
 
-RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch, const std::filesystem::path& file) {
+RunRecord executeWithTrajectory(const RunSpec& spec, const Watch& watch, const std::filesystem::path& file,
+                                const RowTimes& times) {
   const auto run = prepare(spec);
+  const RunSpec whole = resolved(spec);
   std::vector<Row> rows;
-  int switches = 0;
+  SolutionRows solution(times, whole.t_end, [&rows](const SolutionRow& row) {
+    rows.push_back({row, {row.values.begin(), row.values.end()}});
+  });
   Watch recording = watch;
-  recording.accepted = [&](const AcceptedStep& step) {
-    rows.push_back({step.t,
-                    step.h,
-                    step.error,
-                    step.newton_iterations,
-                    std::exchange(switches, 0),
-                    {step.values.begin(), step.values.end()}});
-  };
-  recording.switched = [&](double, const std::string&) { ++switches; };
+  solution.addTo(recording);
   const RunRecord record = run->execute(recording);
-  Table table{
-      environmentHead("trajectory of " + spec.scene, 1), {std::begin(kStepColumns), std::end(kStepColumns)}, {}};
-  for (auto& line : panelHead(findScene(spec.scene), makeScene<double>(spec.scene, settingsAtStep(spec)))) {
-    table.head.push_back(std::move(line));
+  solution.finish(record);
+  Table table = solutionTable(whole);
+  for (Row& row : thinned(rows)) {
+    row.row.values = row.values;
+    table.rows.push_back(solutionCells(row.row));
   }
-  for (const auto& name : run->columns()) table.columns.push_back(name);
-  for (const auto& row : thinned(rows)) table.rows.push_back(cells(row));
   writeTable(file, table);
   return record;
 }

@@ -10,6 +10,21 @@
 
 namespace irk {
 
+/// The solution inside an accepted step (dense output): the polynomial through the stages, integrated from the step's
+/// start. Its order is that of the stages, not that of the step's end: for a collocation method with s stages about
+/// s + 1 (u one more, a, k and z one less), for other methods at most their stage order plus 2, and in no case more
+/// than the method's order. With a higher tolerance than its order deserves it is less accurate than the steps.
+template <class Real>
+class InsideStep {
+ public:
+  /// The state at t, in the scene's unknowns. t is taken into the step. At its ends these are the states of the steps,
+  /// at the start with the discrete state of the step.
+  virtual State<Real> at(const Real& t) = 0;
+
+ protected:
+  ~InsideStep() = default;
+};
+
 /// One accepted step. `state`, in the scene's unknowns (u, v, x, z), is valid during the callback only.
 template <class Real>
 struct StepRecord {
@@ -18,6 +33,9 @@ struct StepRecord {
   double error;           ///< error estimate in the error norm; NaN without an estimate
   int newton_iterations;  ///< of the whole attempt, all its solves together
   const State<Real>& state;
+  /// Valid during the callback only. Null: not asked for (Monitor::inside), or not known, as of integrators of other
+  /// libraries and of methods that have a stage time twice.
+  InsideStep<Real>* inside = nullptr;
 };
 
 /// One switch. `state`: just after the switch, in the scene's unknowns; valid during the callback only.
@@ -33,6 +51,7 @@ struct SwitchRecord {
 template <class Real>
 struct Monitor {
   std::function<void(const StepRecord<Real>&)> accepted;
+  bool inside = false;  ///< whether `accepted` asks for StepRecord::inside; without it nothing is kept for that
   std::function<void(const SwitchRecord<Real>&)> switched;
   /// Called before each step. kSuccess continues; kTimeout or kInterrupted ends the integration with that outcome.
   std::function<Outcome()> interrupt;

@@ -26,8 +26,9 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
       program({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10", "--t-end", "1", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_EQ(keysOf(json), (std::set<std::string>{"outcome", "t", "u", "v", "x", "z", "error", "drift", "reference",
-                                                 "steps", "counters", "cpu_s", "spec"}));
+  EXPECT_EQ(keysOf(json),
+            (std::set<std::string>{"schema", "version", "outcome", "t", "u", "v", "x", "z", "names", "units", "error",
+                                   "drift", "reference", "steps", "counters", "cpu_s", "spec"}));
   EXPECT_EQ(json["reference"], "file");
   EXPECT_EQ(keysOf(json["steps"]), (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),

@@ -1,0 +1,82 @@
+#include "experiments/runs/solution_rows.h"
+
+#include <utility>
+
+#include "irk/misuse.h"
+
+namespace irk {
+
+SolutionRows::SolutionRows(RowTimes times, double t_end, std::function<void(const SolutionRow&)> take)
+    : times_(times), t_end_(t_end), take_(std::move(take)) {}
+
+void SolutionRows::addTo(Watch& watch) {
+  watch.inside = watch.inside || times_.points > 0;
+  watch.accepted = [this, before = watch.accepted](const AcceptedStep& step) {
+    if (before) before(step);
+    accepted(step);
+  };
+  watch.switched = [this, before = watch.switched](double t, const std::string& name, std::span<const double> values) {
+    if (before) before(t, name, values);
+    switched(t, name, values);
+  };
+}
+
+double SolutionRows::time(int i) const {
+  if (i + 1 == times_.points) return t_end_;
+  return start_ + (t_end_ - start_) * i / (times_.points - 1);
+}
+
+void SolutionRows::show() {
+  last_.values = values_;
+  take_(last_);
+  shown_ = true;
+}
+
+// The points before the end of the step.
+void SolutionRows::fill(const AcceptedStep& step) {
+  for (; next_ < times_.points && time(next_) < step.t; ++next_) {
+    if (!step.inside && times_.steps) continue;
+    if (!step.inside) {
+      throw Misuse("--points: this method gives the solution at the ends of its steps only; leave --points out");
+    }
+    const double t = time(next_);
+    const auto values = step.inside->at(t);
+    take_({t, step.h, step.error, step.newton_iterations, "", values});
+  }
+}
+
+void SolutionRows::accepted(const AcceptedStep& step) {
+  if (!std::exchange(started_, true)) start_ = step.t;
+  fill(step);
+  bool is_point = false;
+  for (; next_ < times_.points && time(next_) == step.t; ++next_) is_point = true;
+  last_ = {step.t, step.h, step.error, step.newton_iterations, std::exchange(inside_, ""), {}};
+  values_.assign(step.values.begin(), step.values.end());
+  shown_ = false;
+  if (times_.steps || is_point || !last_.switches.empty()) show();
+}
+
+void SolutionRows::switched(double t, const std::string& name, std::span<const double> values) {
+  if (t > last_.t) {
+    inside_ += (inside_.empty() ? "" : "; ") + name;
+    return;
+  }
+  if (!shown_) show();
+  values_.assign(values.begin(), values.end());
+  last_.switches = name;
+  show();
+}
+
+void SolutionRows::finish(const RunRecord& record) {
+  if (!record.succeeded()) {
+    if (started_ && !shown_) show();
+    return;
+  }
+  if (next_ >= times_.points) return;
+  next_ = times_.points;
+  last_.t = t_end_;
+  last_.switches.clear();
+  show();
+}
+
+}  // namespace irk

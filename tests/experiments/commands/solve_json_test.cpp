@@ -1,0 +1,157 @@
+// The JSON of `irk solve` against its schema, and what it says of the components.
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/experiments/program.h"
+
+namespace irk {
+namespace {
+
+using Json = nlohmann::json;
+
+Json schema() {
+  std::ifstream file(IRK_SOURCE_DIR "/experiments/commands/solve.schema.json");
+  return Json::parse(file);
+}
+
+bool isOfType(const Json& value, const std::string& type) {
+  if (type == "object") return value.is_object();
+  if (type == "array") return value.is_array();
+  if (type == "string") return value.is_string();
+  if (type == "integer") return value.is_number_integer();
+  if (type == "number") return value.is_number();
+  return type == "null" && value.is_null();
+}
+
+std::vector<std::string> typesOf(const Json& schema) {
+  const Json& type = schema.at("type");
+  return type.is_array() ? type.get<std::vector<std::string>>() : std::vector<std::string>{type.get<std::string>()};
+}
+
+// The part of JSON Schema that the file uses; another keyword is an error. Appends what is wrong.
+void validate(const Json& value, const Json& schema, const std::string& place, std::vector<std::string>& wrong) {
+  const Json known{"$schema",    "title", "description", "type", "required", "additionalProperties",
+                   "properties", "items", "const"};
+  for (const auto& [keyword, content] : schema.items()) {
+    if (std::find(known.begin(), known.end(), keyword) == known.end()) wrong.push_back("keyword " + keyword);
+  }
+  if (schema.contains("const") && value != schema["const"]) wrong.push_back(place + ": another constant");
+  if (schema.contains("type")) {
+    const auto types = typesOf(schema);
+    if (std::none_of(types.begin(), types.end(), [&](const auto& type) { return isOfType(value, type); })) {
+      wrong.push_back(place + ": of another type, " + value.dump());
+      return;
+    }
+  }
+  for (const auto& key : schema.value("required", Json::array())) {
+    if (!value.contains(key.get<std::string>())) wrong.push_back(place + ": no " + key.get<std::string>());
+  }
+  if (value.is_array() && schema.contains("items")) {
+    for (const auto& item : value) validate(item, schema["items"], place + "[]", wrong);
+  }
+  if (!value.is_object()) return;
+  const Json properties = schema.value("properties", Json::object());
+  const Json others = schema.value("additionalProperties", Json(true));
+  for (const auto& [key, content] : value.items()) {
+    if (properties.contains(key)) {
+      validate(content, properties[key], place + '.' + key, wrong);
+    } else if (others.is_object()) {
+      validate(content, others, place + '.' + key, wrong);
+    } else if (others == false) {
+      wrong.push_back(place + ": unknown key " + key);
+    }
+  }
+}
+
+std::vector<std::string> validated(const Json& value) {
+  std::vector<std::string> wrong;
+  validate(value, schema(), "", wrong);
+  return wrong;
+}
+
+Json solved(std::vector<std::string> arguments, int status = 0) {
+  arguments.insert(arguments.begin(), "solve");
+  arguments.emplace_back("--json");
+  const Ended run = program(arguments);
+  EXPECT_EQ(run.status, status) << run.err;
+  return Json::parse(run.out);
+}
+
+TEST(SolveJson, EveryKindOfRunFollowsTheSchema) {
+  struct Run {
+    std::vector<std::string> arguments;
+    int status = 0;
+  };
+  const Run runs[] = {
+      {{"slider_crank", "--tol", "1e-6"}},
+      {{"slider_crank", "--formulation", "ggl", "--t-end", "0.1"}},
+      {{"slider_crank", "--method", "gauss_3", "--tol", "1e-4"}, 1},
+      {{"stick_slip", "--tol", "1e-6"}},
+      {{"prothero_robinson", "--set", "lambda=-1e8/h", "--step", "0.1"}},
+      {{"kepler", "--max-steps", "2"}, 1},
+      {{"kepler", "--method", "cvode_bdf"}},
+      {{"bouncing_mass", "--method", "cvode_bdf"}},
+      {{"slider_crank", "--method", "ida_bdf"}},
+      {{"van_der_pol", "--configuration", "variable"}},
+      {{"riccati_tracking", "--scalar", "mp50", "--step", "0.5", "--method", "gauss_3"}},
+      {{"riccati_tracking", "--scalar", "mp100", "--step", "0.5", "--method", "gauss_3"}},
+  };
+  for (const Run& run : runs) {
+    SCOPED_TRACE(run.arguments[0] + (run.arguments.size() > 2 ? ' ' + run.arguments[2] : ""));
+    const Json json = solved(run.arguments, run.status);
+    EXPECT_EQ(validated(json), std::vector<std::string>{});
+    for (const char* group : {"u", "v", "x", "z"}) {
+      EXPECT_EQ(json["names"][group].size(), json[group].size()) << group;
+      EXPECT_EQ(json["units"][group].size(), json[group].size()) << group;
+    }
+  }
+}
+
+TEST(SolveJson, TheSchemaRefusesOthers) {
+  const Json good = solved({"kepler"});
+  const std::vector<Json::json_pointer> places{Json::json_pointer("/names"), Json::json_pointer("/units/z"),
+                                               Json::json_pointer("/steps/accepted"), Json::json_pointer("/schema")};
+  for (const auto& place : places) {
+    Json bad = good;
+    bad[place] = 1.5;
+    EXPECT_FALSE(validated(bad).empty()) << place.to_string();
+    bad = good;
+    bad[place.parent_pointer()].erase(place.back());
+    EXPECT_FALSE(validated(bad).empty()) << place.to_string();
+  }
+  Json more = good;
+  more["unknown"] = 1;
+  EXPECT_FALSE(validated(more).empty());
+}
+
+TEST(SolveJson, NamesAndUnitsAreThoseOfTheScene) {
+  const Json json = solved({"slider_crank", "--t-end", "0.1"});
+  EXPECT_EQ(json["names"]["u"], (Json{"theta", "phi"}));
+  EXPECT_EQ(json["names"]["v"], (Json{"theta'", "phi'"}));
+  EXPECT_EQ(json["units"]["v"], (Json{"rad/s", "rad/s"}));
+  EXPECT_EQ(json["units"]["t"], "s");
+}
+
+// What limits the step: the component by its name, and what rejected the last one.
+TEST(SolveJson, AFailureNamesComponentAndCause) {
+  const std::pair<const char*, const char*> expected[] = {{"index2", "largest error in lambda"},
+                                                          {"ggl", "largest error in GGL's mult"},
+                                                          {"first_order", "largest error in theta'"}};
+  for (const auto& [formulation, text] : expected) {
+    const Ended run = program({"solve", "slider_crank", "--method", "radau_iia_2", "--tol", "1e-9", "--h-min", "1e-4",
+                               "--formulation", formulation});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_NE(run.out.find(text), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(", the last by the error"), std::string::npos) << run.out;
+  }
+  const Ended newton = program({"solve", "slider_crank", "--method", "gauss_3", "--tol", "1e-4"});
+  EXPECT_NE(newton.out.find(", the last by Newton"), std::string::npos) << newton.out;
+}
+
+}  // namespace
+}  // namespace irk
