@@ -8,6 +8,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/base/streams.h"
+#include "experiments/reference/library.h"
 #include "experiments/runner/runner.h"
 #include "experiments/runs/run.h"
 
@@ -25,6 +26,9 @@ struct SolveOptions {
   bool json = false;
 };
 int solveCommand(const SolveOptions& options, Streams streams);
+
+/// How runs of `solve` make references: on all processors, until an interrupt, with one line each to `err`.
+ReferenceLibrary::Options referenceOptions(std::ostream& err);
 
 /// The spec that the options describe. Throws Misuse.
 RunSpec solveSpec(const SolveOptions& options);

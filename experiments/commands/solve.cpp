@@ -197,15 +197,19 @@ RunSpec solveSpec(const SolveOptions& options) {
   return spec;
 }
 
+ReferenceLibrary::Options referenceOptions(std::ostream& err) {
+  return {.jobs = threadCount(0), .stop = &interruptFlag(), .tell = [&err](const std::string& line) {
+            fmt::print(err, "{}\n", line);
+          }};
+}
+
 int solveCommand(const SolveOptions& options, Streams streams) {
   const Sweep sweep = sweepOf(options);
   if (!sweep.names.empty()) return solveSweep(sweep, streams);
   const RunSpec spec = solveSpec(options);
   OutFile out(options, spec);
   const InterruptScope interrupts;
-  ReferenceLibrary references({.jobs = threadCount(0), .stop = &interruptFlag(), .tell = [&](const std::string& line) {
-                                 fmt::print(streams.err, "{}\n", line);
-                               }});
+  ReferenceLibrary references(referenceOptions(streams.err));
   Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
   out.addTo(watch);
   bool drawn = true;

@@ -145,10 +145,12 @@ int solveSweep(const Sweep& sweep, Streams streams) {
                "outcome", "error", "accepted", "rejected", "newton", "cpu_s");
   }
   const InterruptScope interrupts;
+  ReferenceLibrary references(referenceOptions(streams.err));
+  const Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
   bool failed = false;
   for (std::size_t i = 0; i < specs.size() && !interruptFlag(); ++i) {
     const RunSpec& spec = specs[i];
-    const RunRecord record = orRefused(spec, [&] { return execute(spec, {&interruptFlag(), {}, {}}); });
+    const RunRecord record = orRefused(spec, [&] { return execute(spec, watch); });
     failed = failed || !record.succeeded();
     if (first.json) {
       streams.out << solveJson(record, -1) << '\n';
