@@ -11,7 +11,7 @@
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
 #include "experiments/runs/fields.h"
-#include "experiments/runs/trajectory.h"
+#include "experiments/solution/trajectory.h"
 
 namespace irk::claims {
 namespace {

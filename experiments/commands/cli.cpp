@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
+#include "experiments/commands/arguments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/shell.h"
 #include "experiments/own/compiler.h"
@@ -20,20 +21,6 @@ namespace irk {
 namespace {
 
 using Action = std::function<int(Streams)>;
-
-// Refuses empty values, which no option and no argument has: CLI11 would read `--method= x` as `--method x`.
-void refuseEmpty(const std::vector<std::string>& arguments) {
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
-    if (argument.empty()) {
-      throw Misuse(i == 0 ? "an empty argument: a verb is expected, see irk --help"
-                          : "an empty value after '" + arguments[i - 1] + "': a value is expected");
-    }
-    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
-      throw Misuse("an empty value in '" + argument + "': a value is expected");
-    }
-  }
-}
 
 constexpr Range kJobs = Range::integers(0, 1024), kDigits = Range::integers(1, 75);
 
@@ -79,33 +66,6 @@ class Program {
   }
 
  private:
-  // Throws Misuse if argument i is not one of the parent's verbs, then checks the next argument with that verb's own
-  // ones.
-  static void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments, std::size_t i) {
-    const auto verbs = parent.get_subcommands({});
-    if (verbs.empty() || i == arguments.size() || arguments[i].starts_with('-')) return;
-    std::vector<std::string> known;
-    for (auto* sub : verbs) {
-      known.push_back(sub->get_name());
-      if (known.back() == arguments[i]) return requireKnownVerb(*sub, arguments, i + 1);
-    }
-    throw Misuse(unknownName("verb", arguments[i], known));
-  }
-
-  // Checks options before the verb; behind it CLI11 names unknown options.
-  static void requireKnownOption(const std::vector<std::string>& arguments) {
-    const std::vector<std::string> known{"--help", "-h", "--version"};
-    if (arguments.empty() || !arguments.front().starts_with('-')) return;
-    if (std::find(known.begin(), known.end(), arguments.front()) == known.end()) {
-      throw Misuse(unknownName("option before a verb", arguments.front(), known));
-    }
-  }
-
-  static std::string helpOf(const std::vector<std::string>& arguments) {
-    const bool verb = !arguments.empty() && !arguments.front().starts_with('-');
-    return verb ? "irk " + arguments.front() + " --help" : "irk --help";
-  }
-
   CLI::App* verb(CLI::App& parent, const std::string& name, const std::string& meaning, Action action) {
     auto* sub = parent.add_subcommand(name, meaning);
     const std::string examples = examplesOf(&parent == &app_ ? name : parent.get_name() + ' ' + name);

@@ -97,7 +97,7 @@ Words valuesOf(const CLI::Option& option) {
   for (const auto& field : specFields()) {
     if (field.kind != FieldKind::kAxis || optionName(field.name) != name) continue;
     Words ids;
-    for (const auto& choice : field.choices) ids.push_back(choice.id);
+    for (const auto& choice : field.choices()) ids.push_back(choice.id);
     return ids;
   }
   return listed(option.get_type_name());

@@ -15,9 +15,9 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
-#include "experiments/runs/solution_file.h"
-#include "experiments/runs/trajectory.h"
 #include "experiments/runs/unused_options.h"
+#include "experiments/solution/file.h"
+#include "experiments/solution/trajectory.h"
 #include "experiments/tables/environment.h"
 
 namespace irk {

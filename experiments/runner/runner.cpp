@@ -19,7 +19,7 @@
 #include "experiments/reference/library.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/runs/trajectory.h"
+#include "experiments/solution/trajectory.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_rules.h"
 #include "experiments/study/series_walk.h"

@@ -6,7 +6,7 @@
 
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/runs/trajectory.h"
+#include "experiments/solution/trajectory.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

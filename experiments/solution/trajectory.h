@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "experiments/runs/solution_rows.h"
+#include "experiments/solution/rows.h"
 
 namespace irk {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "experiments/runs/solution_rows.h"
+#include "experiments/solution/rows.h"
 #include "experiments/tables/table.h"
 
 namespace irk {

@@ -1,4 +1,4 @@
-#include "experiments/runs/solution_file.h"
+#include "experiments/solution/file.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
-#include "experiments/runs/panels.h"
 #include "experiments/runs/setup.h"
+#include "experiments/solution/panels.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 

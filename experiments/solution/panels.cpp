@@ -1,4 +1,4 @@
-#include "experiments/runs/panels.h"
+#include "experiments/solution/panels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,10 +1,10 @@
-#include "experiments/runs/trajectory.h"
+#include "experiments/solution/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "experiments/runs/solution_file.h"
+#include "experiments/solution/file.h"
 
 namespace irk {
 namespace {

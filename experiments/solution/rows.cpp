@@ -1,4 +1,4 @@
-#include "experiments/runs/solution_rows.h"
+#include "experiments/solution/rows.h"
 
 #include <utility>
 

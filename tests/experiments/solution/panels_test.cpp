@@ -1,5 +1,5 @@
 // The diagrams of a scene's solution.
-#include "experiments/runs/panels.h"
+#include "experiments/solution/panels.h"
 
 #include <gtest/gtest.h>
 
