@@ -84,7 +84,7 @@ do for [format in formats] {
       set title familyTitle(f) offset 0,-0.5
       set xlabel 'step h'
       set ylabel when(i == 1, 'error') offset 1,0
-      set key at graph 1.02, graph 1 left top Left reverse title 's: order'
+      set key at graph 1.02, graph 1 left top Left reverse title (has_fits ? 's: order' : 'stages')
       plot for [k in fittedIn(i, words(methods))] file using "h":(predicted(slot(i, number(k)), f, method(number(k)))) \
              smooth unique with lines lw 4 lc rgb 0xD0D0D0 notitle, \
            for [k in linesIn(i, words(methods))] file using "h":(row(f, method(number(k))) ? error(0) : NaN) \

@@ -12,7 +12,7 @@
 namespace irk {
 namespace {
 
-bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20; }
+bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7f'; }
 
 class Reader {
  public:
