@@ -7,7 +7,7 @@
 
 #include "experiments/report/block_figures.h"
 #include "experiments/runs/peers/catalogue.h"
-#include "experiments/runs/trajectory.h"
+#include "experiments/solution/trajectory.h"
 #include "experiments/study/analysis.h"
 
 namespace irk {
