@@ -44,4 +44,18 @@ std::string helpOf(const std::vector<std::string>& arguments) {
   return verb ? "irk " + arguments.front() + " --help" : "irk --help";
 }
 
+const char* valueName(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::kAxis:
+      return "ID";
+    case FieldKind::kNumber:
+      return "NUMBER";
+    case FieldKind::kInteger:
+      return "INTEGER";
+    case FieldKind::kText:
+      break;
+  }
+  return "TEXT";
+}
+
 }  // namespace irk

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/runs/fields.h"
+
 namespace irk {
 
 /// Refuses empty values, which no option and no argument has: CLI11 would read `--method= x` as `--method x`. Throws
@@ -17,5 +19,8 @@ void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& argument
 void requireKnownOption(const std::vector<std::string>& arguments);
 /// The command that prints the help of the verb: "irk solve --help".
 std::string helpOf(const std::vector<std::string>& arguments);
+
+/// What a value is called in the help: ID, NUMBER, INTEGER, TEXT.
+const char* valueName(FieldKind kind);
 
 }  // namespace irk

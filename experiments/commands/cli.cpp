@@ -11,7 +11,6 @@
 #include "experiments/commands/arguments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/shell.h"
-#include "experiments/own/compiler.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/tables/build_info.h"
@@ -176,7 +175,7 @@ class Program {
   void addField(CLI::App& sub, const SpecField& field) {
     const std::string option = optionName(field.name);
     const auto describe = [&](CLI::Option* added, const std::string& remark = "") {
-      added->description(remark + helpText(field))->type_name(kindName(field.kind));
+      added->description(remark + helpText(field))->type_name(valueName(field.kind));
       return added;
     };
     if (field.name == "scene") {
@@ -193,20 +192,6 @@ class Program {
       describe(sub.add_option(option, fields_[field.name]));
     }
   }
-  static const char* kindName(FieldKind kind) {
-    switch (kind) {
-      case FieldKind::kAxis:
-        return "ID";
-      case FieldKind::kNumber:
-        return "NUMBER";
-      case FieldKind::kInteger:
-        return "INTEGER";
-      case FieldKind::kText:
-        break;
-    }
-    return "TEXT";
-  }
-
   void addLoad(CLI::App& sub) {
     sub.add_option("--load", load_, "A file of your own with scenes, integrators or strategies: FILE.cpp.")
         ->take_all()
@@ -349,9 +334,6 @@ int runProgram(const std::vector<std::string>& arguments, Streams streams) {
   try {
     runRegistrations("");
     status = Program().run(arguments, streams);
-  } catch (const own::CompilerRefusal& refusal) {
-    streams.err << refusal.messages();
-    status = reportException(streams.err);
   } catch (...) {
     status = reportException(streams.err);
   }

@@ -17,6 +17,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/own/command.h"
 #include "experiments/tables/build_info.h"
+#include "irk/misuse.h"
 
 namespace irk::own {
 namespace {
@@ -160,8 +161,8 @@ Compiled compile(const fs::path& source, int digits, std::ostream& log) {
     fs::remove(made, none);
     fs::remove(rule, none);
     const std::string about = messagesAbout(file.string(), child.messages);
-    throw CompilerRefusal(fmt::format("{}: it does not compile", source.string()),
-                          about.empty() ? child.messages : about);
+    log << (about.empty() ? child.messages : about);
+    throw Misuse(fmt::format("{}: it does not compile", source.string()));
   }
   const auto files = userFiles(rule);
   fs::remove(rule, none);

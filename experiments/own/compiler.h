@@ -5,20 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "irk/misuse.h"
-
 namespace irk::own {
-
-/// A file that the compiler refuses. what() names it in one line; `messages` are the compiler's, those that do not
-/// concern the file left out.
-class CompilerRefusal : public Misuse {
- public:
-  CompilerRefusal(const std::string& line, std::string messages) : Misuse(line), messages_(std::move(messages)) {}
-  const std::string& messages() const { return messages_; }
-
- private:
-  std::string messages_;
-};
 
 /// A compiled file.
 struct Compiled {
@@ -28,8 +15,8 @@ struct Compiled {
 
 /// The object of `source` (a .cpp file) for numbers of 16, 50 or 100 digits: from the cache if file, included files,
 /// program and compiler are the same as when it was made, else compiled, which is told to `log`. Two processes that
-/// compile at once do not harm each other. Throws Misuse for a file that cannot be read, CompilerRefusal, and Failure
-/// without compiler.
+/// compile at once do not harm each other. Throws Misuse for a file that cannot be read, and for one that does not
+/// compile, after the compiler's messages about it were written to `log`; Failure without compiler.
 Compiled compile(const std::filesystem::path& source, int digits, std::ostream& log);
 
 /// Lines of a compiler's messages about `source`: those that begin with its name, with the lines that belong to them,

@@ -12,13 +12,13 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
-#include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/draw.h"
+#include "experiments/study/own_files.h"
 #include "experiments/study/study_file.h"
 #include "experiments/study/study_rules.h"
 #include "irk/tableaus.h"
@@ -283,30 +283,6 @@ void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
   }
   for (const auto& study : builtinStudies()) {
     if (study.id == id && study.toml != toml) refuse("a built-in study");
-  }
-}
-
-// Files of the user's own are named relative to the study's file.
-void findOwnFiles(StudyValue& value, const std::string& study_file) {
-  const auto folder = std::filesystem::path(study_file).parent_path();
-  for (auto& item : value.items) {
-    if (own::isFile(item) && std::filesystem::path(item).is_relative()) item = (folder / item).string();
-  }
-}
-
-void loadOwnFiles(StudyFile& text, const std::string& study_file) {
-  const auto load = text.study.find("load");
-  if (load != text.study.end()) {
-    findOwnFiles(load->second, study_file);
-    for (const auto& item : load->second.items) {
-      atPlace(load->second, [&] { return own::loadFile(item); });
-    }
-  }
-  for (auto& block : text.blocks) {
-    for (const auto* key : {"scene", "methods"}) {
-      const auto at = block.find(key);
-      if (at != block.end()) findOwnFiles(at->second, study_file);
-    }
   }
 }
 

@@ -1,0 +1,44 @@
+#include "experiments/study/own_files.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "experiments/own/files.h"
+#include "irk/misuse.h"
+
+namespace irk {
+namespace {
+
+void findFiles(StudyValue& value, const std::string& study_file) {
+  const auto folder = std::filesystem::path(study_file).parent_path();
+  for (auto& item : value.items) {
+    if (own::isFile(item) && std::filesystem::path(item).is_relative()) item = (folder / item).string();
+  }
+}
+
+void load(const StudyValue& files) {
+  try {
+    for (const auto& file : files.items) own::loadFile(file);
+  } catch (const Misuse& misuse) {
+    throw Misuse(fmt::format("{}: load: {}", files.place, misuse.what()));
+  }
+}
+
+}  // namespace
+
+void loadOwnFiles(StudyFile& study, const std::string& study_file) {
+  const auto files = study.study.find("load");
+  if (files != study.study.end()) {
+    findFiles(files->second, study_file);
+    load(files->second);
+  }
+  for (auto& block : study.blocks) {
+    for (const auto* key : {"scene", "methods"}) {
+      const auto at = block.find(key);
+      if (at != block.end()) findFiles(at->second, study_file);
+    }
+  }
+}
+
+}  // namespace irk
