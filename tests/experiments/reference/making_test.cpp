@@ -91,7 +91,8 @@ TEST(Making, TheRegularizedProblemHasAnotherReference) {
   const auto sharp = make({"bouncing_mass", {}, 0.9}, onlyDouble());
   const auto smooth = make({"bouncing_mass", {}, 0.9, true}, onlyDouble());
   ASSERT_TRUE(sharp.problem.empty() && smooth.problem.empty()) << sharp.problem << smooth.problem;
-  EXPECT_GT(abs(sharp.values[0].value - smooth.values[0].value), mp50(1e-8));
+  const auto &a = sharp.values[0], &b = smooth.values[0];
+  EXPECT_GT(abs(a.value - b.value), mp50(10 * (a.accuracy + b.accuracy)));
 }
 
 TEST(Making, RunsThatDisagreeGiveNone) {
@@ -111,7 +112,7 @@ TEST(Making, TakesNoLongerThanItMay) {
   limits.cpu_s = 1e-9;
   const auto made = make({"mechanical_dae", {}, 0.02}, limits);
   EXPECT_TRUE(made.values.empty());
-  EXPECT_TRUE(containsAll(made.problem, {"in 50 digits: ", "longer than 1e-09 s", "; in double: radau_iia_7"}))
+  EXPECT_TRUE(containsAll(made.problem, {"in 50 digits: ", "longer than 1e-09 s", "; in double: lobatto_iiic_6"}))
       << made.problem;
 }
 
