@@ -212,7 +212,8 @@ std::string roff(const std::string& text) {
 }
 
 void printEntry(const CLI::Option& option, std::ostream& out) {
-  const std::string type = option.get_items_expected_max() == 0 ? "" : option.get_type_name();
+  std::string type = option.get_items_expected_max() == 0 ? "" : option.get_type_name();
+  type = type.substr(0, type.find(':'));  // the values follow in the text
   fmt::print(out, ".TP\n\\fB{}\\fR{}\n{}\n", roff(nameOf(option)), roff(type.empty() ? "" : ' ' + type),
              roff(option.get_description()));
 }
