@@ -277,7 +277,7 @@ std::filesystem::path writeReport(const ReportOptions& options) {
       std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus)) : "<p>None yet: irk tableau table.</p>");
   replacePlaceholder(page, "@ENVIRONMENT@", environment);
   replacePlaceholder(page, "@DATE@", dateText());
-  const auto path = options.results / "report" / "index.html";
+  auto path = options.results / "report" / "index.html";
   std::filesystem::create_directories(path.parent_path());
   std::ofstream out(path, std::ios::binary);
   if (!(out << page).flush()) {

@@ -34,7 +34,7 @@ class Reader {
 
   /// Letters, digits and _.
   std::string word(std::string_view key, const toml::node& node) const {
-    const std::string word = text(key, node);
+    std::string word = text(key, node);
     const auto isPlain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     if (word.empty() || !std::all_of(word.begin(), word.end(), isPlain)) {
       refuse(node, fmt::format("{} = '{}': letters, digits and _ are expected", key, word));
