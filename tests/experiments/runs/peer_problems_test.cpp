@@ -7,6 +7,8 @@
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/peers/problem/make_problem.h"
 #include "experiments/runs/run.h"
+#include "irk/integrator.h"
+#include "irk/tableaus.h"
 #include "tests/experiments/heat.h"
 
 namespace irk {
@@ -74,19 +76,24 @@ TEST(PeerProblems, JacobiansAreThoseOfDifferences) {
   }
 }
 
-// The start satisfies M y' = f(t, y), with constant M (pendulum) and with (a, k) as unknowns (slider_crank).
+// The start satisfies M y' = f(t, y). Accelerations are unknowns where their factor depends on the state: on the mass
+// of slider_crank, and on the constraint of pendulum in index 1.
 TEST(PeerProblems, TheMassFormHoldsAtTheStart) {
-  for (const char* id : {"pendulum", "slider_crank", "index1_nonlinear"}) {
+  const auto added = [](const char* id, Formulation formulation) {
     const auto scene = makeScene<double>(id);
-    const Made made = make(PeerForm::kMass, scene, Formulation::kIndex1, Storage::kAutomatic);
-    const Index n = made.problem->layout().n, added = n - made.system->sizes().components();
-    EXPECT_EQ(added > 0, std::string(id) == "slider_crank") << id;
+    const Made made = make(PeerForm::kMass, scene, formulation, Storage::kAutomatic);
+    const Index n = made.problem->layout().n;
     Vec<double> f(n);
-    ASSERT_EQ(made.problem->rates(0, made.at.y.data(), f.data()), Evaluated::kDone);
+    EXPECT_EQ(made.problem->rates(0, made.at.y.data(), f.data()), Evaluated::kDone);
     const Vec<double> difference = full(made.problem->mass()) * made.at.yp - f;
     EXPECT_LT(difference.norm(), 1e-10 * (1 + f.norm())) << id;
     EXPECT_GT(f.norm(), 0) << id;
-  }
+    return n - made.system->sizes().components();
+  };
+  EXPECT_EQ(added("pendulum", Formulation::kIndex2), 0);
+  EXPECT_EQ(added("pendulum", Formulation::kIndex1), 2);
+  EXPECT_EQ(added("slider_crank", Formulation::kIndex2), 2);
+  EXPECT_EQ(added("index1_nonlinear", Formulation::kIndex2), 0);
 }
 
 TEST(PeerProblems, PatternsAreFound) {
@@ -102,12 +109,22 @@ TEST(PeerProblems, PatternsAreFound) {
   }
 }
 
+IntegratorOptions exactOptions() {
+  IntegratorOptions options;
+  options.tolerances = {.rtol = 1e-10, .atol = 1e-10};
+  return options;
+}
+
 // heat: banded solver; beam_chain: KLU, because u' = v lies far from the diagonal.
 TEST(PeerProblems, BandedAndSparseSolversAgreeWithTheDenseOne) {
   for (const char* id : {"cvode_bdf", "arkode_dirk", "ida_bdf"}) {
     for (const bool banded : {true, false}) {
       const Scene<double> scene = banded ? heatScene() : makeScene<double>("beam_chain");
       const double t_end = banded ? 0.1 : 0.02;
+      const auto system = scene.system({});
+      const auto exact =
+          Integrator<double>(system, makeTableau<double>("radau_iia_7"), exactOptions()).integrate(scene.start, t_end);
+      ASSERT_EQ(exact.outcome, Outcome::kSuccess);
       const auto end = [&](const char* storage) {
         RunSpec run = parseSpec(std::string("scene=beam_chain;method=") + id + ";storage=" + storage);
         run.options.tolerances.rtol = run.options.tolerances.atol = 1e-7;
@@ -120,8 +137,12 @@ TEST(PeerProblems, BandedAndSparseSolversAgreeWithTheDenseOne) {
         return solution;
       };
       const auto sparse = end("automatic"), dense = end("dense");
-      EXPECT_LT((sparse.state.x - dense.state.x).norm(), 1e-6) << id;
-      EXPECT_LT((sparse.state.u - dense.state.u).norm(), 1e-6) << id;
+      // Round-off decides about single iterations, and these about the error of a step.
+      const auto error = [&](const Solution<double>& solution) {
+        return (solution.state.x - exact.state.x).norm() + (solution.state.u - exact.state.u).norm();
+      };
+      EXPECT_LT(error(sparse), 2 * error(dense) + 1e-6) << id;
+      EXPECT_LT(error(sparse), 1e-2) << id;
       const auto steps = static_cast<double>(dense.counters.steps_accepted);
       EXPECT_NEAR(static_cast<double>(sparse.counters.steps_accepted), steps, 2 + 0.05 * steps) << id;
       EXPECT_GT(sparse.state.x.norm() + sparse.state.u.norm(), 0.01) << id;

@@ -59,9 +59,9 @@ bool Assembly::assemble(const Linearization<double>& D, double c, PeerJacobian& 
     }
     auto to = J.values.segment(k, count);
     to.setZero();
-    if (column.d0 != 0) to += (column.d0 == kTimesC ? c : column.d0) * D.d0.segment(first, count);
     if (column.d1 != 0) to += column.d1 * D.d1.segment(first, count);
     if (column.d2 != 0) to += column.d2 * D.d2.segment(first, count);
+    if (column.d0 != 0) to += (column.d0 == kTimesC ? c : column.d0) * D.d0.segment(first, count);
     k += count;
   }
   return J.values.allFinite();
