@@ -43,7 +43,7 @@ std::vector<ReferenceQuestion> neededBy(const std::vector<RunSpec>& resolved) {
   for (const auto& spec : resolved) {
     if (spec.reference != ReferenceUse::kAuto) continue;
     try {
-      auto question = questionOf(spec);
+      auto question = referenceQuestion(spec);
       if (seen.insert(keyText(question)).second && needsReference(spec)) questions.push_back(std::move(question));
     } catch (const Misuse&) {  // the run will be refused
     }
@@ -56,7 +56,7 @@ std::vector<ReferenceQuestion> neededBy(const std::vector<RunSpec>& resolved) {
 ReferenceLibrary::ReferenceLibrary(Options options) : options_(std::move(options)) {}
 
 MadeReference ReferenceLibrary::of(const RunSpec& resolved) {
-  return fill(questionOf(resolved), options_.jobs).reference;
+  return fill(referenceQuestion(resolved), options_.jobs).reference;
 }
 
 void ReferenceLibrary::prepare(const std::vector<RunSpec>& resolved, const std::string& label, std::ostream& out) {

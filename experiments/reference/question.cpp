@@ -9,7 +9,7 @@
 
 namespace irk {
 
-ReferenceQuestion questionOf(const RunSpec& resolved) {
+ReferenceQuestion referenceQuestion(const RunSpec& resolved) {
   return {resolved.scene, settingsAtStep(resolved), resolved.t_end, resolved.discontinuity == Discontinuity::kSmooth};
 }
 

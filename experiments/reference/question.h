@@ -15,7 +15,7 @@ struct ReferenceQuestion {
   bool smooth = false;  ///< the regularized problem, which has another solution
 };
 
-ReferenceQuestion questionOf(const RunSpec& resolved);
+ReferenceQuestion referenceQuestion(const RunSpec& resolved);
 
 /// Everything that determines the reference, as one text: scene, the scene's source, all settings with their
 /// defaults, t_end, whether the problem is the regularized one, and the code of this program. The hash of this text

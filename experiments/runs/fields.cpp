@@ -14,6 +14,7 @@
 #include "core/options/option_fields.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/configurations.h"
+#include "experiments/runs/peers/loaded/load_method.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
 
@@ -83,13 +84,13 @@ Field<RunSpec> methodField() {
   return {.name = "method",
           .meaning = "The integration method.",
           .form =
-              "family_stages or another library's integrator (irk list methods), a tableau file, or a family "
-              "with order variable",
+              "family_stages or another library's integrator (irk list methods), a tableau file, a solver "
+              "PATH.so or CODE@PATH.so, or a family with order variable",
           .get = [](const RunSpec& s) { return s.method; },
           .set =
               [](RunSpec& s, std::string_view value) {
                 requirePlain("method", value, ";\n");
-                s.method = value;
+                s.method = loadMethod(value);
               }};
 }
 

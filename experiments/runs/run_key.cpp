@@ -37,10 +37,10 @@ std::string hashedCoefficients(const std::string& method, int max_stages, OrderC
   return hexText(fnv1a(all));
 }
 
-// The coefficients of a run's method: a file's contents or hashes of tableaus. Empty for a peer, and for a method
-// that cannot be made, whose run is refused.
+// The coefficients of a run's method: a hash of its file's contents or of its tableaus. Empty for a peer of the
+// program, and for a method that cannot be made, whose run is refused.
 std::string coefficients(const RunSpec& spec) {
-  if (findPeer(spec.method)) return "";
+  if (const PeerEntry* peer = findPeer(spec.method)) return peer->source;
   if (std::filesystem::is_regular_file(spec.method)) return hexText(fnv1a(readInputFile(spec.method)));
   static std::mutex mutex;
   static std::map<std::tuple<std::string, int, OrderControl>, std::string> known;

@@ -14,6 +14,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/loaded/load_method.h"
 #include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
@@ -124,7 +125,8 @@ const FamilyEntry& findFamily(std::string_view id) {
 std::vector<std::string> methodList(const StudyKeys& keys) {
   std::vector<std::string> methods;
   if (const auto* listed = find(keys, "methods")) {
-    for (const auto& method : listed->items) {
+    for (const auto& item : listed->items) {
+      const auto method = atPlace(*listed, [&] { return loadMethod(item); });
       if (!findPeer(method) && !isFamily(method)) {
         atPlace(*listed, [&] { return makeTableau<double>(method).stages(); });
       }

@@ -1,5 +1,6 @@
 // SUNDIALS ARKODE with its diagonally implicit Runge-Kutta method of order 5, set up as its manual recommends for
-// stiff systems: modified Newton with a dense solver and the exact Jacobian, rtol and a vector of atol, no step
+// stiff systems: modified Newton with the exact Jacobian and the solver that
+// suits its pattern (dense, banded, KLU), rtol and a vector of atol, no step
 // beyond the end, stage derivatives deduced from Newton's result instead of evaluated. All other options keep their
 // defaults. Reynolds et al., ACM TOMS 49 (2023).
 #include <arkode/arkode_arkstep.h>
@@ -16,11 +17,11 @@ constexpr int kOrder = 5;
 constexpr int kNewtonIterations = 10;
 
 struct Arkode {
-  IRK_SUNDIALS_API(ARKStep)
+  IRK_SUNDIALS_API(ARKStep, ARKLsJacFn, ARKRootFn)
   // Once its interpolant has asked for right-hand sides, ARKODE evaluates them in every later step.
   static constexpr bool kRemembers = true;
-  static void* create(SUNContext context, N_Vector y) {
-    return ARKStepCreate(nullptr, sundials::OdeCallbacks::rates, 0, y, context);
+  static void* create(SUNContext context, ARKRhsFn rates, N_Vector y) {
+    return ARKStepCreate(nullptr, rates, 0, y, context);
   }
   static void set(void* memory) {
     IRK_SUNDIALS(ARKStepSetOrder(memory, kOrder));
@@ -28,8 +29,8 @@ struct Arkode {
     IRK_SUNDIALS(ARKStepSetDeduceImplicitRhs(memory, SUNTRUE));
     IRK_SUNDIALS(ARKStepSetMaxNonlinIters(memory, kNewtonIterations));
   }
-  static int reInit(void* memory, double t, N_Vector y) {
-    return ARKStepReInit(memory, nullptr, sundials::OdeCallbacks::rates, t, y);
+  static int reInit(void* memory, ARKRhsFn rates, double t, N_Vector y) {
+    return ARKStepReInit(memory, nullptr, rates, t, y);
   }
   static int advance(void* memory, double t_end, N_Vector y, double* t) {
     return ARKStepEvolve(memory, t_end, y, t, sundials::kOneStep);

@@ -4,41 +4,104 @@
 
 #include <algorithm>
 
-namespace irk {
+#include "irk/misuse.h"
+#include "irk/tableaus.h"
 
-const std::vector<PeerEntry>& peerCatalogue() {
-  static const std::vector<PeerEntry> entries{
-      {"arkode_dirk", "SUNDIALS ARKODE, diagonally implicit Runge-Kutta, order 5", false, true, makeArkode},
-      {"cvode_bdf", "SUNDIALS CVODE, BDF of orders 1 to 5", false, true, makeCvode},
-      {"gsl_bsimp", "GSL, Bader and Deuflhard's extrapolation", false, false, makeGslBsimp},
-      {"gsl_msbdf", "GSL, BDF of orders 1 to 5", false, false, makeGslMsbdf},
-      {"gsl_rk4imp", "GSL, 2-stage Gauss, order 4", false, false, makeGslRk4imp},
-      {"ida_bdf", "SUNDIALS IDA, BDF of orders 1 to 5 for DAEs of index 1 and 2", true, true, makeIda}};
-  return entries;
+namespace irk {
+namespace {
+
+constexpr bool kRoots = true, kNoRoots = false;
+
+std::deque<PeerEntry>& entries() {
+  static std::deque<PeerEntry> all{
+      {"arkode_dirk", "SUNDIALS ARKODE, diagonally implicit Runge-Kutta, order 5", PeerForm::kOde, 1, kRoots,
+       makeArkode},
+      {"cvode_bdf", "SUNDIALS CVODE, BDF of orders 1 to 5", PeerForm::kOde, 1, kRoots, makeCvode},
+      {"gsl_bsimp", "GSL, Bader and Deuflhard's extrapolation", PeerForm::kOde, 1, kNoRoots, makeGslBsimp},
+      {"gsl_msbdf", "GSL, BDF of orders 1 to 5", PeerForm::kOde, 1, kNoRoots, makeGslMsbdf},
+      {"gsl_rk4imp", "GSL, 2-stage Gauss, order 4", PeerForm::kOde, 1, kNoRoots, makeGslRk4imp},
+      {"ida_bdf", "SUNDIALS IDA, BDF of orders 1 to 5 for DAEs of index 1 and 2", PeerForm::kDae, 2, kRoots, makeIda}};
+  return all;
 }
 
+struct Loading {
+  std::string hash, refused;
+};
+Loading& loading() {
+  static Loading state;
+  return state;
+}
+
+}  // namespace
+
+const std::deque<PeerEntry>& peerCatalogue() { return entries(); }
+
 const PeerEntry* findPeer(std::string_view id) {
-  const auto& all = peerCatalogue();
+  const auto& all = entries();
   const auto at = std::find_if(all.begin(), all.end(), [id](const auto& p) { return p.id == id; });
   return at == all.end() ? nullptr : &*at;
+}
+
+PeerSource::PeerSource(std::string hash) { loading() = {std::move(hash), ""}; }
+PeerSource::~PeerSource() { loading() = {}; }
+void PeerSource::requireRegistered() const {
+  if (!loading().refused.empty()) throw Misuse(loading().refused);
+}
+
+RegisterPeer::RegisterPeer(PeerEntry entry) noexcept {
+  try {
+    registerPeer(std::move(entry));
+  } catch (const Misuse& misuse) {
+    loading().refused = misuse.what();
+  }
+}
+
+void registerPeer(PeerEntry entry) {
+  const auto refuse = [&entry](const std::string& reason) {
+    throw Misuse(fmt::format("method '{}' ({}): {}", entry.id, entry.title, reason));
+  };
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  if (entry.id.empty() || entry.id.find_first_not_of(kAllowed) != std::string::npos) {
+    refuse("an id consists of letters, digits, '_', '-' and '.'");
+  }
+  if (!entry.make) refuse("it has no function 'make'");
+  if (entry.max_index < 1 || entry.max_index > 3) {
+    refuse(fmt::format("max_index = {}: 1 to 3 is allowed", entry.max_index));
+  }
+  if (const PeerEntry* other = findPeer(entry.id)) {
+    refuse(fmt::format("the id is taken by '{}' ({})", other->id, other->title));
+  }
+  for (const auto& family : familyCatalogue()) {
+    if (entry.id == family.id || entry.id.starts_with(family.id + "_")) {
+      refuse(fmt::format("the id is taken by the family '{}' ({})", family.id, family.title));
+    }
+  }
+  if (entry.source.empty()) entry.source = loading().hash;
+  entries().push_back(std::move(entry));
 }
 
 namespace {
 
 template <class E>
-void refuse(const PeerEntry& peer, E value, const char* reason) {
+void refuse(const PeerEntry& peer, E value, std::string_view reason) {
   throw Misuse(
       fmt::format("illegal combination: method '{}' with {} '{}': {}", peer.id, axisName<E>(), idOf(value), reason));
 }
 
 void refuseFormulation(const PeerEntry& peer, Formulation formulation) {
   const bool explicit_form = formulation == Formulation::kIndex1 || formulation == Formulation::kFirstOrder;
-  if (!peer.differential_algebraic && !explicit_form) {
+  if (!peer.takesConstraints() && !explicit_form) {
     refuse(peer, formulation,
            "it solves ordinary differential equations only; use formulation 'index1', where "
            "constraints drift");
   }
-  if (formulation == Formulation::kIndex3) refuse(peer, formulation, "it solves up to index 2");
+  const bool index2 = !explicit_form && formulation != Formulation::kIndex3;
+  if (peer.takesConstraints() && index2 && peer.max_index < 2) {
+    refuse(peer, formulation, "it solves up to index 1; use formulation 'index1', where constraints drift");
+  }
+  if (formulation == Formulation::kIndex3 && peer.max_index < 3) {
+    refuse(peer, formulation, fmt::format("it solves up to index {}", peer.max_index));
+  }
   if (formulation == Formulation::kIndex2Projected) {
     refuse(peer, formulation, "it does not project; use 'index2' or 'ggl'");
   }

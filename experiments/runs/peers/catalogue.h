@@ -1,28 +1,33 @@
 // All peers, as ids of methods.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "experiments/runs/peers/peer.h"
 #include "experiments/runs/run_spec.h"
+#include "irk/peer.h"
+#include "irk/system.h"
 
 namespace irk {
 
-struct PeerEntry {
-  std::string id;
-  std::string title;
-  bool differential_algebraic;  ///< takes F(t, y, y') = 0; else y' = f(t, y)
-  bool finds_roots;             ///< of switching functions
-  std::unique_ptr<Peer> (*make)(const PeerSetup&);
-};
-
-/// Sorted by id. Ids never change.
-const std::vector<PeerEntry>& peerCatalogue();
+/// Those of the program sorted by id, then those that were registered. Ids never change; an entry keeps its address.
+const std::deque<PeerEntry>& peerCatalogue();
 
 /// Returns nullptr if no peer has this id.
 const PeerEntry* findPeer(std::string_view id);
+
+/// While an object of it lives, registerPeer gives the entries this hash of the file that is being loaded.
+class PeerSource {
+ public:
+  explicit PeerSource(std::string hash);
+  ~PeerSource();
+  PeerSource(const PeerSource&) = delete;
+  PeerSource& operator=(const PeerSource&) = delete;
+  /// Throws the Misuse of the last RegisterPeer that was refused meanwhile. To be called after loading: an exception
+  /// must not pass the system's loader.
+  void requireRegistered() const;
+};
 
 /// Throws Misuse for a spec that the peer cannot run, naming both ids and the reason.
 void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scene);

@@ -1,6 +1,6 @@
 // Implicit integrators of the GNU Scientific Library, called through its driver. The manual prescribes the driver for
 // rk4imp and msbdf, because it passes the tolerance on to Newton's method. Control of rtol |y| + atol with an atol
-// per component; exact Jacobian and df/dt. GSL reports neither Newton iterations nor factorizations.
+// per component; exact Jacobian and df/dt; always dense. GSL reports neither Newton iterations nor factorizations.
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "experiments/runs/peers/catalogue.h"
-#include "experiments/runs/peers/explicit_ode.h"
 
 namespace irk {
 namespace {
@@ -26,72 +25,70 @@ struct FreeDriver {
 class Gsl final : public Peer {
  public:
   Gsl(const PeerSetup& setup, const gsl_odeiv2_step_type* type)
-      : ode_(setup.system),
+      : problem_(setup.problem),
+        n_(problem_.layout().n),
         given_h_(setup.h),
         h_max_(setup.h_max),
-        y_(ode_.size()),
-        f_(ode_.size()),
-        dfdt_(ode_.size()),
-        dfdy_(ode_.size(), ode_.size()),
-        system_{rates, jacobian, static_cast<std::size_t>(ode_.size()), this} {
+        y_(n_),
+        f_(n_),
+        system_{rates, jacobian, static_cast<std::size_t>(n_), this} {
     // GSL's own handler would end the program; every call here checks the returned status instead.
     gsl_set_error_handler_off();
     // atol_i + rtol |y_i|
     driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type, 1, 1, setup.rtol, 1, 0, setup.atol.data()));
   }
 
-  StartReport start(State<double>& state, double t_end, StartCheck) override {
-    y_ = state.x;
-    t_end_ = t_end;
-    ode_.setDiscrete(state.d);
-    ode_.resetCounts();
-    if (!ode_.rates(state.t, y_.data(), f_.data())) {
-      return {Outcome::kNotFinite, "the right-hand side at the start"};
-    }
-    h_ = given_h_ > 0 ? given_h_ : firstStep(y_, f_, t_end - state.t);
-    gsl_odeiv2_driver_reset(driver_.get());
+  Outcome integrate(const PeerStart& start, double t_end, const PeerAccepted& accepted) override {
+    y_ = ConstVec<double>(start.y, n_);
+    double t = start.t;
     driver_->e->failed_steps = 0;
-    return {};
-  }
-
-  Outcome step(State<double>& state) override {
-    h_ = std::min(h_, h_max_);
-    status_ = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &system_, &state.t, t_end_, &h_, y_.data());
-    if (status_ != GSL_SUCCESS) return Outcome::kStepTooSmall;
-    if (!y_.allFinite()) return Outcome::kNotFinite;
-    state.x = y_;
+    message_ = "the right-hand side at the start";
+    if (problem_.rates(t, y_.data(), f_.data()) != Evaluated::kDone) return Outcome::kNotFinite;
+    double h = given_h_ > 0 ? given_h_ : firstStep(y_, f_, t_end - t);
+    gsl_odeiv2_driver_reset(driver_.get());
+    while (t < t_end) {
+      h = std::min(h, h_max_);
+      const int status =
+          gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &system_, &t, t_end, &h, y_.data());
+      message_ = gsl_strerror(status);
+      if (status != GSL_SUCCESS) return Outcome::kStepTooSmall;
+      if (!y_.allFinite()) return Outcome::kNotFinite;
+      if (accepted({t, y_.data()}) == PeerNext::kReturn) break;
+    }
     return Outcome::kSuccess;
   }
 
-  void setDiscrete(const Vec<double>& d) override { ode_.setDiscrete(d); }
   void count(Counters& counters) const override {
-    ode_.count(counters);
     counters.steps_rejected_error += static_cast<std::int64_t>(driver_->e->failed_steps);
   }
-  std::string message() const override { return gsl_strerror(status_); }
+  std::string message() const override { return message_; }
 
  private:
-  // GSL_FAILURE makes GSL try a smaller step.
+  // GSL_FAILURE makes GSL try a smaller step; any other failure ends its step.
+  static int statusOf(Evaluated evaluated) {
+    if (evaluated == Evaluated::kStop) return GSL_EBADFUNC;
+    return evaluated == Evaluated::kDone ? GSL_SUCCESS : GSL_FAILURE;
+  }
   static int rates(double t, const double* y, double* f, void* self) {
-    return static_cast<Gsl*>(self)->ode_.rates(t, y, f) ? GSL_SUCCESS : GSL_FAILURE;
+    return statusOf(static_cast<Gsl*>(self)->problem_.rates(t, y, f));
   }
   static int jacobian(double t, const double* y, double* dfdy, double* dfdt, void* self) {
     auto& gsl = *static_cast<Gsl*>(self);
-    const bool done = gsl.ode_.jacobian(t, y, gsl.dfdy_, gsl.dfdt_);
-    const Index n = gsl.ode_.size();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(dfdy, n, n) = gsl.dfdy_;
-    VecView<double>(dfdt, n) = gsl.dfdt_;
-    return done ? GSL_SUCCESS : GSL_FAILURE;
+    const Evaluated evaluated = gsl.problem_.jacobian(t, y, nullptr, 0, gsl.J_, dfdt);
+    const Index n = gsl.n_;
+    std::fill_n(dfdy, n * n, 0);
+    gsl.J_.forEach([dfdy, n](Index i, Index j, double value) { dfdy[i * n + j] = value; });
+    return statusOf(evaluated);
   }
 
-  ExplicitOde ode_;
+  PeerProblem& problem_;
+  Index n_;
   double given_h_, h_max_;
-  Vec<double> y_, f_, dfdt_;
-  Mat<double> dfdy_;
+  Vec<double> y_, f_;
+  PeerJacobian J_;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_driver, FreeDriver> driver_;
-  double h_ = 0, t_end_ = 0;
-  int status_ = GSL_SUCCESS;
+  std::string message_;
 };
 
 }  // namespace

@@ -7,60 +7,74 @@
 #include <limits>
 
 #include "core/integration/rules.h"
+#include "experiments/runs/peers/problem/make_problem.h"
 #include "experiments/runs/setup.h"
 #include "irk/system_check.h"
 
 namespace irk {
 namespace {
 
-// ODE codes always get y' = f(t, y): without constraints all formulations are equal.
-SystemOptions systemOptions(const PeerEntry& entry, const RunSpec& spec) {
-  const auto formulation = entry.differential_algebraic ? spec.formulation : Formulation::kFirstOrder;
-  return {formulation, spec.scaling, spec.discontinuity};
-}
-
 // Whether D0 at acceleration level is regular, so that y' = f(t, y) exists.
-bool isDetermined(const Scene<double>& scene, SystemOptions options) {
-  options.formulation = Formulation::kFirstOrder;
+bool isDetermined(const Scene<double>& scene, const RunSpec& spec) {
   try {
-    (void)scene.system(options)->fromScene(scene.start);
+    (void)scene.system({Formulation::kFirstOrder, spec.scaling, spec.discontinuity})->fromScene(scene.start);
     return true;
   } catch (const Misuse&) {
     return false;
   }
 }
 
-std::unique_ptr<Peer> makePeer(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec,
-                               const System<double>& system) {
+// A peer that takes a mass matrix gets y' = f(t, y) where no unknown is algebraic.
+PeerForm formOf(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec) {
+  if (entry.form != PeerForm::kMass) return entry.form;
+  const bool explicit_form = spec.formulation == Formulation::kFirstOrder || scene.sizes().nz == 0;
+  return explicit_form && isDetermined(scene, spec) ? PeerForm::kOde : PeerForm::kMass;
+}
+
+// ODE codes always get y' = f(t, y): without constraints all formulations are equal.
+SystemOptions systemOptions(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec) {
+  const bool ode = formOf(entry, scene, spec) == PeerForm::kOde;
+  return {ode ? Formulation::kFirstOrder : spec.formulation, spec.scaling, spec.discontinuity};
+}
+
+std::unique_ptr<SceneProblem> problemOf(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec,
+                                        const System<double>& system) {
   refuseIllegal(entry, spec, scene.sizes());
   const auto refuse = [&](std::string_view reason) {
     throw Misuse(fmt::format("illegal combination: method '{}' with scene '{}': {}", entry.id, scene.id, reason));
   };
-  const auto& powers = system.errorPowers().z;
-  if (std::any_of(powers.begin(), powers.end(), [](int p) { return p > 1; })) {
-    refuse("it solves up to index 2");
-  }
-  const bool determined = isDetermined(scene, systemOptions(entry, spec));
-  if (!determined && !entry.differential_algebraic) {
+  const bool determined = isDetermined(scene, spec);
+  if (!determined && !entry.takesConstraints()) {
     refuse("it solves y' = f(t, y), and the scene's index is above 1: D0 is singular");
   }
+  auto problem = makeProblem(formOf(entry, scene, spec), system, system.fromScene(scene.start),
+                             {spec.options.derivatives, spec.options.storage, determined});
+  const auto& index = problem->layout().index;
+  if (std::any_of(index.begin(), index.end(), [&entry](int i) { return i > entry.max_index; })) {
+    refuse(fmt::format("it solves up to index {}", entry.max_index));
+  }
+  return problem;
+}
+
+PeerSetup setupOf(const Scene<double>& scene, const RunSpec& spec, const Sizes& sizes, SceneProblem& problem) {
   const auto& step = spec.options.step;
-  return entry.make({.system = system,
-                     .rtol = spec.options.tolerances.rtol,
-                     .atol = systemScale(scene.scale, system.sizes()) * spec.options.tolerances.atol,
-                     .h = step.h,
-                     .h_max = step.h_max,
-                     .derivatives = spec.options.derivatives,
-                     .determined = determined,
-                     .locate = spec.discontinuity == Discontinuity::kLocate});
+  const double atol = spec.options.tolerances.atol;
+  return {.problem = problem,
+          .rtol = spec.options.tolerances.rtol,
+          .atol = problem.perComponent(systemScale(scene.scale, sizes) * atol, atol),
+          .h = step.h,
+          .h_max = step.h_max,
+          .locate = spec.discontinuity == Discontinuity::kLocate,
+          .max_steps = step.max_steps};
 }
 
 }  // namespace
 
 PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec)
-    : system_(scene.system(systemOptions(entry, spec))),
+    : system_(scene.system(systemOptions(entry, scene, spec))),
       max_steps_(spec.options.step.max_steps),
-      peer_(makePeer(entry, scene, spec, *system_)),
+      problem_(problemOf(entry, scene, spec, *system_)),
+      peer_(entry.make(setupOf(scene, spec, system_->sizes(), *problem_))),
       state_(system_->sizes()),
       switches_(*system_),
       derivatives_(spec.options.derivatives),
@@ -78,9 +92,7 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
   state_ = system_->fromScene(start);
   length_ = t_end - state_.t;
   StartReport report = settle(monitor);
-  if (report.outcome == Outcome::kSuccess) report = begin(t_end, StartCheck::kConstraints);
   if (report.outcome == Outcome::kSuccess) report = run(t_end, monitor);
-  collectCounts();
   if (report.outcome == Outcome::kSuccess && ends_consistent_) {
     report.detail = ConsistentStart<double>(*system_, derivatives_, false).applyAtEnd(state_);
   }
@@ -88,38 +100,72 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
 }
 
 StartReport PeerIntegrator::run(double t_end, const Monitor<double>& monitor) {
-  while (state_.t < t_end) {
-    const Outcome caller = monitor.interrupt ? monitor.interrupt() : Outcome::kSuccess;
-    if (caller != Outcome::kSuccess) return failed(caller, "stopped");
-    if (counters_.steps_accepted == max_steps_) return failed(Outcome::kMaxSteps, "steps used up");
-    const double t = state_.t;
-    const Outcome outcome = peer_->step(state_);
-    if (outcome != Outcome::kSuccess) return failed(outcome, peer_->message());
-    ++counters_.steps_accepted;
-    if (monitor.accepted) {
-      constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-      monitor.accepted({state_.t, state_.t - t, kUnknown, 0, system_->toScene(state_)});
-    }
-    const StartReport switched = afterStep(t_end, monitor);
-    if (switched.outcome != Outcome::kSuccess) return switched;
+  StartReport report = mayGoOn(monitor);
+  for (bool new_run = true; report.outcome == Outcome::kSuccess && (new_run || restarts_); new_run = false) {
+    // Libraries refuse an interval that is shorter than round-off of t.
+    const double shortest = 100 * std::numeric_limits<double>::epsilon() * std::abs(t_end);
+    if (t_end - state_.t <= shortest) state_.t = t_end;
+    report = leg(new_run, t_end, monitor);
   }
-  return {};
-}
-
-StartReport PeerIntegrator::begin(double t_end, StartCheck check) {
-  collectCounts();
-  // Libraries refuse an interval that is shorter than round-off of t.
-  const double shortest = 100 * std::numeric_limits<double>::epsilon() * std::abs(t_end);
-  if (t_end - state_.t <= shortest) state_.t = t_end;
-  const StartReport report = peer_->start(state_, t_end, check);
-  started_ = report.outcome == Outcome::kSuccess;
   return report;
 }
 
-// A peer resets its counts at each start, so they are added here before.
-void PeerIntegrator::collectCounts() {
-  if (started_) peer_->count(counters_);
-  started_ = false;
+// From the state to the next switch, or to the end.
+StartReport PeerIntegrator::leg(bool new_run, double t_end, const Monitor<double>& monitor) {
+  restarts_ = false;
+  stopped_ = {};
+  problem_->resetCounts();
+  problem_->setStop([this, &monitor] {
+    if (stopped_.outcome == Outcome::kSuccess) stopped_ = mayGoOn(monitor);
+    return stopped_.outcome != Outcome::kSuccess;
+  });
+  const StartReport begun = problem_->begin(state_, new_run, values_);
+  if (begun.outcome != Outcome::kSuccess || state_.t >= t_end) return begun;
+  const double* const yp = values_.yp.size() > 0 ? values_.yp.data() : nullptr;
+  const Outcome outcome = peer_->integrate({state_.t, values_.y.data(), yp, new_run}, t_end,
+                                           [&](const PeerStep& step) { return accepted(step, t_end, monitor); });
+  peer_->count(counters_);
+  problem_->count(counters_);
+  problem_->setStop({});
+  if (stopped_.outcome != Outcome::kSuccess || restarts_) return stopped_;
+  if (outcome != Outcome::kSuccess) return failed(outcome, peer_->message());
+  return state_.t >= t_end ? StartReport{} : failed(Outcome::kStepTooSmall, "the method returned before the end");
+}
+
+PeerNext PeerIntegrator::accepted(const PeerStep& step, double t_end, const Monitor<double>& monitor) {
+  if (stopped_.outcome != Outcome::kSuccess || restarts_) return PeerNext::kReturn;
+  stopped_ = take(step, t_end, monitor);
+  const bool on = stopped_.outcome == Outcome::kSuccess && !restarts_ && state_.t < t_end;
+  if (on) stopped_ = mayGoOn(monitor);
+  return on && stopped_.outcome == Outcome::kSuccess ? PeerNext::kContinue : PeerNext::kReturn;
+}
+
+StartReport PeerIntegrator::take(const PeerStep& step, double t_end, const Monitor<double>& monitor) {
+  if (!(step.t >= state_.t && step.t <= t_end)) {
+    return failed(Outcome::kNotFinite, fmt::format("the method reports a step to {:.17g}, which is not in the interval "
+                                                   "up to {:.17g},",
+                                                   step.t, t_end));
+  }
+  if (!ConstVec<double>(step.y, problem_->layout().n).allFinite()) {
+    return failed(Outcome::kNotFinite, "the method reports a state that is not finite");
+  }
+  const double t = state_.t;
+  problem_->read(step, state_);
+  ++counters_.steps_accepted;
+  if (monitor.accepted) {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    monitor.accepted({state_.t, state_.t - t, kUnknown, 0, system_->toScene(state_)});
+  }
+  if (!switches()) return {};
+  const bool locate = system_->discontinuity() == Discontinuity::kLocate;
+  return locate ? locatedSwitch(step, monitor) : ignoredSwitches(monitor);
+}
+
+StartReport PeerIntegrator::mayGoOn(const Monitor<double>& monitor) const {
+  const Outcome caller = monitor.interrupt ? monitor.interrupt() : Outcome::kSuccess;
+  if (caller != Outcome::kSuccess) return failed(caller, "stopped");
+  if (counters_.steps_accepted == max_steps_) return failed(Outcome::kMaxSteps, "steps used up");
+  return {};
 }
 
 StartReport PeerIntegrator::failed(Outcome outcome, const std::string& what) const {
@@ -146,22 +192,16 @@ StartReport PeerIntegrator::settle(const Monitor<double>& monitor) {
   return failed(report.outcome, switches_.describe(report.index));
 }
 
-StartReport PeerIntegrator::afterStep(double t_end, const Monitor<double>& monitor) {
-  if (!switches()) return {};
-  const bool locate = system_->discontinuity() == Discontinuity::kLocate;
-  return locate ? locatedSwitch(t_end, monitor) : ignoredSwitches(t_end, monitor);
-}
-
 // Performs one switch, the one whose root ended the step or else one that is due, and restarts. Switches that become
 // due by this one wait for the next step: the library interpolates the state at a root, so that by round-off
 // functions that should be 0 there can be positive.
-StartReport PeerIntegrator::locatedSwitch(double t_end, const Monitor<double>& monitor) {
+StartReport PeerIntegrator::locatedSwitch(const PeerStep& step, const Monitor<double>& monitor) {
   const SwitchReport report = switches_.evaluate(state_);
   if (report.outcome != Outcome::kSuccess) {
     return failed(report.outcome, switches_.describe(report.index));
   }
   Index i = 0;
-  while (i < switches_.g().size() && !peer_->foundRoot(i)) ++i;
+  while (i < switches_.g().size() && !(step.roots && step.roots[i] != 0)) ++i;
   if (i == switches_.g().size()) i = switches_.due();
   if (i < 0) return {};
   ++counters_.located_events;
@@ -173,18 +213,19 @@ StartReport PeerIntegrator::locatedSwitch(double t_end, const Monitor<double>& m
   system_->jump(i, state_);
   ++counters_.switches;
   tell(i, monitor);
-  return begin(t_end, StartCheck::kNone);
+  restarts_ = true;
+  return {};
 }
 
 // Restarts only if the state jumps; jumps of the derivatives are left to the error estimate.
-StartReport PeerIntegrator::ignoredSwitches(double t_end, const Monitor<double>& monitor) {
+StartReport PeerIntegrator::ignoredSwitches(const Monitor<double>& monitor) {
   const State<double> before = state_;
   const StartReport report = settle(monitor);
   if (report.outcome != Outcome::kSuccess) return report;
   if (chatter_.step(state_.d != before.d)) ++counters_.chattering;
   const bool jumped = state_.u != before.u || state_.v != before.v || state_.x != before.x;
-  if (jumped) return begin(t_end, StartCheck::kNone);
-  peer_->setDiscrete(state_.d);
+  restarts_ = jumped;
+  problem_->setDiscrete(state_.d);
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/system/switches.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/problem/scene_problem.h"
 #include "irk/integrator.h"
 
 namespace irk {
@@ -21,27 +22,31 @@ class PeerIntegrator {
 
  private:
   StartReport run(double t_end, const Monitor<double>& monitor);
-  StartReport begin(double t_end, StartCheck check);
-  void collectCounts();
+  StartReport leg(bool new_run, double t_end, const Monitor<double>& monitor);
+  PeerNext accepted(const PeerStep& step, double t_end, const Monitor<double>& monitor);
+  StartReport take(const PeerStep& step, double t_end, const Monitor<double>& monitor);
+  StartReport mayGoOn(const Monitor<double>& monitor) const;
   StartReport failed(Outcome outcome, const std::string& what) const;
   bool switches() const;
   StartReport settle(const Monitor<double>& monitor);
-  StartReport afterStep(double t_end, const Monitor<double>& monitor);
-  StartReport locatedSwitch(double t_end, const Monitor<double>& monitor);
-  StartReport ignoredSwitches(double t_end, const Monitor<double>& monitor);
+  StartReport locatedSwitch(const PeerStep& step, const Monitor<double>& monitor);
+  StartReport ignoredSwitches(const Monitor<double>& monitor);
   void tell(Index i, const Monitor<double>& monitor) const;
 
   std::shared_ptr<const System<double>> system_;
   std::int64_t max_steps_;
+  std::unique_ptr<SceneProblem> problem_;
   std::unique_ptr<Peer> peer_;
   State<double> state_;
+  PeerValues values_;
   Switches<double> switches_;
   ChatterDetector chatter_;
   Counters counters_;
   double length_ = 0;
   DerivativeSource derivatives_;
   bool ends_consistent_;
-  bool started_ = false;
+  StartReport stopped_;    // why the peer has to return; kSuccess: it may go on
+  bool restarts_ = false;  // after a switch
 };
 
 }  // namespace irk

@@ -1,14 +1,18 @@
 #include "experiments/runs/peers/sundials.h"
 
+#include <sunlinsol/sunlinsol_band.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 namespace irk::sundials {
 
-Workspace::Workspace(Index n)
-    : y_(N_VNew_Serial(n, context_)),
-      matrix_(SUNDenseMatrix(n, n, context_)),
-      solver_(SUNLinSol_Dense(y_.get(), matrix_.get(), context_)) {
+Workspace::Workspace(Index n) : y_(N_VNew_Serial(n, context_)) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* to, SUNContext) {
     *static_cast<std::string*>(to) = text ? text : "";
@@ -22,6 +26,57 @@ N_Vector Workspace::add(const Vec<double>& values) {
   more_.emplace_back(N_VClone(y_.get()));
   std::copy(values.begin(), values.end(), N_VGetArrayPointer(more_.back().get()));
   return more_.back().get();
+}
+
+namespace {
+
+// Whether a banded solver suits: with its fill a band then takes about the work of a sparse solver, without indices.
+bool isBanded(const PeerPattern& pattern) {
+  const Index band = (pattern.lower + pattern.upper + 1) * pattern.n;
+  return band <= 2 * static_cast<Index>(pattern.row.size());
+}
+
+bool samePattern(const PeerPattern& a, const PeerPattern& b) {
+  return a.full == b.full && a.column_start == b.column_start && a.row == b.row;
+}
+
+}  // namespace
+
+bool Workspace::choose(const std::shared_ptr<const PeerPattern>& pattern) {
+  if (pattern_ && (pattern_ == pattern || samePattern(*pattern_, *pattern))) return false;
+  pattern_ = pattern;
+  const Index n = pattern->n;
+  solver_.reset();
+  if (pattern->full) {
+    matrix_.reset(SUNDenseMatrix(n, n, context_));
+    solver_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
+  } else if (isBanded(*pattern)) {
+    matrix_.reset(SUNBandMatrix(n, pattern->upper, pattern->lower, context_));
+    solver_.reset(SUNLinSol_Band(y_.get(), matrix_.get(), context_));
+  } else {
+    matrix_.reset(SUNSparseMatrix(n, n, static_cast<sunindextype>(pattern->row.size()), CSC_MAT, context_));
+    solver_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_));
+  }
+  return true;
+}
+
+bool Workspace::fill(const PeerJacobian& J, SUNMatrix to) const {
+  const PeerPattern& pattern = *J.pattern;
+  if (J.pattern != pattern_ && !samePattern(pattern, *pattern_)) return false;
+  switch (SUNMatGetID(to)) {
+    case SUNMATRIX_DENSE:
+      J.writeFull(SUNDenseMatrix_Data(to), pattern.n);
+      return true;
+    case SUNMATRIX_BAND:
+      SUNMatZero(to);
+      J.forEach([to](Index i, Index j, double value) { SM_ELEMENT_B(to, i, j) = value; });
+      return true;
+    default:
+      std::copy(pattern.column_start.begin(), pattern.column_start.end(), SUNSparseMatrix_IndexPointers(to));
+      std::copy(pattern.row.begin(), pattern.row.end(), SUNSparseMatrix_IndexValues(to));
+      std::copy(J.values.begin(), J.values.end(), SUNSparseMatrix_Data(to));
+      return true;
+  }
 }
 
 Outcome outcomeOf(int flag) {

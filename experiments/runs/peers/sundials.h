@@ -3,16 +3,17 @@
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 #include <sundials/sundials_version.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "experiments/runs/peers/peer.h"
+#include "irk/peer.h"
 
 namespace irk::sundials {
 
@@ -26,7 +27,7 @@ struct Freer {
 template <class Handle, auto Free>
 using Owner = std::unique_ptr<std::remove_pointer_t<Handle>, Freer<Free>>;
 
-/// Owns the context, vectors of n numbers, the dense matrix with its solver, and the library's messages.
+/// Owns the context, vectors of n numbers, the matrix with its solver, and the library's messages.
 class Workspace {
  public:
   explicit Workspace(Index n);
@@ -41,10 +42,17 @@ class Workspace {
   std::string& message() { return message_; }
   const std::string& message() const { return message_; }
 
+  /// Makes matrix and solver for a pattern: dense if it is full; banded if at least half of the band is filled; else
+  /// sparse, factorized by KLU. Returns false if those at hand fit.
+  bool choose(const std::shared_ptr<const PeerPattern>& pattern);
+  /// Writes a Jacobian to `to`, a matrix of the chosen kind. Returns false if its pattern has outgrown the chosen one.
+  bool fill(const PeerJacobian& J, SUNMatrix to) const;
+
  private:
   ::sundials::Context context_;
   Owner<N_Vector, N_VDestroy> y_;
   std::vector<Owner<N_Vector, N_VDestroy>> more_;
+  std::shared_ptr<const PeerPattern> pattern_;
   Owner<SUNMatrix, SUNMatDestroy> matrix_;
   Owner<SUNLinearSolver, SUNLinSolFree> solver_;
   std::string message_;
@@ -67,7 +75,9 @@ void keepMessage(int code, const char* module, const char* function, char* text,
 #endif
 
 /// The functions that CVODE, ARKODE and IDA all have, under the same name after their prefix.
-#define IRK_SUNDIALS_API(prefix)                                               \
+#define IRK_SUNDIALS_API(prefix, JacFn, RootFn)                                \
+  using Jacobian = JacFn;                                                      \
+  using Roots = RootFn;                                                        \
   IRK_SUNDIALS_ERROR_HANDLER(prefix)                                           \
   static constexpr auto setUserData = prefix##SetUserData;                     \
   static constexpr auto svTolerances = prefix##SVtolerances;                   \
@@ -88,8 +98,8 @@ void keepMessage(int code, const char* module, const char* function, char* text,
     void operator()(void* memory) const { prefix##Free(&memory); }             \
   };
 
-/// Returned by a callback that cannot be evaluated: the integrator then tries a smaller step.
-constexpr int kTrySmallerStep = 1;
+/// What a callback returns: after a positive number the integrator tries a smaller step, after a negative one it ends.
+constexpr int statusOf(Evaluated evaluated) { return static_cast<int>(evaluated); }
 /// Return values and tasks; they are equal in all three integrators.
 constexpr int kOneStep = 2, kRootReturn = 2;
 
@@ -97,44 +107,68 @@ constexpr int kOneStep = 2, kRootReturn = 2;
 template <class Api>
 class Solver {
  public:
-  /// Takes ownership of `memory`. `jacobian` and `roots` are the callbacks; they get `self` as user data.
-  template <class Jacobian, class Roots>
-  void setUp(void* memory, const PeerSetup& setup, N_Vector atol, Workspace& workspace, void* self, Jacobian jacobian,
-             Roots roots) {
+  /// `jacobian` and `roots` are the callbacks; they get `self` as user data.
+  Solver(const PeerSetup& setup, void* self, typename Api::Jacobian jacobian, typename Api::Roots roots)
+      : setup_(setup),
+        self_(self),
+        jacobian_(jacobian),
+        roots_callback_(roots),
+        roots_(static_cast<std::size_t>(setup.problem.layout().switches)),
+        workspace_(setup.problem.layout().n),
+        atol_(workspace_.add(setup.atol)) {}
+
+  Workspace& workspace() { return workspace_; }
+  const Workspace& workspace() const { return workspace_; }
+  N_Vector atol() { return atol_; }
+
+  /// Takes ownership of new memory.
+  void own(void* memory) {
     memory_.reset(memory);
 #if SUNDIALS_VERSION_MAJOR < 7
-    IRK_SUNDIALS(Api::setErrHandlerFn(memory, keepMessage, &workspace.message()));
+    IRK_SUNDIALS(Api::setErrHandlerFn(memory, keepMessage, &workspace_.message()));
 #endif
-    IRK_SUNDIALS(Api::setUserData(memory, self));
-    IRK_SUNDIALS(Api::svTolerances(memory, setup.rtol, atol));
-    IRK_SUNDIALS(Api::setLinearSolver(memory, workspace.solver(), workspace.matrix()));
-    IRK_SUNDIALS(Api::setJacFn(memory, jacobian));
-    IRK_SUNDIALS(Api::setInitStep(memory, setup.h));
-    IRK_SUNDIALS(Api::setMaxStep(memory, setup.h_max));
-    roots_.assign(static_cast<std::size_t>(setup.system.sizes().switches), 0);
-    if (!setup.locate || roots_.empty()) return;
+    IRK_SUNDIALS(Api::setUserData(memory, self_));
+    IRK_SUNDIALS(Api::svTolerances(memory, setup_.rtol, atol_));
+    IRK_SUNDIALS(Api::setInitStep(memory, setup_.h));
+    IRK_SUNDIALS(Api::setMaxStep(memory, setup_.h_max));
+    workspace_.choose(setup_.problem.pattern());
+    setLinearSolver();
+    if (!setup_.locate || roots_.empty()) return;
     std::vector<int> rising(roots_.size(), 1);
-    IRK_SUNDIALS(Api::rootInit(memory, static_cast<int>(rising.size()), roots));
+    IRK_SUNDIALS(Api::rootInit(memory, static_cast<int>(rising.size()), roots_callback_));
     IRK_SUNDIALS(Api::setRootDirection(memory, rising.data()));
     IRK_SUNDIALS(Api::setNoInactiveRootWarn(memory));
   }
-
   void* memory() const { return memory_.get(); }
-  bool foundRoot(Index i) const { return roots_[static_cast<std::size_t>(i)] != 0; }
 
-  /// Call after each (re)initialization.
-  void begin(double t_end) {
-    t_end_ = t_end;
-    IRK_SUNDIALS(Api::setStopTime(memory(), t_end));
-    roots_.assign(roots_.size(), 0);
+  /// Writes the Jacobian that `evaluate` writes into its argument; for the callback.
+  template <class Evaluate>
+  int fill(SUNMatrix to, const Evaluate& evaluate) {
+    const Evaluated evaluated = evaluate(J_);
+    if (evaluated != Evaluated::kDone) return statusOf(evaluated);
+    outgrown_ = !workspace_.fill(J_, to);
+    return statusOf(outgrown_ ? Evaluated::kStop : Evaluated::kDone);
   }
-  double end() const { return t_end_; }
 
-  /// Call after a step that returned `flag`.
-  Outcome finish(int flag) {
-    if (flag < 0) return outcomeOf(flag);
-    roots_.assign(roots_.size(), 0);
-    if (flag == kRootReturn) IRK_SUNDIALS(Api::getRootInfo(memory(), roots_.data()));
+  /// Runs from t to t_end. `reInit(t)` starts anew from the values of y (and y'), `advance(t)` takes a step and
+  /// `step(t)` describes it. If the pattern of the Jacobian grows, the integrator starts anew with another matrix.
+  template <class ReInit, class Advance, class Step>
+  Outcome run(double t, double t_end, const PeerAccepted& accepted, const ReInit& reInit, const Advance& advance,
+              const Step& step) {
+    begin(t, t_end, reInit);
+    while (t < t_end) {
+      const int flag = advance(&t);
+      if (flag < 0 && outgrown_) {
+        begin(t, t_end, reInit);
+        continue;
+      }
+      if (flag < 0) return outcomeOf(flag);
+      std::fill(roots_.begin(), roots_.end(), 0);
+      if (flag == kRootReturn) IRK_SUNDIALS(Api::getRootInfo(memory(), roots_.data()));
+      PeerStep done = step(t);
+      done.roots = roots_.data();
+      if (accepted(done) == PeerNext::kReturn) break;
+    }
     return Outcome::kSuccess;
   }
 
@@ -152,9 +186,28 @@ class Solver {
   }
 
  private:
-  std::unique_ptr<void, typename Api::Free> memory_;
+  void setLinearSolver() {
+    IRK_SUNDIALS(Api::setLinearSolver(memory(), workspace_.solver(), workspace_.matrix()));
+    IRK_SUNDIALS(Api::setJacFn(memory(), jacobian_));
+  }
+  template <class ReInit>
+  void begin(double t, double t_end, const ReInit& reInit) {
+    outgrown_ = false;
+    IRK_SUNDIALS(reInit(t));
+    if (workspace_.choose(setup_.problem.pattern())) setLinearSolver();
+    IRK_SUNDIALS(Api::setStopTime(memory(), t_end));
+  }
+
+  PeerSetup setup_;
+  void* self_;
+  typename Api::Jacobian jacobian_;
+  typename Api::Roots roots_callback_;
   std::vector<int> roots_;
-  double t_end_ = 0;
+  Workspace workspace_;
+  N_Vector atol_;
+  std::unique_ptr<void, typename Api::Free> memory_;
+  PeerJacobian J_;
+  bool outgrown_ = false;
 };
 
 }  // namespace irk::sundials

@@ -62,7 +62,7 @@ TEST_F(ReferenceLibraryTest, IsMadeOnceAndThenRead) {
 }
 
 TEST_F(ReferenceLibraryTest, ADamagedFileIsMadeAgain) {
-  const auto question = questionOf(spec(kUnknown));
+  const auto question = referenceQuestion(spec(kUnknown));
   keepReference(question, makeReference(question, {}, 1, nullptr));
   ASSERT_EQ(cached().size(), 1u);
   const auto file = cached().front();

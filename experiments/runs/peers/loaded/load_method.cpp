@@ -1,0 +1,55 @@
+#include "experiments/runs/peers/loaded/load_method.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "core/base/text.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/loaded/c_peer.h"
+#include "experiments/runs/peers/loaded/dassl.h"
+#include "experiments/runs/peers/loaded/hairer.h"
+#include "irk/misuse.h"
+
+namespace irk {
+namespace {
+
+// A file may be called my_solver.so or my_solver.so.1; an '@' separates the name of a code from its library.
+bool isLibrary(std::string_view given) {
+  const bool code = given.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == given.find('@');
+  return given.ends_with(".so") || given.find(".so.") != given.npos || (code && given.find('@') != given.npos);
+}
+
+PeerEntry entryOf(std::string_view given) {
+  const auto at = given.find('@');
+  const auto library = std::make_shared<const SharedLibrary>(at == given.npos ? given : given.substr(at + 1));
+  const std::string file = library->path().filename().string();
+  PeerEntry entry;
+  if (at == given.npos) {
+    entry = cPeer(library, file.substr(0, file.find(".so")));
+  } else {
+    const auto code = given.substr(0, at);
+    entry = hairerPeer(library, code);
+    if (!entry.make) entry = dasslPeer(library, code);
+    if (!entry.make) {
+      throw Misuse(unknownName("code", code, {"ddaspk", "ddassl", "radau", "radau5", "rodas", "seulex"}));
+    }
+  }
+  entry.source = library->hash();
+  return entry;
+}
+
+}  // namespace
+
+std::string loadMethod(std::string_view given) {
+  if (!isLibrary(given)) return std::string(given);
+  static std::map<std::string, std::string, std::less<>> loaded;
+  const auto known = loaded.find(given);
+  if (known != loaded.end()) return known->second;
+  PeerEntry entry = entryOf(given);
+  const std::string id = entry.id;
+  registerPeer(std::move(entry));
+  return loaded[std::string(given)] = id;
+}
+
+}  // namespace irk
