@@ -115,11 +115,11 @@ void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
   runRegistrations(source.string());
 }
 
-LoadedFile loadNew(const std::filesystem::path& given, const std::filesystem::path& file) {
+std::string loadNew(const std::filesystem::path& given, const std::filesystem::path& file) {
   const Compiled compiled = compile(given, 16, log());
   const auto before = knownIds();
   const shared_library& object = load(compiled.object, given);
-  LoadedFile loaded{"", compiled.hash};
+  LoadedFile& loaded = loadedFiles()[file] = {"", compiled.hash};  // the hash is needed by what registers
   const bool registers = runRegistrations(given.string()) > 0;
   if (object.has("irk_scene")) {
     SceneEntry entry = entryIn(object);
@@ -135,7 +135,7 @@ LoadedFile loadNew(const std::filesystem::path& given, const std::filesystem::pa
     throw Misuse(
         fmt::format("{}: it registers nothing: IRK_SCENE(...) or IRK_REGISTER {{ ... }} is expected", given.string()));
   }
-  return loaded;
+  return loaded.scene;
 }
 
 }  // namespace
@@ -150,8 +150,12 @@ std::string loadFile(const std::filesystem::path& file) {
   const auto path = std::filesystem::canonical(file, error);
   const auto known = loadedFiles().find(path);
   if (!error && known != loadedFiles().end()) return known->second.scene;
-  LoadedFile loaded = loadNew(file, path);
-  return (loadedFiles()[path] = std::move(loaded)).scene;
+  try {
+    return loadNew(file, path);
+  } catch (...) {
+    loadedFiles().erase(path);
+    throw;
+  }
 }
 
 std::string hashOfFile(const std::string& file) {

@@ -13,7 +13,10 @@ namespace {
 void findFiles(StudyValue& value, const std::string& study_file) {
   const auto folder = std::filesystem::path(study_file).parent_path();
   for (auto& item : value.items) {
-    if (own::isFile(item) && std::filesystem::path(item).is_relative()) item = (folder / item).string();
+    const auto at = item.find('@') + 1;  // of a code in a library: radau5@libradau5.so; else 0
+    const std::filesystem::path path = item.substr(at);
+    const bool is_file = own::isFile(item) || path.extension() == ".so";
+    if (is_file && path.is_relative()) item = item.substr(0, at) + (folder / path).string();
   }
 }
 

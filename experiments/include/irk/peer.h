@@ -2,10 +2,13 @@
 // methods. A peer gets the scene as a PeerProblem and calls back after each accepted step:
 //
 //   class MySolver final : public irk::Peer { ... };
-//   const irk::RegisterPeer mine{{.id = "my_solver", .title = "My solver, order 2", .form = irk::PeerForm::kOde,
-//                                 .make = irk::makePeerOf<MySolver>}};
+//   IRK_REGISTER {
+//     irk::registerPeer({.id = "my_solver", .title = "My solver, order 2", .form = irk::PeerForm::kOde,
+//                        .make = irk::makePeerOf<MySolver>});
+//   }
 //
-// In C: peer_c.h.
+// `irk solve van_der_pol --method my_solver.cpp` compiles and loads such a file. experiments/examples/ros2_solver.cpp
+// is complete. In C: peer_c.h.
 #pragma once
 
 #include <functional>
@@ -14,6 +17,7 @@
 #include <vector>
 
 #include "irk/outcome.h"
+#include "irk/registration.h"
 #include "irk/scalar.h"
 #include "irk/statistics.h"
 
@@ -173,10 +177,5 @@ std::unique_ptr<Peer> makePeerOf(const PeerSetup& setup) {
 /// both; for an id with other characters than letters, digits, '_', '-' and '.'; and for an entry without `make`. Not
 /// while other threads use the catalogue.
 void registerPeer(PeerEntry entry);
-
-/// Registers a peer when the program starts or the file that contains it is loaded. The loader reports what is refused.
-struct RegisterPeer {
-  explicit RegisterPeer(PeerEntry entry) noexcept;
-};
 
 }  // namespace irk

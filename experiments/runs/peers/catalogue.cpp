@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "experiments/own/files.h"
 #include "irk/misuse.h"
+#include "irk/registration.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -24,14 +26,6 @@ std::deque<PeerEntry>& entries() {
   return all;
 }
 
-struct Loading {
-  std::string hash, refused;
-};
-Loading& loading() {
-  static Loading state;
-  return state;
-}
-
 }  // namespace
 
 const std::deque<PeerEntry>& peerCatalogue() { return entries(); }
@@ -40,20 +34,6 @@ const PeerEntry* findPeer(std::string_view id) {
   const auto& all = entries();
   const auto at = std::find_if(all.begin(), all.end(), [id](const auto& p) { return p.id == id; });
   return at == all.end() ? nullptr : &*at;
-}
-
-PeerSource::PeerSource(std::string hash) { loading() = {std::move(hash), ""}; }
-PeerSource::~PeerSource() { loading() = {}; }
-void PeerSource::requireRegistered() const {
-  if (!loading().refused.empty()) throw Misuse(loading().refused);
-}
-
-RegisterPeer::RegisterPeer(PeerEntry entry) noexcept {
-  try {
-    registerPeer(std::move(entry));
-  } catch (const Misuse& misuse) {
-    loading().refused = misuse.what();
-  }
 }
 
 void registerPeer(PeerEntry entry) {
@@ -76,7 +56,7 @@ void registerPeer(PeerEntry entry) {
       refuse(fmt::format("the id is taken by the family '{}' ({})", family.id, family.title));
     }
   }
-  if (entry.source.empty()) entry.source = loading().hash;
+  if (entry.source.empty()) entry.source = own::hashOfFile(registeringSource());
   entries().push_back(std::move(entry));
 }
 

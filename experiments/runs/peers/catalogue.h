@@ -17,18 +17,6 @@ const std::deque<PeerEntry>& peerCatalogue();
 /// Returns nullptr if no peer has this id.
 const PeerEntry* findPeer(std::string_view id);
 
-/// While an object of it lives, registerPeer gives the entries this hash of the file that is being loaded.
-class PeerSource {
- public:
-  explicit PeerSource(std::string hash);
-  ~PeerSource();
-  PeerSource(const PeerSource&) = delete;
-  PeerSource& operator=(const PeerSource&) = delete;
-  /// Throws the Misuse of the last RegisterPeer that was refused meanwhile. To be called after loading: an exception
-  /// must not pass the system's loader.
-  void requireRegistered() const;
-};
-
 /// Throws Misuse for a spec that the peer cannot run, naming both ids and the reason.
 void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scene);
 

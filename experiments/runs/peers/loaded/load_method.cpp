@@ -3,8 +3,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/base/text.h"
+#include "experiments/own/files.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/loaded/c_peer.h"
 #include "experiments/runs/peers/loaded/dassl.h"
@@ -39,9 +42,26 @@ PeerEntry entryOf(std::string_view given) {
   return entry;
 }
 
+// The solver of a user's .cpp file.
+std::string methodIn(const std::string& file) {
+  own::loadFile(file);
+  const std::string hash = own::hashOfFile(file);
+  std::vector<std::string> ids;
+  for (const PeerEntry& peer : peerCatalogue()) {
+    if (peer.source == hash) ids.push_back(peer.id);
+  }
+  if (ids.empty()) throw Misuse(file + ": it holds no solver: IRK_REGISTER { irk::registerPeer(...); } is expected");
+  if (ids.size() > 1) {
+    throw Misuse(file + ": it holds more than one solver, as '" + ids[0] + "' and '" + ids[1] +
+                 "': load it by --load, and name one of them by --method");
+  }
+  return ids.front();
+}
+
 }  // namespace
 
 std::string loadMethod(std::string_view given) {
+  if (own::isFile(given)) return methodIn(std::string(given));
   if (!isLibrary(given)) return std::string(given);
   static std::map<std::string, std::string, std::less<>> loaded;
   const auto known = loaded.find(given);
