@@ -41,6 +41,9 @@ label(p) = p[1 : strstrt(p, '|') - 1]
 behind(p) = p[strstrt(p, '|') + 1 : strlen(p)]
 content(p) = strstrt(behind(p), '|') ? label(behind(p)) : behind(p)
 factor(p) = strstrt(behind(p), '|') ? behind(behind(p)) : '1'
+# Text of a table's head is evaluated only if it consists of the characters of a number.
+strange(s) = strlen(s) == 0 ? 1 : sum [k = 1 : strlen(s)] (strstrt('0123456789.eE+-', s[k : k]) == 0)
+number(s) = strange(s) ? 'NaN' : s
 only(list, k) = k == 0 ? "" : only(list, k - 1).when(there(word(list, k)), ' '.word(list, k))
 shown(p) = only(content(p), words(content(p)))
 kept = ""
@@ -58,7 +61,7 @@ columns = n <= 3 ? n : 2
 lines = (n + columns - 1) / columns
 width = n <= 1 ? 560 : n == 3 ? 1080 : 820
 margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : 0.1
-margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = lines == 1 ? 0.1 : 0.06
+margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = lines > 1 ? 0.06 : words(jumps) ? 0.17 : 0.1
 gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
@@ -67,7 +70,7 @@ do for [format in formats] {
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)
-    eval 'scale = '.factor(p)
+    eval 'scale = '.number(factor(p))
     eval panel(i, columns, lines)
     set ylabel label(p) offset 1,0 noenhanced
     orbit = strstrt(list, ':') > 0

@@ -19,9 +19,9 @@
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/draw.h"
-#include "experiments/study/own_files.h"
 #include "experiments/study/study_file.h"
 #include "experiments/study/study_rules.h"
+#include "experiments/study/toml/own_files.h"
 #include "irk/tableaus.h"
 
 namespace irk {

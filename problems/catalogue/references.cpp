@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "problems/catalogue/embedded.h"
 #include "irk/scene_file.h"
+#include "problems/catalogue/embedded.h"
 
 namespace irk {
 namespace {

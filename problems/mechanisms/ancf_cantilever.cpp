@@ -1,8 +1,8 @@
 // A cantilever of ANCF elements; a dead tip load 3 EI / L^2 is applied suddenly at t = 0.
 #include <cmath>
 
-#include "problems/mechanisms/ancf_beam.h"
 #include "irk/scene_file.h"
+#include "problems/mechanisms/ancf_beam.h"
 
 namespace irk {
 namespace {

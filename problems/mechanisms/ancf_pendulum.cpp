@@ -1,8 +1,8 @@
 // A soft pendulum of ANCF elements, hinged at one end and released from the horizontal.
 #include <cmath>
 
-#include "problems/mechanisms/ancf_beam.h"
 #include "irk/scene_file.h"
+#include "problems/mechanisms/ancf_beam.h"
 
 namespace irk {
 namespace {

@@ -5,8 +5,8 @@
 // to the point of the arm at L/4 from the hinge; its length is s = L/4 sqrt(2 + 2 sin angle).
 #include <cmath>
 
-#include "irk/scene_file.h"
 #include "irk/regularised.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

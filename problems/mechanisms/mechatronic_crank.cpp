@@ -4,8 +4,8 @@
 // the integral of the speed error.
 #include <cmath>
 
-#include "problems/mechanisms/slider_crank_data.h"
 #include "irk/scene_file.h"
+#include "problems/mechanisms/slider_crank_data.h"
 
 namespace irk {
 namespace {

@@ -1,8 +1,8 @@
 // The rigid slider-crank: one mechanism in three sets of coordinates.
 #include <cmath>
 
-#include "problems/mechanisms/slider_crank_coordinates.h"
 #include "irk/scene_file.h"
+#include "problems/mechanisms/slider_crank_coordinates.h"
 
 namespace irk {
 namespace {

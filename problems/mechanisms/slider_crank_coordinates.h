@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "problems/mechanisms/slider_crank_data.h"
 #include "irk/regularised.h"
+#include "problems/mechanisms/slider_crank_data.h"
 
 namespace irk::slider_crank {
 

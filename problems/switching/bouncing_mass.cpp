@@ -1,9 +1,9 @@
 // A mass that falls on an elastic floor and bounces.
 #include <cmath>
 
+#include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
-#include "irk/regularised.h"
 
 namespace irk {
 namespace {

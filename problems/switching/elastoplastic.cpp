@@ -3,9 +3,9 @@
 // u = displacement of the mass, x = displacement of the slider.
 #include <cmath>
 
+#include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
-#include "irk/regularised.h"
 
 namespace irk {
 namespace {

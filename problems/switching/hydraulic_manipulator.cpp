@@ -7,8 +7,8 @@
 #include <cstddef>
 
 #include "irk/misuse.h"
-#include "irk/scene_file.h"
 #include "irk/regularised.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

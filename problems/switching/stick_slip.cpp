@@ -2,8 +2,8 @@
 // that decay by Coulomb friction.
 #include <cmath>
 
-#include "irk/scene_file.h"
 #include "irk/regularised.h"
+#include "irk/scene_file.h"
 
 namespace irk {
 namespace {

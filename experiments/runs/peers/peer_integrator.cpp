@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/integration/rules.h"
 #include "experiments/runs/peers/problem/make_problem.h"
@@ -99,13 +100,30 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
   return {report.outcome, report.detail, system_->toScene(state_), counters_};
 }
 
+// Over the times of the system, at each of which the library starts again.
 StartReport PeerIntegrator::run(double t_end, const Monitor<double>& monitor) {
+  const auto times = system_->times();
+  StartReport report;
+  bool new_run = true;
+  for (std::size_t i = 0; i < times.size() && report.outcome == Outcome::kSuccess; ++i) {
+    if (times[i] <= state_.t || times[i] >= t_end) continue;
+    report = runTo(times[i], std::exchange(new_run, false), monitor);
+    if (report.outcome != Outcome::kSuccess) break;
+    system_->onTime(static_cast<Index>(i), state_);
+    report = settle(monitor);
+  }
+  return report.outcome == Outcome::kSuccess ? runTo(t_end, new_run, monitor) : report;
+}
+
+StartReport PeerIntegrator::runTo(double t_end, bool new_run, const Monitor<double>& monitor) {
   StartReport report = mayGoOn(monitor);
-  for (bool new_run = true; report.outcome == Outcome::kSuccess && (new_run || restarts_); new_run = false) {
+  bool goes_on = report.outcome == Outcome::kSuccess;
+  while (goes_on) {
     // Libraries refuse an interval that is shorter than round-off of t.
     const double shortest = 100 * std::numeric_limits<double>::epsilon() * std::abs(t_end);
     if (t_end - state_.t <= shortest) state_.t = t_end;
-    report = leg(new_run, t_end, monitor);
+    report = leg(std::exchange(new_run, false), t_end, monitor);
+    goes_on = report.outcome == Outcome::kSuccess && restarts_;
   }
   return report;
 }

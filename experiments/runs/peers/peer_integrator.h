@@ -22,6 +22,7 @@ class PeerIntegrator {
 
  private:
   StartReport run(double t_end, const Monitor<double>& monitor);
+  StartReport runTo(double t_end, bool new_run, const Monitor<double>& monitor);
   StartReport leg(bool new_run, double t_end, const Monitor<double>& monitor);
   PeerNext accepted(const PeerStep& step, double t_end, const Monitor<double>& monitor);
   StartReport take(const PeerStep& step, double t_end, const Monitor<double>& monitor);

@@ -47,7 +47,7 @@ struct Integrated {
 };
 
 Integrated integrate(const Pulses& problem, const IntegratorOptions& options, double t_end,
-              Formulation formulation = Formulation::kIndex2) {
+                     Formulation formulation = Formulation::kIndex2) {
   Integrated run;
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>& step) { run.ends.push_back(step.t); };

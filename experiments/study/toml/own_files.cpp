@@ -1,4 +1,4 @@
-#include "experiments/study/own_files.h"
+#include "experiments/study/toml/own_files.h"
 
 #include <fmt/format.h>
 
