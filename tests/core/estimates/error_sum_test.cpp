@@ -89,7 +89,7 @@ TEST(ErrorSum, ManyStepsOfLowOrderAreRightOrSaySo) {
       } else {
         ++failed;
         EXPECT_EQ(s.outcome, Outcome::kInaccurate) << s.detail;
-        EXPECT_NE(s.detail.find("add up"), std::string::npos) << s.detail;
+        EXPECT_NE(s.detail.find("sum of the estimated errors"), std::string::npos) << s.detail;
       }
     }
   }

@@ -133,9 +133,21 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   }
 }
 
+TEST_F(OwnFiles, ASolverIsAMethod) {
+  const std::string file = IRK_SOURCE_DIR "/experiments/examples/ros2_solver.cpp";
+  const Ran ran = irk("solve van_der_pol --tol 1e-5 --method " + file);
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_TRUE(containsAll(ran.text, {"van_der_pol   ros2", "1.706"}));
+  EXPECT_TRUE(containsAll(irk("list methods --load " + file).text, {"ros2", "Rosenbrock"}));
+  const Ran none = irk("solve van_der_pol --tol 1e-5 --method " IRK_SOURCE_DIR "/experiments/examples/pi_control.cpp");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(containsAll(none.text, {"holds no solver"}));
+}
+
 struct Example {
   const char *file, *axis, *id;
 };
+void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
 
 class OwnStrategy : public OwnFiles, public testing::WithParamInterface<Example> {};
 
