@@ -7,6 +7,9 @@
 
 #include "dense_solve.h"
 
+#ifndef FORM
+#define FORM IRK_PEER_ODE
+#endif
 #ifndef ROOTS
 #define ROOTS 0
 #endif
