@@ -54,9 +54,9 @@ int reportException(std::ostream& err) {
   } catch (const std::bad_alloc&) {
     printErrorLine(err, "out of memory");
   } catch (const std::exception& error) {
-    printErrorLine(err, fmt::format("a fault of the program: {}", error.what()));
+    printErrorLine(err, fmt::format("internal error: {}", error.what()));
   } catch (...) {
-    printErrorLine(err, "a fault of the program");
+    printErrorLine(err, "internal error");
   }
   return kFailedStatus;
 }

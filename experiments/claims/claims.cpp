@@ -41,7 +41,11 @@ std::string_view verdictText(Verdict verdict) {
 
 Finding judge(const Claim& claim, const ResultTables& tables) {
   try {
-    return claim.evaluate(tables);
+    const Finding finding = claim.evaluate(tables);
+    if (!tables.areQuick()) return finding;
+    return {
+        Verdict::kNotMeasurable, finding.number,
+        fmt::format("Results of --quick give no verdict. Here: {}. {}", verdictText(finding.verdict), finding.reason)};
   } catch (const MissingResults& missing) {
     return {Verdict::kNotMeasurable, "–", missing.what()};
   } catch (const Misuse& old) {  // a table of another version
@@ -58,7 +62,8 @@ std::string commandOf(const Claim& claim) {
 }
 
 std::string claimsText(const ResultTables& tables) {
-  std::string text;
+  std::string text =
+      tables.areQuick() ? "Results of --quick: small versions of the studies, which give no verdicts.\n" : "";
   for (const auto& claim : claims()) {
     const Finding finding = judge(claim, tables);
     text += fmt::format("{:<4}{}: {}\n    {}\n    {}\n    {}\n", claim.id, verdictText(finding.verdict), finding.number,

@@ -35,7 +35,8 @@ struct Claim {
 /// C1 to C15.
 std::span<const Claim> claims();
 
-/// The claim's evaluation, or `not measurable: study X has not been run`.
+/// The claim's evaluation, or `not measurable`: study X has not been run, or the results are those of --quick, whose
+/// studies are too small for a verdict; the reason then says what they would give.
 Finding judge(const Claim& claim, const ResultTables& tables);
 
 /// `irk run X && irk plot X`, for all of its studies.

@@ -23,6 +23,9 @@ class ResultTables {
  public:
   explicit ResultTables(std::filesystem::path results = {}) : results_(std::move(results)) {}
 
+  /// Whether these are results of --quick, which are kept in a folder of this name.
+  bool areQuick() const { return results_.filename() == "quick"; }
+
   /// A table that no file holds.
   void put(const std::string& study, const std::string& name, Table table);
 

@@ -78,6 +78,10 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
   });
+  for (const auto& [invariant, unit, change] : record.invariants) {
+    fmt::print(out, "invariant {:<12} changes by at most {:.3e}{}{}\n", invariant, change, unit.empty() ? "" : " ",
+               unit);
+  }
   for (const auto& [t, name] : record.switches) {
     fmt::print(out, "switch {:<15} t = {:.15g}\n", name, t);
   }
@@ -211,6 +215,7 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   const InterruptScope interrupts;
   ReferenceLibrary references(referenceOptions(streams.err));
   Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
+  watch.invariants = true;
   out.addTo(watch);
   bool drawn = true;
   const RunRecord record =

@@ -70,20 +70,55 @@ std::string identity(const fs::path& source, int digits) {
   return text;
 }
 
-// The prerequisites in a rule of make, without those in the folders of headers.
-std::vector<fs::path> userFiles(const fs::path& rule) {
-  std::vector<std::string> theirs = ownFolders();
-  for (auto& folder : words(compileCommand().folders)) theirs.push_back(folder);
-  theirs.insert(theirs.end(), {"/usr/include/", "/usr/lib/"});
+bool isWithin(const std::string& file, const std::vector<std::string>& folders) {
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const auto& folder) { return file.starts_with(folder + '/'); });
+}
+
+// Where the program's headers are: the rooms of core, and the folders of headers for users. The sources' root, too, is
+// searched for headers, but what else is in it may be a user's.
+std::vector<std::string> headerFolders() {
+  std::vector<std::string> folders = ownFolders();
+  for (auto& folder : folders) {
+    const bool is_root = fs::exists(fs::path(folder) / "core");
+    if (is_root) folder += "/core";
+  }
+  return folders;
+}
+
+// The prerequisites in a rule of make.
+std::vector<std::string> prerequisites(const fs::path& rule) {
   std::ifstream in(rule);
-  std::vector<fs::path> files;
+  std::vector<std::string> files;
   std::string word;
   in >> word;  // the target
   while (in >> word) {
-    const auto within = [&word](const std::string& folder) { return word.starts_with(folder); };
-    if (word != "\\" && std::none_of(theirs.begin(), theirs.end(), within)) files.emplace_back(word);
+    if (word != "\\") files.push_back(word);
   }
   return files;
+}
+
+// Those that are neither the program's headers nor other libraries'.
+std::vector<fs::path> userFiles(const std::vector<std::string>& files) {
+  std::vector<std::string> theirs = headerFolders();
+  for (auto& folder : words(compileCommand().folders)) theirs.push_back(folder);
+  theirs.insert(theirs.end(), {"/usr/include", "/usr/lib"});
+  std::vector<fs::path> users;
+  for (const auto& file : files) {
+    if (!isWithin(file, theirs)) users.emplace_back(file);
+  }
+  return users;
+}
+
+// An object that was compiled with other headers than the program would spoil its memory.
+void requireHeadersOfProgram(const std::vector<std::string>& files) {
+  std::error_code none;
+  const auto built = fs::last_write_time(fs::read_symlink("/proc/self/exe", none), none);
+  for (const auto& file : files) {
+    if (!isWithin(file, headerFolders()) || fs::last_write_time(file, none) <= built) continue;
+    throw Misuse(fmt::format(
+        "{} is newer than this program, which was built with a former version of it: build the program again", file));
+  }
 }
 
 std::string hashOfFiles(const std::vector<fs::path>& files) {
@@ -164,8 +199,15 @@ Compiled compile(const fs::path& source, int digits, std::ostream& log) {
     log << (about.empty() ? child.messages : about);
     throw Misuse(fmt::format("{}: it does not compile", source.string()));
   }
-  const auto files = userFiles(rule);
+  const auto all = prerequisites(rule);
+  const auto files = userFiles(all);
   fs::remove(rule, none);
+  try {
+    requireHeadersOfProgram(all);
+  } catch (const Misuse&) {
+    fs::remove(made, none);
+    throw;
+  }
   const std::string hash = hashOfFiles(files);
   std::ofstream text(made.string() + ".files");
   text << hash << '\n';

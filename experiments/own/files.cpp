@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#define BOOST_DLL_USE_STD_FS
 #include <algorithm>
-#include <boost/dll/shared_library.hpp>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "experiments/own/compiler.h"
+#include "experiments/own/shared_library.h"
 #include "irk/options.h"
 #include "irk/registration.h"
 #include "irk/scene.h"
@@ -20,23 +19,20 @@
 namespace irk::own {
 namespace {
 
-using boost::dll::shared_library;
-
 std::ostream* report = nullptr;
 std::ostream& log() { return report ? *report : std::cerr; }
 
 // Objects are never unloaded, not at the program's end either: what they registered is destroyed after that.
-shared_library& load(const std::filesystem::path& object, const std::filesystem::path& source) {
-  static auto& loaded = *new std::vector<std::unique_ptr<shared_library>>;
+const SharedLibrary& load(const std::filesystem::path& object, const std::filesystem::path& source) {
+  static auto& loaded = *new std::vector<std::unique_ptr<SharedLibrary>>;
   try {
-    loaded.push_back(std::make_unique<shared_library>(object, boost::dll::load_mode::rtld_now));
-  } catch (const std::exception& error) {
-    throw Misuse(fmt::format("{}: it cannot be loaded: {}", source.string(), error.what()));
+    return *loaded.emplace_back(std::make_unique<SharedLibrary>(object));
+  } catch (const Misuse& misuse) {
+    throw Misuse(fmt::format("{}: its object cannot be loaded: {}", source.string(), misuse.what()));
   }
-  return *loaded.back();
 }
 
-SceneEntry entryIn(const shared_library& object) {
+SceneEntry entryIn(const SharedLibrary& object) {
   SceneEntry entry;
   object.get<void(SceneEntry*)>("irk_scene")(&entry);
   return entry;
@@ -118,10 +114,10 @@ void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
 std::string loadNew(const std::filesystem::path& given, const std::filesystem::path& file) {
   const Compiled compiled = compile(given, 16, log());
   const auto before = knownIds();
-  const shared_library& object = load(compiled.object, given);
+  const SharedLibrary& object = load(compiled.object, given);
   LoadedFile& loaded = loadedFiles()[file] = {"", compiled.hash};  // the hash is needed by what registers
   const bool registers = runRegistrations(given.string()) > 0;
-  if (object.has("irk_scene")) {
+  if (object.find<void(SceneEntry*)>("irk_scene")) {
     SceneEntry entry = entryIn(object);
     loaded.scene = entry.id;
     entry.make_mp50 = whenAsked<mp50>(file, 50, &SceneEntry::make_mp50);

@@ -266,8 +266,13 @@ std::filesystem::path writeReport(const ReportOptions& options) {
       environment += environmentHtml(study, readTable(folder / "runs.csv"));
     }
   }
-  replacePlaceholder(page, "@CLAIMS@",
-                     claims::claimsHtml(claims::ResultTables(options.results), figureFolder(options)));
+  const claims::ResultTables tables(options.results);
+  replacePlaceholder(page, "@BANNER@",
+                     tables.areQuick() ? "<p class=\"banner\"><b>A quick run:</b> small versions of all studies, "
+                                         "which show that everything works. They give no verdicts on claims, and their "
+                                         "orders and costs are coarse.</p>\n"
+                                       : "");
+  replacePlaceholder(page, "@CLAIMS@", claims::claimsHtml(tables, figureFolder(options)));
   replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
   replacePlaceholder(page, "@ORDER_WINDOW@", windowText());
   replacePlaceholder(page, "@TABLES@", orders);

@@ -42,20 +42,23 @@ Field<RunSpec> sceneField() {
           .set = [](RunSpec& s, std::string_view id) { s.scene = sceneNamed(std::string(id)); }};
 }
 
+// The text `name=value name=value`.
+Settings settingsIn(std::string_view text) {
+  Settings settings;
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    if (end > 0) addSetting(settings, text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return settings;
+}
+
 Field<RunSpec> settingsField() {
   return {.name = "settings",
           .meaning = "Parameters of the scene.",
           .form = "name=value, see irk list scenes",
           .get = [](const RunSpec& s) { return settingsText(s.settings); },
-          .set =
-              [](RunSpec& s, std::string_view value) {
-                s.settings.clear();
-                while (!value.empty()) {
-                  const auto end = std::min(value.find(' '), value.size());
-                  if (end > 0) addSetting(s.settings, value.substr(0, end));
-                  value.remove_prefix(std::min(end + 1, value.size()));
-                }
-              }};
+          .set = [](RunSpec& s, std::string_view value) { s.settings = settingsIn(value); }};
 }
 
 // An axis, but its ids set other fields, too.
@@ -110,6 +113,21 @@ Field<RunSpec> endField() {
   return field;
 }
 
+Field<RunSpec> atolOfField() {
+  return {.name = "atol_of",
+          .meaning = "Absolute tolerances of single components, instead of atol times their scale.",
+          .form = "name=value name=value, names as solve prints them",
+          .get = [](const RunSpec& s) { return settingsText(s.atol_of); },
+          .set =
+              [](RunSpec& s, std::string_view text) {
+                s.atol_of = settingsIn(text);
+                for (const auto& [name, value] : s.atol_of) parseNumber("atol_of " + name, value, kPositive);
+              },
+          .unused = [](const RunSpec& s) -> std::string_view {
+            return s.options.step.control == StepControl::kFixed ? "fixed steps have no tolerance" : "";
+          }};
+}
+
 Field<RunSpec> maxStagesField() {
   auto field = numberField<RunSpec>(
       "max_stages", "The most stages of variable order.", Range::integers(1, kMaxStages),
@@ -135,7 +153,7 @@ std::vector<SpecField> makeFields() {
        axisField<RunSpec>("How switches of the scene are treated.", IRK_MEMBER(discontinuity)),
        axisField<RunSpec>("The numbers that are computed with.", IRK_MEMBER(scalar))});
   auto after = std::to_array<Field<RunSpec>>(
-      {maxStagesField(), endField(),
+      {atolOfField(), maxStagesField(), endField(),
        numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
                             kNotNegative, IRK_MEMBER(time_limit)),
        axisField<RunSpec>("What an error is measured by where no reference is stored.", IRK_MEMBER(reference))});

@@ -1,6 +1,7 @@
 #include "experiments/runs/run.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/system/first_order.h"
 #include "experiments/base/clock.h"
@@ -97,11 +98,16 @@ class Prepared final : public PreparedRun {
     Monitor<Real> monitor;
     const double start = threadSeconds();
     monitor.interrupt = interruption(watch, start, spec_.time_limit);
+    auto invariants = watch.invariants ? invariantsAtStart() : std::vector<Followed>{};
+    if (!invariants.empty()) {
+      monitor.accepted = [&](const StepRecord<Real>& step) { follow(step.state, invariants); };
+    }
     if (watch.accepted) {
       const double none = std::numeric_limits<double>::quiet_NaN();
       watch.accepted({static_cast<double>(scene_.start.t), none, none, 0, values(scene_.start)});
       monitor.inside = watch.inside;
       monitor.accepted = [&](const StepRecord<Real>& step) {
+        follow(step.state, invariants);
         Inside inside(*this, step.inside);
         watch.accepted({static_cast<double>(step.t), step.h, step.error, step.newton_iterations, values(step.state),
                         step.inside ? &inside : nullptr});
@@ -117,6 +123,7 @@ class Prepared final : public PreparedRun {
     const auto solution = method_.integrate(scene_.start, t_end, monitor);
     RunRecord result = record(solution, threadSeconds() - start, watch);
     result.switches = std::move(switches);
+    for (auto& one : invariants) result.invariants.push_back(std::move(one.change));
     return result;
   }
 
@@ -129,6 +136,25 @@ class Prepared final : public PreparedRun {
   }
 
  private:
+  struct Followed {
+    const typename Scene<Real>::Output* output;
+    Real start;
+    InvariantChange change;
+  };
+  std::vector<Followed> invariantsAtStart() const {
+    std::vector<Followed> all;
+    for (const auto& output : scene_.outputs) {
+      if (output.invariant) all.push_back({&output, output.value(scene_.start), {output.name, output.unit, 0}});
+    }
+    return all;
+  }
+  static void follow(const State<Real>& state, std::vector<Followed>& invariants) {
+    for (auto& [output, start, change] : invariants) {
+      const double distance = std::abs(static_cast<double>(Real(output->value(state) - start)));
+      if (!(distance <= change.change)) change.change = distance;
+    }
+  }
+
   class Inside final : public ValuesInside {
    public:
     Inside(const Prepared& run, InsideStep<Real>* step) : run_(run), step_(step) {}
@@ -176,6 +202,7 @@ class Prepared final : public PreparedRun {
                      .errors = {},
                      .counters = solution.counters,
                      .switches = {},
+                     .invariants = {},
                      .cpu_s = seconds};
     // A state that violates its constraints is a final state as well; its error shows how large the violation is.
     if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {

@@ -23,6 +23,13 @@ struct SwitchEvent {
   std::string name;  ///< of the switching function
 };
 
+/// How an invariant of the scene changed.
+struct InvariantChange {
+  std::string name, unit;
+  double
+      change;  ///< the largest distance from its value at the start, over all accepted steps; NaN if it is not finite
+};
+
 struct RunRecord {
   RunSpec spec;
   std::string family;
@@ -34,7 +41,8 @@ struct RunRecord {
   std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
   RunErrors errors;
   Counters counters;
-  std::vector<SwitchEvent> switches;  ///< the first kMaxRecordedSwitches
+  std::vector<SwitchEvent> switches;        ///< the first kMaxRecordedSwitches
+  std::vector<InvariantChange> invariants;  ///< with Watch::invariants
   double cpu_s = std::numeric_limits<double>::quiet_NaN();
 
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
@@ -73,7 +81,8 @@ struct Watch {
   /// The reference of a run with `reference = auto` for which nothing is stored (needsReference); called after the
   /// integration, with the resolved spec. Without it the error is unknown.
   std::function<MadeReference(const RunSpec& spec)> reference = {};
-  bool inside = false;  ///< whether `accepted` asks for AcceptedStep::inside
+  bool invariants = false;  ///< whether the scene's invariants are followed, which takes time in each step
+  bool inside = false;      ///< whether `accepted` asks for AcceptedStep::inside
 };
 
 /// Scene, tableau and integrator of a spec: built once, run as often as wanted. Use one object per thread.

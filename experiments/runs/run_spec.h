@@ -48,6 +48,8 @@ struct RunSpec {
   Discontinuity discontinuity = Discontinuity::kLocate;
   ScalarKind scalar = ScalarKind::kDouble;
   IntegratorOptions options;
+  /// Absolute tolerances of single components by their names, > 0, instead of atol times their scale.
+  Settings atol_of = {};
   /// 1 .. kMaxStages. With variable order, the stages of the family's largest member.
   int max_stages = 13;
   /// NaN stands for the scene's own end time.

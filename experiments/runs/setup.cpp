@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/estimates/variable_order.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "irk/multiprecision.h"
@@ -31,6 +33,18 @@ Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
 }
 
 template <class Real>
+Vec<double> toleranceScale(const Scene<Real>& scene, const RunSpec& spec, const Sizes& system) {
+  Vec<double> scale = systemScale(scene.scale, system);
+  for (const auto& [name, value] : spec.atol_of) {
+    const auto at = std::find(scene.names.begin(), scene.names.end(), name);
+    const Index i = at - scene.names.begin();
+    if (at == scene.names.end()) throw Misuse("atol_of: " + unknownName("component of " + scene.id, name, scene.names));
+    if (i < scale.size()) scale[i] = parseNumber("atol_of", value, kPositive) / spec.options.tolerances.atol;
+  }
+  return scale;
+}
+
+template <class Real>
 Scene<Real> sceneOf(const RunSpec& spec) {
   return makeScene<Real>(spec.scene, settingsAtStep(spec));
 }
@@ -41,10 +55,13 @@ Setup<Real> makeSetup(const RunSpec& given) {
   auto scene = sceneOf<Real>(spec);
   auto methods = methodsOf<Real>(spec);
   auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
-  auto scale = systemScale(scene.scale, system->sizes());
+  auto scale = toleranceScale(scene, spec, system->sizes());
   return {std::move(spec), std::move(scene), std::move(system), std::move(methods), std::move(scale)};
 }
 
+template Vec<double> toleranceScale(const Scene<double>&, const RunSpec&, const Sizes&);
+template Vec<double> toleranceScale(const Scene<mp50>&, const RunSpec&, const Sizes&);
+template Vec<double> toleranceScale(const Scene<mp100>&, const RunSpec&, const Sizes&);
 template Scene<double> sceneOf(const RunSpec&);
 template Scene<mp50> sceneOf(const RunSpec&);
 template Scene<mp100> sceneOf(const RunSpec&);

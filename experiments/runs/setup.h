@@ -28,6 +28,11 @@ struct Setup {
   }
 };
 
+/// The magnitudes that an integrator multiplies atol by: those of the system's components (systemScale), but as
+/// `atol_of` of the spec says where it names one. Throws Misuse for a name that the scene does not have.
+template <class Real>
+Vec<double> toleranceScale(const Scene<Real>& scene, const RunSpec& spec, const Sizes& system);
+
 /// Magnitudes of a system's components from those of its scene: 1 for unknowns that the formulation adds; cut off
 /// where it eliminates unknowns.
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system);

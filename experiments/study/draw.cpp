@@ -144,9 +144,11 @@ class Drawer {
   explicit Drawer(const AuditOptions& options) : options_(options) {}
 
   DrawnRun run(int number) {
+    // Those of the library, which come first: the draws do not depend on what users add.
     const auto& scenes = sceneCatalogue();
+    const auto count = std::count_if(scenes.begin(), scenes.end(), [](const auto& scene) { return !scene.registered; });
     Dice dice(fmt::format("{} run {}", options_.seed, number));
-    const auto& scene = scenes[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes.size())))];
+    const auto& scene = scenes[static_cast<std::size_t>(dice.below(count))];
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       if (auto run = drawn(dice, scene)) return *run;
     }

@@ -63,6 +63,7 @@ const std::deque<SceneEntry>& sceneCatalogue() { return catalogue(); }
 
 void registerScene(SceneEntry entry) {
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  entry.registered = true;
   entry.source = registeringSource();
   if (entry.id.empty() || entry.id.find_first_not_of(kAllowed) != std::string::npos) {
     throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) +
@@ -152,6 +153,13 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
   Scene<Real> scene = make(completed);
   if (!scene.system) throw Misuse("scene " + entry.id + " makes no system");
   scene.id = entry.id;
+  const State<Real>& s = scene.start;
+  const Index components = s.u.size() + s.v.size() + s.x.size() + s.z().size();
+  const auto names = static_cast<Index>(scene.names.size());
+  if (names > 0 && names != components) {
+    throw Misuse("scene " + entry.id + " names " + std::to_string(names) + " components, but it has " +
+                 std::to_string(components) + ": u, v, x and z (setComponents)");
+  }
   return scene;
 }
 

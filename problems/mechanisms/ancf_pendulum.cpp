@@ -27,7 +27,7 @@ Scene<Real> make(const Settings& settings) {
   // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
   const double speed = std::sqrt(static_cast<double>(Real(3 * data.g * L)));
   setComponents(scene, beam.coordinates(std::max(speed, 1.0)));
-  scene.outputs = {{"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }, "J"}};
+  scene.outputs = {{"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }, "J", true}};
   return scene;
 }
 

@@ -58,8 +58,8 @@ Scene<Real> make(const Settings& settings) {
   scene.start.w[1] = -problem.g;
   scene.outputs = {
       {"energy",
-       [problem](const State<Real>& s) { return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1])); },
-       "J"}};
+       [problem](const State<Real>& s) { return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1])); }, "J",
+       true}};
   return scene;
 }
 

@@ -65,8 +65,9 @@ Scene<Real> make(const Settings& settings) {
   setComponents(scene, {{"q1"}, {"q2"}});
   scene.exact = [problem](const Real& t) { return problem.exact(t); };
   scene.start = problem.exact(Real(0));
-  scene.outputs = {{"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }},
-                   {"angular_momentum", [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }}};
+  scene.outputs = {
+      {"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }, "", true},
+      {"angular_momentum", [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }, "", true}};
   return scene;
 }
 

@@ -122,7 +122,11 @@ mp100 decimal<mp100>(const char* text) {
 
 template <class Real>
 Real number(const Settings& settings, const std::string& name) {
-  return decimal<Real>(settings.at(name).c_str());
+  const auto found = settings.find(name);
+  if (found == settings.end()) {
+    throw Misuse(fmt::format("a scene asks for its parameter '{}', which its entry does not declare", name));
+  }
+  return decimal<Real>(found->second.c_str());
 }
 
 template <class Real>

@@ -45,7 +45,8 @@
 //     void smoothed(const Point<T>& p, T* d) const;
 //     std::string switchName(Index i) const;  // for messages
 //     // Times, ascending, at which the residual jumps or has a kink: steps end there, nothing is searched. What
-//     // jumps must depend on p.d, which onTime changes; a kink (of a table of measured data) needs no p.d.
+//     // jumps must depend on p.d, which onTime changes; a kink (of a table of measured data) needs no p.d. At times up
+//     // to the start, and at t_end, onTime is not called: the start's d is the one that holds there.
 //     std::vector<Real> times() const;
 //     template <class T>
 //     void onTime(Index i, const Point<T>& p, T* d) const;

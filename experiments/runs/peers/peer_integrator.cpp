@@ -62,7 +62,7 @@ PeerSetup setupOf(const Scene<double>& scene, const RunSpec& spec, const Sizes& 
   const double atol = spec.options.tolerances.atol;
   return {.problem = problem,
           .rtol = spec.options.tolerances.rtol,
-          .atol = problem.perComponent(systemScale(scene.scale, sizes) * atol, atol),
+          .atol = problem.perComponent(toleranceScale(scene, spec, sizes) * atol, atol),
           .h = step.h,
           .h_max = step.h_max,
           .locate = spec.discontinuity == Discontinuity::kLocate,

@@ -52,6 +52,7 @@ struct Scene {
     std::string name;
     std::function<Real(const State<Real>&)> value;
     std::string unit = {};
+    bool invariant = false;  ///< constant on the exact solution: `irk solve` prints its largest change
   };
   std::vector<Output> outputs;
 
@@ -119,7 +120,9 @@ struct SceneEntry {
   std::function<Scene<mp50>(const Settings&)> make_mp50;
   /// Needed only if orders from 20 on are measured with the scene.
   std::function<Scene<mp100>(const Settings&)> make_mp100 = {};
-  /// Of a registered scene: the file that it comes from. Set by registerScene.
+  /// Set by registerScene: that it is not one of the library's, and the file that it comes from, if the program loaded
+  /// it.
+  bool registered = false;
   std::string source = {};
 };
 

@@ -51,7 +51,7 @@ Parameter textParameter(std::string name, std::string meaning, std::string defau
 /// its range.
 Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters, const Settings& given);
 
-/// A completed setting as a number, with all digits of its text.
+/// A completed setting as a number, with all digits of its text. Throws Misuse for a parameter that the entry lacks.
 template <class Real>
 Real number(const Settings& settings, const std::string& name);
 

@@ -29,6 +29,18 @@ TEST(Claims, AreFifteenAndComplete) {
   }
 }
 
+TEST(Claims, QuickResultsGiveNoVerdict) {
+  const Claim claim{.id = "C0", .statement = "", .studies = {}, .figures = {}, .evaluate = [](const ResultTables&) {
+                      return Finding{Verdict::kConfirmed, "3", "Above 2."};
+                    }};
+  EXPECT_EQ(judge(claim, ResultTables("results")).verdict, Verdict::kConfirmed);
+  const Finding quick = judge(claim, ResultTables("results/quick"));
+  EXPECT_EQ(quick.verdict, Verdict::kNotMeasurable);
+  EXPECT_EQ(quick.number, "3");
+  EXPECT_TRUE(containsAll(quick.reason, {"--quick", "Here: confirmed", "Above 2."}));
+  EXPECT_TRUE(containsAll(claimsText(ResultTables("results/quick")), {"--quick", "no verdicts"}));
+}
+
 TEST(Claims, WithoutResultsSayWhichStudyIsMissing) {
   const ResultTables nothing;
   for (const auto& one : claims()) {

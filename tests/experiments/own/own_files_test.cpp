@@ -138,7 +138,9 @@ TEST_F(OwnFiles, ASolverIsAMethod) {
   const Ran ran = irk("solve van_der_pol --tol 1e-5 --method " + file);
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_TRUE(containsAll(ran.text, {"van_der_pol   ros2", "1.706"}));
-  EXPECT_TRUE(containsAll(irk("list methods --load " + file).text, {"ros2", "Rosenbrock"}));
+  const Ran listed = irk("list methods --load " + file);
+  EXPECT_TRUE(containsAll(listed.text, {"ros2", "Rosenbrock"}));
+  EXPECT_EQ(listed.text.find("compiling"), std::string::npos) << "compiled once, though it is in the sources' folder";
   const Ran none = irk("solve van_der_pol --tol 1e-5 --method " IRK_SOURCE_DIR "/experiments/examples/pi_control.cpp");
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(containsAll(none.text, {"holds no solver"}));

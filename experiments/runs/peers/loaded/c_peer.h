@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "experiments/runs/peers/loaded/shared_library.h"
+#include "experiments/own/shared_library.h"
 #include "irk/peer.h"
 
 namespace irk {

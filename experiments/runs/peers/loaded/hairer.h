@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "experiments/runs/peers/loaded/shared_library.h"
+#include "experiments/own/shared_library.h"
 #include "irk/peer.h"
 
 namespace irk {

@@ -31,14 +31,11 @@ class SharedLibrary {
   [[noreturn]] void refuse(const std::string& reason) const;
 
  private:
-  struct Close {
-    void operator()(void* handle) const;
-  };
   void* address(const char* name) const;
 
   std::filesystem::path path_;
   std::string hash_;
-  std::unique_ptr<void, Close> handle_;
+  std::shared_ptr<void> library_;  // of Boost.DLL
 };
 
 }  // namespace irk

@@ -1,0 +1,37 @@
+#include "experiments/own/shared_library.h"
+
+// Without Boost.Filesystem, which would have to be linked.
+#define BOOST_DLL_USE_STD_FS
+#include <boost/dll/shared_library.hpp>
+
+#include "core/base/input_file.h"
+#include "experiments/base/numbers.h"
+#include "irk/misuse.h"
+
+namespace irk {
+namespace {
+
+using Library = boost::dll::shared_library;
+
+constexpr std::size_t kMaxLibraryBytes = std::size_t{1} << 30U;
+
+}  // namespace
+
+SharedLibrary::SharedLibrary(const std::filesystem::path& path) : path_(path) {
+  hash_ = hexText(fnv1a(readInputFile(path, kMaxLibraryBytes)));
+  try {
+    // Without a folder the loader would search the system's libraries.
+    library_ = std::make_shared<Library>(std::filesystem::absolute(path), boost::dll::load_mode::rtld_now);
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+}
+
+void* SharedLibrary::address(const char* name) const {
+  const auto& library = *static_cast<const Library*>(library_.get());
+  return library.has(name) ? reinterpret_cast<void*>(&library.get<void()>(name)) : nullptr;
+}
+
+void SharedLibrary::refuse(const std::string& reason) const { throw Misuse(path_.string() + ": " + reason); }
+
+}  // namespace irk

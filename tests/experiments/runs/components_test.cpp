@@ -1,0 +1,60 @@
+// What is said of single components and outputs of a run: absolute tolerances by name, invariants.
+#include "experiments/runs/fields.h"
+#include "experiments/runs/run.h"
+#include "tests/experiments/program.h"
+#include "tests/experiments/support.h"
+
+namespace irk {
+namespace {
+
+RunRecord run(const std::string& text) { return execute(resolved(parseSpec(text))); }
+
+// y1' = -y1, y2 is fast and follows it: loose tolerances for both, or for one.
+TEST(AtolOf, ReplacesAtolTimesTheScaleOfOneComponent) {
+  const std::string text = "scene=kaps;method=radau_iia_3;rtol=1e-12;atol=1e-2";
+  const RunRecord loose = run(text), tight = run(text + ";atol_of=y1=1e-10 y2=1e-10"),
+                  one = run(text + ";atol_of=y2=1e-2");
+  ASSERT_TRUE(loose.succeeded() && tight.succeeded() && one.succeeded());
+  EXPECT_LT(tight.errors.all, 1e-2 * loose.errors.all);
+  EXPECT_GT(tight.counters.steps_accepted, loose.counters.steps_accepted);
+  // kaps has the scale 1: the same tolerance in other words.
+  EXPECT_EQ(one.counters.steps_accepted, loose.counters.steps_accepted);
+  EXPECT_EQ(one.errors.all, loose.errors.all);
+  const RunRecord peer = run("scene=kaps;method=cvode_bdf;rtol=1e-9;atol=1e-2");
+  const RunRecord tight_peer = run("scene=kaps;method=cvode_bdf;rtol=1e-9;atol=1e-2;atol_of=y1=1e-9 y2=1e-9");
+  EXPECT_LT(tight_peer.errors.all, 0.1 * peer.errors.all);
+}
+
+TEST(AtolOf, MistakesAreNamed) {
+  const auto message = [](const std::string& value) {
+    return misuseOf([&] { run("scene=kaps;method=radau_iia_3;atol_of=" + value); });
+  };
+  EXPECT_TRUE(containsAll(message("y3=1e-3"), {"atol_of", "'y3'", "y1"}));
+  EXPECT_TRUE(containsAll(message("y1=0"), {"atol_of y1 = 0", "> 0"}));
+  EXPECT_TRUE(containsAll(message("y1"), {"'y1'", "name=value"}));
+  const Ended fixed = program({"solve", "kaps", "--method", "gauss_2", "--step", "0.1", "--atol-of", "y1=1e-3"});
+  EXPECT_EQ(fixed.status, 2);
+  EXPECT_TRUE(containsAll(fixed.err, {"--atol-of", "fixed"}));
+}
+
+TEST(Invariants, TheLargestChangeIsTold) {
+  const Ended coarse = program({"solve", "kepler", "--method", "radau_iia_2", "--step", "0.05", "--json"});
+  const Ended fine = program({"solve", "kepler", "--method", "gauss_5", "--tol", "1e-11"});
+  EXPECT_TRUE(containsAll(coarse.out, {"\"invariants\"", "\"energy\"", "\"angular_momentum\"", "\"change\""}));
+  EXPECT_TRUE(containsAll(fine.out, {"invariant energy", "invariant angular_momentum", "changes by at most"}));
+  RunSpec spec = resolved(parseSpec("scene=kepler;method=radau_iia_2;h=0.05;control=fixed;estimate=none"));
+  Watch watch;
+  EXPECT_TRUE(execute(spec, watch).invariants.empty());
+  watch.invariants = true;
+  const RunRecord record = execute(spec, watch);
+  ASSERT_EQ(record.invariants.size(), 2u);
+  // The change at the end is a lower bound; energy of the exact orbit is -1/2.
+  const double energy = record.v.squaredNorm() / 2 - 1 / record.u.norm();
+  EXPECT_EQ(record.invariants[0].name, "energy");
+  EXPECT_GE(record.invariants[0].change, std::abs(energy + 0.5) * (1 - 1e-9));
+  EXPECT_GT(record.invariants[0].change, 1e-6);
+  EXPECT_LT(record.invariants[0].change, 1);
+}
+
+}  // namespace
+}  // namespace irk
