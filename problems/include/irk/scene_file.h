@@ -78,10 +78,11 @@ void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const st
 /// Tolerances for ReferenceCase: many digits for cheap scenes, few for thousands of elastic oscillations.
 inline constexpr double kManyDigits = 1e-28, kFewDigits = 1e-19;
 
-/// Sets scene.system from a problem struct, which is copied, and scene.start to zeros of its sizes.
+/// Sets scene.system from a problem struct, which is copied, and scene.start to zeros of its sizes: to be called before
+/// the start is filled. Throws Misuse for sizes that cannot be.
 template <class Real, class P>
 void setProblem(Scene<Real>& scene, P problem) {
-  scene.start = State<Real>(problem.sizes());
+  scene.start = State<Real>(makeSystem<Real>(problem)->sceneSizes());
   scene.system = [problem = std::move(problem)](const SystemOptions& options) {
     return makeSystem<Real>(problem, options);
   };
