@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/own/shared_library.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/loaded/load_method.h"
-#include "experiments/own/shared_library.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"
 #include "tests/experiments/heat.h"
