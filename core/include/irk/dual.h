@@ -5,6 +5,8 @@
 // Eigen's AutoDiffScalar does not: nested over a multiprecision number it rejects `double` operands,
 // and its abs() mixes int with the scalar. DualNumber has no expression templates, so that `auto` is
 // safe in a user's residual.
+// Functions: abs, sqrt, cbrt, pow, hypot, exp, expm1, log, log1p, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh,
+// tanh.
 #pragma once
 
 #include <Eigen/Core>
@@ -168,6 +170,78 @@ struct DualNumber {
     using std::tanh;
     const T y = tanh(a.value);
     return a.chain(y, T(T(1) - y * y));
+  }
+  friend DualNumber tan(const DualNumber& a) {
+    using std::tan;
+    const T y = tan(a.value);
+    return a.chain(y, T(T(1) + y * y));
+  }
+  friend DualNumber asin(const DualNumber& a) {
+    using std::asin;
+    using std::sqrt;
+    return a.chain(T(asin(a.value)), T(T(1) / sqrt(T(T(1) - a.value * a.value))));
+  }
+  friend DualNumber acos(const DualNumber& a) {
+    using std::acos;
+    using std::sqrt;
+    return a.chain(T(acos(a.value)), T(T(-1) / sqrt(T(T(1) - a.value * a.value))));
+  }
+  friend DualNumber atan(const DualNumber& a) {
+    using std::atan;
+    return a.chain(T(atan(a.value)), T(T(1) / (T(1) + a.value * a.value)));
+  }
+  friend DualNumber sinh(const DualNumber& a) {
+    using std::cosh;
+    using std::sinh;
+    return a.chain(T(sinh(a.value)), T(cosh(a.value)));
+  }
+  friend DualNumber cosh(const DualNumber& a) {
+    using std::cosh;
+    using std::sinh;
+    return a.chain(T(cosh(a.value)), T(sinh(a.value)));
+  }
+  friend DualNumber expm1(const DualNumber& a) {
+    using std::expm1;
+    const T y = expm1(a.value);
+    return a.chain(y, T(y + T(1)));
+  }
+  friend DualNumber log1p(const DualNumber& a) {
+    using std::log1p;
+    return a.chain(T(log1p(a.value)), T(T(1) / (T(1) + a.value)));
+  }
+  friend DualNumber cbrt(const DualNumber& a) {
+    using std::cbrt;
+    const T y = cbrt(a.value);
+    return a.chain(y, T(T(1) / (T(3) * y * y)));
+  }
+  /// a^s for a constant s. Also for a = 0 and negative a where the power and its derivative exist (s = 2, s = 0).
+  template <class S>
+  requires detail::ConstantFor<S, T>
+  friend DualNumber pow(const DualNumber& a, const S& s) {
+    using std::pow;
+    const T exponent(detail::constant(s));
+    if (exponent == T(0)) return DualNumber(T(1));
+    return a.chain(T(pow(a.value, exponent)), T(exponent * pow(a.value, T(exponent - T(1)))));
+  }
+  /// a^b for a > 0.
+  friend DualNumber pow(const DualNumber& a, const DualNumber& b) { return exp(b * log(a)); }
+  template <class S>
+  requires detail::ConstantFor<S, T>
+  friend DualNumber pow(const S& s, const DualNumber& b) { return pow(DualNumber(s), b); }
+  friend DualNumber atan2(const DualNumber& y, const DualNumber& x) {
+    using std::atan2;
+    const T inverse = T(1) / (x.value * x.value + y.value * y.value);
+    DualNumber r(T(atan2(y.value, x.value)));
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = (x.value * y.d[i] - y.value * x.d[i]) * inverse;
+    return r;
+  }
+  /// Not differentiable where both are 0: NaN there.
+  friend DualNumber hypot(const DualNumber& a, const DualNumber& b) {
+    using std::hypot;
+    const T y = hypot(a.value, b.value);
+    DualNumber r(y);
+    for (std::size_t i = 0; i < N; ++i) r.d[i] = (a.value * a.d[i] + b.value * b.d[i]) / y;
+    return r;
   }
 };
 

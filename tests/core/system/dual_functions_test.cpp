@@ -1,0 +1,85 @@
+// Derivatives of the elementary functions of dual numbers against differences in 50 digits.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "irk/dual.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+template <class T>
+struct Function {
+  std::string name;
+  std::function<T(const T&)> f;
+};
+
+template <class T>
+std::vector<Function<T>> functions() {
+  using std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cosh, std::expm1, std::hypot, std::log1p, std::pow,
+      std::sinh, std::tan;
+  return {{"tan", [](const T& x) { return T(tan(x)); }},
+          {"asin", [](const T& x) { return T(asin(x)); }},
+          {"acos", [](const T& x) { return T(acos(x)); }},
+          {"atan", [](const T& x) { return T(atan(x)); }},
+          {"sinh", [](const T& x) { return T(sinh(x)); }},
+          {"cosh", [](const T& x) { return T(cosh(x)); }},
+          {"expm1", [](const T& x) { return T(expm1(x)); }},
+          {"log1p", [](const T& x) { return T(log1p(x)); }},
+          {"cbrt", [](const T& x) { return T(cbrt(x)); }},
+          {"power 2.5", [](const T& x) { return T(pow(x, 2.5)); }},
+          {"power 3", [](const T& x) { return T(pow(x, 3)); }},
+          {"power x", [](const T& x) { return T(pow(x, x)); }},
+          {"2 to the x", [](const T& x) { return T(pow(T(2), x)); }},
+          {"atan2(x, 1 - x)", [](const T& x) { return T(atan2(x, T(T(1) - x))); }},
+          {"atan2(x, -1)", [](const T& x) { return T(atan2(x, T(-1))); }},
+          {"hypot(x, x^2)", [](const T& x) { return T(hypot(x, T(x * x))); }}};
+}
+
+// (f(x + h) - f(x - h)) / 2 h in 50 digits: right to about 30.
+mp50 difference(const std::function<mp50(const mp50&)>& f, const mp50& x) {
+  const mp50 h("1e-16");
+  return (f(x + h) - f(x - h)) / (2 * h);
+}
+
+TEST(DualFunctions, DerivativesAreThoseOfDifferences) {
+  const auto exact = functions<mp50>();
+  const auto once = functions<Rate<double>>();
+  const auto nested = functions<DualNumber<Rate<mp50>, 2>>();
+  for (const double x : {0.3, 0.7}) {
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      SCOPED_TRACE(exact[i].name);
+      const mp50 slope = difference(exact[i].f, mp50(x));
+      const Rate<double> y = once[i].f(Rate<double>(x, 1.0));
+      EXPECT_NEAR(y.value, static_cast<double>(exact[i].f(mp50(x))), 1e-15);
+      EXPECT_NEAR(y.d[0], static_cast<double>(slope), 4e-15);
+
+      DualNumber<Rate<mp50>, 2> both(Rate<mp50>(mp50(x), mp50(1)));
+      both.d[1] = Rate<mp50>(mp50(1));
+      const auto z = nested[i].f(both);
+      EXPECT_LT(valueOf(mp50(abs(mp50(z.d[1].value - slope)))), 1e-25);
+      const auto slopeAt = [&](const mp50& at) { return difference(exact[i].f, at); };
+      const mp50 h("1e-8");
+      const mp50 second = (slopeAt(mp50(x) + h) - slopeAt(mp50(x) - h)) / (2 * h);
+      EXPECT_LT(valueOf(mp50(abs(mp50(z.d[1].d[0] - second)))), 1e-13);
+      EXPECT_EQ(valueOf(z.d[0]), 0.0);
+    }
+  }
+}
+
+TEST(DualFunctions, PowersWhereLogarithmsDoNotExist) {
+  const Rate<double> negative = pow(Rate<double>(-2.0, 1.0), 3);
+  EXPECT_DOUBLE_EQ(negative.value, -8);
+  EXPECT_DOUBLE_EQ(negative.d[0], 12);
+  const Rate<double> zero = pow(Rate<double>(0.0, 1.0), 2);
+  EXPECT_EQ(zero.value, 0);
+  EXPECT_EQ(zero.d[0], 0);
+  EXPECT_EQ(pow(Rate<double>(0.0, 1.0), 0).d[0], 0);
+}
+
+}  // namespace
+}  // namespace irk
