@@ -20,19 +20,19 @@ StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
 }  // namespace
 
 template <class Real>
-int EmbeddedEstimate<Real>::order(const Scheme<Real>& scheme) {
-  return std::min(static_cast<int>(scheme.s), scheme.tableau.stage_order + 1);
+int EmbeddedEstimate<Real>::order(const Tableau<Real>& tableau) {
+  return std::min(static_cast<int>(tableau.stages()), tableau.stage_order + 1);
 }
 
 template <class Real>
-Real EmbeddedEstimate<Real>::weight(const Scheme<Real>& scheme) {
+Real EmbeddedEstimate<Real>::weight(const Tableau<Real>& tableau) {
   using std::pow;
   Real determinant(1);
-  for (const auto& block : schurForm(scheme.A).blocks) {
+  for (const auto& block : schurForm(tableau.A).blocks) {
     if (block.size == 1 && block.mu.real() > Real(0)) return block.mu.real();
     determinant *= block.mu.real() * block.mu.real() + block.mu.imag() * block.mu.imag();
   }
-  return pow(determinant, Real(1) / Real(static_cast<double>(scheme.s)));
+  return pow(determinant, Real(1) / Real(static_cast<double>(tableau.stages())));
 }
 
 template <class Real>
@@ -43,7 +43,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       scheme_(scheme),
       norm_(norm),
       sizes_(system.sizes()),
-      mu_(weight(scheme)),
+      mu_(weight(scheme.tableau)),
       stages_(stages),
       own_(jacobian, options.solver, filterSetup(system, mu_), counters),
       row_powers_(system.rowPowers()),

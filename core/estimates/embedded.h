@@ -41,8 +41,9 @@ class EmbeddedEstimate {
   Index worstComponent() const;
   double mu() const { return static_cast<double>(mu_); }
   /// p of the estimate's error h^(p+1): s, or one more than the stage order where that is less.
-  static int order(const Scheme<Real>& scheme);
-  static Real weight(const Scheme<Real>& scheme);
+  static int order(const Tableau<Real>& tableau);
+  /// mu of this method.
+  static Real weight(const Tableau<Real>& tableau);
 
  private:
   // A polynomial through the stages at the step's start: weights l of the stages in it, and A^T l.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/options/catalogue.h"
+#include "core/stages/scheme_list.h"
 #include "core/steps/stepper.h"
 
 namespace irk {
@@ -76,7 +77,7 @@ template <class Real>
 struct StepAttemptSetup {
   const System<Real>& system;
   /// One or, with variable order, members of a family by ascending stages, of which `start` is the first.
-  const std::vector<Scheme<Real>>& schemes;
+  const SchemeList<Real>& schemes;
   std::size_t start;
   const IntegratorOptions& options;
   SharedJacobian<Real>& jacobian;

@@ -41,10 +41,8 @@ constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError
 // tolerance itself. Measured: a quarter more than that. Not below round-off. Returned: by what the
 // estimate is multiplied, >= 1.
 template <class Real>
-double exigence(const Scheme<Real>& member, const Scheme<Real>& highest, const Tolerances& tolerances) {
-  const auto per_order = [](const Scheme<Real>& scheme) {
-    return (static_cast<double>(scheme.s) + 1) / static_cast<double>(scheme.s);
-  };
+double exigence(Index member, Index highest, const Tolerances& tolerances) {
+  const auto per_order = [](Index s) { return (static_cast<double>(s) + 1) / static_cast<double>(s); };
   const double tolerance = std::max(tolerances.rtol, tolerances.atol);
   const double least = kRoundOffUnits * static_cast<double>(Eigen::NumTraits<Real>::epsilon());
   const double more = per_order(member) / per_order(highest) - 1;
@@ -62,17 +60,37 @@ Index firstStages(const Tolerances& tolerances) {
 
 template <class Real>
 VariableOrder<Real>::VariableOrder(const StepAttemptSetup<Real>& setup)
-    : jacobian_(setup.jacobian),
+    : setup_(setup),
+      members_(setup.schemes.size()),
+      jacobian_(setup.jacobian),
       start_(setup.start),
       at_(start_),
       past_at_(start_),
       lower_error_(kUnknown),
       unknowns_(static_cast<double>(setup.system.sizes().n())) {
-  for (const auto& scheme : setup.schemes) {
-    members_.push_back(std::make_unique<Member>(setup, scheme));
-    members_.back()->exigence = exigence(scheme, setup.schemes.back(), setup.options.tolerances);
+  const Index highest = setup.schemes.tableau(setup.schemes.size() - 1).stages();
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Tableau<Real>& tableau = setup.schemes.tableau(i);
+    ranks_.push_back({static_cast<double>(tableau.stages()), EmbeddedEstimate<Real>::order(tableau),
+                      exigence<Real>(tableau.stages(), highest, setup.options.tolerances), kUnknown});
   }
+  make(start_);
   past_ = &member().stepper.stages();
+}
+
+template <class Real>
+void VariableOrder<Real>::make(std::size_t i) {
+  if (members_[i]) return;
+  members_[i] = std::make_unique<Member>(setup_, setup_.schemes[i]);
+  members_[i]->epoch = epoch_;
+  if (reserved_) members_[i]->stepper.reserve(), members_[i]->estimate.reserve();
+}
+
+template <class Real>
+double VariableOrder<Real>::muOf(std::size_t i) {
+  double& mu = ranks_[i].mu;
+  if (std::isnan(mu)) mu = static_cast<double>(EmbeddedEstimate<Real>::weight(setup_.schemes.tableau(i)));
+  return mu;
 }
 
 template <class Real>
@@ -81,7 +99,9 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   const auto& pattern = jacobian_.at().front().pattern;
   if (reserved_ != pattern) {
     if (!sameShape(reserved_, pattern)) {
-      for (auto& m : members_) m->stepper.reserve(), m->estimate.reserve();
+      for (auto& m : members_) {
+        if (m) m->stepper.reserve(), m->estimate.reserve();
+      }
     }
     reserved_ = pattern;
   }
@@ -96,11 +116,11 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   solved_ = true;
   past_ = &member().stepper.stages();
   past_at_ = at_;
-  const double limit = again_ ? 1 / member().exigence : std::numeric_limits<double>::infinity();
+  const double limit = again_ ? 1 / rank().exigence : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
   result.added = member().adds ? estimate.error : 0;
-  result.error = estimate.error * member().exigence;
+  result.error = estimate.error * rank().exigence;
   estimate_ = result.error;
   const double factor = member().accumulation.factor(member().accumulates ? steps_ : 0, sum_);
   result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t), static_cast<double>(h));
@@ -110,11 +130,11 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   }
   lower_error_ = kUnknown;
   if (result.outcome == Outcome::kSuccess && result.error <= 1 && at_ > 0 && (since_change_ + 1) % kMinStay == 0) {
-    const Member& below = *members_[at_ - 1];
-    estimate = member().estimate.evaluateLower(from, *past_, below.scheme.s);
+    const Index below = setup_.schemes.tableau(at_ - 1).stages();
+    estimate = member().estimate.evaluateLower(from, *past_, below);
     // Where it cannot be computed the order stays; the step is good.
     if (estimate.outcome == Outcome::kSuccess) {
-      lower_error_ = estimate.error * below.estimate.mu() / member().estimate.mu();
+      lower_error_ = estimate.error * muOf(at_ - 1) / muOf(at_);
     }
   }
   again_ = !(result.error <= 1);
@@ -130,7 +150,9 @@ void VariableOrder<Real>::begin() {
   continues_ = restarted_ = watches_start_ = false;
   steps_ = 0;
   sum_ = 0;
-  for (auto& m : members_) m->accumulation.begin();
+  for (auto& m : members_) {
+    if (m) m->accumulation.begin();
+  }
   failures_ = 0;
   forget();
 }
@@ -146,10 +168,10 @@ void VariableOrder<Real>::forget() {
 
 // The step that the member would take next with this estimate, and its progress per work.
 template <class Real>
-auto VariableOrder<Real>::plan(double estimate, const Member& m, const AttemptResult& now, double h, double trend) const
+auto VariableOrder<Real>::plan(double estimate, const Rank& m, const AttemptResult& now, double h, double trend) const
     -> Plan {
   const double error = estimate * m.exigence;
-  const double s = static_cast<double>(m.scheme.s);
+  const double s = m.stages;
   const double wish = kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
   const double ratio = std::clamp(wish, kShrinkAtMost, kGrowAtMost);
   Plan plan{h * ratio, error, 0};
@@ -178,24 +200,23 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
   if (members_.size() == 1 || since_change_ % kMinStay != 0) return {h_next, result.error};
   const double error = std::max(result.error, kTinyError);
   // What the controller has learnt of the error's trend holds for all members.
-  const double untrended = h * kSafety * std::pow(error, -1.0 / (member().order + 1));
+  const double untrended = h * kSafety * std::pow(error, -1.0 / (rank().order + 1));
   const double trend = std::min(1.0, h_next / untrended);
-  const double estimate = error / member().exigence;
-  Plan best = plan(estimate, member(), result, h, trend);
+  const double estimate = error / rank().exigence;
+  Plan best = plan(estimate, rank(), result, h, trend);
   best.progress *= kGain;
   std::size_t next = at_;
   const auto consider = [&](std::size_t i, double e) {
-    const Plan p = plan(e, *members_[i], result, h, trend);
+    const Plan p = plan(e, ranks_[i], result, h, trend);
     if (p.progress > best.progress) next = i, best = p;
   };
   if (at_ > 0) consider(at_ - 1, lower_error_);
-  const double s = static_cast<double>(member().scheme.s);
-  const double below = at_ > 0 ? static_cast<double>(members_[at_ - 1]->scheme.s) : s - 1;
+  const double s = rank().stages;
+  const double below = at_ > 0 ? ranks_[at_ - 1].stages : s - 1;
   const double ratio = at_ > 0 ? std::min(estimate / lower_error_, 1.0) : 0.1;
   for (std::size_t i = at_ + 1; i < members_.size() && i <= at_ + kAbove; ++i) {
-    const Member& above = *members_[i];
-    const double more = (static_cast<double>(above.scheme.s) - s) / (s - below);
-    consider(i, estimate * std::pow(ratio, kDecayAbove * more) * above.estimate.mu() / member().estimate.mu());
+    const double more = (ranks_[i].stages - s) / (s - below);
+    consider(i, estimate * std::pow(ratio, kDecayAbove * more) * muOf(i) / muOf(at_));
   }
   if (next == at_) return {h_next, result.error};
   changeTo(next);
@@ -211,6 +232,7 @@ void VariableOrder<Real>::forget(Member& m) {
 
 template <class Real>
 void VariableOrder<Real>::changeTo(std::size_t next) {
+  make(next);
   at_ = next;
   forget(member());
   since_change_ = 0;
@@ -218,7 +240,7 @@ void VariableOrder<Real>::changeTo(std::size_t next) {
 
 template <class Real>
 int VariableOrder<Real>::order() const {
-  return member().order;
+  return rank().order;
 }
 
 IRK_INSTANTIATE_CLASS(VariableOrder)

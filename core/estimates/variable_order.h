@@ -16,7 +16,8 @@ namespace irk {
 /// middle 5, at errors of 1e-4, 5 to 11, in the middle 7, at 1e-8, and 5 to 10, in the middle 8, at 1e-11.
 Index firstStages(const Tolerances& tolerances);
 
-/// Members of a family share the Jacobian; each keeps its own factors and scratch. After some accepted
+/// Members of a family share the Jacobian; each keeps its own factors and scratch, which it allocates when it is first
+/// used. After some accepted
 /// steps the errors e_q of the member below and of two above are known or guessed: below, by the stages'
 /// polynomial cut to its degree; above, by the same ratio again, as the coefficients of a smooth
 /// solution decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which
@@ -51,33 +52,43 @@ class VariableOrder final : public StepAttempt<Real> {
         : scheme(s),
           stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),
           estimate(setup.system, s, setup.options, setup.jacobian, stepper.matrix(), setup.norm, setup.counters),
-          order(EmbeddedEstimate<Real>::order(s)),
-          accumulates(s.tableau.order <= std::min(order + 1, kMaxAccumulating) || !dampsStiffErrors(s)),
-          adds(s.tableau.order <= order),
+          accumulates(s.tableau.order <= std::min(estimateOrder() + 1, kMaxAccumulating) || !dampsStiffErrors(s)),
+          adds(s.tableau.order <= estimateOrder()),
           accumulation(stiffCaution(s), setup.options.tolerances) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
-    int order;
     /// Its estimate is hardly larger than the error, and its steps are many; or errors do not decay.
     bool accumulates;
     bool adds;  ///< its estimate is of the order of the error
     Accumulation accumulation;
     static constexpr int kMaxAccumulating = 4;
-    int epoch = 0;        ///< in which it last forgot
-    double exigence = 1;  ///< of its estimate, so that all members err alike
+    int epoch = 0;  ///< in which it last forgot
+    int estimateOrder() const { return EmbeddedEstimate<Real>::order(scheme.tableau); }
   };
+  /// What is known of every member without making it.
+  struct Rank {
+    double stages;
+    int order;        ///< of its estimate
+    double exigence;  ///< of its estimate, so that all members err alike
+    double mu;        ///< EmbeddedEstimate::weight; NaN until it is asked for
+  };
+  void make(std::size_t i);
+  double muOf(std::size_t i);
   Member& member() { return *members_[at_]; }
   const Member& member() const { return *members_[at_]; }
+  const Rank& rank() const { return ranks_[at_]; }
   struct Plan {
     double h, error;
     double progress;  ///< h per work; 0: not to be taken
   };
-  Plan plan(double estimate, const Member& member, const AttemptResult& now, double h, double trend) const;
+  Plan plan(double estimate, const Rank& rank, const AttemptResult& now, double h, double trend) const;
   void changeTo(std::size_t next);
   void forget(Member& m);
 
-  std::vector<std::unique_ptr<Member>> members_;
+  const StepAttemptSetup<Real> setup_;
+  std::vector<Rank> ranks_;
+  std::vector<std::unique_ptr<Member>> members_;  // null until first used
   const SharedJacobian<Real>& jacobian_;
   std::size_t start_, at_, past_at_;         // the member of past_
   const StagePolynomial<Real>* past_;        // of the last solved step

@@ -25,7 +25,7 @@ std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> 
 
 // Without a tolerance Newton iterates to round-off, in units of the solution's magnitude.
 template <class Real>
-IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, const std::vector<Scheme<Real>>& schemes,
+IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, const SchemeList<Real>& schemes,
                         std::size_t start) {
   validate(options);
   requireLegal(options);
@@ -75,7 +75,7 @@ class Integrator<Real>::Run {
   Run(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods, const IntegratorOptions& options,
       const Vec<double>& scale)
       : system_(checked(std::move(system), scale)),
-        schemes_(methods.members.begin(), methods.members.end()),
+        schemes_(methods.members),
         options_(legal(options, *system_, schemes_, methods.start)),
         counted_(*system_, counters_, options_.threads),
         trajectory_(counted_, schemes_, methods.start, options_, scale, counters_),
@@ -257,7 +257,7 @@ class Integrator<Real>::Run {
   }
 
   std::shared_ptr<const System<Real>> system_;
-  std::vector<Scheme<Real>> schemes_;
+  SchemeList<Real> schemes_;
   IntegratorOptions options_;
   Counters counters_;
   CountingSystem<Real> counted_;

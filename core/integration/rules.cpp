@@ -172,11 +172,12 @@ constexpr Rule kSystemsAndMethods[] = {
 };
 
 template <class Real>
-void describe(const Scheme<Real>& scheme, Facts& facts) {
-  facts.method = scheme.tableau.id;
-  facts.determines_algebraic = scheme.allowsAlgebraic();
-  facts.invertible = scheme.regular && scheme.first == 0;
-  facts.stage_order = scheme.tableau.stage_order;
+void describe(const Tableau<Real>& tableau, Facts& facts) {
+  const Structure<Real> structure(tableau);
+  facts.method = tableau.id;
+  facts.determines_algebraic = structure.allowsAlgebraic();
+  facts.invertible = structure.regular && structure.first == 0;
+  facts.stage_order = tableau.stage_order;
 }
 
 template <class Real>
@@ -197,24 +198,21 @@ void describe(const System<Real>& system, Facts& facts) {
 void requireLegal(const IntegratorOptions& options) { require(kOptions, Facts(options)); }
 
 template <class Real>
-void requireLegal(const IntegratorOptions& options, const System<Real>& system,
-                  const std::vector<Scheme<Real>>& schemes, std::size_t start) {
+void requireLegal(const IntegratorOptions& options, const System<Real>& system, const SchemeList<Real>& schemes,
+                  std::size_t start) {
   Facts facts(options);
   facts.members = schemes.size();
   facts.start = start;
   describe(system, facts);
-  if (schemes.empty()) require(kSystemsAndMethods, facts);
-  for (const auto& scheme : schemes) {
-    describe(scheme, facts);
+  if (schemes.size() == 0) require(kSystemsAndMethods, facts);
+  for (std::size_t i = 0; i < schemes.size(); ++i) {
+    describe(schemes.tableau(i), facts);
     require(kSystemsAndMethods, facts);
   }
 }
 
-template void requireLegal(const IntegratorOptions&, const System<double>&, const std::vector<Scheme<double>>&,
-                           std::size_t);
-template void requireLegal(const IntegratorOptions&, const System<mp50>&, const std::vector<Scheme<mp50>>&,
-                           std::size_t);
-template void requireLegal(const IntegratorOptions&, const System<mp100>&, const std::vector<Scheme<mp100>>&,
-                           std::size_t);
+template void requireLegal(const IntegratorOptions&, const System<double>&, const SchemeList<double>&, std::size_t);
+template void requireLegal(const IntegratorOptions&, const System<mp50>&, const SchemeList<mp50>&, std::size_t);
+template void requireLegal(const IntegratorOptions&, const System<mp100>&, const SchemeList<mp100>&, std::size_t);
 
 }  // namespace irk

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/stages/scheme.h"
+#include "core/stages/scheme_list.h"
 #include "irk/options.h"
 #include "irk/system.h"
 
@@ -18,7 +18,7 @@ void requireLegal(const IntegratorOptions& options);
 /// computation shows is refused by it: `eigen` with a defective A, a problem that has no regularisation for `smooth`.
 /// `start`: the member of `schemes` to begin with.
 template <class Real>
-void requireLegal(const IntegratorOptions& options, const System<Real>& system,
-                  const std::vector<Scheme<Real>>& schemes, std::size_t start);
+void requireLegal(const IntegratorOptions& options, const System<Real>& system, const SchemeList<Real>& schemes,
+                  std::size_t start);
 
 }  // namespace irk

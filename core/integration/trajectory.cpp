@@ -40,7 +40,7 @@ ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, c
 }  // namespace
 
 template <class Real>
-Trajectory<Real>::Trajectory(const System<Real>& system, const std::vector<Scheme<Real>>& schemes, std::size_t start,
+Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>& schemes, std::size_t start,
                              const IntegratorOptions& options, const Vec<double>& scale, Counters& counters)
     : system_(system),
       options_(options),

@@ -23,7 +23,7 @@ template <class Real>
 class Trajectory {
  public:
   /// Begins with the member `start` of `schemes`; the options are legal (core/integration/rules.h).
-  Trajectory(const System<Real>& system, const std::vector<Scheme<Real>>& schemes, std::size_t start,
+  Trajectory(const System<Real>& system, const SchemeList<Real>& schemes, std::size_t start,
              const IntegratorOptions& options, const Vec<double>& scale, Counters& counters);
 
   /// A new integration over `length`: due switches, consistent (a, k, z).

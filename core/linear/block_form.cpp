@@ -1,7 +1,10 @@
 #include "core/linear/block_form.h"
 
 #include <cmath>
+#include <mutex>
 #include <string>
+#include <type_traits>
+#include <unordered_map>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -37,10 +40,32 @@ void appendBlocks(BlockForm<Real>& form) {
   }
 }
 
-}  // namespace
+// Forms of matrices in double, by their numbers: integrators of the same methods are made again and again, and a form
+// costs more than many a step. Shared by threads.
+class KeptForms {
+ public:
+  BlockForm<double> of(const Mat<double>& A, BlockForm<double> (*make)(const Mat<double>&)) {
+    const std::string key(reinterpret_cast<const char*>(A.data()), static_cast<std::size_t>(A.size()) * sizeof(double));
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = forms_.find(key);
+      if (found != forms_.end()) return found->second;
+    }
+    BlockForm<double> form = make(A);
+    const std::lock_guard lock(mutex_);
+    if (forms_.size() >= kMost) forms_.clear();
+    forms_.try_emplace(key, form);
+    return form;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 500;  // a few megabytes
+  std::mutex mutex_;
+  std::unordered_map<std::string, BlockForm<double>> forms_;
+};
 
 template <class Real>
-BlockForm<Real> schurForm(const Mat<Real>& A) {
+BlockForm<Real> makeSchurForm(const Mat<Real>& A) {
   const Eigen::RealSchur<Mat<Real>> schur(A);
   BlockForm<Real> form;
   form.Q = schur.matrixU();
@@ -71,7 +96,7 @@ BlockForm<Real> schurForm(const Mat<Real>& A) {
 }
 
 template <class Real>
-BlockForm<Real> eigenForm(const Mat<Real>& A) {
+BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
   const Eigen::EigenSolver<Mat<Real>> solver(A);
   const auto values = solver.eigenvalues();
   const auto vectors = solver.eigenvectors();
@@ -111,6 +136,28 @@ BlockForm<Real> eigenForm(const Mat<Real>& A) {
   }
   appendBlocks(form);
   return form;
+}
+
+}  // namespace
+
+template <class Real>
+BlockForm<Real> schurForm(const Mat<Real>& A) {
+  if constexpr (!std::is_same_v<Real, double>)
+    return makeSchurForm(A);
+  else {
+    static KeptForms kept;
+    return kept.of(A, makeSchurForm<double>);
+  }
+}
+
+template <class Real>
+BlockForm<Real> eigenForm(const Mat<Real>& A) {
+  if constexpr (!std::is_same_v<Real, double>)
+    return makeEigenForm(A);
+  else {
+    static KeptForms kept;
+    return kept.of(A, makeEigenForm<double>);
+  }
 }
 
 template BlockForm<double> schurForm(const Mat<double>&);

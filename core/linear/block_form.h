@@ -22,7 +22,8 @@ struct BlockForm {
   std::vector<Block> blocks;
 };
 
-/// The real Schur form: Q is orthogonal. Defined for every A.
+/// The real Schur form: Q is orthogonal. Defined for every A. In double the process keeps forms by their A, as those of
+/// eigenForm.
 template <class Real>
 BlockForm<Real> schurForm(const Mat<Real>& A);
 /// The real eigenbasis, with columns Re v, Im v for a complex eigenvector v. Throws Misuse for a defective A.

@@ -8,20 +8,25 @@
 namespace irk {
 
 template <class Real>
+Structure<Real>::Structure(const Tableau<Real>& tableau) {
+  const Index s = tableau.stages();
+  // The round-off of a sum of s coefficients of magnitude <= 1.
+  const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();
+  const auto small = [&](const auto& x) { return x.cwiseAbs().maxCoeff() <= tiny; };
+  stiffly_accurate = small(tableau.A.row(s - 1).transpose() - tableau.b);
+  first = s > 1 && stiffly_accurate && small(tableau.A.row(0)) ? 1 : 0;
+  const Mat<Real> implicit = tableau.A.bottomRightCorner(s - first, s - first);
+  regular = Eigen::FullPivLU<Mat<Real>>(implicit).isInvertible();
+}
+
+template <class Real>
 Scheme<Real>::Scheme(Tableau<Real> t)
-    : tableau(std::move(t)), s(tableau.stages()), A(tableau.A), b(tableau.b), c(tableau.c) {
+    : Structure<Real>(t), tableau(std::move(t)), s(tableau.stages()), A(tableau.A), b(tableau.b), c(tableau.c) {
   A2.noalias() = A * A;
   bA.noalias() = A.transpose() * b;
   A_transposed = A.transpose();
   A1 = A.rowwise().sum();
   A2_transposed = A2.transpose();
-  // The round-off of a sum of s coefficients of magnitude <= 1.
-  const Real tiny = Real(10.0 * static_cast<double>(s)) * Eigen::NumTraits<Real>::epsilon();
-  const auto small = [&](const auto& x) { return x.cwiseAbs().maxCoeff() <= tiny; };
-  stiffly_accurate = small(A.row(s - 1).transpose() - b);
-  first = s > 1 && stiffly_accurate && small(A.row(0)) ? 1 : 0;
-  const Eigen::FullPivLU<Mat<Real>> lu(implicitA());
-  regular = lu.isInvertible();
   if (regular && first == 0) d = Mat<Real>(A.transpose()).fullPivLu().solve(b);
 
   Mat<Real> V(s, s);  // transposed: column i belongs to stage i
@@ -47,6 +52,9 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   }
 }
 
+template struct Structure<double>;
+template struct Structure<mp50>;
+template struct Structure<mp100>;
 template struct Scheme<double>;
 template struct Scheme<mp50>;
 template struct Scheme<mp100>;

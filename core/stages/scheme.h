@@ -9,20 +9,33 @@ namespace irk {
 /// above 0 and returns between two of them; core/steps/switch_scan.h searches for such functions.
 constexpr Index kParts = 8;
 
+/// What a tableau's structure says about its stages.
+template <class Real>
+struct Structure {
+  /// Number of stages that need no solve because they equal the step's start: 1 for Lobatto IIIA, where the first row
+  /// of A is zero and the last row is b, so that the last stage is the first one of the next step; else 0.
+  Index first = 0;
+  bool stiffly_accurate = false;  ///< last row of A is b and c_s = 1: z1 = z_s
+  bool regular = false;           ///< A (without the explicit first stage) is invertible
+
+  explicit Structure(const Tableau<Real>& tableau);
+  /// Whether the scheme can integrate algebraic unknowns: the stages determine them, and z at the end of a step
+  /// follows from the stages.
+  bool allowsAlgebraic() const { return regular; }
+};
+
 /// Owns a copy of the tableau and all matrices derived from it. Immutable; may be shared by threads.
 template <class Real>
-struct Scheme {
+struct Scheme : Structure<Real> {
+  using Structure<Real>::first;
+  using Structure<Real>::stiffly_accurate;
+  using Structure<Real>::regular;
   Tableau<Real> tableau;
   Index s;
   Mat<Real> A, A2;  ///< A and A^2, s x s
   Vec<Real> b, c;
   Vec<Real> A1;  ///< A 1, the row sums of A; equal to c if the stage order is at least 1
   Vec<Real> bA;  ///< A^T b: weights of a in u1 = u0 + h v0 + h^2 sum (b^T A)_j a_j
-  /// Number of stages that need no solve because they equal the step's start: 1 for Lobatto IIIA, where the first row
-  /// of A is zero and the last row is b, so that the last stage is the first one of the next step; else 0.
-  Index first = 0;
-  bool stiffly_accurate = false;  ///< last row of A is b and c_s = 1: z1 = z_s
-  bool regular = false;           ///< A (without the explicit first stage) is invertible
   /// z1 = (1 - sum d) z0 + sum d_i z_i with d = A^-T b, paper (2.11) corrected. Only if `regular` and first = 0.
   Vec<Real> d;
   /// Weights of the polynomial through the stages of (a, k), at the step's end and at its start. They give start
@@ -41,9 +54,6 @@ struct Scheme {
   Index implicitStages() const { return s - first; }
   /// A without the explicit first stage. Its square is the same block of A^2.
   Mat<Real> implicitA() const { return A.bottomRightCorner(s - first, s - first); }
-  /// Whether the scheme can integrate algebraic unknowns: the stages determine them, and z at the end of a step
-  /// follows from the stages.
-  bool allowsAlgebraic() const { return regular; }
 };
 
 }  // namespace irk

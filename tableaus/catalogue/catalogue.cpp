@@ -10,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "irk/misuse.h"
+#include "tableaus/catalogue/constants.h"
 #include "tableaus/catalogue/source.h"
 #include "tableaus/families/families.h"
 #include "tableaus/files/file.h"
@@ -98,9 +99,11 @@ TableauFile findUncheckedTableau(std::string_view id_or_file) { return locate(id
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file) {
   if (const auto member = memberOf(id_or_file)) {
-    using Precise = std::conditional_t<std::is_same_v<Real, mp100>, mp130, mp80>;
+    const Family& family = familyOf(member->family);
     const Index s = stagesOf(id_or_file, *member);
-    return constructFamily<Precise>(familyOf(member->family), s).template cast<Real>();
+    if constexpr (std::is_same_v<Real, double>) return familyInDouble(family, s);
+    using Precise = std::conditional_t<std::is_same_v<Real, mp100>, mp130, mp80>;
+    return constructFamily<Precise>(family, s).template cast<Real>();
   }
   const TableauFile file = findTableau(id_or_file);
   constexpr int kWanted = std::numeric_limits<Real>::digits10;

@@ -132,9 +132,7 @@ TEST(EmbeddedEstimate, IsHairerAndWannersForAnOrdinaryEquation) {
 TEST(EmbeddedEstimate, WeightIsTheRealEigenvalueOfRadauIIA) {
   // HW II (IV.8): gamma0 of RADAU5 is 3.637834252744496, of order 9 and 13 6.286704751729276 and
   // 8.936832788405216.
-  const auto weight = [](const char* method) {
-    return EmbeddedEstimate<double>::weight(Scheme<double>(makeTableau<double>(method)));
-  };
+  const auto weight = [](const char* method) { return EmbeddedEstimate<double>::weight(makeTableau<double>(method)); };
   // Bauer and Fike: an eigenvalue of A, with |A| about 1, has an error of at most eps times the condition of the
   // eigenvectors (9, 95, 1170; irk tableau check); its inverse that times its square. The factor 4 is for the QR
   // steps.

@@ -1,6 +1,7 @@
 #include "irk/tableaus.h"
 
 #include "irk/multiprecision.h"
+#include "tableaus/catalogue/constants.h"
 #include "tableaus/catalogue/report.h"
 #include "tests/tableaus/support.h"
 
@@ -21,6 +22,24 @@ TEST(Catalogue, EveryFamilyMakesItsMembers) {
       EXPECT_EQ(tableau.stages(), s);
       EXPECT_EQ(tableau.order, classicalOrder(family.id, s));
       EXPECT_EQ(tableau.stage_order, stageOrder(family.id, s));
+    }
+  }
+}
+
+TEST(Catalogue, ConstantsAreTheConstructionRounded) {
+  for (const FamilyEntry& entry : familyCatalogue()) {
+    const Family& family = familyOf(entry.id);
+    for (Index s = entry.min_stages; s <= kConstantStages + 1; ++s) {
+      const auto read = makeTableau<double>(memberId(entry.id, s));
+      const auto made = constructFamily(family, s).cast<double>();
+      SCOPED_TRACE(made.id);
+      EXPECT_EQ(read.id, made.id);
+      EXPECT_EQ(read.family, made.family);
+      EXPECT_EQ(read.order, made.order);
+      EXPECT_EQ(read.stage_order, made.stage_order);
+      EXPECT_EQ(read.A, made.A);
+      EXPECT_EQ(read.b, made.b);
+      EXPECT_EQ(read.c, made.c);
     }
   }
 }

@@ -1,0 +1,32 @@
+// The methods of an integration as schemes, each prepared when it is first used.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/stages/scheme.h"
+
+namespace irk {
+
+/// Variable order may use up to a hundred members of a family, and uses a few: what it does not use costs next to
+/// nothing. One thread at a time.
+template <class Real>
+class SchemeList {
+ public:
+  explicit SchemeList(std::vector<Tableau<Real>> tableaus) : tableaus_(std::move(tableaus)), made_(tableaus_.size()) {}
+
+  std::size_t size() const { return tableaus_.size(); }
+  const Tableau<Real>& tableau(std::size_t i) const { return tableaus_[i]; }
+  /// Made in the first call; lives as long as the list.
+  const Scheme<Real>& operator[](std::size_t i) const {
+    if (!made_[i]) made_[i] = std::make_unique<const Scheme<Real>>(tableaus_[i]);
+    return *made_[i];
+  }
+
+ private:
+  std::vector<Tableau<Real>> tableaus_;
+  mutable std::vector<std::unique_ptr<const Scheme<Real>>> made_;
+};
+
+}  // namespace irk
