@@ -20,6 +20,10 @@
 namespace irk {
 namespace {
 
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+// The set-up is measured for this part of the time that the whole call is.
+constexpr double kSetUpPart = 0.1;
+
 /// Stores the seconds per integration; prints nothing.
 class Collector final : public benchmark::BenchmarkReporter {
  public:
@@ -30,7 +34,7 @@ class Collector final : public benchmark::BenchmarkReporter {
       seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
     }
   }
-  double seconds = std::numeric_limits<double>::quiet_NaN();
+  double seconds = kNotMeasured;
 };
 
 struct Candidate {
@@ -39,6 +43,7 @@ struct Candidate {
   double seconds;  // of the accuracy run, on any machine
   int repetitions;
   std::vector<double> measured;  // starts with the measurements of an interrupted pass
+  double setup_s;                // the least of them; NaN: not measured
 };
 
 // Timing takes about the same time for runs of about the same length.
@@ -72,7 +77,9 @@ std::vector<Candidate> candidates(const Study& study, const store::Store& store,
     const double seconds = lengthOf(store, runs, row);
     const int repetitions = seconds > study.timing.once_above_s ? 1 : study.timing.repetitions;
     if (seconds > study.timing.skip_above_s || numberAt(runs, row, "cpu_runs") >= repetitions) continue;
-    wanted.push_back({&row, *spec, seconds, repetitions, measuredHere(store, runs, row)});
+    auto measured = measuredHere(store, runs, row);
+    const double setup = measured.empty() ? kNotMeasured : numberAt(runs, row, "cpu_setup_s");
+    wanted.push_back({&row, *spec, seconds, repetitions, std::move(measured), setup});
   }
   return wanted;
 }
@@ -86,9 +93,9 @@ Timing timingOf(std::vector<double> seconds) {
   return {least, sorted[sorted.size() / 2], (sorted.back() - least) / least, std::move(seconds)};
 }
 
-double timeRun(PreparedRun& run, double min_time_s) {
-  benchmark::RegisterBenchmark("run", [&run](benchmark::State& state) {
-    for ([[maybe_unused]] auto _ : state) run.integrate();
+double timeCall(const std::function<void()>& call, double min_time_s) {
+  benchmark::RegisterBenchmark("call", [&call](benchmark::State& state) {
+    for ([[maybe_unused]] auto _ : state) call();
   })->MinTime(min_time_s);
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);
@@ -113,10 +120,14 @@ void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostrea
         RunSpec unlimited = candidate.spec;
         unlimited.time_limit = 0;
         const auto run = prepare(unlimited);
-        // Warm up long runs, which are not repeated within the measurement: the first integration allocates memory.
-        if (candidate.repetitions > 1 && candidate.seconds > study.timing.min_time_s) run->integrate();
-        candidate.measured.push_back(timeRun(*run, study.timing.min_time_s));
-        setTiming(runs, *candidate.row, timingOf(candidate.measured));
+        // Warm up long runs, which are not repeated within the measurement: the first call touches new memory.
+        if (candidate.repetitions > 1 && candidate.seconds > study.timing.min_time_s) run->wholeCall();
+        candidate.measured.push_back(timeCall([&] { run->wholeCall(); }, study.timing.min_time_s));
+        const double setup = timeCall([&] { run->setUp(); }, kSetUpPart * study.timing.min_time_s);
+        candidate.setup_s = std::fmin(candidate.setup_s, setup);
+        Timing timing = timingOf(candidate.measured);
+        timing.setup_s = candidate.setup_s;
+        setTiming(runs, *candidate.row, timing);
         store.addTimes(*candidate.row);
         progress.finished(kindOf(candidate), wallSeconds() - start);
       }

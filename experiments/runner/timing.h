@@ -1,6 +1,7 @@
 // The serial timing pass: Google Benchmark on the thread's CPU clock.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <vector>
 
@@ -13,14 +14,14 @@ namespace irk {
 /// Minimum, median, spread and number of the times (at least one); for an even number the upper median.
 Timing timingOf(std::vector<double> seconds);
 
-/// Seconds of one integration, the mean over at least `min_time_s`. Call it while nothing else runs.
-double timeRun(PreparedRun& run, double min_time_s);
+/// Seconds of one call, the mean over at least `min_time_s`. Call it while nothing else runs.
+double timeCall(const std::function<void()>& call, double min_time_s);
 
 /// Times every successful run of the table that has fewer repetitions than requested (on this processor or on any, as
-/// the store's options say): columns cpu_s (minimum), cpu_median_s, cpu_spread, cpu_runs, cpu_all. Each round of
-/// repetitions covers the whole study, so a machine that is slow for some seconds cannot slow all repetitions of a
-/// run. Every new time is a new row of the store: after an interrupt only the missing ones are measured. Exports the
-/// tables again at the end.
+/// the store's options say): columns cpu_s (minimum), cpu_setup_s, cpu_median_s, cpu_spread, cpu_runs, cpu_all. What is
+/// timed is the whole call: set-up and integration, as its user makes it. Each round of repetitions covers the whole
+/// study, so a machine that is slow for some seconds cannot slow all repetitions of a run. Every new time is a new row
+/// of the store: after an interrupt only the missing ones are measured. Exports the tables again at the end.
 void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostream& progress);
 
 }  // namespace irk

@@ -32,6 +32,7 @@ class RungeKutta {
   const std::string& family() const { return setup_.methods.members.front().family; }
   /// 0 for a family: the order controller chooses the stages.
   Index stages() const { return isFamily(setup_.spec.method) ? 0 : setup_.stages(); }
+  Integrator<Real> newIntegrator() const { return setUp(setup_.spec, setup_.scene).integrator(); }
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     auto solution = integrator_.integrate(start, t_end, monitor);
     if (solution.detail.find('[') != std::string::npos) {
@@ -63,6 +64,7 @@ class PeerMethod {
   const Scene<double>& scene() const { return scene_; }
   const std::string& family() const { return entry_.id; }
   Index stages() const { return 0; }
+  PeerIntegrator newIntegrator() const { return {entry_, scene_, spec_}; }
   Solution<double> integrate(const State<double>& start, double t_end, const Monitor<double>& monitor) {
     return integrator_.integrate(start, t_end, monitor);
   }
@@ -128,6 +130,13 @@ class Prepared final : public PreparedRun {
   }
 
   void integrate() override { last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome; }
+
+  void setUp() override { (void)method_.newIntegrator(); }
+
+  void wholeCall() override {
+    auto integrator = method_.newIntegrator();
+    last_ = integrator.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
+  }
 
   std::vector<std::string> columns() const override {
     auto names = scene_.names;

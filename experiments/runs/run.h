@@ -85,13 +85,18 @@ struct Watch {
   bool inside = false;      ///< whether `accepted` asks for AcceptedStep::inside
 };
 
-/// Scene, tableau and integrator of a spec: built once, run as often as wanted. Use one object per thread.
+/// Scene, method and integrator of a spec: built once, run as often as wanted. Use one object per thread.
 class PreparedRun {
  public:
   virtual ~PreparedRun() = default;
   virtual RunRecord execute(const Watch& watch) = 0;
   /// Runs the integration only, for timing.
   virtual void integrate() = 0;
+  /// What comes before it in the call of a user who has a scene: the system in its formulation, the method's
+  /// coefficients, the integrator.
+  virtual void setUp() = 0;
+  /// `setUp` and the first integration of what it makes, for timing.
+  virtual void wholeCall() = 0;
   /// The names of the components u, v, x, z and of the scene's outputs.
   virtual std::vector<std::string> columns() const = 0;
 };

@@ -18,7 +18,8 @@ constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 constexpr std::string_view kAccuracy = "reference_accuracy";
 constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift", kAccuracy};
-constexpr std::string_view kTimes[] = {"cpu_s", "cpu_median_s", "cpu_spread", "cpu_runs", "cpu_all", "cpu_environment"};
+constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",   "cpu_spread",
+                                       "cpu_runs", "cpu_all",     "cpu_environment"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
 constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
 
@@ -71,7 +72,7 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, e.accuracy}) row.push_back(numberText(error));
   record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
-  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "0", "", environment, detailOf(record),
+  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "nan", "0", "", environment, detailOf(record),
                          std::string(buildInfo().code), environment, dateText(), ""});
   return row;
 }
@@ -105,6 +106,7 @@ std::vector<RunSeries> seriesOf(const Table& runs) {
 
 void setTiming(const Table& table, TableRow& row, const Timing& timing) {
   row[table.column("cpu_s")] = numberText(timing.minimum_s);
+  row[table.column("cpu_setup_s")] = numberText(timing.setup_s);
   row[table.column("cpu_median_s")] = numberText(timing.median_s);
   row[table.column("cpu_spread")] = numberText(timing.spread);
   row[table.column("cpu_runs")] = std::to_string(timing.all_s.size());
@@ -116,7 +118,7 @@ void setTiming(const Table& table, TableRow& row, const Timing& timing) {
 }
 
 void forgetTiming(const Table& table, TableRow& row) {
-  for (const char* name : {"cpu_s", "cpu_median_s", "cpu_spread"}) row[table.column(name)] = "nan";
+  for (const char* name : {"cpu_s", "cpu_setup_s", "cpu_median_s", "cpu_spread"}) row[table.column(name)] = "nan";
   row[table.column("cpu_runs")] = "0";
   row[table.column("cpu_all")].clear();
 }

@@ -11,7 +11,7 @@ namespace irk {
 std::vector<std::string> runColumns();
 
 /// `key` is the specKey of the record's spec. Timing columns stay empty until the timing pass, except cpu_s, the time
-/// of the run itself. Code, environment and date are those of this program, this machine and now.
+/// of the integration itself. Code, environment and date are those of this program, this machine and now.
 TableRow runRow(const std::string& key, const std::string& study, const RunRecord& record);
 
 /// The columns that distinguish series: every field of a spec that is not swept (fields.h), and the columns derived
@@ -27,12 +27,13 @@ struct RunSeries {
 /// In the order of their first rows. The results point into `runs`.
 std::vector<RunSeries> seriesOf(const Table& runs);
 
-/// The result of the timing pass; the column cpu_s is the minimum.
+/// The result of the timing pass, of whole calls (PreparedRun::wholeCall); the column cpu_s is the minimum.
 struct Timing {
   double minimum_s;
   double median_s;
-  double spread;              ///< (max - min) / min
-  std::vector<double> all_s;  ///< each repetition, in the order in which they were made
+  double spread;                                              ///< (max - min) / min
+  std::vector<double> all_s;                                  ///< each repetition, in the order in which they were made
+  double setup_s = std::numeric_limits<double>::quiet_NaN();  ///< of them the set-up, the minimum
 };
 /// Writes times that were measured here and now.
 void setTiming(const Table& table, TableRow& row, const Timing& timing);

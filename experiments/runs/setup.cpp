@@ -53,6 +53,11 @@ template <class Real>
 Setup<Real> makeSetup(const RunSpec& given) {
   RunSpec spec = resolved(given);
   auto scene = sceneOf<Real>(spec);
+  return setUp(std::move(spec), std::move(scene));
+}
+
+template <class Real>
+Setup<Real> setUp(RunSpec spec, Scene<Real> scene) {
   auto methods = methodsOf<Real>(spec);
   auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
   auto scale = toleranceScale(scene, spec, system->sizes());
@@ -65,6 +70,9 @@ template Vec<double> toleranceScale(const Scene<mp100>&, const RunSpec&, const S
 template Scene<double> sceneOf(const RunSpec&);
 template Scene<mp50> sceneOf(const RunSpec&);
 template Scene<mp100> sceneOf(const RunSpec&);
+template Setup<double> setUp(RunSpec, Scene<double>);
+template Setup<mp50> setUp(RunSpec, Scene<mp50>);
+template Setup<mp100> setUp(RunSpec, Scene<mp100>);
 template Setup<double> makeSetup(const RunSpec&);
 template Setup<mp50> makeSetup(const RunSpec&);
 template Setup<mp100> makeSetup(const RunSpec&);

@@ -28,6 +28,11 @@ struct Setup {
   }
 };
 
+/// The setup of a resolved spec and its scene: makes the system and the method's coefficients. Throws Misuse as
+/// makeSetup.
+template <class Real>
+Setup<Real> setUp(RunSpec spec, Scene<Real> scene);
+
 /// The magnitudes that an integrator multiplies atol by: those of the system's components (systemScale), but as
 /// `atol_of` of the spec says where it names one. Throws Misuse for a name that the scene does not have.
 template <class Real>

@@ -90,6 +90,7 @@ inline const std::vector<std::string> kRunColumns = {"key",
                                                      "steps_accepted",
                                                      "steps_rejected_error",
                                                      "cpu_s",
+                                                     "cpu_setup_s",
                                                      "cpu_median_s",
                                                      "cpu_spread",
                                                      "detail"};
@@ -108,7 +109,7 @@ inline Cells run(int i, const Cells& cells) {
   for (const auto& column :
        {"error", "error_u", "error_v", "error_x", "error_z", "drift", "residuals", "dual_residuals", "jacobians",
         "factorizations", "solves", "newton_iterations", "newton_restarts", "steps_accepted", "steps_rejected_error",
-        "cpu_s", "cpu_median_s", "cpu_spread"}) {
+        "cpu_s", "cpu_setup_s", "cpu_median_s", "cpu_spread"}) {
     row.try_emplace(column, exact(numberOf(column, i)));
   }
   row.try_emplace("outcome", "success");

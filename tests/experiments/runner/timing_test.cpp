@@ -14,46 +14,41 @@
 namespace irk {
 namespace {
 
-/// A run that uses CPU time or sleeps, and records what it did.
-class MadeUpRun final : public PreparedRun {
- public:
-  MadeUpRun(double busy_s, double asleep_s) : busy_s_(busy_s), asleep_s_(asleep_s) {}
-  RunRecord execute(const Watch&) override { return {}; }
-  void integrate() override {
-    const double start = threadSeconds();
-    while (threadSeconds() - start < busy_s_) {
-    }
-    if (asleep_s_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(asleep_s_));
-    spent += threadSeconds() - start;
-    ++calls;
-  }
-  std::vector<std::string> columns() const override { return {}; }
+/// A call that uses CPU time or sleeps, and records what it did.
+struct MadeUpCall {
+  double busy_s, asleep_s;
   int calls = 0;
   double spent = 0;
 
- private:
-  double busy_s_, asleep_s_;
+  void operator()() {
+    const double start = threadSeconds();
+    while (threadSeconds() - start < busy_s) {
+    }
+    if (asleep_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(asleep_s));
+    spent += threadSeconds() - start;
+    ++calls;
+  }
 };
 
-TEST(TimeRun, IsOfOneIntegration) {
-  MadeUpRun run(2e-4, 0);
-  const double seconds = timeRun(run, 0.02);
-  ASSERT_GT(run.calls, 20);
-  EXPECT_NEAR(seconds, run.spent / run.calls, 0.5 * run.spent / run.calls);
+TEST(TimeCall, IsOfOneCall) {
+  MadeUpCall call{2e-4, 0};
+  const double seconds = timeCall(std::ref(call), 0.02);
+  ASSERT_GT(call.calls, 20);
+  EXPECT_NEAR(seconds, call.spent / call.calls, 0.5 * call.spent / call.calls);
 }
 
-TEST(TimeRun, CountsNoTimeAsleep) {
-  MadeUpRun run(1e-4, 2e-3);
-  const double seconds = timeRun(run, 0.001);
-  ASSERT_GT(run.calls, 0);
+TEST(TimeCall, CountsNoTimeAsleep) {
+  MadeUpCall call{1e-4, 2e-3};
+  const double seconds = timeCall(std::ref(call), 0.001);
+  ASSERT_GT(call.calls, 0);
   EXPECT_GE(seconds, 1e-4);
   EXPECT_LT(seconds, 1e-3) << "2.1e-3 of the clock on the wall";
 }
 
-TEST(TimeRun, LastsAsLongAsAskedFor) {
-  MadeUpRun brief(1e-5, 0), lasting(1e-5, 0);
-  (void)timeRun(brief, 0.002);
-  (void)timeRun(lasting, 0.02);
+TEST(TimeCall, LastsAsLongAsAskedFor) {
+  MadeUpCall brief{1e-5, 0}, lasting{1e-5, 0};
+  (void)timeCall(std::ref(brief), 0.002);
+  (void)timeCall(std::ref(lasting), 0.02);
   EXPECT_GT(lasting.spent, 0.01);
   EXPECT_GT(lasting.spent, 2 * brief.spent);
 }
@@ -102,6 +97,9 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
     EXPECT_LT(least, median) << "five measured times are not equal";
     EXPECT_LE(median, least * (1 + numberAt(read, row, "cpu_spread")) * (1 + 1e-12));
     EXPECT_EQ(numberAt(read, row, "cpu_runs"), 5);
+    const double setup = numberAt(read, row, "cpu_setup_s");
+    EXPECT_GT(setup, 0);
+    EXPECT_LT(setup, median) << "a part of the whole call";
     EXPECT_LT(least, 0.1) << "of one integration";
   }
 }

@@ -92,6 +92,7 @@ TEST(RunRow, HoldsEveryNumberUnderItsName) {
   for (const auto& [column, number] : numbers) {
     EXPECT_EQ(numberAt(table, row, column), number) << column;
   }
+  EXPECT_TRUE(std::isnan(numberAt(table, row, "cpu_setup_s")));
   EXPECT_TRUE(std::isnan(numberAt(table, row, "cpu_median_s")));
   EXPECT_TRUE(std::isnan(numberAt(table, row, "cpu_spread")));
   for (const auto& field : specFields()) {
@@ -107,9 +108,10 @@ TEST(RunRow, ColumnsAreNamedOnce) {
 
 TEST(RunRow, TimesGoToTheirColumns) {
   Table table{{}, runColumns(), {runRow("key", "study", distinct())}};
-  setTiming(table, table.rows.front(), {0.25, 0.5, 2.5, {0.75, 0.25, 0.5}});
+  setTiming(table, table.rows.front(), {0.25, 0.5, 2.5, {0.75, 0.25, 0.5}, 0.125});
   const TableRow& row = table.rows.front();
   EXPECT_EQ(numberAt(table, row, "cpu_s"), 0.25);
+  EXPECT_EQ(numberAt(table, row, "cpu_setup_s"), 0.125);
   EXPECT_EQ(numberAt(table, row, "cpu_median_s"), 0.5);
   EXPECT_EQ(numberAt(table, row, "cpu_spread"), 2.5);
   EXPECT_EQ(numberAt(table, row, "cpu_runs"), 3);
