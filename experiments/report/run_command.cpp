@@ -54,7 +54,7 @@ class Row {
 
 // A cell as the command line takes it: tables of older versions have numbers with 17 digits.
 std::string valueOf(const SpecField& field, const std::string& cell) {
-  return field.isNumeric() ? numberText(cellNumber(cell)) : cell;
+  return field.kind == FieldKind::kNumber ? numberText(cellNumber(cell)) : cell;
 }
 
 // As far as this program knows what the row names.

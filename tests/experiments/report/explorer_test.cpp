@@ -30,7 +30,7 @@ std::vector<std::string> wordsOf(const std::string& command) {
 constexpr char kAllKinds[] = R"(
 [defaults]
 tolerances = [1e-3, 1e-5]
-max_steps = 2_000
+max_steps = 200_000
 
 [[block]]
 scene = "van_der_pol"
