@@ -155,6 +155,17 @@ TEST_F(ExplorerInBrowser, KeepsTheChoiceInTheLink) {
   EXPECT_EQ(other["panels"], 0);
 }
 
+// Nothing but tables scrolls sideways: the page does not, and nothing hangs out of its form.
+TEST_F(ExplorerInBrowser, FitsAPhone) {
+  const Json seen = drive(page_, "view=peers", R"(
+    for (const box of page.querySelectorAll("details")) box.open = true;
+    const inside = [...page.querySelectorAll("form *, svg")].map(node => node.getBoundingClientRect().right);
+    return { page: page.documentElement.scrollWidth, inside: Math.max(...inside) };)",
+                          400);
+  EXPECT_LE(seen["page"], 400);
+  EXPECT_LE(seen["inside"], 400);
+}
+
 TEST_F(ExplorerInBrowser, NamesARunAndItsCommand) {
   const Json seen = driven("view=all", R"(
     const tip = page.getElementById("tip"), svg = page.querySelector("#panels svg");
