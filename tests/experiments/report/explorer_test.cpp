@@ -29,30 +29,33 @@ std::vector<std::string> wordsOf(const std::string& command) {
 // Peers, configurations, settings that are words, fixed steps, options of strategies, an end of its own.
 constexpr char kAllKinds[] = R"(
 [defaults]
-tolerances = [1e-3, 1e-5]
 max_steps = 200_000
 
 [[block]]
 scene = "van_der_pol"
 t_end = 0.1
 methods = ["radau_iia_3", "cvode_bdf"]
+tolerances = [1e-3, 1e-5]
 [[block]]
 scene = "van_der_pol"
 configuration = "variable"
 t_end = 0.1
 methods = "radau_iia"
+tolerances = [1e-3, 1e-5]
 [[block]]
 scene = "bouncing_mass"
 configuration = "paper"
 methods = "gauss_2"
 t_end = 0.25
 time_limit = 3
+tolerances = [1e-3, 1e-5]
 [[block]]
 scene = "slider_crank"
 settings = "torque_off_at=0.05"
 t_end = 0.1
 formulation = "index1"
 methods = ["radau_iia_2", "ida_bdf"]
+tolerances = [1e-3, 1e-5]
 [[block]]
 scene = "kepler"
 settings = "e=0.1"
