@@ -27,6 +27,7 @@ constexpr std::string_view kStudies[] = {"work_precision", "peers",   "beam",   
 
 // Columns of runs.csv that are drawn; of the errors, whatever the table has.
 constexpr std::string_view kQuantities[] = {"drift",
+                                            "h",
                                             "cpu_s",
                                             "cpu_median_s",
                                             "residuals",
@@ -78,7 +79,9 @@ bool isWrong(const Table& runs, const TableRow& row) {
 
 class Collector {
  public:
+  // Times of several processors are left out.
   void add(const std::string& study, const Table& table) {
+    times_refused_ = !refusedTimes(table.head).empty();
     for (const auto& of : seriesOf(table)) addSeries(study, table, of);
   }
 
@@ -88,7 +91,7 @@ class Collector {
   void addSeries(const std::string& study, const Table& table, const RunSeries& of) {
     const TableRow& first = *of.rows.front();
     const auto text = [&](const char* column) { return textAt(table, first, column); };
-    const auto command = commandOfRow(table, first);
+    const auto command = seriesCommand(table, first);
     Json options = Json::array();
     for (const auto& [name, value] : command.options) options.push_back({name, value});
     const bool peer = text("integrator") == text("method");
@@ -102,7 +105,7 @@ class Collector {
                       {"peer", peer},
                       {"integrator", text("integrator")},
                       {"options", options},
-                      {"command", command.series}});
+                      {"command", command.text}});
     for (const auto* row : of.rows) addRun(table, *row);
   }
 
@@ -110,11 +113,12 @@ class Collector {
     put("series", series.size() - 1);
     put("outcome", word("outcome", textAt(table, row, "outcome")));
     put("detail", word("detail", textAt(table, row, "detail")));
-    put("swept", word("swept", commandOfRow(table, row).swept));
+    put("swept", word("swept", sweptOptions(table, row)));
     put("tolerance", rounded(toleranceOf(table, row)));
     put("wrong", isWrong(table, row) ? 1 : 0);
     for (const auto& column : table.columns) {
-      if (isQuantity(column)) put(column, rounded(numberAt(table, row, column)));
+      const bool refused = times_refused_ && column.starts_with("cpu_");
+      if (isQuantity(column) && !refused) put(column, rounded(numberAt(table, row, column)));
     }
     ++count_;
     for (auto& [name, values] : runs.items()) {
@@ -136,6 +140,7 @@ class Collector {
   }
 
   std::size_t count_ = 0;
+  bool times_refused_ = false;
   std::map<std::string, std::map<std::string, std::size_t>> numbers_;
 };
 

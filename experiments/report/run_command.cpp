@@ -119,7 +119,10 @@ std::string endOption(const Row& row) {
   return " --t-end " + numberText(t_end);
 }
 
-std::string sweptOptions(const Row& row) {
+}  // namespace
+
+std::string sweptOptions(const Table& runs, const TableRow& line) {
+  const Row row(runs, line);
   const double rtol = row.number("rtol"), atol = row.number("atol"), h = row.number("h");
   std::string text;
   if (h > 0) text += " --step " + numberText(h);
@@ -130,29 +133,26 @@ std::string sweptOptions(const Row& row) {
   return text;
 }
 
-}  // namespace
-
-RunCommand commandOfRow(const Table& runs, const TableRow& line) {
+SeriesCommand seriesCommand(const Table& runs, const TableRow& line) {
   const Row row(runs, line);
-  RunCommand command;
-  command.series = "irk solve " + word(row.text("scene"));
+  SeriesCommand command;
+  command.text = "irk solve " + word(row.text("scene"));
   const auto settings = row.text("settings");
   for (std::size_t at = 0; at < settings.size();) {
     const auto end = std::min(settings.find(' ', at), settings.size());
-    if (end > at) command.series += " --set " + word(settings.substr(at, end - at));
+    if (end > at) command.text += " --set " + word(settings.substr(at, end - at));
     at = end + 1;
   }
   const auto configuration = row.text("configuration");
   if (!configuration.empty() && configuration != RunSpec{}.configuration && !row.isPeer()) {
-    command.series += " --configuration " + word(configuration);
+    command.text += " --configuration " + word(configuration);
   }
-  command.series += " --method " + word(row.text("method"));
+  command.text += " --method " + word(row.text("method"));
   for (const auto& [name, value] : differences(row)) {
-    command.series += " " + optionName(name) + (name == "reference" ? "" : " " + word(value));
+    command.text += " " + optionName(name) + (name == "reference" ? "" : " " + word(value));
     if (!isIn(kLimits, name)) command.options.emplace_back(name, value);
   }
-  command.series += endOption(row);
-  command.swept = sweptOptions(row);
+  command.text += endOption(row);
   return command;
 }
 

@@ -11,6 +11,7 @@
 #include "experiments/report/run_command.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/store/store.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/study_runs.h"
 
@@ -77,22 +78,22 @@ TEST(RunCommand, MakesTheRunOfItsRowAgain) {
   ASSERT_GE(runs.rows.size(), 14u);
   for (const auto& row : runs.rows) {
     ASSERT_NE(textAt(runs, row, "outcome"), "refused") << textAt(runs, row, "detail");
-    const auto command = commandOfRow(runs, row);
-    auto words = wordsOf(command.series + command.swept);
+    const std::string command = seriesCommand(runs, row).text + sweptOptions(runs, row);
+    auto words = wordsOf(command);
     words.emplace_back("--json");
     const auto ended = program(words);
-    ASSERT_TRUE(ended.out.starts_with("{")) << command.series << command.swept << ": " << ended.err;
+    ASSERT_TRUE(ended.out.starts_with("{")) << command << ": " << ended.err;
     const Json made = Json::parse(ended.out);
-    EXPECT_EQ(made["outcome"], textAt(runs, row, "outcome")) << command.series;
-    EXPECT_EQ(made["counters"]["residuals"], std::stoll(textAt(runs, row, "residuals"))) << command.series;
+    EXPECT_EQ(made["outcome"], textAt(runs, row, "outcome")) << command;
+    EXPECT_EQ(made["counters"]["residuals"], std::stoll(textAt(runs, row, "residuals"))) << command;
     for (const auto& [field, value] : made["spec"].items()) {
       if (field == "settings") continue;  // an object there, text here
       if (textAt(runs, row, "integrator") == textAt(runs, row, "method") && field == "configuration") continue;
       const std::string text = textAt(runs, row, field);
       if (value.is_number()) {
-        EXPECT_EQ(value.get<double>(), std::stod(text)) << field << " of " << command.series << command.swept;
+        EXPECT_EQ(value.get<double>(), std::stod(text)) << field << " of " << command;
       } else {
-        EXPECT_EQ(value, text) << field << " of " << command.series << command.swept;
+        EXPECT_EQ(value, text) << field << " of " << command;
       }
     }
   }
@@ -110,9 +111,9 @@ TEST(RunCommand, SaysNothingThatIsUsualAndQuotesForTheShell) {
   put("atol", "9.9999999999999995e-07");
   put("kappa", "0.10000000000000001");
   put("t_end", "3");
-  const auto command = commandOfRow(runs, row);
-  EXPECT_EQ(command.series, "irk solve 'nobody'\\''s scene' --method radau_iia_5 --kappa 0.1 --t-end 3");
-  EXPECT_EQ(command.swept, " --tol 1e-06");
+  const auto command = seriesCommand(runs, row);
+  EXPECT_EQ(command.text, "irk solve 'nobody'\\''s scene' --method radau_iia_5 --kappa 0.1 --t-end 3");
+  EXPECT_EQ(sweptOptions(runs, row), " --tol 1e-06");
   ASSERT_EQ(command.options.size(), 1u);
   EXPECT_EQ(command.options.front().first, "kappa");
 }
@@ -146,6 +147,20 @@ Table madeUp() {
   add("cvode_bdf", "cvode_bdf", "1e-4", "success", "0.11");
   add("cvode_bdf", "cvode_bdf", "1e-6", "timeout", "nan");
   return runs;
+}
+
+TEST(ExplorerData, HasNoTimesOfSeveralProcessors) {
+  const TemporaryFolder folder;
+  Table runs = madeUp();
+  const auto file = folder.path() / "peers" / "runs.csv";
+  std::filesystem::create_directories(file.parent_path());
+  writeTable(file, runs);
+  EXPECT_TRUE(Json::parse(explorerData(folder.path()))["runs"].contains("cpu_s"));
+  runs.head.emplace_back(store::kTimesRefused, "two processors");
+  writeTable(file, runs);
+  const Json data = Json::parse(explorerData(folder.path()));
+  EXPECT_FALSE(data["runs"].contains("cpu_s"));
+  EXPECT_NE(data["studies"][0]["no_times"], "");
 }
 
 class ExplorerPage : public testing::Test {
