@@ -255,7 +255,7 @@ class Program {
     plot->add_option("study", study_, "id or TOML file")->required();
     addQuick(*plot);
     addResults(*plot);
-    auto* report = verb(app_, "report", "all figures and the report page",
+    auto* report = verb(app_, "report", "all figures, the report page and the explorer",
                         [this](Streams s) { return reportCommand(results(), s); });
     addQuick(*report);
     addResults(*report);

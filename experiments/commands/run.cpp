@@ -11,6 +11,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/claims/claims.h"
 #include "experiments/commands/commands.h"
+#include "experiments/report/explorer.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/join_ranks.h"
@@ -229,7 +230,9 @@ int claimsCommand(const std::string& results, Streams streams) {
 int reportCommand(const std::string& results, Streams streams) {
   const ReportOptions options{results, homeFolder()};
   const int failures = drawFigures("", options, streams.err);
+  const auto explorer = writeExplorer(options, streams.err);  // first: the page links to it
   streams.out << "report: " << writeReport(options).string() << '\n';
+  if (explorer) streams.out << "explorer: " << explorer->string() << '\n';
   return failures == 0 ? 0 : 1;
 }
 

@@ -282,6 +282,8 @@ std::filesystem::path writeReport(const ReportOptions& options) {
       std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus)) : "<p>None yet: irk tableau table.</p>");
   replacePlaceholder(page, "@ENVIRONMENT@", environment);
   replacePlaceholder(page, "@DATE@", dateText());
+  const bool explorer = std::filesystem::exists(options.results / "report" / "explore.html");
+  replacePlaceholder(page, "@EXPLORER@", explorer ? "<a href=\"explore.html\">Explorer</a>" : "");
   auto path = options.results / "report" / "index.html";
   std::filesystem::create_directories(path.parent_path());
   std::ofstream out(path, std::ios::binary);

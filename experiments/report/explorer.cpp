@@ -1,0 +1,57 @@
+#include "experiments/report/explorer.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <ostream>
+
+#include "core/base/input_file.h"
+#include "experiments/base/failure.h"
+#include "experiments/base/html.h"
+#include "experiments/report/explorer_data.h"
+#include "experiments/tables/environment.h"
+
+namespace irk {
+namespace {
+
+// Links to the tables, for readers without scripts.
+std::string tablesHtml(const std::vector<std::string>& studies) {
+  std::string html;
+  for (const auto& study : studies) {
+    html += fmt::format("<li><a href=\"../{0}/runs.csv\">{0}/runs.csv</a></li>\n", escapeHtml(study));
+  }
+  return html;
+}
+
+}  // namespace
+
+std::filesystem::path d3File() { return IRK_D3; }
+
+std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options, std::ostream& err,
+                                                   const std::filesystem::path& library) {
+  const auto path = options.results / "report" / "explore.html";
+  std::error_code none;
+  std::filesystem::remove(path, none);
+  const auto studies = exploredStudies(options.results);
+  if (studies.empty()) return std::nullopt;
+  if (!std::filesystem::is_regular_file(library, none)) {
+    fmt::print(err, "the explorer is left out: no {}; install the package node-d3\n", library.string());
+    return std::nullopt;
+  }
+  std::string page = readInputFile(options.home / "plots" / "explore.html");
+  replacePlaceholder(page, "@DATE@", dateText());
+  replacePlaceholder(page, "@TABLES@", tablesHtml(studies));
+  replacePlaceholder(page, "@DATA@", explorerData(options.results));
+  replacePlaceholder(page, "@D3@", readInputFile(library));
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream out(path, std::ios::binary);
+  if (!(out << page).flush()) {
+    throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+  return path;
+}
+
+}  // namespace irk
