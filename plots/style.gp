@@ -18,7 +18,7 @@ open(format, width, height) = sprintf( \
   . sprintf("; set output '%s.%s'", out, format) . quick_mark
 
 # `quick=1` says that the runs are those of --quick: the figure bears a mark. Panels after the first do not repeat it.
-quick_mark = exists("quick") ? "; set label 9999 'quick run: no verdict' at screen 0.996, screen 0.014 right " \
+quick_mark = exists("quick") ? "; set label 9999 'quick run: no verdict' at screen 0.004, screen 0.984 left " \
   ."font ',10' textcolor rgb 0x8a5a00 noenhanced front" : ""
 once(k) = k > 1 ? "; unset label 9999" : ""
 

@@ -20,10 +20,10 @@ struct HtmlTable {
     std::string css_class = {};
     std::string id = {};
   };
-  std::string caption;
-  std::vector<std::string> titles;  ///< one per column
-  std::vector<Row> rows;
-  std::string css_class = {};  ///< `filter` adds a field that filters the rows
+  std::string caption = {};
+  std::vector<std::string> titles = {};  ///< one per column
+  std::vector<Row> rows = {};
+  std::string css_class = {};
 };
 
 /// The table in an element that scrolls. Each cell repeats its column's title for narrow screens, where rows are

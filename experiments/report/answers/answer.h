@@ -14,10 +14,10 @@ namespace irk::report {
 struct Answer {
   std::string id;  ///< of its element on the page; the table is answers_<id>.csv
   std::string question;
-  std::vector<std::string> sentences;  ///< plain text
-  Table table = {};                    ///< the numbers of the answer; without columns if there are none
-  HtmlTable shown = {};                ///< the same for the page
-  std::string note = {};               ///< how to read the table; plain text
+  std::vector<std::string> sentences = {};  ///< plain text
+  Table table = {};                         ///< the numbers of the answer; without columns if there are none
+  HtmlTable shown = {};                     ///< the same for the page
+  std::string note = {};                    ///< how to read the table; plain text
   std::vector<std::pair<std::string, std::string>> links = {};  ///< target and text
 };
 

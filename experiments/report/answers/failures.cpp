@@ -63,8 +63,8 @@ std::string methodKind(const Table& runs, const TableRow& row) {
 
 struct Sample {
   std::string name;
-  std::map<std::string, Counts> kinds;  // by kind of method
-  Counts all;
+  std::map<std::string, Counts> kinds = {};  // by kind of method
+  Counts all = {};
 };
 
 void addRuns(const Table& runs, bool adaptive_only, Sample& sample) {

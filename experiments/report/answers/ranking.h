@@ -11,7 +11,7 @@ namespace irk::report {
 using Costs = std::map<std::string, std::map<std::string, double>>;
 
 struct Ranked {
-  std::string solver;
+  std::string solver = {};
   int solved = 0, given = 0;  ///< of the problems that some solver solves
   double factor = 0;          ///< geometric mean of its cost over the least cost, of the problems that it solves
 };

@@ -84,10 +84,10 @@ struct Choice {
   std::string kind;
   double error = 0;
   int problems = 0;
-  Ranked best, next, library;  ///< without a name: there is none
+  Ranked best = {}, next = {}, library = {};  ///< without a name: there is none
   double over_next = std::numeric_limits<double>::quiet_NaN();
   double over_library = over_next;
-  Outcomes outcomes;
+  Outcomes outcomes = {};
 };
 
 bool isPeer(const std::string& solver) { return findPeer(solver) != nullptr; }
