@@ -29,6 +29,7 @@
 namespace irk {
 namespace {
 
+constexpr const char* kPreliminary = " (quick run: preliminary)";
 constexpr double kWide = 700;  // points; wider figures take a whole row
 
 // The name of a study's section.
@@ -107,7 +108,7 @@ std::vector<std::string> Page::studyIds() const {
 }
 
 std::string Page::table(HtmlTable table) const {
-  if (quick_) table.caption += " (quick run: preliminary)";
+  if (quick_) table.caption += kPreliminary;
   return htmlOf(table);
 }
 
@@ -117,7 +118,9 @@ std::string Page::answers(const std::vector<report::Answer>& answers, std::strin
     std::erase_if(answer.links, [&](const auto& link) {
       return rest.find(fmt::format("id=\"{}\"", link.first.substr(1))) == rest.npos;
     });
-    if (quick_) answer.shown.caption += " (quick run: preliminary)";
+    for (auto* shown : {&answer.shown, &answer.more}) {
+      if (quick_) shown->caption += kPreliminary;
+    }
     if (!answer.table.columns.empty())
       answer.links.emplace_back(fmt::format("answers_{}.csv", answer.id), "table as CSV");
     html += answerHtml(answer, quick_);
@@ -215,7 +218,7 @@ std::string Page::section(const std::string& study) const {
   if (!question.empty()) html += fmt::format("<p class=\"question\">{}</p>\n", escapeHtml(question));
   try {
     for (const auto& sentence : report::studyAnswers(study, tables_)) {
-      html += fmt::format("<p>{}{}</p>\n", quick_ ? "<em>Preliminary.</em> " : "", escapeHtml(sentence));
+      html += fmt::format("<p>{}{}</p>\n", quick_ ? "<em>Preliminary.</em> " : "", report::codeHtml(sentence));
     }
   } catch (const Misuse& old) {  // a table of another version
     html += fmt::format("<p>{}</p>\n", escapeHtml(old.what()));
@@ -268,7 +271,10 @@ std::vector<report::Answer> pageAnswers(const ReportOptions& options) {
   add("failures", "audit", report::failureAnswer);
   add("paper", "audit", [](const claims::ResultTables& t) { return report::paperAnswer(t); });
   for (auto& answer : answers) {
-    if (answer.table.head.empty()) answer.table.head = {{"study", "all"}, {"date", dateText()}};
+    auto& head = answer.table.head;
+    if (head.empty()) head = {{"study", "all"}, {"date", dateText()}};
+    const bool said = std::any_of(head.begin(), head.end(), [](const auto& entry) { return entry.first == "quick"; });
+    if (areQuick(options) && !said) head.emplace_back("quick", "small versions of the studies; preliminary");
   }
   return answers;
 }

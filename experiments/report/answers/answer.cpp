@@ -16,16 +16,34 @@ std::string answerHtml(const Answer& answer, bool preliminary) {
   std::string html = fmt::format("<section class=\"answer\" id=\"{}\">\n<h3>{}</h3>\n", escapeHtml(answer.id),
                                  escapeHtml(answer.question));
   for (const auto& sentence : answer.sentences) {
-    html +=
-        fmt::format("<p class=\"say\">{}{}</p>\n", preliminary ? "<em>Preliminary.</em> " : "", escapeHtml(sentence));
+    html += fmt::format("<p class=\"say\">{}{}</p>\n", preliminary ? "<em>Preliminary.</em> " : "", codeHtml(sentence));
     preliminary = false;  // once is enough for the sentences
   }
   html += htmlOf(answer.shown);
-  if (!answer.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escapeHtml(answer.note));
+  if (!answer.more.rows.empty()) {
+    html += fmt::format("<details><summary>{}</summary>\n{}</details>\n", escapeHtml(answer.more.caption),
+                        htmlOf(answer.more));
+  }
+  if (!answer.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", codeHtml(answer.note));
   std::string links;
   for (const auto& [target, text] : answer.links) links += (links.empty() ? "" : " · ") + linkHtml(target, text);
   if (!links.empty()) html += fmt::format("<p class=\"links\">{}</p>\n", links);
   return html + "</section>\n";
+}
+
+std::string codeHtml(std::string_view text) {
+  const std::string escaped = escapeHtml(text);
+  std::string html;
+  bool inside = false;
+  for (const char c : escaped) {
+    if (c != '`') {
+      html += c;
+      continue;
+    }
+    html += inside ? "</code>" : "<code>";
+    inside = !inside;
+  }
+  return inside ? escaped : html;
 }
 
 std::string factorText(double factor) {

@@ -14,9 +14,10 @@ namespace irk::report {
 struct Answer {
   std::string id;  ///< of its element on the page; the table is answers_<id>.csv
   std::string question;
-  std::vector<std::string> sentences = {};  ///< plain text
+  std::vector<std::string> sentences = {};  ///< plain text; `code` between backticks
   Table table = {};                         ///< the numbers of the answer; without columns if there are none
-  HtmlTable shown = {};                     ///< the same for the page
+  HtmlTable shown = {};                     ///< the most important ones, for the page
+  HtmlTable more = {};                      ///< the others, folded
   std::string note = {};                    ///< how to read the table; plain text
   std::vector<std::pair<std::string, std::string>> links = {};  ///< target and text
 };
@@ -27,6 +28,8 @@ Answer unknownAnswer(std::string id, std::string question, std::string_view stud
 /// The section of the page. `preliminary`: the runs are those of --quick, and the table's head says so.
 std::string answerHtml(const Answer& answer, bool preliminary);
 
+/// Escaped text with `code` between backticks as an element.
+std::string codeHtml(std::string_view text);
 /// `1.8`, `12`, `340`: two digits.
 std::string factorText(double factor);
 /// `1e-08` as `1e-8`.

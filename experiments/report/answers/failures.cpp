@@ -47,7 +47,7 @@ std::vector<std::pair<std::string, std::size_t>> causesOf(const Counts& counts) 
 
 std::string causesText(const Counts& counts) {
   std::vector<std::string> parts;
-  for (const auto& [cause, count] : causesOf(counts)) parts.push_back(fmt::format("{} {}", count, causeTitle(cause)));
+  for (const auto& [cause, count] : causesOf(counts)) parts.push_back(fmt::format("{} ({})", causeTitle(cause), count));
   return listText(parts);
 }
 
@@ -101,7 +101,7 @@ std::string worstSentence(const Sample& sample) {
     if (!best || failedPart(kind.second) < failedPart(best->second)) best = &kind;
   }
   if (!worst || worst == best || failedPart(worst->second) == failedPart(best->second)) return {};
-  return fmt::format("{} fails most often, in {} of its runs, mostly by {}; {} least often, in {}.", worst->first,
+  return fmt::format("`{}` fails most often, in {} of its runs, mostly by {}; `{}` least often, in {}.", worst->first,
                      percent(failedPart(worst->second)), causeTitle(causesOf(worst->second).front().first), best->first,
                      percent(failedPart(best->second)));
 }
@@ -192,7 +192,7 @@ Answer failureAnswer(const claims::ResultTables& tables) {
   for (const auto& cause : causes) answer.shown.titles.push_back(causeTitle(cause));
   for (const auto& sample : samples) appendRows(sample, causes, answer);
   answer.note =
-      "default, paper, embedded and variable are configurations of this suite; the others are other libraries' "
+      "`default`, `paper`, `embedded` and `variable` are configurations of this suite; the others are other libraries' "
       "solvers. "
       "Runs with fixed steps and the studies that provoke failures are not counted here.";
   answer.links = {{"#study_audit", "can success be believed?"},

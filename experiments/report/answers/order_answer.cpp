@@ -32,17 +32,18 @@ constexpr Family kFamilies[] = {{"gauss", "Gauss"},
 struct System {
   SystemKind kind;
   const char *id, *title, *components;
+  bool important = false;  ///< shown at once; the others are folded
 };
 constexpr System kSystems[] = {
-    {SystemKind::kOde, "ode", "ODE", "x"},
-    {SystemKind::kIndex1, "index1", "index 1", "xz"},
+    {SystemKind::kOde, "ode", "ODE", "x", true},
+    {SystemKind::kIndex1, "index1", "index 1", "xz", true},
     {SystemKind::kIndex2, "index2", "index 2", "xz"},
     {SystemKind::kIndex3, "index3", "index 3", "xz"},
-    {SystemKind::kMechanical3, "mechanical_index3", "mechanical, index 3", "uvz"},
-    {SystemKind::kMechanical2, "mechanical_index2", "mechanical, index 2", "uvz"},
+    {SystemKind::kMechanical3, "mechanical_index3", "mechanical, index 3", "uvz", true},
+    {SystemKind::kMechanical2, "mechanical_index2", "mechanical, index 2", "uvz", true},
     {SystemKind::kProjected, "mechanical_index2_projected", "mechanical, index 2 projected", "uvz"},
     {SystemKind::kGgl, "mechanical_ggl", "mechanical, GGL", "uvz"},
-    {SystemKind::kStiffFixedLambda, "stiff", "stiff, fixed λ → −∞", "x"},
+    {SystemKind::kStiffFixedLambda, "stiff", "stiff, fixed λ → −∞", "x", true},
     {SystemKind::kStiffFixedZ, "stiff_fixed_z", "stiff, fixed hλ → −∞", "x"}};
 
 const char* componentTitle(char component) {
@@ -63,10 +64,12 @@ std::map<Place, OrderCheck> checksOf(const Table& orders) {
   return checks;
 }
 
+// One line for each case of the formula.
 std::string cellHtml(const OrderFormula& formula, const OrderCheck& check) {
+  std::string lines = escapeHtml(formula.text);
+  replacePlaceholder(lines, "; ", "<br>");
+  std::string html = fmt::format("<span class=\"formula\">{}{}</span>", lines, formula.theorem ? "" : "&#8224;");
   const int measured = check.agree + check.differ;
-  std::string html =
-      fmt::format("<span class=\"formula\">{}{}</span>", escapeHtml(formula.text), formula.theorem ? "" : "&#8224;");
   if (measured == 0) return html;
   return html + fmt::format(" <span class=\"{}\">{} {}/{}</span>", check.differ > 0 ? "differ" : "agree",
                             check.differ > 0 ? "✗" : "✓", check.agree, measured);
@@ -85,7 +88,7 @@ void appendRow(const System& system, char component, const std::map<Place, Order
                                  std::to_string(check.differ), std::to_string(check.not_measurable),
                                  numberText(check.worst)});
   }
-  answer.shown.rows.push_back(std::move(shown));
+  (system.important ? answer.shown : answer.more).rows.push_back(std::move(shown));
 }
 
 std::vector<std::string> titlesOf(const std::vector<const Family*>& families) {
@@ -138,7 +141,7 @@ Answer orderAnswer(const claims::ResultTables& tables) {
   Answer answer{
       .id = "orders",
       .question = "Which order does each component have?",
-      .sentences = {keptSentence()},
+      .sentences = {},
       .table = {{},
                 {"system", "component", "family", "formula", "source", "agree", "differ", "not_measurable",
                  "largest_difference"},
@@ -155,7 +158,10 @@ Answer orderAnswer(const claims::ResultTables& tables) {
   } catch (const claims::MissingResults&) {
     answer.sentences.push_back("Not checked yet: `irk run order` measures the orders.");
   }
-  for (const auto& family : kFamilies) answer.shown.titles.emplace_back(family.title);
+  answer.sentences.push_back(keptSentence());
+  for (auto* table : {&answer.shown, &answer.more}) {
+    for (const auto& family : kFamilies) table->titles.emplace_back(family.title);
+  }
   for (const auto& system : kSystems) {
     for (const char component : std::string_view(system.components)) appendRow(system, component, checks, answer);
   }

@@ -131,7 +131,7 @@ std::string sentenceOf(const std::vector<Choice>& choices) {
     if (choice.error != error) continue;
     parts.push_back(choice.best.solver.empty()
                         ? fmt::format("no solver for {}", kindTitle(choice.kind))
-                        : fmt::format("{} for {} ({})", choice.best.solver, kindTitle(choice.kind),
+                        : fmt::format("`{}` for {} ({})", choice.best.solver, kindTitle(choice.kind),
                                       comparison(choice.over_next, choice.best, choice.next, choice.problems)));
   }
   return fmt::format("For an error of {}: {}.", errorText(error), fmt::join(parts, "; "));
@@ -196,8 +196,8 @@ Answer solverAnswer(const claims::ResultTables& tables) {
     answer.note =
         "Fastest: the solver that reaches the error in most problems, among equals the one with the least CPU time. "
         "Factors: geometric mean of CPU times over the problems that both solve. Wrong: success with an error above "
-        "1000 tolerances. variable, embedded and paper are configurations of this suite (irk list configurations); "
-        "variable is Radau IIA of variable order.";
+        "1000 tolerances. `variable`, `embedded` and `paper` are configurations of this suite; "
+        "`variable` is Radau IIA of variable order.";
     answer.links = {{"#profile", "performance profiles"}, {"#study_work_precision", "all diagrams"}};
   } catch (const claims::MissingResults& missing) {
     answer.sentences.push_back(missing.what());

@@ -51,7 +51,7 @@ std::string sentenceOf(const Comparison& comparison_of, const Table& costs) {
   const auto won = wins(found);
   const auto at = won.find(best.solver);
   return fmt::format(
-      "At an error of {}, {}{} is the best choice: it reaches the error in {} of {} problems, is the fastest in {}, "
+      "At an error of {}, {}`{}` is the best choice: it reaches the error in {} of {} problems, is the fastest in {}, "
       "and {}.",
       errorText(target), comparison_of.noun, best.solver, best.solved, problems, at == won.end() ? 0 : at->second,
       comparison(ratio(found, next.solver, best.solver), best, next, problems));

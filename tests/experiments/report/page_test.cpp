@@ -119,8 +119,8 @@ TEST_F(ReportPage, AnswersFirst) {
   EXPECT_LT(at("failures"), at("paper"));
   EXPECT_LT(at("paper"), at("claims"));
   EXPECT_LT(at("claims"), at("study_order"));
-  EXPECT_TRUE(containsAll(html, {"Not known yet: `irk run work_precision`", "1 of 1 measured orders agree with theory",
-                                 "1 runs, 1 successful"}));
+  EXPECT_TRUE(containsAll(html, {"Not known yet: <code>irk run work_precision</code>",
+                                 "1 of 1 measured orders agree with theory", "1 runs, 1 successful"}));
   EXPECT_TRUE(std::filesystem::exists(results_ / "report" / "answers_orders.csv"));
   EXPECT_FALSE(std::filesystem::exists(results_ / "report" / "answers_solver.csv")) << "there is nothing to say";
 }
