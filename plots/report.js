@@ -1,7 +1,7 @@
 // Sorts and filters the tables of the report's page; it becomes part of the page. Without scripts all rows are there, in
 // the order of their CSV. Own code: DataTables and its kind need jQuery, 180 kB in the page for these lines.
 'use strict';
-const kFewRows = 12;  // shorter tables need no filter
+const kFewRows = 20;  // shorter tables need no filter
 
 // Numbers by value, texts by their letters; cells without a value ("–") are last in both directions.
 function compare(a, b, sign) {

@@ -49,7 +49,7 @@ std::string htmlOf(const HtmlTable& table) {
     html += fmt::format("<tr{}{}>", attribute("class", row.css_class), attribute("id", row.id));
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const auto title = i < table.titles.size() ? table.titles[i] : std::string();
-      html += fmt::format("<td data-label=\"{}\">{}</td>", escapeHtml(title), row.cells[i]);
+      html += fmt::format("<td data-label=\"{}\"><div>{}</div></td>", escapeHtml(title), row.cells[i]);
     }
     html += "</tr>\n";
   }

@@ -138,16 +138,19 @@ std::string sentenceOf(const OrderCheck& check) {
 }
 
 Answer orderAnswer(const claims::ResultTables& tables) {
-  Answer answer{
-      .id = "orders",
-      .question = "Which order does each component have?",
-      .sentences = {},
-      .table = {{},
-                {"system", "component", "family", "formula", "source", "agree", "differ", "not_measurable",
-                 "largest_difference"},
-                {}},
-      .shown = {
-          .caption = "Order of convergence with s stages", .titles = {"system", "component"}, .css_class = "formulas"}};
+  Answer answer{.id = "orders",
+                .question = "Which order does each component have?",
+                .sentences = {},
+                .table = {{},
+                          {"system", "component", "family", "formula", "source", "agree", "differ", "not_measurable",
+                           "largest_difference"},
+                          {}},
+                .shown = {.caption = "Order of convergence with s stages",
+                          .titles = {"system", "component"},
+                          .css_class = "formulas"},
+                .more = {.caption = "Other systems: general index 2 and 3, projected index 2, GGL, stiff with fixed hλ",
+                         .titles = {"system", "component"},
+                         .css_class = "formulas"}};
   std::map<Place, OrderCheck> checks;
   try {
     const Table& orders = tables.table(kStudy, "orders");

@@ -11,7 +11,9 @@ Answer paperAnswer(const claims::ResultTables& tables) {
   for (const auto& claim : claims::claims()) {
     verdicts.emplace_back(claim.id, claims::verdictText(claims::judge(claim, tables).verdict));
   }
-  return paperAnswer(verdicts);
+  Answer answer = paperAnswer(verdicts);
+  if (tables.areQuick()) answer.sentences.emplace_back("Quick runs give no verdicts: `irk paper` makes the full ones.");
+  return answer;
 }
 
 Answer paperAnswer(const Verdicts& verdicts) {

@@ -116,7 +116,7 @@ Choice choiceOf(const Table& costs, const Table& runs, const std::string& kind, 
 
 std::string solvedText(const Ranked& solver, int problems) {
   if (solver.solver.empty()) return "–";
-  return fmt::format("{} ({} of {})", escapeHtml(solver.solver), solver.solved, problems);
+  return fmt::format("{}&nbsp;{}/{}", escapeHtml(solver.solver), solver.solved, problems);
 }
 
 // The sentence is about the error of this choice and of the others that ask for the same.
@@ -145,13 +145,13 @@ void appendRow(const Choice& c, Answer& answer) {
                                std::to_string(c.outcomes.failed), std::to_string(c.outcomes.wrong)});
   HtmlTable::Row row{{escapeHtml(kindTitle(c.kind)), errorText(c.error)}};
   if (c.best.solver.empty()) {
-    row.cells.insert(row.cells.end(), {"none reaches it", "–", "–", "–", "–", "–"});
+    row.cells.insert(row.cells.end(), {"none reaches it", "–", "–", "–", "–", "–", "–"});
   } else {
     const auto& [runs, failed, wrong] = c.outcomes;
     row.cells.insert(row.cells.end(),
                      {"<b>" + solvedText(c.best, c.problems) + "</b>", solvedText(c.next, c.problems),
                       factorText(c.over_next), solvedText(c.library, c.problems), factorText(c.over_library),
-                      fmt::format("{} failed, {} wrong of {}", failed, wrong, runs)});
+                      fmt::format("{} of {}", failed, runs), fmt::format("{} of {}", wrong, runs)});
   }
   answer.shown.rows.push_back(std::move(row));
 }
@@ -190,13 +190,15 @@ Answer solverAnswer(const claims::ResultTables& tables) {
                      "library", "library_solved", "over_library", "runs", "failed", "wrong"},
                     {}};
     answer.shown = {.caption = "The fastest solver by kind of problem and error",
-                    .titles = {"problem", "error", "fastest (solves)", "next (solves)", "factor",
-                               "best other library (solves)", "factor", "its runs"}};
+                    .titles = {"problem", "error", "fastest, solves", "next, solves", "factor",
+                               "best other library, solves", "factor", "failed runs", "wrong runs"}};
     for (const auto& choice : choices) appendRow(choice, answer);
     answer.note =
-        "Fastest: the solver that reaches the error in most problems, among equals the one with the least CPU time. "
+        "4/4: reaches the error in 4 of 4 problems. Fastest: the solver that reaches the error in most problems, among "
+        "equals the one with the least CPU time. "
         "Factors: geometric mean of CPU times over the problems that both solve. Wrong: success with an error above "
-        "1000 tolerances. `variable`, `embedded` and `paper` are configurations of this suite; "
+        "1000 tolerances; failed and wrong runs are those of the fastest solver at all tolerances. `variable`, "
+        "`embedded` and `paper` are configurations of this suite; "
         "`variable` is Radau IIA of variable order.";
     answer.links = {{"#profile", "performance profiles"}, {"#study_work_precision", "all diagrams"}};
   } catch (const claims::MissingResults& missing) {
