@@ -37,7 +37,7 @@ HtmlTable ordersHtml(const Table& orders) {
     html.rows.push_back(
         {{text("scene") + (settings.empty() ? "" : " " + settings), text("formulation"), text("method"),
           text("component"), text("power_of"), number("order", 4), number("confidence", 1), number("theory", 4),
-          text("source"), text("verdict"), measured ? number("h_min", 3) + " … " + number("h_max", 3) : "–",
+          text("source"), text("verdict"), measured ? number("h_min", 3) + "&nbsp;…&nbsp;" + number("h_max", 3) : "–",
           text("points"), text("reason")},
          textAt(orders, row, "verdict")});
   }

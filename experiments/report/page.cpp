@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <optional>
-#include <sstream>
 
 #include "core/base/input_file.h"
 #include "experiments/analyses/orders/order_fit.h"
@@ -17,9 +13,9 @@
 #include "experiments/report/answers/paper.h"
 #include "experiments/report/answers/solvers.h"
 #include "experiments/report/answers/study_answers.h"
+#include "experiments/report/figure_html.h"
 #include "experiments/report/html_tables.h"
 #include "experiments/report/own_figures.h"
-#include "experiments/report/scripts.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_file.h"
 #include "experiments/tables/environment.h"
@@ -30,7 +26,6 @@ namespace irk {
 namespace {
 
 constexpr const char* kPreliminary = " (quick run: preliminary)";
-constexpr double kWide = 700;  // points; wider figures take a whole row
 
 // The name of a study's section.
 struct StudyTexts {
@@ -53,18 +48,6 @@ StudyTexts textsOf(const std::string& id, const ReportOptions& options) {
   return {keptFigures(options.results, id).title, {}};
 }
 
-// The width and height of an SVG file in points, as its first line says; 0 if it does not.
-std::pair<double, double> sizeOf(const std::filesystem::path& svg) {
-  std::ifstream in(svg);
-  std::string text(1000, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  const auto after = [&](std::string_view name) {
-    const auto at = text.find(name);
-    return at == text.npos ? 0 : std::strtod(text.c_str() + at + name.size(), nullptr);
-  };
-  return {after("width=\""), after("height=\"")};
-}
-
 // The page made of the results of one program.
 class Page {
  public:
@@ -85,8 +68,6 @@ class Page {
   std::string table(HtmlTable table) const;
   std::string tableLinks(const std::string& study) const;
   std::string ordersOf(const std::string& study) const;
-  std::vector<std::string> tablesOf(const Figure& figure) const;
-  std::string figure(const Figure& figure) const;
   std::string figuresOf(const std::string& study) const;
   std::string section(const std::string& study) const;
 
@@ -165,49 +146,10 @@ std::string Page::ordersOf(const std::string& study) const {
       study, orders.rows.size(), windowText(), table(ordersHtml(orders)));
 }
 
-// The files that the figure is drawn from, as far as they exist: those that its script reads, or the solutions of the
-// scenes and cases that it names.
-std::vector<std::string> Page::tablesOf(const Figure& figure) const {
-  std::vector<std::string> names = readScript(options_.home, std::filesystem::path(figure.script).stem()).tables;
-  if (names.empty()) {
-    std::string words = figure.assignments;
-    std::replace_if(
-        words.begin(), words.end(), [](char c) { return c == '\'' || c == '=' || c == ';'; }, ' ');
-    std::istringstream in(words);
-    std::vector<std::string> stems{std::istream_iterator<std::string>(in), {}};
-    for (const auto& entry : std::filesystem::directory_iterator(folder(figure.study))) {
-      const std::string name = entry.path().filename();
-      const bool named = std::any_of(stems.begin(), stems.end(), [&](const std::string& stem) {
-        return name.starts_with(stem + ".") && entry.path().extension() == ".csv";
-      });
-      if (named) names.push_back(name);
-    }
-    std::sort(names.begin(), names.end());
-  }
-  std::erase_if(names, [&](const std::string& name) { return !std::filesystem::exists(folder(figure.study) / name); });
-  return names;
-}
-
-std::string Page::figure(const Figure& figure) const {
-  const auto [width, height] = sizeOf(figureFolder(options_) / (figure.name + ".svg"));
-  const std::string size =
-      width > 0 && height > 0 ? fmt::format(" width=\"{:.0f}\" height=\"{:.0f}\"", width, height) : "";
-  std::string tables;
-  for (const auto& name : tablesOf(figure))
-    tables += linkHtml(fmt::format("../{}/{}", figure.study, name), name) + " · ";
-  return fmt::format(
-      "<figure id=\"{0}\"{1}><div class=\"canvas\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" "
-      "alt=\"Diagram: {2}\"{3} "
-      "loading=\"lazy\"></a></div>\n<figcaption><b>{2}.</b> {4}<br>{5}<a href=\"figures/{0}.png\">PNG</a>"
-      "<details><summary>Draw it again</summary><code>{6}</code></details></figcaption></figure>\n",
-      figure.name, width > kWide ? " class=\"wide\"" : "", escapeHtml(figure.title), size, escapeHtml(figure.caption),
-      tables, escapeHtml(shellCommand(figure, options_)));
-}
-
 std::string Page::figuresOf(const std::string& study) const {
   std::string html;
   for (const auto& one : figures_) {
-    if (one.study == study && isDrawn(one, options_)) html += figure(one);
+    if (one.study == study && isDrawn(one, options_)) html += figureHtml(one, options_);
   }
   return html.empty() ? "" : "<div class=\"figures\">\n" + html + "</div>\n";
 }

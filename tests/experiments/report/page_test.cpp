@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "experiments/analyses/orders/order_fit.h"
 #include "experiments/report/html_tables.h"
 #include "experiments/report/report.h"
 #include "experiments/tables/table.h"
@@ -108,6 +109,15 @@ TEST_F(ReportPage, ShowsFiguresWithTablesCommandAndWidth) {
                                  "plots/order_vs_stages.gp", "alt=\"Diagram: Observed order of all families\""}));
   EXPECT_EQ(values(html, "src").size(), values(html, "alt").size()) << "every image has a text";
   EXPECT_EQ(html.find("quick=1"), html.npos);
+}
+
+// The page states how the fit works.
+TEST_F(ReportPage, SaysWhatAnOrderNeeds) {
+  const OrderFitOptions options;
+  EXPECT_EQ(options.min_points, 3);
+  EXPECT_EQ(options.min_span, 2);
+  EXPECT_TRUE(
+      containsAll(page(), {"at least 3 steps, the largest at least 2 times the smallest", "id=\"order_table\""}));
 }
 
 TEST_F(ReportPage, AnswersFirst) {
