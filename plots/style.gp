@@ -15,7 +15,12 @@ open(format, width, height) = sprintf( \
   format eq "svg" ? "set terminal svg size %d,%d font 'sans-serif,12' enhanced background 'white'" \
                   : "set terminal pngcairo size 2*%d,2*%d font 'sans-serif,12' fontscale 2 " \
                     ."linewidth 2 pointscale 2 enhanced background 'white'", width, height) \
-  . sprintf("; set output '%s.%s'", out, format)
+  . sprintf("; set output '%s.%s'", out, format) . quick_mark
+
+# `quick=1` says that the runs are those of --quick: the figure bears a mark. Panels after the first do not repeat it.
+quick_mark = exists("quick") ? "; set label 9999 'quick run: no verdict' at screen 0.004, screen 0.984 left " \
+  ."font ',10' textcolor rgb 0x8a5a00 noenhanced front" : ""
+once(k) = k > 1 ? "; unset label 9999" : ""
 
 # --- Axes, grid. `eval bare` removes everything but the key, for a legend below several panels.
 ink = 0x333333
@@ -190,10 +195,10 @@ panelTop(k, columns, rows) = 1 - margin_top - ((k - 1) / columns) * (cellHeight(
 panel(k, columns, rows) = sprintf( \
   "set lmargin at screen %.4f; set rmargin at screen %.4f; set tmargin at screen %.4f; set bmargin at screen %.4f", \
   panelLeft(k, columns), panelLeft(k, columns) + cellWidth(columns), \
-  panelTop(k, columns, rows), panelTop(k, columns, rows) - cellHeight(rows))
+  panelTop(k, columns, rows), panelTop(k, columns, rows) - cellHeight(rows)) . once(k)
 
 # A legend of one or more rows below the panels, with `height` as fraction of the figure; plot keyentries after it.
-legend(height) = sprintf("unset logscale; set format '%%g'; set lmargin at screen 0; set rmargin at screen 1; " \
+legend(height) = sprintf("unset label 9999; unset logscale; set format '%%g'; set lmargin at screen 0; set rmargin at screen 1; " \
   ."set bmargin at screen 0; set tmargin at screen %.3f; set xrange [0:1]; set yrange [0:1]; " \
   ."set key at screen 0.5, screen %.3f center center horizontal samplen 2.2 width 1; ", height, 0.5 * height) \
   .bare

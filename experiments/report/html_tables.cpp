@@ -2,53 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <iterator>
+#include <utility>
 
-#include "experiments/base/html.h"
 #include "experiments/runs/run_table.h"
 
 namespace irk {
 namespace {
 
-std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", escapeHtml(text)); }
-
-std::string numberCell(const Table& table, const TableRow& row, std::string_view column, int digits) {
+std::string numberText(const Table& table, const TableRow& row, std::string_view column, int digits) {
   const double x = numberAt(table, row, column);
-  return std::isnan(x) ? "<td>–</td>" : fmt::format("<td>{:.{}g}</td>", x, digits);
+  return std::isnan(x) ? "–" : fmt::format("{:.{}g}", x, digits);
 }
+
+// What is said of an environment: a column of environments.csv and its title.
+constexpr std::pair<const char*, const char*> kProperties[] = {
+    {"cpu", "processor"},     {"cores", "cores"}, {"memory_gb", "memory in GB"}, {"libraries", "system and libraries"},
+    {"compiler", "compiler"}, {"flags", "flags"}, {"version", "version"},        {"commit", "commit"},
+    {"host", "host"}};
 
 }  // namespace
 
-std::string ordersHtml(const std::string& study, const Table& orders) {
-  std::string html = fmt::format("<table><caption>Study {}</caption><thead><tr>", study);
-  for (const auto* title : {"scene", "formulation", "method", "component", "power of", "order", "± (95 %)", "theory",
-                            "source", "verdict", "window", "points", "reason"}) {
-    html += fmt::format("<th>{}</th>", title);
-  }
-  html += "</tr></thead><tbody>\n";
+HtmlTable ordersHtml(const Table& orders) {
+  HtmlTable html{.caption = "Observed orders and theory",
+                 .titles = {"scene", "formulation", "method", "component", "power of", "order", "± (95 %)", "theory",
+                            "source", "verdict", "window", "points", "reason"}};
   for (const auto& row : orders.rows) {
-    const auto text = [&](std::string_view name) { return textAt(orders, row, name); };
-    html += fmt::format("<tr class=\"{}\">", text("verdict"));
+    const auto text = [&](std::string_view name) { return escapeHtml(textAt(orders, row, name)); };
+    const auto number = [&](std::string_view name, int digits) { return numberText(orders, row, name, digits); };
     const auto settings = text("settings");
-    html += cell(text("scene") + (settings.empty() ? "" : " " + settings));
-    for (const auto* name : {"formulation", "method", "component", "power_of"}) {
-      html += cell(text(name));
-    }
-    html += numberCell(orders, row, "order", 4) + numberCell(orders, row, "confidence", 1);
-    html += numberCell(orders, row, "theory", 4) + cell(text("source"));
-    html += cell(text("verdict"));
     const bool measured = !std::isnan(numberAt(orders, row, "order"));
-    html += measured
-                ? cell(fmt::format("{:.3g} … {:.3g}", numberAt(orders, row, "h_min"), numberAt(orders, row, "h_max")))
-                : cell("–");
-    html += cell(text("points")) + cell(text("reason"));
-    html += "</tr>\n";
+    html.rows.push_back(
+        {{text("scene") + (settings.empty() ? "" : " " + settings), text("formulation"), text("method"),
+          text("component"), text("power_of"), number("order", 4), number("confidence", 1), number("theory", 4),
+          text("source"), text("verdict"), measured ? number("h_min", 3) + "&nbsp;…&nbsp;" + number("h_max", 3) : "–",
+          text("points"), text("reason")},
+         textAt(orders, row, "verdict")});
   }
-  return html + "</tbody></table>\n";
+  return html;
 }
 
-std::string tableausHtml(const Table& tableaus) {
+HtmlTable tableausHtml(const Table& tableaus) {
   struct Column {
     const char *name, *title;
     int digits;  ///< 0: yes or no
@@ -66,33 +62,54 @@ std::string tableausHtml(const Table& tableaus) {
                                  {"symmetric", "symmetric", 0},
                                  {"condition_A", "cond A", 3},
                                  {"condition_eigenvectors", "cond eigenvectors", 3}};
-  std::string html = "<table><thead><tr><th>method</th>";
-  for (const auto& column : kColumns) html += fmt::format("<th>{}</th>", column.title);
-  html += "</tr></thead><tbody>\n";
+  HtmlTable html{.caption = "All families, 1 to 20 stages", .titles = {"method"}};
+  for (const auto& column : kColumns) html.titles.emplace_back(column.title);
   for (const auto& row : tableaus.rows) {
-    html += "<tr>" + cell(textAt(tableaus, row, "method"));
+    HtmlTable::Row cells{{escapeHtml(textAt(tableaus, row, "method"))}};
     for (const auto& [name, title, digits] : kColumns) {
-      html +=
-          digits > 0 ? numberCell(tableaus, row, name, digits) : cell(numberAt(tableaus, row, name) > 0 ? "yes" : "no");
+      const bool number = digits > 0;
+      cells.cells.push_back(number                              ? numberText(tableaus, row, name, digits)
+                            : numberAt(tableaus, row, name) > 0 ? "yes"
+                                                                : "no");
     }
-    html += "</tr>\n";
+    html.rows.push_back(std::move(cells));
   }
-  return html + "</tbody></table>\n";
+  return html;
 }
 
-std::string environmentHtml(const std::string& study, const Table& runs) {
-  std::map<std::string, int> outcomes;
-  for (const auto& row : runs.rows) ++outcomes[textAt(runs, row, "outcome")];
-  std::string ended;
-  for (const auto& [outcome, count] : outcomes) {
-    if (!ended.empty()) ended += ", ";
-    ended += fmt::format("{} {}", count, outcome);
+void Environments::add(const std::string& study, const Table& environments, const Table& runs) {
+  std::set<std::string> used;
+  for (const char* column : {"environment", "cpu_environment"}) {
+    if (!runs.hasColumn(column)) continue;
+    for (const auto& row : runs.rows) used.insert(textAt(runs, row, column));
   }
-  std::string html = fmt::format("<table><caption>Study {}</caption><tbody>\n", study);
-  for (const auto& [key, value] : runs.head) {
-    html += fmt::format("<tr><th>{}</th>{}</tr>\n", escapeHtml(key), cell(value));
+  for (const auto& row : environments.rows) {
+    if (!used.contains(textAt(environments, row, "environment"))) continue;
+    Environment found;
+    for (const auto& [column, title] : kProperties) {
+      found.values.push_back(environments.hasColumn(column) ? textAt(environments, row, column) : "");
+    }
+    auto at = std::find_if(all_.begin(), all_.end(), [&](const Environment& e) { return e.values == found.values; });
+    if (at == all_.end()) at = all_.insert(at, std::move(found));
+    at->studies.insert(study);
   }
-  return html + fmt::format("<tr><th>runs</th>{}</tr>\n</tbody></table>\n", cell(ended));
+}
+
+HtmlTable Environments::table() const {
+  HtmlTable html{.caption = "Where the runs were made", .titles = {"property"}};
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    html.titles.push_back(all_.size() == 1 ? "value" : fmt::format("environment {}", i + 1));
+  }
+  if (all_.empty()) return html;
+  for (std::size_t k = 0; k < std::size(kProperties); ++k) {
+    HtmlTable::Row row{{kProperties[k].second}};
+    for (const auto& one : all_) row.cells.push_back(one.values[k].empty() ? "–" : escapeHtml(one.values[k]));
+    html.rows.push_back(std::move(row));
+  }
+  HtmlTable::Row studies{{"studies"}};
+  for (const auto& one : all_) studies.cells.push_back(escapeHtml(fmt::format("{}", fmt::join(one.studies, ", "))));
+  html.rows.push_back(std::move(studies));
+  return html;
 }
 
 }  // namespace irk

@@ -15,42 +15,16 @@
 #include <ostream>
 #include <string_view>
 
-#include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "experiments/analyses/orders/order_fit.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
-#include "experiments/base/html.h"
-#include "experiments/claims/claims.h"
 #include "experiments/report/figure_path.h"
-#include "experiments/report/html_tables.h"
-#include "experiments/report/own_figures.h"
-#include "experiments/report/scripts.h"
-#include "experiments/study/study.h"
-#include "experiments/study/study_reader.h"
-#include "experiments/tables/environment.h"
+#include "experiments/report/page.h"
 #include "experiments/tables/table.h"
 #include "irk/misuse.h"
 
 namespace irk {
 namespace {
-
-// A folder of results that does not belong to a study, see experiments/analyses/tableau_table.h.
-constexpr std::string_view kTableaus = "tableaus";
-
-std::filesystem::path figureFolder(const ReportOptions& options) { return options.results / "report" / "figures"; }
-
-std::vector<std::string> split(const std::string& line, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : line) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
 
 // Forwards gnuplot's messages, except those about curves without points: a panel may lack rows.
 void forwardMessages(std::FILE* file, std::ostream& err) {
@@ -84,36 +58,7 @@ int runGnuplot(const std::string& commands, const std::string& script, std::ostr
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) {
-  return fmt::format("data='{}'; out='{}'; {}", (options.results / figure.study).string(),
-                     (figureFolder(options) / figure.name).string(), figure.assignments);
-}
-
-// For use inside double quotes of the shell.
-std::string shellQuoted(std::string_view text) {
-  std::string quoted;
-  for (const char c : text) {
-    if (c == '"' || c == '$' || c == '`' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted;
-}
-
-std::string commandOf(const std::string& study) { return study == kTableaus ? "tableau table" : "run " + study; }
-
-bool hasResults(const Figure& figure, const ReportOptions& options) {
-  return std::filesystem::is_directory(options.results / figure.study);
-}
-
-std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {
-  std::vector<std::string> studies;
-  for (const auto& figure : figures) {
-    if (std::find(studies.begin(), studies.end(), figure.study) == studies.end()) {
-      studies.push_back(figure.study);
-    }
-  }
-  return studies;
-}
+std::string commandOf(const std::string& study) { return study == kTableauResults ? "tableau table" : "run " + study; }
 
 // Requires that `study` has figures and results; with an empty `study`, that any study has results.
 void requireResults(const std::string& study, const std::vector<Figure>& figures, const ReportOptions& options) {
@@ -134,33 +79,6 @@ void requireResults(const std::string& study, const std::vector<Figure>& figures
                             commandOf(study)));
 }
 
-std::string studyTitle(const std::string& id, const ReportOptions& options) {
-  if (id == kTableaus) return "Tableaus: stability, order stars, conditioning";
-  const auto own = ownStudies(options.results);
-  if (std::find(own.begin(), own.end(), id) != own.end()) return keptFigures(options.results, id).title;
-  return loadStudy(id, StudyVariant::kQuick).title;
-}
-
-// Those of plots/figures.txt, then those of own studies: their names begin with the study's.
-std::vector<Figure> allFigures(const ReportOptions& options) {
-  auto figures = readFigures(options.home / "plots" / "figures.txt");
-  for (const auto& study : ownStudies(options.results)) {
-    requirePlainPath("study", study);
-    const FigureTables kept = keptFigures(options.results, study);
-    for (const auto& figure : kept.figures) {
-      checkFigure(figure, options.home, {});
-      figures.push_back({study, figure.script + ".gp", study + "_" + figure.name,
-                         figure.title.empty() ? kept.title : figure.title, figure.caption,
-                         assignmentsOf(figure.options), true});
-    }
-  }
-  return figures;
-}
-
-bool isDrawn(const Figure& figure, const ReportOptions& options) {
-  return std::filesystem::exists(figureFolder(options) / (figure.name + ".svg"));
-}
-
 // Returns whether the figure is drawn. An own figure without any row is a mistake; a built-in one belongs to a study
 // that is not complete.
 bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& err) {
@@ -172,55 +90,12 @@ bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& e
   return false;
 }
 
-std::string figureHtml(const Figure& figure, const ReportOptions& options) {
-  const auto command =
-      fmt::format("gnuplot -e \"{}\" plots/{}", shellQuoted(gnuplotCommands(figure, options)), figure.script);
-  return fmt::format(
-      "<figure id=\"{0}\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
-      "loading=\"lazy\"></a>\n<figcaption><b>{1}.</b> {2} <a href=\"figures/{0}.png\">PNG</a>"
-      "<code>{3}</code></figcaption></figure>\n",
-      figure.name, escapeHtml(figure.title), escapeHtml(figure.caption), escapeHtml(command));
-}
-
-// The figures, each study's under its title; a study without figures gets no heading.
-std::string figuresHtml(const std::vector<Figure>& figures, const ReportOptions& options) {
-  std::string html;
-  for (const auto& study : studiesOf(figures)) {
-    std::string own;
-    for (const auto& figure : figures) {
-      if (figure.study == study && isDrawn(figure, options)) own += figureHtml(figure, options);
-    }
-    if (own.empty()) continue;
-    html += fmt::format("<h3 id=\"study_{}\">{}</h3>\n{}", study, escapeHtml(studyTitle(study, options)), own);
-  }
-  return html;
-}
-
 }  // namespace
 
 void requireResultsFolder(const std::filesystem::path& results) {
   std::error_code none;
   if (std::filesystem::is_directory(results, none)) return;
   throw Misuse(fmt::format("--results '{}': a folder of results is expected", results.string()));
-}
-
-std::vector<Figure> readFigures(const std::filesystem::path& file) {
-  constexpr std::size_t kFields = 6;
-  std::ifstream in(file);
-  if (!in) throw Misuse(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
-  std::vector<Figure> figures;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.empty() || line.front() == '#') continue;
-    const auto parts = split(line, '|');
-    if (parts.size() != kFields) {
-      throw Misuse(fmt::format("{}:{}: {} fields, expected study|script|name|title|caption|assignments", file.string(),
-                               number, parts.size()));
-    }
-    figures.push_back({parts[0], parts[1], parts[2], parts[3], parts[4], parts[5], false});
-  }
-  return figures;
 }
 
 bool drawFigure(const std::string& script, const std::string& commands, const std::filesystem::path& home,
@@ -254,38 +129,14 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
 }
 
 std::filesystem::path writeReport(const ReportOptions& options) {
-  const auto figures = allFigures(options);
-  std::string page = readInputFile(options.home / "plots" / "report.html");
-  std::string orders, environment;
-  for (const auto& study : studiesOf(figures)) {
-    const auto folder = options.results / study;
-    if (std::filesystem::exists(folder / "orders.csv")) {
-      orders += ordersHtml(study, readTable(folder / "orders.csv"));
-    }
-    if (std::filesystem::exists(folder / "runs.csv")) {
-      environment += environmentHtml(study, readTable(folder / "runs.csv"));
-    }
-  }
-  const claims::ResultTables tables(options.results);
-  replacePlaceholder(page, "@BANNER@",
-                     tables.areQuick() ? "<p class=\"banner\"><b>A quick run:</b> small versions of all studies, "
-                                         "which show that everything works. They give no verdicts on claims, and their "
-                                         "orders and costs are coarse.</p>\n"
-                                       : "");
-  replacePlaceholder(page, "@CLAIMS@", claims::claimsHtml(tables, figureFolder(options)));
-  replacePlaceholder(page, "@FIGURES@", figuresHtml(figures, options));
-  replacePlaceholder(page, "@ORDER_WINDOW@", windowText());
-  replacePlaceholder(page, "@TABLES@", orders);
-  const auto tableaus = options.results / "tableaus" / "tableaus.csv";
-  replacePlaceholder(
-      page, "@TABLEAUS@",
-      std::filesystem::exists(tableaus) ? tableausHtml(readTable(tableaus)) : "<p>None yet: irk tableau table.</p>");
-  replacePlaceholder(page, "@ENVIRONMENT@", environment);
-  replacePlaceholder(page, "@DATE@", dateText());
-  const bool explorer = std::filesystem::exists(options.results / "report" / "explore.html");
-  replacePlaceholder(page, "@EXPLORER@", explorer ? "<a href=\"explore.html\">Explorer</a>" : "");
   auto path = options.results / "report" / "index.html";
   std::filesystem::create_directories(path.parent_path());
+  const auto answers = pageAnswers(options);
+  for (const auto& answer : answers) {
+    if (!answer.table.columns.empty())
+      writeTable(path.parent_path() / fmt::format("answers_{}.csv", answer.id), answer.table);
+  }
+  const std::string page = pageHtml(options, answers);
   std::ofstream out(path, std::ios::binary);
   if (!(out << page).flush()) {
     throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));

@@ -6,24 +6,12 @@
 #include <string>
 #include <vector>
 
-namespace irk {
+#include "experiments/report/figure_list.h"
 
-/// One line of plots/figures.txt: study|script|name|title|caption|assignments; or a figure of an own study.
-struct Figure {
-  std::string study, script, name, title, caption, assignments;
-  bool is_own = false;  ///< kept beside the results (own_figures.h)
-};
+namespace irk {
 
 /// Throws Misuse if the folder does not exist.
 void requireResultsFolder(const std::filesystem::path& results);
-
-/// Throws Misuse with file and line for a line of any other form.
-std::vector<Figure> readFigures(const std::filesystem::path& file);
-
-struct ReportOptions {
-  std::filesystem::path results = "results";
-  std::filesystem::path home;  ///< the folder with plots/
-};
 
 /// Runs `gnuplot -e commands plots/<script>`. Returns false, with a message on `err`, if that fails.
 bool drawFigure(const std::string& script, const std::string& commands, const std::filesystem::path& home,
@@ -36,7 +24,7 @@ bool drawFigure(const std::string& script, const std::string& commands, const st
 /// results.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
-/// Writes results/report/index.html from plots/report.html and returns its path.
+/// Writes results/report/index.html (page.h) with the tables of its answers, answers_*.csv, and returns its path.
 std::filesystem::path writeReport(const ReportOptions& options);
 
 }  // namespace irk

@@ -109,6 +109,8 @@ TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& re
   }
   if (last > 0)
     head.emplace_back("date", first == last ? textOf(last) : fmt::format("{} to {}", textOf(first), textOf(last)));
+  if (folder_.parent_path().filename() == "quick")
+    head.emplace_back("quick", "a small version of the study; preliminary");
   if (!refusal.empty()) head.emplace_back(kTimesRefused, refusal);
   return head;
 }

@@ -79,8 +79,8 @@ class FileReader {
 };
 
 std::vector<std::string> studyKeys() {
-  std::vector<std::string> keys{"title",    "load",  "trajectories", "timing", "audit",
-                                "defaults", "quick", "block",        "figure"};
+  std::vector<std::string> keys{"title", "question", "load",  "trajectories", "timing",
+                                "audit", "defaults", "quick", "block",        "figure"};
   for (const Analysis& analysis : analyses()) keys.emplace_back(analysis.key);
   return keys;
 }

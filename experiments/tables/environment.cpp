@@ -1,9 +1,14 @@
 #include "experiments/tables/environment.h"
 
 #include <fmt/format.h>
+#include <gnu/libc-version.h>
 #include <gsl/gsl_version.h>
 #include <omp.h>
 #include <sundials/sundials_config.h>
+#if __has_include(<suitesparse/klu.h>)
+#include <suitesparse/klu.h>
+#endif
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <Eigen/Core>
@@ -33,9 +38,33 @@ double memoryInGb() {
   return bytes / (1 << 30);
 }
 
+// `Debian GNU/Linux 12 (bookworm), Linux 6.1.0-18-amd64`
+std::string operatingSystem() {
+  constexpr std::string_view kKey = "PRETTY_NAME=";
+  std::string distribution = "unknown";
+  std::ifstream in("/etc/os-release");
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(kKey)) continue;
+    distribution = line.substr(kKey.size());
+    std::erase(distribution, '"');
+  }
+  utsname kernel{};
+  if (uname(&kernel) != 0) return distribution;
+  return fmt::format("{}, {} {}", distribution, kernel.sysname, kernel.release);
+}
+
+std::string kluVersion() {
+#ifdef KLU_MAIN_VERSION
+  return fmt::format("{}.{}.{}", KLU_MAIN_VERSION, KLU_SUB_VERSION, KLU_SUBSUB_VERSION);
+#else
+  return "unknown";
+#endif
+}
+
 std::string libraryVersions() {
-  return fmt::format("Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION);
+  return fmt::format("{}; glibc {}; Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}; KLU {}; fmt {}", operatingSystem(),
+                     gnu_get_libc_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                     BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION, kluVersion(), FMT_VERSION);
 }
 
 TableRow makeEnvironment() {

@@ -70,12 +70,12 @@ std::optional<SystemKind> mechanicalKind(const std::string& formulation) {
   return {};
 }
 
-std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row) {
+std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row, double h) {
   const SceneEntry& scene = findScene(textAt(runs, row, "scene"));
   switch (scene.kind) {
     case SceneKind::kStiffTest:
     case SceneKind::kSingularlyPerturbed:
-      return stiffKind(scene, textAt(runs, row, "settings"), numberAt(runs, row, "h"));
+      return stiffKind(scene, textAt(runs, row, "settings"), h);
     case SceneKind::kIndex1:
       return SystemKind::kIndex1;
     case SceneKind::kIndex2:
@@ -162,7 +162,7 @@ TableRow orderRow(const Table& runs, const TableRow& run, char component, std::s
 void appendOrders(const Table& runs, const std::vector<const TableRow*>& series, Table& orders) {
   // The fine end of the steps is asymptotic; it also decides whether the system counts as stiff.
   const TableRow& finest = *series.back();
-  const auto kind = kindOf(runs, finest);
+  const auto kind = kindOf(runs, finest, numberAt(runs, finest, "h"));
   for (const char component : {'u', 'v', 'x', 'z'}) {
     const std::string column = std::string("error_") + component;
     std::vector<ErrorPoint> points;
@@ -203,7 +203,7 @@ void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
 
 // Adds rows for a method without successful runs, one for each group of components of the system.
 void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
-  const auto kind = kindOf(runs, run);
+  const auto kind = kindOf(runs, run, numberAt(runs, run, "h"));
   const Sizes n = sizesOf(runs, run);
   OrderFit fit;
   fit.reason = "no run succeeded: " + textAt(runs, run, "outcome");
@@ -224,6 +224,10 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 }
 
 }  // namespace
+
+std::optional<SystemKind> systemKind(const Table& table, const TableRow& row, double h) {
+  return kindOf(table, row, h);
+}
 
 Table orderTable(const Table& runs) {
   Table orders;

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "experiments/analyses/estimates.h"
-#include "experiments/analyses/orders/order_fit.h"
 #include "experiments/base/time_left.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/runner.h"
@@ -89,19 +88,6 @@ tolerances = 1e-6
     EXPECT_NEAR(numberAt(table, row, "doubling"), 1, 0.2);
     EXPECT_EQ(numberAt(table, row, "doubling"), numberAt(table, row, "richardson")) << "p = q";
   }
-}
-
-// The page states how the fit works.
-TEST(Report, SaysWhatAnOrderNeeds) {
-  const TemporaryFolder folder;
-  const auto path = writeReport({folder.path(), IRK_SOURCE_DIR});
-  std::ifstream in(path);
-  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const OrderFitOptions options;
-  EXPECT_EQ(options.min_points, 3);
-  EXPECT_EQ(options.min_span, 2);
-  EXPECT_TRUE(containsAll(page, {"at least 3 steps, the largest at least 2 times the smallest"}));
-  EXPECT_EQ(page.find("@ORDER_WINDOW@"), page.npos);
 }
 
 TEST(TimeLeft, CountsEveryKindByItsOwnLength) {

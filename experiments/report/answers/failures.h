@@ -1,0 +1,26 @@
+// Where do methods fail? Outcomes by cause and kind of method.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/claims/result_tables.h"
+#include "experiments/report/answers/answer.h"
+
+namespace irk::report {
+
+/// From the runs of the audit, which are drawn at random, and of all other studies with adaptive steps but those that
+/// provoke failures. A kind of method is a configuration of the suite or another library's solver.
+Answer failureAnswer(const claims::ResultTables& tables);
+
+/// `too many steps` for `max_steps`; an unknown outcome is returned as it is.
+std::string causeTitle(std::string_view outcome);
+
+/// How many of the audit's successes are wrong; empty without the audit.
+std::string wrongSentence(const claims::ResultTables& tables);
+
+/// Counts of a study's outcomes: `1200 runs, 1100 successful; 60 end as too many steps (max_steps), 40 as ...`.
+std::string outcomeSentence(const Table& runs);
+
+}  // namespace irk::report

@@ -1,0 +1,23 @@
+// Which order does each component have? Theory as formulas, and the study order as its check.
+#pragma once
+
+#include "experiments/claims/result_tables.h"
+#include "experiments/report/answers/answer.h"
+
+namespace irk::report {
+
+/// A row per kind of system and component, a column per family: the formula, and how many measured orders agree. The
+/// formulas need no runs.
+Answer orderAnswer(const claims::ResultTables& tables);
+
+/// How measured orders compare with theory: counts of verdicts of orders.csv, and the largest difference.
+struct OrderCheck {
+  int agree = 0, differ = 0, not_measurable = 0, no_theory = 0;
+  double worst = 0;  ///< largest |order - theory| of those that agree or differ
+};
+void add(const Table& orders, const TableRow& row, OrderCheck& check);
+OrderCheck checkOf(const Table& orders);
+/// `412 of 415 measured orders agree with theory (largest difference 0.31); 34 are not measurable.`
+std::string sentenceOf(const OrderCheck& check);
+
+}  // namespace irk::report

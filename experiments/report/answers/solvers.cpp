@@ -1,0 +1,210 @@
+#include "experiments/report/answers/solvers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "experiments/analyses/cost_at_error.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/block_names.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run_table.h"
+
+namespace irk::report {
+namespace {
+
+constexpr const char* kStudy = "work_precision";
+constexpr const char* kQuestion = "Which solver should I use?";
+constexpr double kAskedErrors[] = {1e-4, 1e-8, 1e-11};
+
+std::string kindOf(const Table& table, const TableRow& row) {
+  const auto& blocks = textAt(table, row, kBlockColumn);
+  return blocks.substr(0, blocks.find_first_of("_ "));
+}
+
+std::string kindTitle(const std::string& kind) {
+  if (kind == "stiff") return "stiff ODEs";
+  if (kind == "smooth") return "smooth ODEs";
+  if (kind == "mechanisms") return "mechanisms with constraints, beams";
+  if (kind == "switching") return "systems with switches";
+  return kind;
+}
+
+std::vector<std::string> kindsOf(const Table& table) {
+  std::vector<std::string> kinds;
+  for (const auto& row : table.rows) {
+    const auto kind = kindOf(table, row);
+    if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+// Those of kAskedErrors that the study compares.
+std::vector<double> errorsOf(const Table& costs) {
+  std::vector<double> errors;
+  for (const double asked : kAskedErrors) {
+    const bool compared = std::any_of(costs.rows.begin(), costs.rows.end(), [&](const TableRow& row) {
+      return std::abs(numberAt(costs, row, "target_error") / asked - 1) < 1e-9;
+    });
+    if (compared) errors.push_back(asked);
+  }
+  return errors;
+}
+
+struct Outcomes {
+  int runs = 0, failed = 0, wrong = 0;
+};
+
+bool isWrong(const Table& runs, const TableRow& row) {
+  const double asked = std::fmax(numberAt(runs, row, "rtol"), numberAt(runs, row, "atol"));
+  double error = 0;
+  for (const auto* column : {"error_u", "error_v", "error_x"}) error = std::fmax(error, numberAt(runs, row, column));
+  return error > 1000 * asked + 1e-9;
+}
+
+Outcomes outcomesOf(const Table& runs, const std::string& kind, const std::string& solver) {
+  Outcomes count;
+  for (const auto& row : runs.rows) {
+    if (textAt(runs, row, "integrator") != solver || kindOf(runs, row) != kind) continue;
+    ++count.runs;
+    if (!succeededAt(runs, row)) {
+      ++count.failed;
+    } else if (isWrong(runs, row)) {
+      ++count.wrong;
+    }
+  }
+  return count;
+}
+
+// The answer for one kind of problem and one error.
+struct Choice {
+  std::string kind;
+  double error = 0;
+  int problems = 0;
+  Ranked best = {}, next = {}, library = {};  ///< without a name: there is none
+  double over_next = std::numeric_limits<double>::quiet_NaN();
+  double over_library = over_next;
+  Outcomes outcomes = {};
+};
+
+bool isPeer(const std::string& solver) { return findPeer(solver) != nullptr; }
+
+Choice choiceOf(const Table& costs, const Table& runs, const std::string& kind, double error) {
+  Choice choice{.kind = kind, .error = error};
+  const Costs found = costsOf(costs, "integrator", [&](const TableRow& row) {
+    return kindOf(costs, row) == kind && std::abs(numberAt(costs, row, "target_error") / error - 1) < 1e-9;
+  });
+  choice.problems = solvable(found);
+  const auto ranked = ranking(found);
+  if (ranked.empty()) return choice;
+  choice.best = ranked.front();
+  choice.outcomes = outcomesOf(runs, kind, choice.best.solver);
+  if (ranked.size() > 1) {
+    choice.next = ranked[1];
+    choice.over_next = ratio(found, choice.next.solver, choice.best.solver);
+  }
+  const auto library = std::find_if(ranked.begin(), ranked.end(), [](const Ranked& r) { return isPeer(r.solver); });
+  if (!isPeer(choice.best.solver) && library != ranked.end()) {
+    choice.library = *library;
+    choice.over_library = ratio(found, library->solver, choice.best.solver);
+  }
+  return choice;
+}
+
+std::string solvedText(const Ranked& solver, int problems) {
+  if (solver.solver.empty()) return "–";
+  return fmt::format("{}&nbsp;{}/{}", escapeHtml(solver.solver), solver.solved, problems);
+}
+
+// The sentence is about the error of this choice and of the others that ask for the same.
+std::string sentenceOf(const std::vector<Choice>& choices) {
+  constexpr double kMiddle = 1e-8;
+  double error = choices.front().error;
+  for (const auto& choice : choices) {
+    if (choice.error >= kMiddle && !choice.best.solver.empty()) error = std::min(error, choice.error);
+  }
+  std::vector<std::string> parts;
+  for (const auto& choice : choices) {
+    if (choice.error != error) continue;
+    parts.push_back(choice.best.solver.empty()
+                        ? fmt::format("no solver for {}", kindTitle(choice.kind))
+                        : fmt::format("`{}` for {} ({})", choice.best.solver, kindTitle(choice.kind),
+                                      comparison(choice.over_next, choice.best, choice.next, choice.problems)));
+  }
+  return fmt::format("For an error of {}: {}.", errorText(error), fmt::join(parts, "; "));
+}
+
+void appendRow(const Choice& c, Answer& answer) {
+  answer.table.rows.push_back({c.kind, numberText(c.error), std::to_string(c.problems), c.best.solver,
+                               std::to_string(c.best.solved), c.next.solver, std::to_string(c.next.solved),
+                               numberText(c.over_next), c.library.solver, std::to_string(c.library.solved),
+                               numberText(c.over_library), std::to_string(c.outcomes.runs),
+                               std::to_string(c.outcomes.failed), std::to_string(c.outcomes.wrong)});
+  HtmlTable::Row row{{escapeHtml(kindTitle(c.kind)), errorText(c.error)}};
+  if (c.best.solver.empty()) {
+    row.cells.insert(row.cells.end(), {"none reaches it", "–", "–", "–", "–", "–", "–"});
+  } else {
+    const auto& [runs, failed, wrong] = c.outcomes;
+    row.cells.insert(row.cells.end(),
+                     {"<b>" + solvedText(c.best, c.problems) + "</b>", solvedText(c.next, c.problems),
+                      factorText(c.over_next), solvedText(c.library, c.problems), factorText(c.over_library),
+                      fmt::format("{} of {}", failed, runs), fmt::format("{} of {}", wrong, runs)});
+  }
+  answer.shown.rows.push_back(std::move(row));
+}
+
+}  // namespace
+
+Costs costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose) {
+  Costs found;
+  for (const auto& row : costs.rows) {
+    const auto& cause = textAt(costs, row, "cause");
+    if (cause == kNoReference || cause == kNotMeasurable || !choose(row)) continue;
+    const std::string problem =
+        fmt::format("{} {} {} {}", textAt(costs, row, "scene"), textAt(costs, row, "settings"),
+                    costs.hasColumn("t_end") ? textAt(costs, row, "t_end") : "", textAt(costs, row, "target_error"));
+    const double cost = numberAt(costs, row, "cpu_s");
+    const double known = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
+    const auto [at, added] = found[textAt(costs, row, solver)].try_emplace(problem, known);
+    if (!added) at->second = std::min(at->second, known);
+  }
+  return found;
+}
+
+Answer solverAnswer(const claims::ResultTables& tables) {
+  Answer answer = unknownAnswer("solver", kQuestion, kStudy);
+  try {
+    const Table& costs = tables.table(kStudy, "cpu_at_error");
+    const Table& runs = tables.runs(kStudy);
+    std::vector<Choice> choices;
+    for (const auto& kind : kindsOf(costs)) {
+      for (const double error : errorsOf(costs)) choices.push_back(choiceOf(costs, runs, kind, error));
+    }
+    if (choices.empty()) return answer;
+    answer.sentences = {sentenceOf(choices)};
+    answer.table = {costs.head,
+                    {"kind", "target_error", "problems", "solver", "solved", "next", "next_solved", "over_next",
+                     "library", "library_solved", "over_library", "runs", "failed", "wrong"},
+                    {}};
+    answer.shown = {.caption = "The fastest solver by kind of problem and error",
+                    .titles = {"problem", "error", "fastest, solves", "next, solves", "factor",
+                               "best other library, solves", "factor", "failed runs", "wrong runs"}};
+    for (const auto& choice : choices) appendRow(choice, answer);
+    answer.note =
+        "4/4: reaches the error in 4 of 4 problems. Fastest: the solver that reaches the error in most problems, among "
+        "equals the one with the least CPU time. "
+        "Factors: geometric mean of CPU times over the problems that both solve. Wrong: success with an error above "
+        "1000 tolerances; failed and wrong runs are those of the fastest solver at all tolerances. `variable`, "
+        "`embedded` and `paper` are configurations of this suite; "
+        "`variable` is Radau IIA of variable order.";
+    answer.links = {{"#profile", "performance profiles"}, {"#study_work_precision", "all diagrams"}};
+  } catch (const claims::MissingResults& missing) {
+    answer.sentences.push_back(missing.what());
+  }
+  return answer;
+}
+
+}  // namespace irk::report

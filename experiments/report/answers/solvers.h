@@ -1,0 +1,23 @@
+// Which solver should I use? From the costs and outcomes of the study work_precision.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "experiments/claims/result_tables.h"
+#include "experiments/report/answers/answer.h"
+#include "experiments/report/answers/ranking.h"
+
+namespace irk::report {
+
+/// By kind of problem, the first word of a block's name (`stiff_variable`), and error: the fastest solver (ranking.h),
+/// its factor over the next one and over the best of other libraries, and how many of its runs fail or are wrong: end
+/// as success with an error in u, v or x above the audit's bar, 1000 tolerance + 1e-9.
+Answer solverAnswer(const claims::ResultTables& tables);
+
+/// The costs of the rows of cpu_at_error.csv that `choose` accepts, by the solver that the column `solver` names. A
+/// problem is a scene with its settings, its end and an error; the cheapest of several rows of a solver counts. Rows
+/// without a reference, or with errors below its accuracy, are left out: they cannot be judged.
+Costs costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose);
+
+}  // namespace irk::report

@@ -1,0 +1,84 @@
+#include "experiments/report/answers/study_answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/report/answers/answer.h"
+#include "experiments/report/answers/failures.h"
+#include "experiments/report/answers/order_answer.h"
+#include "experiments/report/answers/solvers.h"
+#include "experiments/runs/run_table.h"
+
+namespace irk::report {
+namespace {
+
+// A study that compares the values of one column, each with its best method.
+struct Comparison {
+  const char *study, *column, *noun;
+};
+constexpr Comparison kComparisons[] = {{"work_precision", "integrator", ""},
+                                       {"peers", "integrator", ""},
+                                       {"beam", "integrator", ""},
+                                       {"families", "family", "the family "},
+                                       {"cpu_time", "stages", "the number of stages "},
+                                       {"discontinuity", "discontinuity", "the treatment "},
+                                       {"drift", "formulation", "the formulation "},
+                                       {"k_form", "formulation", "the formulation "}};
+constexpr double kError = 1e-6;
+
+// The study's target nearest to kError, on a logarithmic scale; 0 without targets.
+double targetOf(const Table& costs) {
+  std::set<double> targets;
+  for (const auto& row : costs.rows) targets.insert(numberAt(costs, row, "target_error"));
+  const auto distance = [](double x) { return std::abs(std::log10(x / kError)); };
+  const auto nearest =
+      std::min_element(targets.begin(), targets.end(), [&](double a, double b) { return distance(a) < distance(b); });
+  return nearest == targets.end() ? 0 : *nearest;
+}
+
+std::string sentenceOf(const Comparison& comparison_of, const Table& costs) {
+  const double target = targetOf(costs);
+  if (target <= 0) return {};
+  const Costs found = costsOf(costs, comparison_of.column,
+                              [&](const TableRow& row) { return numberAt(costs, row, "target_error") == target; });
+  const auto ranked = ranking(found);
+  if (ranked.size() < 2) return {};
+  const int problems = solvable(found);
+  const Ranked &best = ranked[0], &next = ranked[1];
+  const auto won = wins(found);
+  const auto at = won.find(best.solver);
+  return fmt::format(
+      "At an error of {}, {}`{}` is the best choice: it reaches the error in {} of {} problems, is the fastest in {}, "
+      "and {}.",
+      errorText(target), comparison_of.noun, best.solver, best.solved, problems, at == won.end() ? 0 : at->second,
+      comparison(ratio(found, next.solver, best.solver), best, next, problems));
+}
+
+// nullptr without the table.
+const Table* tableIfAny(const claims::ResultTables& tables, std::string_view study, std::string_view name) {
+  try {
+    return &tables.table(study, name);
+  } catch (const claims::MissingResults&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> studyAnswers(std::string_view study, const claims::ResultTables& tables) {
+  std::vector<std::string> sentences;
+  for (const auto& comparison_of : kComparisons) {
+    const Table* costs = comparison_of.study == study ? tableIfAny(tables, study, "cpu_at_error") : nullptr;
+    if (costs) sentences.push_back(sentenceOf(comparison_of, *costs));
+  }
+  if (const Table* orders = tableIfAny(tables, study, "orders")) sentences.push_back(sentenceOf(checkOf(*orders)));
+  if (study == "audit") sentences.push_back(wrongSentence(tables));
+  if (const Table* runs = tableIfAny(tables, study, "runs")) sentences.push_back(outcomeSentence(*runs));
+  std::erase(sentences, "");
+  return sentences;
+}
+
+}  // namespace irk::report

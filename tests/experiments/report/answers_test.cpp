@@ -1,0 +1,289 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "experiments/report/answers/failures.h"
+#include "experiments/report/answers/formula.h"
+#include "experiments/report/answers/order_answer.h"
+#include "experiments/report/answers/paper.h"
+#include "experiments/report/answers/solvers.h"
+#include "experiments/report/answers/study_answers.h"
+#include "tests/experiments/support.h"
+
+namespace irk::report {
+namespace {
+
+using Cells = std::map<std::string, std::string>;
+
+Table tableOf(const std::vector<std::string>& columns, const std::vector<Cells>& rows) {
+  Table table{{{"study", "made_up"}}, columns, {}};
+  for (const auto& cells : rows) {
+    TableRow row;
+    for (const auto& column : columns) row.push_back(cells.contains(column) ? cells.at(column) : "");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string cell(const Table& table, std::size_t row, std::string_view column) {
+  return table.rows.at(row).at(table.column(column));
+}
+
+const double kNever = std::numeric_limits<double>::infinity();
+
+TEST(Ranking, PrefersWhoSolvesMoreThenWhoIsFaster) {
+  const Costs costs{{"sure", {{"p1", 4}, {"p2", 4}}},
+                    {"fast", {{"p1", 1}, {"p2", kNever}}},
+                    {"slow", {{"p1", 8}, {"p2", 8}}},
+                    {"never", {{"p1", kNever}}}};
+  const auto ranked = ranking(costs);
+  ASSERT_EQ(ranked.size(), 3u) << "a solver without a solved problem has no place";
+  EXPECT_EQ(ranked[0].solver, "sure");
+  EXPECT_EQ(ranked[1].solver, "slow");
+  EXPECT_EQ(ranked[2].solver, "fast");
+  EXPECT_EQ(ranked[2].solved, 1);
+  EXPECT_EQ(ranked[2].given, 2);
+  EXPECT_NEAR(ranked[0].factor, 2, 1e-12) << "4 over 1 and 4 over 4: geometric mean";
+  EXPECT_NEAR(ratio(costs, "slow", "sure"), 2, 1e-12);
+  EXPECT_NEAR(ratio(costs, "fast", "sure"), 0.25, 1e-12) << "of the problem that both solve";
+  EXPECT_TRUE(std::isnan(ratio(costs, "never", "sure")));
+  EXPECT_TRUE(std::isnan(ratio(costs, "unknown", "sure")));
+  EXPECT_EQ(solvable(costs), 2);
+  EXPECT_EQ(wins(costs).at("sure"), 1);
+  EXPECT_EQ(wins(costs).at("fast"), 1);
+}
+
+// A problem that nobody solves counts for nobody.
+TEST(Ranking, LeavesOutWhatNobodySolves) {
+  const Costs costs{{"a", {{"p1", 1}, {"hard", kNever}}}, {"b", {{"p1", 2}, {"hard", kNever}}}};
+  EXPECT_EQ(solvable(costs), 1);
+  EXPECT_EQ(ranking(costs)[0].given, 1);
+  EXPECT_TRUE(ranking({{"a", {{"hard", kNever}}}}).empty());
+}
+
+TEST(Ranking, SaysHowTheNextCompares) {
+  const Ranked best{"best", 4, 4, 1}, next{"next", 4, 4, 2}, partial{"partial", 2, 3, 1};
+  EXPECT_EQ(comparison(2, best, next, 4), "2.0 times as fast as `next`");
+  EXPECT_EQ(comparison(1.05, best, next, 4), "as fast as `next`");
+  EXPECT_EQ(comparison(0.5, best, partial, 4),
+            "2.0 times as slow as `partial`, which solves 2 of 4 and was not given 1");
+  EXPECT_EQ(comparison(1, best, {}, 4), "no other reaches this error");
+}
+
+// Two solvers of the suite and one of another library on one stiff and one switched problem.
+claims::ResultTables solverTables(double library_time = 4) {
+  const std::vector<std::string> columns{"scene", "settings", "integrator", "target_error", "cpu_s", "cause", "block"};
+  const auto cost = [](const char* scene, const char* solver, const char* error, const std::string& time,
+                       const char* block, const char* cause = "") {
+    return Cells{{"scene", scene}, {"integrator", solver}, {"target_error", error},
+                 {"cpu_s", time},  {"cause", cause},       {"block", block}};
+  };
+  claims::ResultTables tables;
+  tables.put(
+      "work_precision", "cpu_at_error",
+      tableOf(columns, {cost("robertson", "variable", "1e-8", "1", "stiff_variable"),
+                        cost("robertson", "embedded:radau_iia_5", "1e-8", "2", "stiff_embedded"),
+                        cost("robertson", "cvode_bdf", "1e-8", std::to_string(library_time), "stiff_peers"),
+                        cost("robertson", "ida_bdf", "1e-8", "nan", "stiff_peers", "not accurate enough"),
+                        cost("hires", "cvode_bdf", "1e-8", "nan", "stiff_peers", "no reference"),
+                        cost("stick_slip", "variable", "1e-8", "nan", "switching_variable", "no success: timeout"),
+                        cost("robertson", "variable", "1e-11", "3", "stiff_variable")}));
+  const auto run = [](const char* solver, const char* outcome, const char* error, const char* block) {
+    return Cells{{"integrator", solver}, {"outcome", outcome}, {"rtol", "1e-8"},   {"atol", "1e-8"},
+                 {"error_u", "nan"},     {"error_v", "nan"},   {"error_x", error}, {"block", block}};
+  };
+  tables.put("work_precision", "runs",
+             tableOf({"integrator", "outcome", "rtol", "atol", "error_u", "error_v", "error_x", "block"},
+                     {run("variable", "success", "1e-6", "stiff_variable"),
+                      run("variable", "success", "1e-3", "stiff_variable"),
+                      run("variable", "max_steps", "nan", "stiff_variable"),
+                      run("variable", "timeout", "nan", "switching_variable")}));
+  return tables;
+}
+
+TEST(SolverAnswer, NamesTheFastestByKindAndError) {
+  const Answer answer = solverAnswer(solverTables());
+  ASSERT_EQ(answer.table.rows.size(), 4u) << "two kinds, two errors";
+  EXPECT_EQ(cell(answer.table, 0, "kind"), "stiff");
+  EXPECT_EQ(cell(answer.table, 0, "solver"), "variable");
+  EXPECT_EQ(cell(answer.table, 0, "problems"), "1") << "a problem without a reference does not count";
+  EXPECT_EQ(cell(answer.table, 0, "next"), "embedded:radau_iia_5");
+  EXPECT_EQ(cell(answer.table, 0, "over_next"), "2");
+  EXPECT_EQ(cell(answer.table, 0, "library"), "cvode_bdf");
+  EXPECT_EQ(cell(answer.table, 0, "over_library"), "4");
+  EXPECT_EQ(cell(answer.table, 0, "runs"), "3");
+  EXPECT_EQ(cell(answer.table, 0, "failed"), "1");
+  EXPECT_EQ(cell(answer.table, 0, "wrong"), "1");
+  EXPECT_EQ(cell(answer.table, 2, "kind"), "switching");
+  EXPECT_EQ(cell(answer.table, 2, "solver"), "") << "nobody reaches the error";
+  EXPECT_TRUE(containsAll(answer.sentences.at(0),
+                          {"For an error of 1e-8", "`variable` for stiff ODEs",
+                           "2.0 times as fast as `embedded:radau_iia_5`", "no solver for systems with switches"}));
+}
+
+// The other side: another library is faster.
+TEST(SolverAnswer, NamesAnotherLibraryIfThatIsFaster) {
+  const Answer answer = solverAnswer(solverTables(0.5));
+  EXPECT_EQ(cell(answer.table, 0, "solver"), "cvode_bdf");
+  EXPECT_EQ(cell(answer.table, 0, "next"), "variable");
+  EXPECT_EQ(cell(answer.table, 0, "library"), "") << "it is the best one itself";
+}
+
+TEST(SolverAnswer, SaysWhichStudyIsMissing) {
+  const Answer answer = solverAnswer(claims::ResultTables{});
+  EXPECT_TRUE(answer.table.columns.empty());
+  EXPECT_TRUE(containsAll(answer.sentences.at(0), {"Not known yet", "irk run work_precision"}));
+}
+
+// Expected: the tables of Hairer & Wanner and Hairer, Lubich & Roche.
+TEST(OrderFormula, FollowsTheory) {
+  const auto text = [](const char* family, SystemKind kind, char component) {
+    const auto formula = orderFormula(family, kind, component);
+    return formula ? formula->text : "none";
+  };
+  EXPECT_EQ(text("gauss", SystemKind::kOde, 'x'), "2s");
+  EXPECT_EQ(text("radau_iia", SystemKind::kIndex2, 'x'), "2s − 1");
+  EXPECT_EQ(text("radau_iia", SystemKind::kIndex2, 'z'), "s");
+  EXPECT_EQ(text("gauss", SystemKind::kIndex1, 'z'), "s; odd s: s + 1");
+  EXPECT_EQ(text("gauss", SystemKind::kMechanical3, 'z'), "s − 4; odd s: s − 3");
+  EXPECT_EQ(text("radau_ia", SystemKind::kIndex2, 'z'), "s − 1; s = 1: 1");
+  EXPECT_EQ(text("lobatto_iiia", SystemKind::kIndex2, 'z'), "s; odd s: s − 1");
+  EXPECT_EQ(text("lobatto_iiia", SystemKind::kMechanical3, 'u'), "2s − 2; odd s: 2s − 4");
+  EXPECT_EQ(text("lobatto_iiib", SystemKind::kIndex2, 'x'), "none");
+  EXPECT_EQ(text("sdirk", SystemKind::kOde, 'x'), "none");
+  EXPECT_TRUE(orderFormula("gauss", SystemKind::kOde, 'x')->theorem);
+  EXPECT_FALSE(orderFormula("gauss", SystemKind::kMechanical2, 'u')->theorem) << "a measured pattern";
+}
+
+// Every formula gives the order that theoreticalOrder gives, for single numbers of stages.
+TEST(OrderFormula, AgreesWithTheoryForFewStages) {
+  EXPECT_EQ(theoreticalOrder("gauss", 5, SystemKind::kIndex1, 'z')->order, 6) << "s + 1";
+  EXPECT_EQ(theoreticalOrder("lobatto_iiia", 5, SystemKind::kIndex2, 'z')->order, 4) << "s - 1";
+}
+
+Table orders(const std::vector<Cells>& rows) {
+  return tableOf({"scene", "settings", "formulation", "family", "stages", "component", "power_of", "order", "theory",
+                  "h_min", "verdict"},
+                 rows);
+}
+
+Cells order(const char* scene, const char* family, const char* component, const char* order, const char* theory,
+            const char* verdict) {
+  return {{"scene", scene}, {"formulation", "index2"}, {"family", family}, {"component", component}, {"power_of", "h"},
+          {"order", order}, {"theory", theory},        {"h_min", "0.01"},  {"verdict", verdict}};
+}
+
+TEST(OrderAnswer, CountsWhatAgreesByFamilyAndComponent) {
+  claims::ResultTables tables;
+  tables.put("order", "orders",
+             orders({order("mechanical_dae", "gauss", "u", "4.01", "4", "agrees"),
+                     order("mechanical_dae", "gauss", "u", "5.5", "6", "differs"),
+                     order("mechanical_dae", "gauss", "u", "nan", "8", "not_measurable"),
+                     order("riccati_tracking", "radau_iia", "x", "3.1", "3", "agrees"),
+                     order("mechanical_dae", "gauss", "z", "2", "nan", "no_theory")}));
+  const Answer answer = orderAnswer(tables);
+  EXPECT_TRUE(
+      containsAll(answer.sentences.at(0), {"2 of 3 measured orders agree", "difference is 0.5", "1 more series"}));
+  bool found = false;
+  for (std::size_t i = 0; i < answer.table.rows.size(); ++i) {
+    if (cell(answer.table, i, "system") != "mechanical_index2" || cell(answer.table, i, "component") != "u" ||
+        cell(answer.table, i, "family") != "gauss") {
+      continue;
+    }
+    found = true;
+    EXPECT_EQ(cell(answer.table, i, "formula"), "2s");
+    EXPECT_EQ(cell(answer.table, i, "agree"), "1");
+    EXPECT_EQ(cell(answer.table, i, "differ"), "1");
+    EXPECT_EQ(cell(answer.table, i, "not_measurable"), "1");
+  }
+  EXPECT_TRUE(found);
+  const std::string html = htmlOf(answer.shown);
+  EXPECT_TRUE(containsAll(html, {"✗ 1/2", "✓ 1/1"}));
+}
+
+TEST(OrderAnswer, HasTheFormulasWithoutRuns) {
+  const Answer answer = orderAnswer(claims::ResultTables{});
+  EXPECT_TRUE(containsAll(answer.sentences.at(0), {"Not checked yet", "irk run order"}));
+  EXPECT_TRUE(containsAll(htmlOf(answer.shown), {"2s − 1"}));
+  // Stiffly accurate families keep their order in index 2, the others lose it.
+  EXPECT_TRUE(containsAll(answer.sentences.at(1),
+                          {"with Radau IIA, Lobatto IIIA and Lobatto IIIC, and lose order with Gauss"}));
+}
+
+Table runsOf(const std::vector<Cells>& rows) {
+  return tableOf({"method", "configuration", "control", "outcome"}, rows);
+}
+
+Cells run(const char* method, const char* configuration, const char* outcome, const char* control = "predictive") {
+  return {{"method", method}, {"configuration", configuration}, {"control", control}, {"outcome", outcome}};
+}
+
+TEST(FailureAnswer, CountsCausesByKindOfMethod) {
+  claims::ResultTables tables;
+  std::vector<Cells> drawn(12, run("gauss_2", "embedded", "success"));
+  for (int i = 0; i < 6; ++i) drawn.push_back(run("gauss_3", "paper", "success"));
+  for (int i = 0; i < 4; ++i) drawn.push_back(run("gauss_3", "paper", "max_steps"));
+  for (int i = 0; i < 2; ++i) drawn.push_back(run("gauss_3", "paper", "newton_failed"));
+  drawn.push_back(run("cvode_bdf", "default", "timeout"));
+  drawn.push_back(run("gauss_3", "paper", "refused"));
+  tables.put("audit", "runs", runsOf(drawn));
+  tables.put("audit", "audit_summary",
+             tableOf({"by", "group", "right", "wrong"}, {{{"by", "all"}, {"right", "17"}, {"wrong", "1"}}}));
+  tables.put("failure_newton", "runs", runsOf({run("gauss_2", "default", "singular")}));
+  tables.put("control", "runs",
+             runsOf({run("gauss_2", "default", "success"), run("gauss_2", "default", "success", "fixed")}));
+  const Answer answer = failureAnswer(tables);
+  EXPECT_TRUE(containsAll(answer.sentences.at(0), {"Of 25 runs", "7 fail", "28 %",
+                                                   "too many steps (4), Newton's method fails (2) and too slow (1)"}));
+  EXPECT_TRUE(containsAll(answer.sentences.at(1),
+                          {"`paper` fails most often, in 50 %", "too many steps", "`embedded` least often, in 0 %"}));
+  EXPECT_TRUE(containsAll(answer.sentences.at(2), {"18 successes", "1 are wrong"}));
+  EXPECT_FALSE(answer.table.hasColumn("singular")) << "studies that provoke failures are left out";
+  ASSERT_EQ(answer.table.rows.size(), 6u);
+  EXPECT_EQ(cell(answer.table, 0, "method"), "cvode_bdf") << "another library's solver is a kind of its own";
+  EXPECT_EQ(cell(answer.table, 2, "max_steps"), "4");
+  EXPECT_EQ(cell(answer.table, 5, "runs"), "1") << "runs with fixed steps are left out";
+}
+
+TEST(FailureAnswer, SaysThatNothingFails) {
+  claims::ResultTables tables;
+  tables.put("control", "runs", runsOf({run("gauss_2", "default", "success")}));
+  EXPECT_TRUE(containsAll(failureAnswer(tables).sentences.at(0), {"Of 1 runs (other studies), 0 fail, 0 %."}));
+  EXPECT_TRUE(containsAll(failureAnswer(claims::ResultTables{}).sentences.at(0), {"Not known yet"}));
+}
+
+TEST(PaperAnswer, CountsVerdictsAndListsClaims) {
+  const Answer answer = paperAnswer(Verdicts{{"C1", "confirmed"}, {"C2", "contradicted"}, {"C3", "confirmed"}});
+  EXPECT_EQ(answer.sentences.at(0), "Of 3 claims: 2 confirmed and 1 contradicted.");
+  ASSERT_EQ(answer.table.rows.size(), 2u);
+  EXPECT_EQ(answer.table.rows[0], (TableRow{"confirmed", "2", "C1 C3"}));
+  EXPECT_EQ(answer.shown.rows[1].cells.at(2), "<a href=\"#C2\">C2</a>");
+}
+
+TEST(StudyAnswers, CompareTheColumnOfTheStudy) {
+  const std::vector<std::string> columns{"scene", "settings", "family", "target_error", "cpu_s", "cause"};
+  claims::ResultTables tables;
+  tables.put("families", "cpu_at_error",
+             tableOf(columns, {{{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "3"}},
+                               {{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "6"}},
+                               {{"scene", "a"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "1"}},
+                               {{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-9"}, {"cpu_s", "0.1"}}}));
+  const auto sentences = studyAnswers("families", tables);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_EQ(
+      sentences[0],
+      "At an error of 1e-6, the family `radau_iia` is the best choice: it reaches the error in 1 of 1 problems, is the "
+      "fastest in 1, and 3.0 times as fast as `gauss`.");
+  EXPECT_TRUE(studyAnswers("peers", tables).empty()) << "no results, no answer";
+}
+
+TEST(StudyAnswers, CountOutcomes) {
+  EXPECT_EQ(outcomeSentence(tableOf({"outcome"}, {{{"outcome", "success"}}, {{"outcome", "drift"}}})),
+            "2 runs, 1 successful; the others: drift (1).");
+  EXPECT_EQ(outcomeSentence(tableOf({"outcome"}, {{{"outcome", "success"}}})), "1 runs, 1 successful.");
+}
+
+}  // namespace
+}  // namespace irk::report
