@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <sstream>
 #include <type_traits>
 
 #include "core/base/text.h"
@@ -13,10 +17,15 @@ namespace irk {
 #define IRK_SCENES(scene) \
   scene(ancfCantileverEntry) \
   scene(ancfPendulumEntry) \
+  scene(andrewsEntry) \
+  scene(beamEntry) \
   scene(beamChainEntry) \
   scene(bouncingMassEntry) \
+  scene(caraxisEntry) \
+  scene(chemakzoEntry) \
   scene(dahlquistEntry) \
   scene(dcMotorChopperEntry) \
+  scene(e5Entry) \
   scene(elasticaEntry) \
   scene(elastoplasticEntry) \
   scene(hiresEntry) \
@@ -29,15 +38,22 @@ namespace irk {
   scene(keplerEntry) \
   scene(mechanicalDaeEntry) \
   scene(mechatronicCrankEntry) \
+  scene(medakzoEntry) \
+  scene(nandEntry) \
+  scene(oregoEntry) \
   scene(pendulumEntry) \
+  scene(pollutionEntry) \
   scene(protheroRobinsonEntry) \
+  scene(pumpEntry) \
   scene(riccatiTrackingEntry) \
+  scene(ringmodEntry) \
   scene(robertsonEntry) \
   scene(sampledControlEntry) \
   scene(sliderCrankEntry) \
   scene(sliderCrankFlexibleEntry) \
   scene(stickSlipEntry) \
   scene(stickSlipLugreEntry) \
+  scene(transampEntry) \
   scene(vanDerPolEntry)
 // clang-format on
 
@@ -56,6 +72,11 @@ std::deque<SceneEntry>& catalogue() {
 }
 
 std::string sourceOf(const std::string& source) { return source.empty() ? "a scene of the program" : source; }
+
+std::vector<std::string> collectionsOf(const SceneEntry& entry) {
+  std::istringstream words(entry.collection);
+  return {std::istream_iterator<std::string>(words), {}};
+}
 
 }  // namespace
 
@@ -83,6 +104,24 @@ const SceneEntry& findScene(std::string_view id) {
     known.push_back(entry.id);
   }
   throw Misuse(unknownName("scene", id, known));
+}
+
+std::vector<std::string> collections() {
+  std::set<std::string> names;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    for (const std::string& name : collectionsOf(entry)) names.insert(name);
+  }
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> scenesOf(std::string_view collection) {
+  std::vector<std::string> ids;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    const auto names = collectionsOf(entry);
+    if (std::find(names.begin(), names.end(), collection) != names.end()) ids.push_back(entry.id);
+  }
+  if (ids.empty()) throw Misuse(unknownName("collection", collection, collections()));
+  return ids;
 }
 
 std::string_view meaningOf(SceneKind kind) {
