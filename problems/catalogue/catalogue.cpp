@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <iterator>
-#include <set>
-#include <sstream>
 #include <type_traits>
 
 #include "core/base/text.h"
@@ -73,11 +69,6 @@ std::deque<SceneEntry>& catalogue() {
 
 std::string sourceOf(const std::string& source) { return source.empty() ? "a scene of the program" : source; }
 
-std::vector<std::string> collectionsOf(const SceneEntry& entry) {
-  std::istringstream words(entry.collection);
-  return {std::istream_iterator<std::string>(words), {}};
-}
-
 }  // namespace
 
 const std::deque<SceneEntry>& sceneCatalogue() { return catalogue(); }
@@ -104,24 +95,6 @@ const SceneEntry& findScene(std::string_view id) {
     known.push_back(entry.id);
   }
   throw Misuse(unknownName("scene", id, known));
-}
-
-std::vector<std::string> collections() {
-  std::set<std::string> names;
-  for (const SceneEntry& entry : sceneCatalogue()) {
-    for (const std::string& name : collectionsOf(entry)) names.insert(name);
-  }
-  return {names.begin(), names.end()};
-}
-
-std::vector<std::string> scenesOf(std::string_view collection) {
-  std::vector<std::string> ids;
-  for (const SceneEntry& entry : sceneCatalogue()) {
-    const auto names = collectionsOf(entry);
-    if (std::find(names.begin(), names.end(), collection) != names.end()) ids.push_back(entry.id);
-  }
-  if (ids.empty()) throw Misuse(unknownName("collection", collection, collections()));
-  return ids;
 }
 
 std::string_view meaningOf(SceneKind kind) {

@@ -47,7 +47,6 @@ SceneEntry ancfCantileverEntry() {
   return {.id = "ancf_cantilever",
           .title = "cantilever of ANCF cable elements under a stepped tip load",
           .shows = "large bending, constant M: the mass-derivative switches must change nothing",
-          .collection = "multibody",
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "2"),
                          positiveParameter("E", "Pa", "Young's modulus", "2.07e11"),
                          positiveParameter("A", "m^2", "area of the section", "0.01"),

@@ -37,7 +37,6 @@ SceneEntry ancfPendulumEntry() {
   return {.id = "ancf_pendulum",
           .title = "soft pendulum of ANCF cable elements",
           .shows = "large deformations with constant M; conserves its energy",
-          .collection = "multibody",
           .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "1.2"),
                          positiveParameter("A", "m^2", "area of the section", "0.0018"),

@@ -116,7 +116,6 @@ SceneEntry sliderCrankEntry() {
   return {.id = "slider_crank",
           .title = "rigid slider-crank driven by a constant torque",
           .shows = "M(u) with a constraint: every term of the Jacobian is alive",
-          .collection = "multibody",
           .kind = SceneKind::kConstrained,
           .parameters = parameters(),
           .panels = {{"angles", {"theta", "phi"}},

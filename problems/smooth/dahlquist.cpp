@@ -46,8 +46,6 @@ SceneEntry dahlquistEntry() {
   return {.id = "dahlquist",
           .title = "Dahlquist's equation y' = lambda y, lambda complex",
           .shows = "the stability function R(h lambda) itself",
-          .collection = "probes",
-          .literature = "HW II (IV.3)",
           .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
                          numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
           .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},

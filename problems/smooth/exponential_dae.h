@@ -55,8 +55,6 @@ struct ExponentialDae {
     return {.id = id(),
             .title = "nonlinear DAE of index " + index + ", exactly solvable",
             .shows = "orders of differential and algebraic unknowns, index " + index,
-            .collection = "probes",
-            .literature = "E. Hairer, Ch. Lubich, M. Roche, LNM 1409, Springer 1989",
             .kind = kind(),
             .parameters = {},
             .reference_cases = {P::referenceCase()},

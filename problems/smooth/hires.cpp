@@ -48,8 +48,6 @@ SceneEntry hiresEntry() {
   return {.id = "hires",
           .title = "HIRES, eight chemical reactions of plant physiology",
           .shows = "a moderately stiff ODE of the standard test sets",
-          .collection = "ivp",
-          .literature = "IVP test set, HIRES; HW II (IV.10)",
           .parameters = {},
           .reference_cases = {{.times = "5 80", .tolerance = kManyDigits}},
           .make = make<double>,

@@ -46,7 +46,6 @@ SceneEntry kapsEntry() {
   return {.id = "kaps",
           .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
           .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
-          .collection = "probes",
           .kind = SceneKind::kSingularlyPerturbed,
           .stiffness = {.parameter = "eps", .reciprocal = true},
           .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},

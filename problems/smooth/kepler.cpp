@@ -77,7 +77,6 @@ SceneEntry keplerEntry() {
   return {.id = "kepler",
           .title = "Kepler's two-body problem",
           .shows = "invariants: energy and angular momentum over many revolutions",
-          .collection = "probes",
           .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
           .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
           .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},

@@ -42,7 +42,6 @@ SceneEntry mechanicalDaeEntry() {
   return {.id = "mechanical_dae",
           .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
           .shows = "orders of q, v and lambda in every formulation",
-          .collection = "probes",
           .kind = SceneKind::kConstrained,
           .parameters = {},
           .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},

@@ -46,8 +46,6 @@ SceneEntry protheroRobinsonEntry() {
   return {.id = "prothero_robinson",
           .title = "y' = lambda (y - cos t) - sin t",
           .shows = "order reduction of stiff systems, one component, one parameter",
-          .collection = "probes",
-          .literature = "A. Prothero, A. Robinson, Math. Comp. 28 (1974) 145-162",
           .kind = SceneKind::kStiffTest,
           .stiffness = {.parameter = "lambda"},
           .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},

@@ -38,8 +38,6 @@ SceneEntry robertsonEntry() {
   return {.id = "robertson",
           .title = "Robertson's chemical kinetics to t = 1e11",
           .shows = "eleven decades of time, a component that falls to 1e-13",
-          .collection = "ivp",
-          .literature = "IVP test set, ROBER; HW II (IV.10)",
           .parameters = {},
           .reference_cases = {{.times = "0.4 4e3 1e7", .tolerance = kManyDigits}},
           .make = make<double>,

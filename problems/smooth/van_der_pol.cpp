@@ -35,8 +35,6 @@ SceneEntry vanDerPolEntry() {
   return {.id = "van_der_pol",
           .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
           .shows = "stiffness with fast transitions: step control and Newton",
-          .collection = "ivp",
-          .literature = "IVP test set, VDPOL; HW II (IV.10)",
           .kind = SceneKind::kSingularlyPerturbed,
           .stiffness = {.parameter = "eps", .reciprocal = true},
           .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},

@@ -274,7 +274,6 @@ SceneEntry hydraulicManipulatorEntry() {
           .shows =
               "M(u) with stiff pressures, a bulk modulus that depends on them, and ramps of "
               "a millisecond",
-          .collection = "multibody switching",
           .parameters = parameters(),
           .panels = {{"angles", {"theta1", "theta2"}},
                      {"angular velocities", {"theta1'", "theta2'"}},

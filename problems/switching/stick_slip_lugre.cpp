@@ -60,8 +60,6 @@ SceneEntry stickSlipLugreEntry() {
   return {.id = "stick_slip_lugre",
           .title = "mass pulled over a surface with bristles (LuGre friction)",
           .shows = "stick-slip without switches: smooth and very stiff",
-          .collection = "switching",
-          .literature = "Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419-425",
           .parameters = {positiveParameter("M", "kg", "mass", "1"), positiveParameter("K", "N/m", "spring", "2"),
                          numberParameter("vb", "m/s", "speed of the spring's other end", "0.1", -1e3, 1e3),
                          positiveParameter("sigma0", "N/m", "stiffness of the bristles", "1e5"),

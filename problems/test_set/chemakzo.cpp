@@ -46,9 +46,8 @@ SceneEntry chemakzoEntry() {
   return {.id = "chemakzo",
           .title = "chemical Akzo Nobel: five reactions, one equilibrium",
           .shows = "an algebraic row; a square root that ends where a concentration is negative",
-          .collection = "ivp",
-          .literature = "IVP test set, CHEMAKZO",
           .kind = SceneKind::kIndex1,
+          .parameters = {},
           .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -43,8 +43,7 @@ SceneEntry e5Entry() {
   return {.id = "e5",
           .title = "E5: chemical pyrolysis to t = 1e13",
           .shows = "components down to 1e-22 over thirteen decades of time, cancellation",
-          .collection = "ivp",
-          .literature = "IVP test set, E5; HW II (IV.10)",
+          .parameters = {},
           .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

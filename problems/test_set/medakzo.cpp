@@ -58,8 +58,6 @@ SceneEntry medakzoEntry() {
   return {.id = "medakzo",
           .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
           .shows = "400 unknowns in a band; an input that jumps at t = 5",
-          .collection = "ivp",
-          .literature = "IVP test set, MEDAKZO",
           .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
           .parameters = {points},
           .panels = {{"concentrations", {"u3", "v3"}}},

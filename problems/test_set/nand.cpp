@@ -114,8 +114,6 @@ SceneEntry nandEntry() {
   return {.id = "nand",
           .title = "NAND gate of three field-effect transistors",
           .shows = "capacities that depend on y; fifteen kinks of the inputs at known times",
-          .collection = "ivp",
-          .literature = "IVP test set, NAND",
           .parameters = {numberParameter("beta_back", "mA/V^2",
                                          "of an enhancement transistor's current from source to drain; 1.748e-3 in the "
                                          "test set's report, but not in its program",

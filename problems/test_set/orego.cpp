@@ -35,8 +35,7 @@ SceneEntry oregoEntry() {
   return {.id = "orego",
           .title = "Oregonator: an oscillating chemical reaction",
           .shows = "steps over ten decades: slow drifts and fast transitions",
-          .collection = "ivp",
-          .literature = "IVP test set, OREGO; HW II (IV.10)",
+          .parameters = {},
           .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -89,8 +89,7 @@ SceneEntry pollutionEntry() {
   return {.id = "pollution",
           .title = "air pollution, 25 reactions of 20 substances",
           .shows = "moderate stiffness, components from 1e-18 to 1",
-          .collection = "ivp",
-          .literature = "IVP test set, POLLU; J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250",
+          .parameters = {},
           .reference_cases = {{.times = "1", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};

@@ -71,8 +71,6 @@ SceneEntry ringmodEntry() {
   return {.id = "ringmod",
           .title = "ring modulator: four diodes mix two signals",
           .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
-          .collection = "ivp",
-          .literature = "IVP test set, RINGMOD",
           .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
           .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}},
           .make = make<double>,

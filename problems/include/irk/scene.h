@@ -108,12 +108,10 @@ struct SceneEntry {
   std::string id;
   std::string title;                 ///< one line: what the scene is
   std::string shows;                 ///< one line: what the scene demonstrates
-  std::string collection = {};       ///< names of collections, separated by blanks: "ivp multibody"; see scenesOf
-  std::string literature = {};       ///< one line: where the problem is described; empty: made here
   SceneKind kind = SceneKind::kOde;  ///< with the default parameters
   Stiffness stiffness = {};
   SizeParameter size = {};
-  std::vector<Parameter> parameters = {};
+  std::vector<Parameter> parameters;
   std::vector<Panel> panels = {};                   ///< empty: one panel per component
   std::vector<ReferenceCase> reference_cases = {};  ///< including the case of the default parameters
   /// Build the scene from complete, checked settings; users call makeScene. An empty function: the scene does not
@@ -137,15 +135,6 @@ void registerScene(SceneEntry entry);
 
 /// The entry of a scene; it lives as long as the program. Throws Misuse for an unknown id, naming the nearest one.
 const SceneEntry& findScene(std::string_view id);
-
-/// The ids of a collection's scenes, in the order of the catalogue. Collections: `ivp`, the problems of the IVP test
-/// set; `multibody`, mechanisms; `switching`, scenes with a discrete state; `probes`, small problems that show one
-/// property of a method; and those that registered scenes name. Throws Misuse for an unknown collection, naming the
-/// nearest one.
-std::vector<std::string> scenesOf(std::string_view collection);
-
-/// The names of all collections, sorted.
-std::vector<std::string> collections();
 
 /// Checks the settings against the scene's parameters, adds the defaults and builds the scene. Throws Misuse for an
 /// unknown id or parameter (naming the nearest one), for a value out of range (naming the range), and for a scalar
