@@ -10,6 +10,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/commands/arguments.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/list_scenes.h"
 #include "experiments/commands/shell.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
@@ -220,10 +221,14 @@ class Program {
   void addList() {
     auto* sub = verb(app_, "list", "scenes, methods, studies and options with their values", [this](Streams s) {
       loadFiles();
-      return listCommand(what_, s);
+      if (collection_.empty() && !solve_.json) return listCommand(what_, s);
+      if (what_ != "scenes") throw Misuse("--collection and --json belong to: irk list scenes");
+      return printScenes(collection_, solve_.json, s.out), 0;
     });
     addLoad(*sub);
     sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies or numbers");
+    sub->add_option("--collection", collection_, "The scenes of: ivp, multibody, switching or probes.");
+    sub->add_flag("--json", solve_.json, "Print the scenes as a JSON array.");
   }
 
   void addTableau() {
@@ -316,7 +321,7 @@ class Program {
   Action action_;
   bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false;
   std::string stale_ = "keep", times_ = "all";
-  std::string study_, shard_, what_, method_;
+  std::string study_, shard_, what_, collection_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::string out_ = "stability", shell_;
   std::vector<std::string> folders_, methods_, load_;

@@ -3,6 +3,7 @@
 
 #include "core/base/text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/list_scenes.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/analysis.h"
@@ -13,22 +14,7 @@
 namespace irk {
 namespace {
 
-std::string rangeText(const Parameter& p) {
-  if (p.text) return "text";
-  std::string text;
-  for (const auto& choice : p.choices) text += (text.empty() ? "" : " | ") + choice;
-  return p.choices.empty() ? fmt::format("{:g} .. {:g}", p.min, p.max) : text;
-}
-
-void listScenes(std::ostream& out) {
-  for (const auto& scene : sceneCatalogue()) {
-    fmt::print(out, "{}\n    {}\n    kind: {}\n    shows: {}\n", scene.id, scene.title, meaningOf(scene.kind),
-               scene.shows);
-    for (const auto& p : scene.parameters) {
-      fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit, rangeText(p));
-    }
-  }
-}
+void listScenes(std::ostream& out) { printScenes("", false, out); }
 
 void listMethods(std::ostream& out) {
   for (const auto& family : familyCatalogue()) {

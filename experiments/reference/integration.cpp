@@ -11,6 +11,15 @@
 namespace irk {
 namespace {
 
+// An integration ends before what happens at its last time, and one that begins there does not see it.
+template <class Real>
+void passTimes(const System<Real>& system, State<Real>& state) {
+  const std::vector<Real> times = system.times();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] == state.t) system.onTime(static_cast<Index>(i), state);
+  }
+}
+
 template <class Real>
 Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch) {
   const double start = threadSeconds();
@@ -34,6 +43,7 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
       return result;
     }
     state = solution.state;
+    passTimes(*setup.system, state);
     result.rows.push_back(componentsAndOutputs(setup.scene, state));
   }
   return result;

@@ -22,6 +22,7 @@
 #include "experiments/study/study_file.h"
 #include "experiments/study/study_rules.h"
 #include "experiments/study/toml/own_files.h"
+#include "experiments/study/toml/scene_lists.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -311,7 +312,8 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
     study.series = auditSeries(*study.audit);
     return study;
   }
-  for (const auto& block : text.blocks) {
+  for (auto& block : text.blocks) {
+    expandCollections(block);
     const std::size_t first = study.series.size();
     appendBlock(block, study.series);
     refuseVariableOrder(study, block, first);

@@ -13,10 +13,15 @@ namespace irk {
 #define IRK_SCENES(scene) \
   scene(ancfCantileverEntry) \
   scene(ancfPendulumEntry) \
+  scene(andrewsEntry) \
+  scene(beamEntry) \
   scene(beamChainEntry) \
   scene(bouncingMassEntry) \
+  scene(caraxisEntry) \
+  scene(chemakzoEntry) \
   scene(dahlquistEntry) \
   scene(dcMotorChopperEntry) \
+  scene(e5Entry) \
   scene(elasticaEntry) \
   scene(elastoplasticEntry) \
   scene(hiresEntry) \
@@ -29,15 +34,22 @@ namespace irk {
   scene(keplerEntry) \
   scene(mechanicalDaeEntry) \
   scene(mechatronicCrankEntry) \
+  scene(medakzoEntry) \
+  scene(nandEntry) \
+  scene(oregoEntry) \
   scene(pendulumEntry) \
+  scene(pollutionEntry) \
   scene(protheroRobinsonEntry) \
+  scene(pumpEntry) \
   scene(riccatiTrackingEntry) \
+  scene(ringmodEntry) \
   scene(robertsonEntry) \
   scene(sampledControlEntry) \
   scene(sliderCrankEntry) \
   scene(sliderCrankFlexibleEntry) \
   scene(stickSlipEntry) \
   scene(stickSlipLugreEntry) \
+  scene(transampEntry) \
   scene(vanDerPolEntry)
 // clang-format on
 

@@ -1,0 +1,24 @@
+// Collections: named sets of scenes, for lists and studies.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace irk {
+
+/// The names of all collections, sorted: `ivp`, the problems of the IVP test set; `multibody`, mechanisms; `switching`,
+/// scenes whose equations switch; `probes`, small problems that show one property of a method.
+std::vector<std::string> collections();
+
+/// The ids of a collection's scenes, in the order of the catalogue. Throws Misuse for an unknown collection, naming the
+/// nearest one.
+std::vector<std::string> scenesOf(std::string_view collection);
+
+/// The collections of a scene, sorted; empty for an unknown one and for those that were registered.
+std::vector<std::string> collectionsOf(std::string_view scene);
+
+/// Where a scene's problem is described, in one line; empty if it was made for this suite.
+std::string_view literatureOf(std::string_view scene);
+
+}  // namespace irk

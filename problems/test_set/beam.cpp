@@ -1,0 +1,93 @@
+// The elastic beam of 40 links, driven at its free end until t = pi. IVP test set, BEAM; HW II (IV.10).
+//
+// theta'' = C v + D u with C u = D v + theta'^2: C is tridiagonal, 1, 2, ..., 2, 3 and -cos(theta_l - theta_l+-1)
+// beside, D has -sin(theta_l - theta_l+-1) beside its diagonal.
+#include <array>
+
+#include "irk/scene_file.h"
+
+namespace irk {
+namespace {
+
+constexpr std::size_t kLinks = 40;
+
+template <class Real>
+struct Beam {
+  Sizes sizes() const { return {.nu = kLinks, .discrete = 1}; }
+  std::vector<Real> times() const { return {piOf<Real>()}; }
+  template <class T>
+  void onTime(Index, const Point<T>&, T* d) const {
+    d[0] = T(0.0);  // the force's amplitude
+  }
+
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    using std::sin;
+    constexpr double kSquare = kLinks * kLinks;
+    const T sine = sin(p.t), force = p.d[0] * (sine * sine);
+    std::array<T, kLinks> v, c, s, u, pivot;  // c[l], s[l]: cos and sin of theta_l - theta_l+1
+    for (std::size_t l = 0; l < kLinks; ++l) {
+      const auto i = static_cast<Index>(l);
+      const bool last = l + 1 == kLinks;
+      const T& angle = p.u[i];
+      const T before = l > 0 ? T(p.u[i - 1] - angle) : T(-2 * angle), after = last ? T(0.0) : T(p.u[i + 1] - angle);
+      v[l] = kSquare * (kSquare * (before + after) + force * (cos(angle) + sin(angle)));
+      if (!last) c[l] = cos(after);
+      if (!last) s[l] = -sin(after);
+    }
+    const auto apply = [&](const std::array<T, kLinks>& beside, std::size_t l, const std::array<T, kLinks>& y,
+                           int sign) {
+      T sum(0.0);  // beside: of the differences theta_l - theta_l+1, `sign` for those of theta_l - theta_l-1
+      if (l + 1 < kLinks) sum -= beside[l] * y[l + 1];
+      if (l > 0) sum -= sign * (beside[l - 1] * y[l - 1]);
+      return sum;
+    };
+    const auto diagonal = [](std::size_t l) { return l == 0 ? 1 : l + 1 == kLinks ? 3 : 2; };
+    for (std::size_t l = 0; l < kLinks; ++l) {
+      const auto i = static_cast<Index>(l);
+      u[l] = apply(s, l, v, -1) + p.v[i] * p.v[i];
+      pivot[l] = T(diagonal(l));
+      if (l == 0) continue;
+      const T factor = c[l - 1] / pivot[l - 1];
+      pivot[l] -= factor * c[l - 1];
+      u[l] += factor * u[l - 1];
+    }
+    for (std::size_t l = kLinks; l-- > 0;) {
+      if (l + 1 < kLinks) u[l] += c[l] * u[l + 1];
+      u[l] /= pivot[l];
+    }
+    for (std::size_t l = 0; l < kLinks; ++l) {
+      const auto i = static_cast<Index>(l);
+      r.u[i] = diagonal(l) * v[l] + apply(c, l, v, 1) + apply(s, l, u, -1) - p.a[i];
+    }
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings&) {
+  Scene<Real> scene;
+  setProblem(scene, Beam<Real>{});
+  scene.start.d[0] = Real(1.5);
+  completeStart(scene);
+  scene.t_end = 5;
+  std::vector<Component> angles;
+  for (std::size_t l = 1; l <= kLinks; ++l) angles.push_back({"theta" + std::to_string(l), "rad"});
+  setComponents(scene, angles);
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry beamEntry() {
+  return {.id = "beam",
+          .title = "elastic beam of 40 links",
+          .shows = "stiff oscillations of second order; a force that ends at t = pi",
+          .parameters = {},
+          .panels = {{"angle of the free end", {"theta40"}}},
+          .reference_cases = {{.tolerance = kFewDigits}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

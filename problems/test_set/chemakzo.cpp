@@ -1,0 +1,56 @@
+// The chemical Akzo Nobel problem: two substances are mixed under a flow of carbon dioxide. IVP test set, CHEMAKZO.
+#include <cmath>
+
+#include "problems/support/numbered.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct ChemicalAkzo {
+  Real k1 = decimal<Real>("18.7"), k2 = decimal<Real>("0.58"), k3 = decimal<Real>("0.09"), k4 = decimal<Real>("0.42");
+  Real K = decimal<Real>("34.4"), kla = decimal<Real>("3.3"), Ks = decimal<Real>("115.83");
+  Real inflow = decimal<Real>("0.9") / 737;
+
+  Sizes sizes() const { return {.nx = 5, .nz = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sqrt;
+    const T &y1 = p.x[0], &y2 = p.x[1], &y3 = p.x[2], &y4 = p.x[3], &y5 = p.x[4], &y6 = p.z[0];
+    const T root = sqrt(y2), square = y1 * y1;
+    const T r1 = k1 * (square * square) * root, r2 = k2 * (y3 * y4), r3 = k2 / K * (y1 * y5);
+    const T r4 = k3 * (y1 * y4 * y4), r5 = k4 * (y6 * y6) * root, flow = kla * (inflow - y2);
+    r.x[0] = -2 * r1 + r2 - r3 - r4 - p.k[0];
+    r.x[1] = flow - 0.5 * r1 - r4 - 0.5 * r5 - p.k[1];
+    r.x[2] = r1 - r2 + r3 - p.k[2];
+    r.x[3] = r3 - r2 - 2 * r4 - p.k[3];
+    r.x[4] = r2 - r3 + r5 - p.k[4];
+    r.z[0] = Ks * (y1 * y4) - y6;
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings&) {
+  Scene<Real> scene;
+  setProblem(scene, ChemicalAkzo<Real>{});
+  scene.start.x << decimal<Real>("0.444"), decimal<Real>("0.00123"), Real(0), decimal<Real>("0.007"), Real(0);
+  completeStart(scene);
+  scene.t_end = 180;
+  setComponents(scene, {}, numbered(5), {{"y6"}});
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry chemakzoEntry() {
+  return {.id = "chemakzo",
+          .title = "chemical Akzo Nobel: five reactions, one equilibrium",
+          .shows = "an algebraic row; a square root that ends where a concentration is negative",
+          .kind = SceneKind::kIndex1,
+          .parameters = {},
+          .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

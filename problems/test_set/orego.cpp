@@ -1,0 +1,44 @@
+// The Oregonator: the Belousov-Zhabotinskii reaction (Field, Noyes). IVP test set, OREGO; HW II (IV.10).
+#include "problems/support/numbered.h"
+
+namespace irk {
+namespace {
+
+template <class Real>
+struct Oregonator {
+  Real s = decimal<Real>("77.27"), w = decimal<Real>("0.161"), q = decimal<Real>("8.375e-6");
+
+  Sizes sizes() const { return {.nx = 3}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T &y1 = p.x[0], &y2 = p.x[1], &y3 = p.x[2];
+    r.x[0] = s * (y2 - y1 * y2 + y1 - q * (y1 * y1)) - p.k[0];
+    r.x[1] = (y3 - y2 - y1 * y2) / s - p.k[1];
+    r.x[2] = w * (y1 - y3) - p.k[2];
+  }
+};
+
+template <class Real>
+Scene<Real> make(const Settings&) {
+  Scene<Real> scene;
+  setProblem(scene, Oregonator<Real>{});
+  scene.start.x << Real(1), Real(2), Real(3);
+  completeStart(scene);
+  scene.t_end = 360;
+  setComponents(scene, {}, numbered(3));
+  return scene;
+}
+
+}  // namespace
+
+SceneEntry oregoEntry() {
+  return {.id = "orego",
+          .title = "Oregonator: an oscillating chemical reaction",
+          .shows = "steps over ten decades: slow drifts and fast transitions",
+          .parameters = {},
+          .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
+          .make = make<double>,
+          .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,53 @@
+#include "irk/collections.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "irk/misuse.h"
+#include "irk/scene.h"
+
+namespace irk::test {
+namespace {
+
+TEST(Collections, EverySceneBelongsToOne) {
+  for (const SceneEntry& entry : sceneCatalogue()) EXPECT_FALSE(collectionsOf(entry.id).empty()) << entry.id;
+  EXPECT_EQ(collections(), (std::vector<std::string>{"ivp", "multibody", "probes", "switching"}));
+}
+
+TEST(Collections, HoldTheirScenesInTheOrderOfTheCatalogue) {
+  const auto ivp = scenesOf("ivp");
+  EXPECT_EQ(ivp.size(), 17U);
+  EXPECT_TRUE(std::is_sorted(ivp.begin(), ivp.end()));
+  for (const char* id : {"andrews", "hires", "pendulum", "slider_crank_flexible"}) {
+    EXPECT_EQ(std::count(ivp.begin(), ivp.end(), id), 1) << id;
+  }
+  EXPECT_EQ(std::count(ivp.begin(), ivp.end(), "stick_slip"), 0);
+  for (const std::string& name : collections()) {
+    for (const std::string& id : scenesOf(name)) EXPECT_EQ(findScene(id).id, id);
+  }
+}
+
+// A scene whose equations switch is in the collection of those, but for the slider-crank: its torque ends never by
+// default.
+TEST(Collections, ScenesWithSwitchesAreTogether) {
+  const auto switching = scenesOf("switching");
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    const bool switches = makeScene<double>(entry.id).sizes().switches > 0 && entry.id != "slider_crank";
+    const bool listed = std::count(switching.begin(), switching.end(), entry.id) > 0;
+    EXPECT_TRUE(listed || !switches) << entry.id;
+  }
+}
+
+TEST(Collections, NameTheNearest) {
+  try {
+    scenesOf("ipv");
+    FAIL();
+  } catch (const Misuse& misuse) {
+    EXPECT_NE(std::string(misuse.what()).find("'ivp'"), std::string::npos) << misuse.what();
+  }
+  EXPECT_TRUE(collectionsOf("no_scene").empty());
+}
+
+}  // namespace
+}  // namespace irk::test
