@@ -13,6 +13,7 @@ namespace irk {
 #define IRK_SCENES(scene) \
   scene(ancfCantileverEntry) \
   scene(ancfPendulumEntry) \
+  scene(ancfStopEntry) \
   scene(beamChainEntry) \
   scene(bouncingMassEntry) \
   scene(dahlquistEntry) \
