@@ -206,7 +206,9 @@ SceneEntry sliderCrankFlexibleEntry() {
                      {"multipliers", {"lambda1", "lambda2"}},
                      {"multiplier", {"lambda3"}}},
           .reference_cases = {{.times = "0.025 0.05", .tolerance = kFewDigits},
-                              {.settings = "Fc=20", .times = "0.025 0.05", .tolerance = kFewDigits}},
+                              {.settings = "Fc=20",
+                               .times = "0.005 0.01 0.015 0.02 0.025 0.03 0.035 0.04 0.045 0.05",
+                               .tolerance = kFewDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }
