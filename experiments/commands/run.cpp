@@ -9,7 +9,7 @@
 #include "experiments/audit/audit.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
-#include "experiments/claims/claims.h"
+#include "experiments/claims/claims_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
@@ -224,9 +224,10 @@ int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::
   return drawFigures(id, options, streams.err) == 0 ? 0 : 1;
 }
 
-int claimsCommand(const std::string& results, Streams streams) {
+int claimsCommand(const std::string& results, bool sensitivity, Streams streams) {
   requireResultsFolder(results);
-  streams.out << claims::claimsText(claims::ResultTables(results));
+  const auto detail = sensitivity ? claims::Detail::kSensitivity : claims::Detail::kTable;
+  streams.out << claims::claimsText(claims::ResultTables(results), detail);
   return 0;
 }
 

@@ -21,7 +21,7 @@
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/html.h"
-#include "experiments/claims/claims.h"
+#include "experiments/claims/claims_html.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/html_tables.h"
 #include "experiments/report/own_figures.h"
