@@ -12,6 +12,7 @@ namespace irk {
 // clang-format off
 #define IRK_SCENES(scene) \
   scene(ancfCantileverEntry) \
+  scene(ancfLeafStopEntry) \
   scene(ancfPendulumEntry) \
   scene(ancfStopEntry) \
   scene(beamChainEntry) \

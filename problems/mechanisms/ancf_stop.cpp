@@ -1,9 +1,10 @@
-// An elastic arm of ANCF elements, hinged at one end, that falls from the horizontal until its tip strikes a stop.
+// Two elastic arms of ANCF elements, one hinged and one clamped, that fall from the horizontal until the tip strikes a
+// stop.
 //
-// The stop is a level plane below the hinge, which acts on the tip only. With the penetration delta its normal force is
-// N = k delta (1 + c delta') (Hunt and Crossley): zero where contact begins and ends, and never pulling as long as the
-// tip leaves with less than 1 / c. Friction is Coulomb's, mu N against the tip's velocity v along the plane; below the
-// speed `creep` it falls in proportion to v, so that the tip creeps instead of sticking.
+// The stop is a level plane below the support, which acts on the tip only. With the penetration delta its normal force
+// is N = k delta (1 + c delta') (Hunt and Crossley): zero where contact begins and ends, and never pulling as long as
+// the tip leaves with less than 1 / c. Friction is Coulomb's, mu N against the tip's velocity v along the plane; below
+// the speed `creep` it falls in proportion to v, so that the tip creeps instead of sticking.
 #include <algorithm>
 #include <cmath>
 
@@ -18,13 +19,10 @@ namespace {
 enum Discrete : Index { kContact, kSign, kCreeping };
 enum Switch : Index { kTouches, kSlidesAhead, kSlidesBack, kCreeps };
 
-// Contact begins at t = 0.205.
-constexpr const char* kTimes = "0.21 0.22 0.23 0.24 0.25 0.26 0.27 0.28 0.29";
-
 template <class Real>
 struct AncfStop {
   AncfBeam<Real> beam;
-  Real gap;        // m, of the stop below the hinge
+  Real gap;        // m, of the stop below the support
   Real k, c;       // N/m, s/m
   Real mu, creep;  // 1, m/s
   Real smoothing;  // m
@@ -106,7 +104,7 @@ void setOutputs(const AncfStop<Real>& problem, Scene<Real>& scene) {
                    {"energy", energy, "J", problem.mu == 0 && problem.c == 0}};
 }
 
-template <class Real>
+template <class Real, AncfSupport support>
 Scene<Real> make(const Settings& settings) {
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
   const Real L = value("L"), E = value("E"), A = value("A");
@@ -117,7 +115,7 @@ Scene<Real> make(const Settings& settings) {
                             .rhoA = value("rho") * A,
                             .g = value("g"),
                             .tip_load = Real(0),
-                            .support = AncfSupport::kHinged};
+                            .support = support};
   const AncfStop<Real> problem{.beam = AncfBeam<Real>(data),
                                .gap = value("gap"),
                                .k = value("k"),
@@ -139,11 +137,10 @@ Scene<Real> make(const Settings& settings) {
   return scene;
 }
 
-}  // namespace
-
-SceneEntry ancfStopEntry() {
-  return {.id = "ancf_stop",
-          .title = "elastic arm of ANCF elements that strikes a stop with friction",
+template <AncfSupport support>
+SceneEntry entry(const char* gap, const char* times) {
+  return {.id = "",
+          .title = "",
           .shows = "a flexible mechanism with contact and friction",
           .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "1"),
@@ -152,7 +149,7 @@ SceneEntry ancfStopEntry() {
                          positiveParameter("E", "Pa", "Young's modulus", "1e8"),
                          positiveParameter("rho", "kg/m^3", "density", "1200"),
                          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
-                         positiveParameter("gap", "m", "distance of the stop below the hinge", "0.3"),
+                         positiveParameter("gap", "m", "distance of the stop below the support", gap),
                          positiveParameter("k", "N/m", "stiffness of the stop", "1e5"),
                          numberParameter("c", "s/m", "damping of the stop", "0.1", 0, 1e6),
                          numberParameter("mu", "", "coefficient of friction", "0.3", 0, 1e3),
@@ -162,10 +159,29 @@ SceneEntry ancfStopEntry() {
                      {"velocity of the tip", {"tip_x'", "tip_y'"}},
                      {"normal force", {"N"}},
                      {"path of the tip", {"tip_x:tip_y"}}},
-          .reference_cases = {{.times = kTimes, .tolerance = kFewDigits},
-                              {.settings = "mu=0 c=0", .times = kTimes, .tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+          .reference_cases = {{.times = times, .tolerance = kFewDigits},
+                              {.settings = "mu=0 c=0", .times = times, .tolerance = kFewDigits}},
+          .make = make<double, support>,
+          .make_mp50 = make<mp50, support>};
+}
+
+}  // namespace
+
+// Contact begins at t = 0.205.
+SceneEntry ancfStopEntry() {
+  SceneEntry hinged = entry<AncfSupport::kHinged>("0.3", "0.21 0.22 0.23 0.24 0.25 0.26 0.27 0.28 0.29");
+  hinged.id = "ancf_stop";
+  hinged.title = "hinged elastic arm of ANCF elements that strikes a stop with friction";
+  return hinged;
+}
+
+// Contact begins at t = CONTACT.
+SceneEntry ancfLeafStopEntry() {
+  SceneEntry clamped = entry<AncfSupport::kClamped>("0.15", "0.21 0.22 0.23 0.24 0.25 0.26 0.27 0.28 0.29");
+  clamped.id = "ancf_leaf_stop";
+  clamped.title = "leaf spring of ANCF elements that strikes a stop with friction";
+  clamped.reference_cases.pop_back();
+  return clamped;
 }
 
 }  // namespace irk

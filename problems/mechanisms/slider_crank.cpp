@@ -122,20 +122,21 @@ std::vector<Parameter> parameters() {
 }  // namespace
 
 SceneEntry sliderCrankEntry() {
-  return {.id = "slider_crank",
-          .title = "rigid slider-crank driven by a constant torque",
-          .shows = "M(u) with a constraint: every term of the Jacobian is alive",
-          .kind = SceneKind::kConstrained,
-          .parameters = parameters(),
-          .panels = {{"angles", {"theta", "phi"}},
-                     {"angular velocities", {"theta'", "phi'"}},
-                     {"slider", {"x3"}},
-                     {"multiplier", {"lambda"}}},
-          .reference_cases = {{.times = "0.3 1"},
-                              {.settings = "torque_off_at=0.5", .times = "1"},
-                              {.settings = "torque_every=0.5 T2=0.05", .times = "1"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return {
+      .id = "slider_crank",
+      .title = "rigid slider-crank driven by a constant torque",
+      .shows = "M(u) with a constraint: every term of the Jacobian is alive",
+      .kind = SceneKind::kConstrained,
+      .parameters = parameters(),
+      .panels = {{"angles", {"theta", "phi"}},
+                 {"angular velocities", {"theta'", "phi'"}},
+                 {"slider", {"x3"}},
+                 {"multiplier", {"lambda"}}},
+      .reference_cases = {{.times = "0.3 1"},
+                          {.settings = "torque_off_at=0.5", .times = "1"},
+                          {.settings = "torque_every=0.5 T2=0.05", .times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1"}},
+      .make = make<double>,
+      .make_mp50 = make<mp50>};
 }
 
 }  // namespace irk
