@@ -14,6 +14,10 @@ Evaluation evaluationOf(std::string_view part) {
       {"C2a", fastestStages},
       {"C2b", limitOfManyStages},
       {"C3a", costOfDoubling},
+      {"C3bu", reliableStepsU},
+      {"C3bv", reliableStepsV},
+      {"C3bx", reliableStepsX},
+      {"C3br", reliableRuns},
       {"C4", shareOfEvaluations},
       {"C5a", massDerivativesIterations},
       {"C5b", massDerivativesTime},
@@ -38,6 +42,14 @@ Evaluation evaluationOf(std::string_view part) {
       {"C14", absoluteTolerances},
       {"C15a", jacobianReuse},
       {"C15b", costOfFactorization},
+      {"C16a", ignoredReach},
+      {"C16b", iteratedReach},
+      {"C16c", ignoredCost},
+      {"C16d", iteratedCost},
+      {"C17", contractionAtFirst},
+      {"C18", repairedByFullNewton},
+      {"C19", rejectedWithGamma},
+      {"C20", gainOnFlexibleContact},
   };
   for (const auto& [id, evaluation] : kEvaluations) {
     if (id == part) return evaluation;

@@ -37,7 +37,21 @@ Measurement stepsPerRestart(const ResultTables& tables, Setting setting);      /
 Measurement timePerRestart(const ResultTables& tables, Setting setting);       // C8b
 Measurement residualsPerRestart(const ResultTables& tables, Setting setting);  // C8c
 Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting);  // C9a
-Measurement stepAtSwitch(const ResultTables& tables, Setting setting);         // C9b
 Measurement absoluteTolerances(const ResultTables& tables, Setting setting);   // C14
+
+// Switches, contact and friction, reliability: switching.cpp.
+Measurement reliableStepsU(const ResultTables& tables, Setting setting);         // C3bu
+Measurement reliableStepsV(const ResultTables& tables, Setting setting);         // C3bv
+Measurement reliableStepsX(const ResultTables& tables, Setting setting);         // C3bx
+Measurement reliableRuns(const ResultTables& tables, Setting setting);           // C3br
+Measurement stepAtSwitch(const ResultTables& tables, Setting setting);           // C9b
+Measurement ignoredReach(const ResultTables& tables, Setting setting);           // C16a
+Measurement iteratedReach(const ResultTables& tables, Setting setting);          // C16b
+Measurement ignoredCost(const ResultTables& tables, Setting setting);            // C16c
+Measurement iteratedCost(const ResultTables& tables, Setting setting);           // C16d
+Measurement contractionAtFirst(const ResultTables& tables, Setting setting);     // C17
+Measurement repairedByFullNewton(const ResultTables& tables, Setting setting);   // C18
+Measurement rejectedWithGamma(const ResultTables& tables, Setting setting);      // C19
+Measurement gainOnFlexibleContact(const ResultTables& tables, Setting setting);  // C20
 
 }  // namespace irk::claims
