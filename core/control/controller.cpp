@@ -16,14 +16,19 @@ namespace {
 /// only if eps < 1 / s_max, s_max = s_min^2, and at most by `growth_at_most`.
 class PaperController : public StepController {
  public:
-  /// `damped`: by gamma.
-  PaperController(const StepOptions& o, int order, bool damped = true)
-      : o_(o), p_(order), damped_(damped), exponent_(1.0 / (damped_ ? order + 1 : order)), s_max_(o.s_min * o.s_min) {}
+  /// Whether gamma damps the step size, and what the exponent is 1 over, beside the order p.
+  struct Rules {
+    bool gamma = true;
+    int beyond_order = 1;
+  };
+  PaperController(const StepOptions& o, int order) : PaperController(o, order, Rules{}) {}
+  PaperController(const StepOptions& o, int order, Rules rules)
+      : o_(o), rules_(rules), p_(order), exponent_(exponentOf(order)), s_max_(o.s_min * o.s_min) {}
 
   StepDecision decide(double error, double h) override {
     // An estimate of exactly zero would divide by zero; it asks for the largest growth.
     const double eps = std::max(error, kTinyError);
-    if (damped_ && last_h_ > 0 && last_h_ != h) {
+    if (rules_.gamma && last_h_ > 0 && last_h_ != h) {
       const double gamma = eps / last_error_ * std::pow(last_h_ / h, p_);
       // The paper's text breaks off at "restrict gamma <". Above 1 it would enlarge the step because
       // the error grew faster than expected; far below 1 it would freeze it at round-off, where the
@@ -55,7 +60,7 @@ class PaperController : public StepController {
   }
   void changeOrder(int order, double error, double h) override {
     p_ = order;
-    exponent_ = 1.0 / (damped_ ? order + 1 : order);
+    exponent_ = exponentOf(order);
     gamma_ = 1;
     last_error_ = std::max(error, kTinyError);
     last_h_ = h;
@@ -67,9 +72,11 @@ class PaperController : public StepController {
   static constexpr double kShrinkAtMost = 0.05;
   static constexpr int kBarredSteps = 10;
 
+  double exponentOf(int order) const { return 1.0 / (order + rules_.beyond_order); }
+
   StepOptions o_;
+  Rules rules_;
   int p_;
-  bool damped_;  // by gamma
   double exponent_;
   double s_max_;
   double gamma_ = 1;
@@ -81,13 +88,20 @@ class PaperController : public StepController {
 /// The later HOTINT source (paper/README erratum 5): s_min = 2, s_max = 4, exponent 1/p, no gamma.
 class HotintController final : public PaperController {
  public:
-  HotintController(const StepOptions& o, int order) : PaperController(rules(o), order, false) {}
+  HotintController(const StepOptions& o, int order)
+      : PaperController(rules(o), order, {.gamma = false, .beyond_order = 0}) {}
 
  private:
   static StepOptions rules(StepOptions o) {
     o.s_min = 2;
     return o;
   }
+};
+
+/// The paper's without (6.3): gamma stays 1.
+class PaperWithoutGamma final : public PaperController {
+ public:
+  PaperWithoutGamma(const StepOptions& o, int order) : PaperController(o, order, {.gamma = false}) {}
 };
 
 /// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
@@ -165,6 +179,7 @@ Catalogue<StepControl>& catalogue<StepControl>() {
   static Catalogue<StepControl> all({
       {StepControl::kPredictive, "Gustafsson's, HW II (IV.8.25)", estimate, kConstruct<PredictiveController>},
       {StepControl::kPaper, "section 6 of the paper", estimate, kConstruct<PaperController>},
+      {{"paper_no_gamma"}, "the paper's, without the factor gamma of (6.3)", estimate, kConstruct<PaperWithoutGamma>},
       {StepControl::kHotint, "the paper's, as the later source has it", estimate, kConstruct<HotintController>},
       {StepControl::kFixed, "constant steps", {}, nullptr},
   });

@@ -9,7 +9,8 @@ IRK_STRATEGIES(NewtonKind, "newton")
 
 template <>
 Catalogue<NewtonKind>& catalogue<NewtonKind>() {
-  static Catalogue<NewtonKind> all({simplifiedNewton(), broydenNewton(), modifiedNewton(), fullNewton()});
+  static Catalogue<NewtonKind> all(
+      {simplifiedNewton(), broydenNewton(), modifiedNewton(), modifiedOnlyNewton(), fullNewton()});
   return all;
 }
 

@@ -55,18 +55,20 @@ class ResidualNewton : public NewtonBase<Real> {
   }
 };
 
-/// With the kept Jacobian, then with a new one, then with those of the stages.
+/// With the kept Jacobian, then with a new one, then with those of the stages, where these are the last resort.
 template <class Real>
-class ModifiedNewton final : public ResidualNewton<Real> {
+class ModifiedNewton : public ResidualNewton<Real> {
   using Base = ResidualNewton<Real>;
 
  public:
-  using Base::Base;
+  ModifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme,
+                 bool full_at_last = true)
+      : Base(options, sizes, scheme), full_at_last_(full_at_last) {}
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     this->begin(c, W);
     auto& shared = c.matrix.shared();
     this->refresh(c, W);
-    c.stagewise.reserve();
+    if (full_at_last_) c.stagewise.reserve();
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     NewtonResult result = this->iterate(c, W, Base::kKept);
     if (result.outcome != Outcome::kSuccess && had_old) {
@@ -75,7 +77,7 @@ class ModifiedNewton final : public ResidualNewton<Real> {
       shared.evaluate(c.eq, W);
       result = again(c, W, Base::kKept, result);
     }
-    if (result.outcome != Outcome::kSuccess) {
+    if (result.outcome != Outcome::kSuccess && full_at_last_) {
       ++c.counters.newton_restarts;
       W = this->W0_;
       result = again(c, W, Base::kStagewise, result);
@@ -91,6 +93,16 @@ class ModifiedNewton final : public ResidualNewton<Real> {
     result.iterations += before.iterations;
     return result;
   }
+
+  bool full_at_last_;
+};
+
+/// The modified method alone: what it cannot solve fails.
+template <class Real>
+class ModifiedOnlyNewton final : public ModifiedNewton<Real> {
+ public:
+  ModifiedOnlyNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : ModifiedNewton<Real>(options, sizes, scheme, false) {}
 };
 
 /// With those of the stages, new in every iteration.
@@ -113,6 +125,12 @@ Strategy<NewtonKind> modifiedNewton() {
           .meaning = "the paper's, with its restart and fallback rules",
           .uses_stage_matrices = true,
           .make = makes<NewtonMaker, ModifiedNewton>()};
+}
+
+Strategy<NewtonKind> modifiedOnlyNewton() {
+  return {.id = {{"modified_only"}},
+          .meaning = "the paper's without its last resort, full Newton: shows what that repairs",
+          .make = makes<NewtonMaker, ModifiedOnlyNewton>()};
 }
 
 Strategy<NewtonKind> fullNewton() {

@@ -6,6 +6,7 @@
 namespace irk {
 
 Strategy<NewtonKind> modifiedNewton();
+Strategy<NewtonKind> modifiedOnlyNewton();
 Strategy<NewtonKind> fullNewton();
 
 }  // namespace irk

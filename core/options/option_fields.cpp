@@ -27,8 +27,12 @@ OptionField number(std::string name, auto member, const Range& range, std::strin
 }
 
 bool fixedSteps(const Options& o) { return o.step.control == StepControl::kFixed; }
-bool stopsByResidual(const Options& o) {
-  return o.newton.kind == NewtonKind::kModified || o.newton.kind == NewtonKind::kFull;
+bool isModified(const Options& o) {
+  return o.newton.kind == NewtonKind::kModified || o.newton.kind.id == "modified_only";
+}
+bool stopsByResidual(const Options& o) { return isModified(o) || o.newton.kind == NewtonKind::kFull; }
+bool isPaperControl(const Options& o) {
+  return o.step.control == StepControl::kPaper || o.step.control.id == "paper_no_gamma";
 }
 std::string_view noTolerance(const Options& o) { return fixedSteps(o) ? "fixed steps have no tolerance" : ""; }
 std::string_view noEstimate(const Options& o) {
@@ -43,17 +47,17 @@ std::string_view ofKappa(const Options& o) {
   return fixedSteps(o) ? "with fixed steps Newton's method iterates to round-off" : ofIncrementTest(o);
 }
 std::string_view ofResidualTest(const Options& o) {
-  return stopsByResidual(o) ? "" : "it belongs to newton 'modified' and 'full'";
+  return stopsByResidual(o) ? "" : "it belongs to newton 'modified', 'modified_only' and 'full'";
 }
 std::string_view ofModifiedNewton(const Options& o) {
-  return o.newton.kind == NewtonKind::kModified ? "" : "it belongs to newton 'modified'";
+  return isModified(o) ? "" : "it belongs to newton 'modified' and 'modified_only'";
 }
 std::string_view ofPaperControl(const Options& o) {
-  return o.step.control == StepControl::kPaper ? "" : "it belongs to control 'paper'";
+  return isPaperControl(o) ? "" : "it belongs to control 'paper' and 'paper_no_gamma'";
 }
 std::string_view ofPaperControls(const Options& o) {
-  const bool used = o.step.control == StepControl::kPaper || o.step.control == StepControl::kHotint;
-  return used ? "" : "it belongs to control 'paper' and 'hotint'";
+  const bool used = isPaperControl(o) || o.step.control == StepControl::kHotint;
+  return used ? "" : "it belongs to control 'paper', 'paper_no_gamma' and 'hotint'";
 }
 
 }  // namespace

@@ -10,10 +10,11 @@ Analysis estimatesAnalysis();
 Analysis scalingAnalysis();
 Analysis energyAnalysis();
 Analysis phasesAnalysis();
+Analysis contractionsAnalysis();
 
 std::span<const Analysis> analyses() {
   static const Analysis all[] = {ordersAnalysis(),  costAnalysis(),   profileAnalysis(), estimatesAnalysis(),
-                                 scalingAnalysis(), energyAnalysis(), phasesAnalysis()};
+                                 scalingAnalysis(), energyAnalysis(), phasesAnalysis(),  contractionsAnalysis()};
   return all;
 }
 

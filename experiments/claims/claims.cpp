@@ -1,91 +1,69 @@
 #include "experiments/claims/claims.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
-#include "experiments/base/html.h"
 #include "irk/misuse.h"
 
 namespace irk::claims {
 namespace {
 
-std::string linksHtml(const Claim& claim, const std::filesystem::path& figures) {
-  std::string links;
-  for (const auto name : claim.figures) {
-    if (!std::filesystem::exists(figures / fmt::format("{}.svg", name))) continue;
-    links += fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "" : "<br>", name, name);
+Measurement measure(Evaluation evaluate, Setting setting, const ResultTables& tables) {
+  try {
+    return evaluate(tables, setting);
+  } catch (const MissingResults& missing) {
+    return cannotMeasure(missing.what());
+  } catch (const Misuse& old) {  // a table of another version
+    return cannotMeasure(old.what());
   }
-  return links;
-}
-
-std::string verdictClass(Verdict verdict) {
-  std::string name(verdictText(verdict));
-  for (char& c : name) c = c == ' ' ? '_' : c;
-  return name;
 }
 
 }  // namespace
 
-std::string_view verdictText(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kConfirmed:
-      return "confirmed";
-    case Verdict::kWithinLimits:
-      return "confirmed within limits";
-    case Verdict::kContradicted:
-      return "contradicted";
-    case Verdict::kNotMeasurable:
-      return "not measurable";
+Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
+                  const std::vector<std::string>& multibody, Evaluation evaluate) {
+  const std::string& not_applied = part.not_applied[static_cast<std::size_t>(setting)];
+  Finding finding;
+  if (!not_applied.empty()) {
+    finding.judged.verdict = Verdict::kDoesNotApply;
+    finding.judged.reason = not_applied;
+    return finding;
   }
-  return "?";
+  finding.measured = measure(evaluate, setting, tables);
+  if (part.multibody_only) {
+    std::erase_if(finding.measured.cases, [&](const Case& one) {
+      return std::find(multibody.begin(), multibody.end(), one.scene) == multibody.end();
+    });
+  }
+  finding.judged = judge(part, finding.measured);
+  if (tables.areQuick()) {
+    finding.judged.verdict = Verdict::kNotMeasurable;
+    if (finding.judged.cases > 0) finding.judged.reason = std::string(kPreliminary);
+  }
+  return finding;
 }
 
-Finding judge(const Claim& claim, const ResultTables& tables) {
-  try {
-    const Finding finding = claim.evaluate(tables);
-    if (!tables.areQuick()) return finding;
-    return {
-        Verdict::kNotMeasurable, finding.number,
-        fmt::format("Results of --quick give no verdict. Here: {}. {}", verdictText(finding.verdict), finding.reason)};
-  } catch (const MissingResults& missing) {
-    return {Verdict::kNotMeasurable, "–", missing.what()};
-  } catch (const Misuse& old) {  // a table of another version
-    return {Verdict::kNotMeasurable, "–", old.what()};
-  }
+Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
+                  const std::vector<std::string>& multibody) {
+  return findingOn(part, setting, tables, multibody, evaluationOf(part.id));
 }
 
-std::string commandOf(const Claim& claim) {
-  std::string command;
-  for (const auto study : claim.studies) {
-    command += fmt::format("{}irk run {} && irk plot {}", command.empty() ? "" : " && ", study, study);
-  }
-  return command.empty() ? "irk claims" : command;
+Verdict ClaimFindings::verdict(Setting setting) const {
+  std::vector<Verdict> verdicts;
+  for (const auto& part : parts) verdicts.push_back(part[static_cast<std::size_t>(setting)].judged.verdict);
+  return combined(verdicts);
 }
 
-std::string claimsText(const ResultTables& tables) {
-  std::string text =
-      tables.areQuick() ? "Results of --quick: small versions of the studies, which give no verdicts.\n" : "";
-  for (const auto& claim : claims()) {
-    const Finding finding = judge(claim, tables);
-    text += fmt::format("{:<4}{}: {}\n    {}\n    {}\n    {}\n", claim.id, verdictText(finding.verdict), finding.number,
-                        claim.statement, finding.reason, commandOf(claim));
+std::vector<ClaimFindings> judgeClaims(const Protocol& protocol, const ResultTables& tables) {
+  std::vector<ClaimFindings> all;
+  for (const auto& claim : protocol.claims) {
+    ClaimFindings findings{&claim, {}};
+    for (const auto& part : claim.parts) {
+      findings.parts.push_back({findingOn(part, Setting::kPaper, tables, protocol.multibody),
+                                findingOn(part, Setting::kBest, tables, protocol.multibody)});
+    }
+    all.push_back(std::move(findings));
   }
-  return text;
-}
-
-std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& figures) {
-  std::string html =
-      "<table class=\"claims\"><thead><tr><th></th><th>The paper says</th><th>Verdict</th>"
-      "<th>Measured</th><th>Why</th><th>Figures</th></tr></thead><tbody>\n";
-  for (const auto& claim : claims()) {
-    const Finding finding = judge(claim, tables);
-    html += fmt::format(
-        "<tr class=\"{}\" id=\"{}\"><th>{}</th><td>{}</td><td class=\"verdict\">{}</td><td>{}</td>"
-        "<td>{}<code>{}</code></td><td>{}</td></tr>\n",
-        verdictClass(finding.verdict), claim.id, claim.id, escapeHtml(claim.statement), verdictText(finding.verdict),
-        escapeHtml(finding.number), escapeHtml(finding.reason), escapeHtml(commandOf(claim)),
-        linksHtml(claim, figures));
-  }
-  return html + "</tbody></table>\n";
+  return all;
 }
 
 }  // namespace irk::claims

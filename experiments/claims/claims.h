@@ -1,49 +1,43 @@
-// The paper's claims, and what the tables of results say about each.
+// The verdicts on the paper's claims from the tables of results.
 #pragma once
 
-#include <filesystem>
-#include <span>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "experiments/claims/claim.h"
 #include "experiments/claims/result_tables.h"
+#include "experiments/claims/verdict.h"
 
 namespace irk::claims {
 
-enum class Verdict { kConfirmed, kWithinLimits, kContradicted, kNotMeasurable };
+/// The reason of numbers without a verdict.
+inline constexpr std::string_view kPreliminary = "preliminary: results of --quick give no verdict";
 
-/// `confirmed`, `confirmed within limits`, `contradicted`, `not measurable`.
-std::string_view verdictText(Verdict verdict);
-
-/// What the data say.
+/// A part of a claim in one setting.
 struct Finding {
-  Verdict verdict = Verdict::kNotMeasurable;
-  std::string number;  ///< the measured value with its unit, in a few words
-  std::string reason;  ///< one or two sentences, the thresholds included
+  Measurement measured;
+  Judgement judged;
 };
 
-struct Claim {
-  std::string_view id;         ///< C1, ...
-  std::string_view statement;  ///< what the paper says
-  std::vector<std::string_view> studies;
-  std::vector<std::string_view> figures;  ///< names in plots/figures.txt
-  /// Throws MissingResults where a table is not there.
-  Finding (*evaluate)(const ResultTables&);
+/// Measures and judges. `not measurable` with the reason: a study has not been run, or its table is of another version,
+/// or these are results of --quick, which give no verdict (their number is kept). `multibody` are the scenes that vote
+/// on parts about multibody systems.
+Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
+                  const std::vector<std::string>& multibody);
+/// The same with a given evaluation.
+Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
+                  const std::vector<std::string>& multibody, Evaluation evaluate);
+
+struct ClaimFindings {
+  const Claim* claim;
+  std::vector<std::array<Finding, 2>> parts;  ///< in the order of the claim's parts; by setting
+
+  Verdict verdict(Setting setting) const;
 };
 
-/// C1 to C15.
-std::span<const Claim> claims();
-
-/// The claim's evaluation, or `not measurable`: study X has not been run, or the results are those of --quick, whose
-/// studies are too small for a verdict; the reason then says what they would give.
-Finding judge(const Claim& claim, const ResultTables& tables);
-
-/// `irk run X && irk plot X`, for all of its studies.
-std::string commandOf(const Claim& claim);
-
-/// The table of claims for a terminal, and for the report's page.
-std::string claimsText(const ResultTables& tables);
-std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& figures);
+/// All claims of the protocol, which must outlive the result.
+std::vector<ClaimFindings> judgeClaims(const Protocol& protocol, const ResultTables& tables);
 
 }  // namespace irk::claims

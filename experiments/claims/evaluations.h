@@ -1,30 +1,57 @@
-// One evaluation per claim. The thresholds of `confirmed` stand in their reasons. Throw
-// MissingResults.
+// One evaluation per part of a claim. All may throw MissingResults.
 #pragma once
 
-#include "experiments/claims/claims.h"
+#include "experiments/claims/measurement.h"
 
 namespace irk::claims {
 
 // Schemes: schemes.cpp.
-Finding highOrders(const ResultTables& tables);         // C1
-Finding manyStages(const ResultTables& tables);         // C2
-Finding driftIsNegligible(const ResultTables& tables);  // C7
-Finding newmarkIsLobatto(const ResultTables& tables);   // C10
-Finding radauIsBest(const ResultTables& tables);        // C13
+Measurement observedOrder(const ResultTables& tables, Setting setting);        // C1a
+Measurement costOfHighOrder(const ResultTables& tables, Setting setting);      // C1b
+Measurement fastestStages(const ResultTables& tables, Setting setting);        // C2a
+Measurement limitOfManyStages(const ResultTables& tables, Setting setting);    // C2b
+Measurement driftOnce(const ResultTables& tables, Setting setting);            // C7a
+Measurement driftTenTimes(const ResultTables& tables, Setting setting);        // C7b
+Measurement driftHundredTimes(const ResultTables& tables, Setting setting);    // C7c
+Measurement newmarkDifference(const ResultTables& tables, Setting setting);    // C10
+Measurement radauForPositions(const ResultTables& tables, Setting setting);    // C13u
+Measurement radauForVelocities(const ResultTables& tables, Setting setting);   // C13v
+Measurement radauForMultipliers(const ResultTables& tables, Setting setting);  // C13z
 
-// Newton's method: newton.cpp.
-Finding phaseShares(const ResultTables& tables);          // C4
-Finding massDerivatives(const ResultTables& tables);      // C5
-Finding smallSteps(const ResultTables& tables);           // C6
-Finding noMassFactorization(const ResultTables& tables);  // C11
-Finding newtonRule(const ResultTables& tables);           // C12
-Finding jacobianReuse(const ResultTables& tables);        // C15
+// Newton's method: newton.cpp, and what its parts cost: parts.cpp.
+Measurement massDerivativesIterations(const ResultTables& tables, Setting setting);  // C5a
+Measurement massDerivativesTime(const ResultTables& tables, Setting setting);        // C5b
+Measurement iterationsAtSmallSteps(const ResultTables& tables, Setting setting);     // C6a
+Measurement digitsLostIndex3(const ResultTables& tables, Setting setting);           // C6b
+Measurement digitsLostIndex2(const ResultTables& tables, Setting setting);           // C6c
+Measurement newtonRule(const ResultTables& tables, Setting setting);                 // C12
+Measurement jacobianReuse(const ResultTables& tables, Setting setting);              // C15a
+Measurement shareOfEvaluations(const ResultTables& tables, Setting setting);         // C4
+Measurement massFactorizations(const ResultTables& tables, Setting setting);         // C11a
+Measurement firstOrderForm(const ResultTables& tables, Setting setting);             // C11b
+Measurement costOfFactorization(const ResultTables& tables, Setting setting);        // C15b
 
-// Control: control.cpp.
-Finding stepDoubling(const ResultTables& tables);        // C3
-Finding multistepRestart(const ResultTables& tables);    // C8
-Finding smallStepsAtJumps(const ResultTables& tables);   // C9
-Finding relativeTolerances(const ResultTables& tables);  // C14
+// Error estimates, step control and discontinuities: control.cpp.
+Measurement costOfDoubling(const ResultTables& tables, Setting setting);       // C3a
+Measurement stepsPerRestart(const ResultTables& tables, Setting setting);      // C8a
+Measurement timePerRestart(const ResultTables& tables, Setting setting);       // C8b
+Measurement residualsPerRestart(const ResultTables& tables, Setting setting);  // C8c
+Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting);  // C9a
+Measurement absoluteTolerances(const ResultTables& tables, Setting setting);   // C14
+
+// Switches, contact and friction, reliability: switching.cpp.
+Measurement reliableStepsU(const ResultTables& tables, Setting setting);         // C3bu
+Measurement reliableStepsV(const ResultTables& tables, Setting setting);         // C3bv
+Measurement reliableStepsX(const ResultTables& tables, Setting setting);         // C3bx
+Measurement reliableRuns(const ResultTables& tables, Setting setting);           // C3br
+Measurement stepAtSwitch(const ResultTables& tables, Setting setting);           // C9b
+Measurement ignoredReach(const ResultTables& tables, Setting setting);           // C16a
+Measurement iteratedReach(const ResultTables& tables, Setting setting);          // C16b
+Measurement ignoredCost(const ResultTables& tables, Setting setting);            // C16c
+Measurement iteratedCost(const ResultTables& tables, Setting setting);           // C16d
+Measurement contractionAtFirst(const ResultTables& tables, Setting setting);     // C17
+Measurement repairedByFullNewton(const ResultTables& tables, Setting setting);   // C18
+Measurement rejectedWithGamma(const ResultTables& tables, Setting setting);      // C19
+Measurement gainOnFlexibleContact(const ResultTables& tables, Setting setting);  // C20
 
 }  // namespace irk::claims

@@ -6,21 +6,22 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <set>
 #include <stdexcept>
 
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
+#include "experiments/runs/fields.h"
 #include "experiments/study/study.h"
 #include "experiments/study/study_reader.h"
 
 namespace irk::claims {
 namespace {
 
-constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kErrorColumns[] = {"error", "error_u", "error_v", "error_x", "error_z"};
 
 void requireBlock(std::string_view study, std::string_view name) {
   static std::map<std::string, std::set<std::string>, std::less<>> known;  // blocks of studies
@@ -32,20 +33,62 @@ void requireBlock(std::string_view study, std::string_view name) {
   throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
 }
 
+double errorAt(const Table& runs, const TableRow& run, std::string_view column) {
+  return column == "error" ? errorBoundAt(runs, run) : numberAt(runs, run, column);
+}
+
+// All fields of the run but t_end.
+TableRow withoutEnd(const Table& runs, const TableRow& run) {
+  TableRow key;
+  for (const auto& field : specFields()) {
+    if (field.name != "t_end" && runs.hasColumn(field.name)) key.push_back(textAt(runs, run, field.name));
+  }
+  return key;
+}
+
+// The run with the last t_end, with the largest errors of all.
+TableRow joined(const Table& runs, const std::vector<const TableRow*>& times) {
+  const auto last = std::max_element(times.begin(), times.end(), [&](auto* a, auto* b) {
+    return numberAt(runs, *a, "t_end") < numberAt(runs, *b, "t_end");
+  });
+  TableRow row = **last;
+  for (const auto column : kErrorColumns) {
+    if (!runs.hasColumn(column)) continue;
+    double largest = kUnknown;
+    int known = 0;
+    for (const auto* run : times) {
+      const double error = errorAt(runs, *run, column);
+      if (std::isnan(error) || !succeededAt(runs, *run)) continue;
+      ++known;
+      if (!(largest >= error)) largest = error;
+    }
+    row[runs.column(column)] = numberText(known >= kReferenceTimes ? largest : kUnknown);
+  }
+  return row;
+}
+
 void compareSeries(const Table& runs, const RunSeries& base, const RunSeries& other, std::string_view cost,
                    CostRatios& ratios) {
   for (const double error : kErrors) {
-    const double a = seriesCostAtError(runs, base, cost, error);
-    const double b = seriesCostAtError(runs, other, cost, error);
+    const double a = seriesCost(runs, base, cost, "error", error);
+    const double b = seriesCost(runs, other, cost, "error", error);
     if (std::isnan(a) && std::isnan(b)) continue;
     if (std::isnan(b)) {
       ++ratios.lost;
     } else if (std::isnan(a)) {
       ++ratios.won;
     } else {
-      ratios.all.push_back(b / a);
+      ratios.cases.push_back({textAt(runs, *base.rows.front(), "scene"), b / a});
     }
   }
+}
+
+TableRow placeOf(const Table& runs, const RunSeries& series, const std::vector<std::string_view>& also) {
+  const TableRow& run = *series.rows.front();
+  TableRow place{textAt(runs, run, "scene")};
+  if (runs.hasColumn("settings")) place.push_back(textAt(runs, run, "settings"));
+  for (const auto column : also) place.push_back(textAt(runs, run, column));
+  return place;
 }
 
 }  // namespace
@@ -89,21 +132,49 @@ std::vector<double> numbersOf(const Table& table, std::string_view column) {
   return numbers;
 }
 
-double leastCost(const Table& table, const std::function<bool(const TableRow&)>& test) {
-  double least = kInfinity;
-  for (const auto& row : table.rows) {
-    if (test(row)) least = std::min(least, numberAt(table, row, "cpu_s"));
-  }
-  return least;
+Table inSetting(const Table& table, std::string_view study, Setting setting) {
+  Table chosen = where(table, [&](const TableRow& row) {
+    const auto& configuration = textAt(table, row, "configuration");
+    return setting == Setting::kPaper ? configuration == "paper"
+                                      : configuration == "embedded" || configuration == "variable";
+  });
+  if (!chosen.rows.empty()) return chosen;
+  throw MissingResults(fmt::format("study {} lacks these runs with configuration '{}'", study,
+                                   setting == Setting::kPaper ? "paper" : "embedded"));
 }
 
-double part(const std::vector<double>& values, const std::function<bool(double)>& test) {
-  if (values.empty()) return kUnknown;
-  const auto count = std::count_if(values.begin(), values.end(), test);
-  return static_cast<double>(count) / static_cast<double>(values.size());
+Table overTimes(const Table& runs, std::string_view study) {
+  std::map<TableRow, std::size_t> place;
+  std::vector<std::vector<const TableRow*>> groups;
+  for (const auto& run : runs.rows) {
+    const auto [at, added] = place.try_emplace(withoutEnd(runs, run), groups.size());
+    if (added) groups.emplace_back();
+    groups[at->second].push_back(&run);
+  }
+  Table all{runs.head, runs.columns, {}};
+  for (const auto& times : groups) {
+    if (times.size() >= kReferenceTimes) all.rows.push_back(joined(runs, times));
+  }
+  if (!all.rows.empty()) return all;
+  throw MissingResults(fmt::format("study {} lacks errors at {} reference times", study, kReferenceTimes));
+}
+
+Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting) {
+  return overTimes(inSetting(inBlocks(tables.runs(study), study, blocks), study, setting), study);
 }
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
+
+std::span<const double> comparedErrors() { return kErrors; }
+
+double seriesCost(const Table& runs, const RunSeries& series, std::string_view cost, std::string_view error,
+                  double target) {
+  std::vector<CostPoint> points;
+  for (const auto* run : series.rows) {
+    if (succeededAt(runs, *run)) points.push_back({errorAt(runs, *run, error), numberAt(runs, *run, cost)});
+  }
+  return costAtError(std::move(points), target);
+}
 
 CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base, std::string_view other,
                         std::string_view cost) {
@@ -125,14 +196,43 @@ CostRatios compareCosts(const Table& runs, std::string_view column, std::string_
   return ratios;
 }
 
-std::span<const double> comparedErrors() { return kErrors; }
-
-Verdict graded(double value, double good, double fair) {
-  if (std::isnan(value)) return Verdict::kNotMeasurable;
-  if (value <= good) return Verdict::kConfirmed;
-  return value <= fair ? Verdict::kWithinLimits : Verdict::kContradicted;
+double Race::least(const std::function<bool(const TableRow& run)>& test) const {
+  double least = kInfinity;
+  for (const auto& [series, cost] : costs) {
+    if (test(*series->rows.front())) least = std::min(least, cost);
+  }
+  return least;
 }
 
-Finding notMeasurable(std::string reason) { return {Verdict::kNotMeasurable, "–", std::move(reason)}; }
+std::vector<Race> races(const Table& runs, const std::vector<RunSeries>& series, std::string_view error_column,
+                        const std::vector<std::string_view>& also) {
+  std::map<std::pair<TableRow, double>, Race> all;
+  for (const auto& one : series) {
+    const TableRow place = placeOf(runs, one, also);
+    for (const double error : kErrors) {
+      const double cost = seriesCost(runs, one, "cpu_s", error_column, error);
+      if (std::isnan(cost)) continue;
+      const auto at = all.try_emplace({place, error}, Race{place.front(), error, {}}).first;
+      at->second.costs.emplace_back(&one, cost);
+    }
+  }
+  std::vector<Race> list;
+  for (auto& [place, race] : all) list.push_back(std::move(race));
+  return list;
+}
+
+std::vector<Race> atSmallestError(const Table& runs, const std::vector<RunSeries>& series, std::size_t competitors,
+                                  const std::vector<std::string_view>& also) {
+  std::map<TableRow, Race> smallest;
+  for (auto& race : races(runs, series, "error", also)) {
+    if (race.costs.size() < competitors) continue;
+    const TableRow place = placeOf(runs, *race.costs.front().first, also);
+    const auto [at, added] = smallest.try_emplace(place, race);
+    if (!added && race.error < at->second.error) at->second = std::move(race);
+  }
+  std::vector<Race> list;
+  for (auto& [place, race] : smallest) list.push_back(std::move(race));
+  return list;
+}
 
 }  // namespace irk::claims

@@ -1,8 +1,8 @@
-// What evaluations of claims share: choosing rows, medians, costs of two variants at equal errors.
+// What evaluations of claims share: choosing rows, errors over several times, costs at equal errors.
 #pragma once
 
 #include <functional>
-#include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/base/median.h"
-#include "experiments/claims/claims.h"
+#include "experiments/claims/measurement.h"
 #include "experiments/runs/run_table.h"
 
 namespace irk::claims {
@@ -31,30 +31,55 @@ std::vector<std::string> distinct(const Table& table, std::string_view column);
 /// The numbers of a column, NaN left out.
 std::vector<double> numbersOf(const Table& table, std::string_view column);
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The least `cpu_s` of the rows that the test accepts; infinity of none.
-double leastCost(const Table& table, const std::function<bool(const TableRow&)>& test);
+/// The rows of a setting: configuration `paper`, or `embedded` and `variable`. Throws MissingResults naming the study
+/// if there are none.
+Table inSetting(const Table& table, std::string_view study, Setting setting);
 
-/// The part of the values that the test accepts; NaN of nothing.
-double part(const std::vector<double>& values, const std::function<bool(double)>& test);
-/// `0.5 %`.
+inline constexpr int kReferenceTimes = 10;
+/// Runs that differ in t_end only become one row, that of the last t_end, whose errors (error, error_u, ...) are the
+/// largest at all these times: an integration to an earlier time takes the same steps up to there. An error that is
+/// not known at ten times is NaN. Runs with fewer times are left out; throws MissingResults naming the study if none
+/// remain.
+Table overTimes(const Table& runs, std::string_view study);
+
+/// The runs of blocks of a study in a setting, with errors over ten times.
+Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting);
+
+/// `5 %`.
 std::string percent(double part);
-
-/// Costs of `other` over those of `base` at equal errors.
-struct CostRatios {
-  std::vector<double> all;  ///< one per pair of series and error that both reach
-  int lost = 0;             ///< errors that only `base` reaches
-  int won = 0;              ///< errors that only `other` reaches
-};
-/// Pairs of series that are equal but for one column, compared at the errors 1e-2, 1e-3, ... 1e-10.
-CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base, std::string_view other,
-                        std::string_view cost);
 
 /// The errors at which costs are compared.
 std::span<const double> comparedErrors();
 
-/// Of two thresholds: `good` and better, `fair` and better, else contradicted. Smaller is better.
-Verdict graded(double value, double good, double fair);
-Finding notMeasurable(std::string reason);
+/// The cost at which a series reaches an error, NaN if it does not. `error` names the column.
+double seriesCost(const Table& runs, const RunSeries& series, std::string_view cost, std::string_view error,
+                  double target);
+
+/// Costs of `other` over those of `base` at equal errors.
+struct CostRatios {
+  std::vector<Case> cases = {};  ///< one per pair of series and error that both reach
+  int lost = 0;                  ///< errors that only `base` reaches
+  int won = 0;                   ///< errors that only `other` reaches
+};
+/// Pairs of series that are equal but for one column.
+CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base, std::string_view other,
+                        std::string_view cost);
+
+/// Series of one scene that reach an error, and their costs.
+struct Race {
+  std::string scene;
+  double error;
+  std::vector<std::pair<const RunSeries*, double>> costs;
+
+  /// The least cost of the series that the test accepts; infinity of none.
+  double least(const std::function<bool(const TableRow& run)>& test) const;
+};
+/// One race for each error, scene, its settings, and cells of the columns `also`. The result points into `series`.
+std::vector<Race> races(const Table& runs, const std::vector<RunSeries>& series, std::string_view error_column,
+                        const std::vector<std::string_view>& also = {});
+
+/// Of the races at one place, that of the smallest error which at least `competitors` series reach.
+std::vector<Race> atSmallestError(const Table& runs, const std::vector<RunSeries>& series, std::size_t competitors,
+                                  const std::vector<std::string_view>& also = {});
 
 }  // namespace irk::claims

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <set>
 
 #include "experiments/analyses/newmark.h"
 #include "experiments/claims/evaluations.h"
@@ -12,151 +13,173 @@
 namespace irk::claims {
 namespace {
 
-// The smooth blocks of the study cpu_time, one scene each.
-constexpr std::string_view kSmoothCases[] = {"crank", "arm_smooth", "elastic_pendulum"};
+double stagesAt(const Table& runs, const TableRow& run) { return numberAt(runs, run, "stages"); }
 
-// The smallest error that any method reaches, among those asked for.
-Table atSmallestError(const Table& costs) {
-  const auto reached = where(costs, {{"reached", "1"}});
-  const auto errors = numbersOf(reached, "target_error");
-  if (errors.empty()) return {costs.head, costs.columns, {}};
-  const double least = *std::min_element(errors.begin(), errors.end());
-  return where(reached, [&](const TableRow& row) { return numberAt(reached, row, "target_error") == least; });
+double classicalOrder(const Table& runs, const TableRow& run) {
+  const double s = stagesAt(runs, run);
+  return textAt(runs, run, "family") == "gauss" ? 2 * s : 2 * s - 1;
 }
 
-double classicalOrder(const Table& table, const TableRow& row) {
-  const double s = numberAt(table, row, "stages");
-  return textAt(table, row, "family") == "gauss" ? 2 * s : 2 * s - 1;
+// --- C2b
+
+// What grows first as the tolerance is lowered.
+enum class Limit { kNone, kNewton, kEstimate };
+
+// Rejected by Newton's method, or begun again, per accepted step.
+double newtonTrouble(const Table& runs, const TableRow& run) {
+  const double steps = std::max(numberAt(runs, run, "steps_accepted"), 1.0);
+  return (numberAt(runs, run, "steps_rejected_newton") + numberAt(runs, run, "newton_restarts")) / steps;
+}
+double estimateTrouble(const Table& runs, const TableRow& run) {
+  return numberAt(runs, run, "steps_rejected_error") / std::max(numberAt(runs, run, "steps_accepted"), 1.0);
 }
 
-double cheapestOrder(const Table& table) {
-  const auto best = std::min_element(table.rows.begin(), table.rows.end(), [&](auto& a, auto& b) {
-    return numberAt(table, a, "cpu_s") < numberAt(table, b, "cpu_s");
-  });
-  return classicalOrder(table, *best);
-}
-
-double highestMeasuredOrder(const Table& orders) {
-  double highest = 0;
-  for (const auto& row : orders.rows) {
-    if (textAt(orders, row, "family") == "gauss" && textAt(orders, row, "verdict") == "agrees") {
-      highest = std::max(highest, numberAt(orders, row, "order"));
+// The runs from the coarsest tolerance on; the first one that is not more accurate than the one before it is where they
+// stop improving. Trouble has come when it is this much, per step, more than in the coarsest run.
+Limit firstLimit(const Table& runs, std::vector<const TableRow*> series) {
+  constexpr double kTrouble = 0.1;
+  std::sort(series.begin(), series.end(),
+            [&](auto* a, auto* b) { return numberAt(runs, *a, "rtol") > numberAt(runs, *b, "rtol"); });
+  if (series.empty() || !succeededAt(runs, *series.front())) return Limit::kNone;
+  const double newton = newtonTrouble(runs, *series.front()), estimate = estimateTrouble(runs, *series.front());
+  double error = errorBoundAt(runs, *series.front());
+  for (const auto* run : series) {
+    const double more_newton = newtonTrouble(runs, *run) - newton;
+    const double more_estimate = estimateTrouble(runs, *run) - estimate;
+    if (textAt(runs, *run, "outcome") == "newton_failed") return Limit::kNewton;
+    if (std::max(more_newton, more_estimate) >= kTrouble) {
+      return more_newton >= more_estimate ? Limit::kNewton : Limit::kEstimate;
     }
+    const double now = errorBoundAt(runs, *run);
+    const bool stops = !succeededAt(runs, *run) || (run != series.front() && !(now < error));
+    if (stops) return more_newton > std::max(more_estimate, 0.0) ? Limit::kNewton : Limit::kEstimate;
+    error = now;
   }
-  return highest;
+  return Limit::kNone;
+}
+
+// --- C7
+
+Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t which) {
+  const Table runs = where(
+      inSetting(inBlocks(tables.runs("claims"), "claims", {"drift", "drift_crank", "drift_curve"}), "claims", setting),
+      {{"outcome", "success"}});
+  std::map<std::string, std::set<double>> ends;
+  for (const auto& run : runs.rows) ends[textAt(runs, run, "scene")].insert(numberAt(runs, run, "t_end"));
+  Measurement measured;
+  for (const auto& run : runs.rows) {
+    const auto& scene = textAt(runs, run, "scene");
+    const auto& times = ends[scene];
+    if (times.size() <= which ||
+        *std::next(times.begin(), static_cast<std::ptrdiff_t>(which)) != numberAt(runs, run, "t_end")) {
+      continue;
+    }
+    measured.cases.push_back({scene, numberAt(runs, run, "drift") / numberAt(runs, run, "error_u")});
+  }
+  return measured;
+}
+
+// --- C13
+
+Measurement radauFor(const ResultTables& tables, Setting setting, std::string_view error) {
+  const Table runs = timedRuns(tables, "claims", {"families", "families_crank", "families_elastic_rod"}, setting);
+  const auto series = seriesOf(runs);
+  Measurement measured;
+  std::map<std::string, int> best;
+  for (const auto& race : races(runs, series, error)) {
+    const auto ofFamily = [&](std::string_view family) {
+      return race.least([&](const TableRow& run) { return textAt(runs, run, "family") == family; });
+    };
+    std::set<std::string> families;
+    for (const auto& [one, cost] : race.costs) families.insert(textAt(runs, *one->rows.front(), "family"));
+    if (families.size() < 2) continue;
+    const double least = race.least([](const TableRow&) { return true; });
+    for (const auto& family : families) best[family] += ofFamily(family) == least ? 1 : 0;
+    measured.cases.push_back({race.scene, ofFamily("radau_iia") / least});
+  }
+  for (const auto& [family, times] : best) {
+    measured.remark += fmt::format("{}{} {}", measured.remark.empty() ? "Cheapest, times: " : ", ", family, times);
+  }
+  return measured;
 }
 
 }  // namespace
 
-Finding highOrders(const ResultTables& tables) {
-  constexpr double kWanted = 19.8, kHigh = 18, kNear = 1.1, kStillHigh = 9;
-  const double reached = highestMeasuredOrder(tables.table("order", "orders"));
-  const Table& costs = tables.table("cpu_time", "cpu_at_error");
-  int cases = 0, efficient = 0, fairly = 0;
-  std::string cheapest;
-  for (const auto& one : kSmoothCases) {
-    const Table best = atSmallestError(inBlocks(costs, "cpu_time", {one}));
-    if (best.rows.empty()) continue;
-    ++cases;
-    const double all = leastCost(best, [](auto&) { return true; });
-    const double high = leastCost(best, [&](auto& row) { return classicalOrder(best, row) >= kHigh; });
-    efficient += high <= kNear * all ? 1 : 0;
-    fairly += cheapestOrder(best) >= kStillHigh ? 1 : 0;
-    cheapest += fmt::format("{}{:g}", cheapest.empty() ? "" : ", ", cheapestOrder(best));
+Measurement observedOrder(const ResultTables& tables, Setting) {
+  const Table& orders = tables.table("order", "orders");
+  Measurement measured;
+  for (const auto& row : orders.rows) {
+    if (textAt(orders, row, "family") != "gauss" || stagesAt(orders, row) != 10) continue;
+    const bool agrees = textAt(orders, row, "verdict") == "agrees";
+    measured.cases.push_back({textAt(orders, row, "scene"), agrees ? numberAt(orders, row, "order") : std::nan("")});
   }
-  if (cases == 0) return notMeasurable("no smooth scene reaches any of the errors asked for");
-  Finding finding{Verdict::kContradicted, fmt::format("order {:.2f} observed; cheapest orders {}", reached, cheapest),
-                  fmt::format("In multiprecision Gauss schemes show orders up to {:.1f}. At the smallest "
-                              "error reached, order {} or more is within 10 % of the cheapest on "
-                              "{} of {} smooth scenes, and the cheapest has order {} or more on {}.",
-                              reached, kHigh, efficient, cases, kStillHigh, fairly)};
-  if (reached >= kWanted && 2 * fairly >= cases) finding.verdict = Verdict::kWithinLimits;
-  if (reached >= kWanted && 2 * efficient >= cases) finding.verdict = Verdict::kConfirmed;
-  return finding;
+  return measured;
 }
 
-Finding manyStages(const ResultTables& tables) {
-  constexpr double kMin = 7, kMax = 13, kFair = 4, kManyStages = 10;
-  const Table& costs = tables.table("cpu_time", "cpu_at_error");
-  std::vector<double> fastest;
-  for (const auto& one : kSmoothCases) {
-    const Table best = atSmallestError(where(inBlocks(costs, "cpu_time", {one}), {{"family", "radau_iia"}}));
-    if (!best.rows.empty()) fastest.push_back((cheapestOrder(best) + 1) / 2);
+Measurement costOfHighOrder(const ResultTables& tables, Setting setting) {
+  constexpr double kHigh = 18;
+  const Table runs = timedRuns(tables, "claims", {"stages", "stages_crank"}, setting);
+  const auto series = seriesOf(runs);
+  Measurement measured;
+  for (const auto& race : atSmallestError(runs, series, 3, {"control"})) {
+    const double high = race.least([&](const TableRow& run) { return classicalOrder(runs, run) >= kHigh; });
+    measured.cases.push_back({race.scene, high / race.least([](const TableRow&) { return true; })});
   }
-  if (fastest.empty()) return notMeasurable("no smooth scene reaches any of the errors asked for");
-  const Table runs = inBlocks(tables.runs("failure_newton"), "failure_newton", {"tight_tolerances"});
-  std::vector<double> few, many;  // 1: failed
-  for (const auto& row : runs.rows) {
-    if (numberAt(runs, row, "rtol") > 1e-11) continue;
-    const bool more = numberAt(runs, row, "stages") > kManyStages;
-    (more ? many : few).push_back(succeededAt(runs, row) ? 0 : 1);
-  }
-  const auto failed = [](double x) { return x > 0; };
-  const double best = median(fastest), few_fail = part(few, failed), many_fail = part(many, failed);
-  Finding finding{Verdict::kContradicted, fmt::format("fastest with {:g} stages", best),
-                  fmt::format("Radau IIA at the smallest error reached, median over {} smooth scenes; about 10 "
-                              "means {} to {}. At tolerances of 1e-11 and below {} of the runs with more than "
-                              "10 stages fail, {} of those with up to 10.",
-                              fastest.size(), kMin, kMax, percent(many_fail), percent(few_fail))};
-  const bool limited = many_fail > few_fail;
-  if (best >= kFair && best <= kMax) finding.verdict = Verdict::kWithinLimits;
-  if (best >= kMin && best <= kMax && limited) finding.verdict = Verdict::kConfirmed;
-  return finding;
+  return measured;
 }
 
-Finding driftIsNegligible(const ResultTables& tables) {
-  constexpr double kHighOrder = 5, kNearlyAll = 0.95, kMost = 0.75;
-  const Table runs =
-      where(tables.runs("drift"), {{"formulation", "index2"}, {"family", "radau_iia"}, {"outcome", "success"}});
-  std::vector<double> low, high;  // drift in units of the tolerance
-  for (const auto& row : runs.rows) {
-    const double ratio = numberAt(runs, row, "drift") / numberAt(runs, row, "rtol");
-    if (std::isnan(ratio)) continue;
-    (classicalOrder(runs, row) >= kHighOrder ? high : low).push_back(ratio);
+Measurement fastestStages(const ResultTables& tables, Setting setting) {
+  const Table runs = timedRuns(tables, "claims", {"stages", "stages_crank"}, setting);
+  const auto series = seriesOf(runs);
+  Measurement measured;
+  for (const auto& race : atSmallestError(runs, series, 3, {"control", "family"})) {
+    const auto fastest = std::min_element(race.costs.begin(), race.costs.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+    measured.cases.push_back({race.scene, stagesAt(runs, *fastest->first->rows.front())});
   }
-  if (high.empty()) return notMeasurable("no run of order 5 or more in index 2 succeeded");
-  const double below = part(high, [](double x) { return x <= 1; });
-  const auto ggl = compareCosts(tables.runs("drift"), "formulation", "index2", "ggl", "cpu_s");
-  return {graded(1 - below, 1 - kNearlyAll, 1 - kMost),
-          fmt::format("drift {:.2g} of the tolerance (median)", median(high)),
-          fmt::format("Radau IIA of order 5 and more in index 2: the drift stays below the "
-                      "tolerance in {} of {} runs (negligible: {}); of lower order it is {:.2g} of "
-                      "it. GGL costs {:.2g} times the CPU time at the same error.",
-                      percent(below), high.size(), percent(kNearlyAll), median(low), median(ggl.all))};
+  return measured;
 }
 
-Finding newmarkIsLobatto(const ResultTables&) {
-  constexpr double kRoundOff = 1000;
-  const double difference = newmarkDifference();
-  return {graded(difference, kRoundOff, kRoundOff), fmt::format("{:.2g} units of round-off", difference),
-          fmt::format("Largest difference to Newmark's formulas over 100 steps of a nonlinear "
-                      "oscillator; equal means below {:g} units.",
-                      kRoundOff)};
+Measurement limitOfManyStages(const ResultTables& tables, Setting setting) {
+  const Table runs = timedRuns(tables, "claims", {"round_off", "round_off_crank"}, setting);
+  // Both step controls must show it.
+  std::map<TableRow, std::vector<Limit>> limits;
+  for (const auto& series : seriesOf(runs)) {
+    const TableRow& run = *series.rows.front();
+    limits[{textAt(runs, run, "scene"), textAt(runs, run, "settings"), textAt(runs, run, "method")}].push_back(
+        firstLimit(runs, series.rows));
+  }
+  Measurement measured;
+  for (const auto& [place, by_control] : limits) {
+    const bool known =
+        by_control.size() == 2 && std::find(by_control.begin(), by_control.end(), Limit::kNone) == by_control.end();
+    const bool newton =
+        std::all_of(by_control.begin(), by_control.end(), [](Limit one) { return one == Limit::kNewton; });
+    measured.cases.push_back({place.front(), !known ? std::nan("") : newton ? 1.0 : 0.0});
+  }
+  return measured;
 }
 
-Finding radauIsBest(const ResultTables& tables) {
-  constexpr double kNear = 1.1, kMostly = 0.8, kHalf = 0.5;
-  const Table& costs = tables.table("families", "cpu_at_error");
-  int cases = 0, best = 0;
-  std::vector<double> excess;
-  for (const auto& scene : distinct(costs, "scene")) {
-    for (const auto& error : distinct(costs, "target_error")) {
-      const Table at = where(costs, {{"scene", scene}, {"target_error", error}, {"reached", "1"}});
-      if (distinct(at, "family").size() < 2) continue;
-      const double radau = leastCost(at, [&](auto& row) { return textAt(at, row, "family") == "radau_iia"; });
-      const double other = leastCost(at, [&](auto& row) { return textAt(at, row, "family") != "radau_iia"; });
-      ++cases;
-      best += radau <= kNear * other ? 1 : 0;
-      excess.push_back(radau / other);
-    }
+Measurement driftOnce(const ResultTables& tables, Setting setting) { return driftOver(tables, setting, 0); }
+Measurement driftTenTimes(const ResultTables& tables, Setting setting) { return driftOver(tables, setting, 1); }
+Measurement driftHundredTimes(const ResultTables& tables, Setting setting) { return driftOver(tables, setting, 2); }
+
+Measurement newmarkDifference(const ResultTables&, Setting) {
+  Measurement measured;
+  for (const auto& [system, h, difference] : newmarkDifferences()) {
+    measured.cases.push_back({std::string(system), difference});
   }
-  if (cases == 0) return notMeasurable("no error is reached by two families");
-  const double share = static_cast<double>(best) / cases;
-  return {graded(1 - share, 1 - kMostly, 1 - kHalf), fmt::format("best in {} of {} cases", best, cases),
-          fmt::format("A case is a scene and an error; best: at most 10 % above the cheapest other "
-                      "family, each with its best number of stages (confirmed: {}). CPU time over "
-                      "that of the best other family: {:.2g} in the median.",
-                      percent(kMostly), median(excess))};
+  return measured;
+}
+
+Measurement radauForPositions(const ResultTables& tables, Setting setting) {
+  return radauFor(tables, setting, "error_u");
+}
+Measurement radauForVelocities(const ResultTables& tables, Setting setting) {
+  return radauFor(tables, setting, "error_v");
+}
+Measurement radauForMultipliers(const ResultTables& tables, Setting setting) {
+  return radauFor(tables, setting, "error_z");
 }
 
 }  // namespace irk::claims

@@ -265,7 +265,10 @@ class Program {
     addQuick(*report);
     addResults(*report);
     auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
-                        [this](Streams s) { return claimsCommand(results(), s); });
+                        [this](Streams s) { return claimsCommand(results(), sensitivity_, s); });
+    judged->add_flag(
+        "--sensitivity", sensitivity_,
+        "Print each verdict with its interval, with thresholds halved and doubled, and without each scene.");
     addQuick(*judged);
     addResults(*judged);
   }
@@ -319,7 +322,7 @@ class Program {
 
   CLI::App app_;
   Action action_;
-  bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false;
+  bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false, sensitivity_ = false;
   std::string stale_ = "keep", times_ = "all";
   std::string study_, shard_, what_, collection_, method_;
   std::string jobs_ = "0", digits_ = "17", results_ = "results";

@@ -90,8 +90,8 @@ int tableauTable(const std::string& results, Streams streams);
 /// Draws the figures of a study, given by its id or TOML file, from its results.
 int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::string& results, Streams streams);
 int reportCommand(const std::string& results, Streams streams);
-/// Prints the paper's claims and whether the results confirm them.
-int claimsCommand(const std::string& results, Streams streams);
+/// Prints the paper's claims and whether the results confirm them; with `sensitivity` everything that is known of each.
+int claimsCommand(const std::string& results, bool sensitivity, Streams streams);
 
 /// Prints the progress of a study. Always returns 0.
 int statusCommand(const RunOptions& options, Streams streams);

@@ -9,7 +9,7 @@
 #include "experiments/audit/audit.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
-#include "experiments/claims/claims.h"
+#include "experiments/claims/claims_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/explorer.h"
 #include "experiments/report/own_figures.h"
@@ -32,16 +32,20 @@ constexpr std::string_view kPaperStudies[] = {"scenes",
                                               "families",
                                               "steps",
                                               "discontinuity",
+                                              "flexible_contact",
                                               "peers",
                                               "work_precision",
                                               "beam",
                                               "jacobian",
                                               "newton_rule",
+                                              "contraction",
+                                              "newton_contact",
                                               "k_form",
                                               "phases",
                                               "scaling",
                                               "control",
                                               "estimate",
+                                              "reliability",
                                               "drift",
                                               "round_off",
                                               "small_steps",
@@ -221,9 +225,10 @@ int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::
   return drawFigures(id, options, streams.err) == 0 ? 0 : 1;
 }
 
-int claimsCommand(const std::string& results, Streams streams) {
+int claimsCommand(const std::string& results, bool sensitivity, Streams streams) {
   requireResultsFolder(results);
-  streams.out << claims::claimsText(claims::ResultTables(results));
+  const auto detail = sensitivity ? claims::Detail::kSensitivity : claims::Detail::kTable;
+  streams.out << claims::claimsText(claims::ResultTables(results), detail);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "experiments/analyses/orders/order_fit.h"
 #include "experiments/base/html.h"
 #include "experiments/claims/claims.h"
+#include "experiments/claims/claims_html.h"
 #include "experiments/report/answers/failures.h"
 #include "experiments/report/answers/order_answer.h"
 #include "experiments/report/answers/paper.h"

@@ -12,7 +12,9 @@ namespace irk {
 // clang-format off
 #define IRK_SCENES(scene) \
   scene(ancfCantileverEntry) \
+  scene(ancfLeafStopEntry) \
   scene(ancfPendulumEntry) \
+  scene(ancfStopEntry) \
   scene(andrewsEntry) \
   scene(beamEntry) \
   scene(beamChainEntry) \

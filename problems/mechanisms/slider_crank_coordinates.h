@@ -8,36 +8,57 @@
 
 namespace irk::slider_crank {
 
-/// The torque on the crank and its switch, for all three sets of coordinates. d = (1 while the torque is on, 0
-/// otherwise); if it is never switched off, d is empty.
+/// The torque on the crank and its switches, for all three sets of coordinates: it alternates between two levels, and
+/// it may be switched off for good. d = (1 while the torque is on, 0 otherwise; 1 at the first level, 0 at the second;
+/// the number of the next change of level); of a torque without switches, d is empty.
 template <class Real>
 struct SwitchedTorque {
-  Real torque;     // N m
-  bool switched;   // whether the torque is ever switched off
-  Real off_at;     // s
-  Real smoothing;  // s
+  static constexpr Index kOn = 0, kFirstLevel = 1, kNext = 2;  // of d
+  static constexpr Index kOff = 0, kLevel = 1;                 // switches
 
-  Sizes withSwitch(Sizes sizes) const {
-    sizes.discrete = sizes.switches = switched ? 1 : 0;
+  Real first, second;              // N m
+  bool ever_off, ever_alternates;  // whether it is ever switched off, whether the level ever changes
+  Real off_at, every;              // s
+  Real smoothing;                  // s
+
+  Sizes withSwitches(Sizes sizes) const {
+    sizes.discrete = switched() ? 3 : 0;
+    sizes.switches = switched() ? 2 : 0;
     return sizes;
   }
+  bool switched() const { return ever_off || ever_alternates; }
   template <class T>
   T torqueAt(const Point<T>& p) const {
-    return switched ? T(torque * p.d[0]) : T(torque);
+    return switched() ? T(p.d[kOn] * (second + (first - second) * p.d[kFirstLevel])) : T(first);
   }
   template <class T>
   void switching(const Point<T>& p, T* due) const {
-    due[0] = p.d[0] > T(0.0) ? T(p.t - off_at) : T(-1.0);
+    due[kOff] = ever_off && p.d[kOn] > T(0.0) ? T(p.t - off_at) : T(-1.0);
+    due[kLevel] = ever_alternates ? T(p.t - p.d[kNext] * every) : T(-1.0);
   }
   template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const {
-    d[0] = T(0.0);
+  void onSwitch(Index i, const Point<T>& p, T* d) const {
+    if (i == kOff) {
+      d[kOn] = T(0.0);
+      return;
+    }
+    // A step may be longer than the time between two changes.
+    do {
+      d[kFirstLevel] = 1 - d[kFirstLevel];
+      d[kNext] = d[kNext] + 1;
+    } while (p.t >= d[kNext] * every);
   }
   template <class T>
   void smoothed(const Point<T>& p, T* d) const {
-    d[0] = smoothStep<T>(((off_at - p.t) / smoothing + 1) / 2);
+    d[kOn] = ever_off ? smoothStep<T>(((off_at - p.t) / smoothing + 1) / 2) : T(1.0);
+    if (!ever_alternates) return;
+    Real next = every;  // the change of level that is nearest to t
+    bool first_before = true;
+    for (; T(next + every / 2) < p.t; next += every) first_before = !first_before;
+    const T before = smoothStep<T>(((next - p.t) / smoothing + 1) / 2);
+    d[kFirstLevel] = first_before ? before : T(1 - before);
   }
-  std::string switchName(Index) const { return "torque off"; }
+  std::string switchName(Index i) const { return i == kOff ? "torque off" : "torque level"; }
 };
 
 /// Two angles with one constraint, u = (theta, phi), z = (lambda): 0 = L1 sin theta + L2 sin phi.
@@ -45,7 +66,7 @@ template <class Real>
 struct Redundant : SwitchedTorque<Real> {
   Data<Real> d;
 
-  Sizes sizes() const { return this->withSwitch({.nu = 2, .nz = 1, .constraints = 1}); }
+  Sizes sizes() const { return this->withSwitches({.nu = 2, .nz = 1, .constraints = 1}); }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;
@@ -67,7 +88,7 @@ template <class Real>
 struct Minimal : SwitchedTorque<Real> {
   Data<Real> d;
 
-  Sizes sizes() const { return this->withSwitch({.nu = 1}); }
+  Sizes sizes() const { return this->withSwitches({.nu = 1}); }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;
@@ -94,7 +115,7 @@ template <class Real>
 struct Absolute : SwitchedTorque<Real> {
   Data<Real> d;
 
-  Sizes sizes() const { return this->withSwitch({.nu = 8, .nz = 7, .constraints = 7}); }
+  Sizes sizes() const { return this->withSwitches({.nu = 8, .nz = 7, .constraints = 7}); }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;

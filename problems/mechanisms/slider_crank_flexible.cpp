@@ -2,9 +2,10 @@
 //
 // u = (phi1, phi2, x3, q1, q2, q3, q4): angles of crank and rod, position of the slider, lateral sine modes q1, q2,
 // longitudinal displacements q3 (middle) and q4 (end). The crank turns at the constant rate omega. The letters are
-// those of the source; B is its skew matrix, c.q a dot product.
+// those of the source; B is its skew matrix, c.q a dot product. Coulomb friction of the slider can be added.
 #include <cmath>
 
+#include "irk/regularised.h"
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -15,6 +16,7 @@ struct RodData {
   Real m2, m3, J1, J2;  // kg, kg m^2
   Real l1, l2, b, h;    // m: crank, rod, width and height of the rod
   Real E, rho, omega;   // Pa, kg/m^3, rad/s
+  Real Fc, smoothing;   // N, m/s
 };
 
 template <class Real>
@@ -44,7 +46,24 @@ class FlexibleSliderCrank {
     c21_2_ = -d_.l2 * FM / (2 * pi);
   }
 
-  Sizes sizes() const { return {.nu = 7, .nx = 0, .nz = 3, .constraints = 3}; }
+  // d = (sign of the slider's velocity); without friction d is empty.
+  Sizes sizes() const {
+    const Index friction = d_.Fc > 0 ? 1 : 0;
+    return {.nu = 7, .nz = 3, .constraints = 3, .discrete = friction, .switches = friction};
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* due) const {
+    due[0] = -p.d[0] * p.v[2];
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = -p.d[0];
+  }
+  template <class T>
+  void smoothed(const Point<T>& p, T* d) const {
+    d[0] = 2 * smoothStep<T>((p.v[2] / d_.smoothing + 1) / 2) - 1;
+  }
+  std::string switchName(Index) const { return "slider turns"; }
 
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -83,6 +102,7 @@ class FlexibleSliderCrank {
     r.u[1] = f2 - M12 * a1 - (d_.J2 + qMq + 2 * c12q) * a2 - M2q1 * p.a[3] - M2q2 * p.a[4] - M2q3 * p.a[5] -
              M2q4 * p.a[6] - rod * (cos2 * z[0] + sin2 * z[1]);
     r.u[2] = -d_.m3 * p.a[2] - z[1];
+    if (d_.Fc > 0) r.u[2] -= d_.Fc * p.d[0];
     // fq = w2^2 Mq q + w2^2 c12 + l1 w1^2 (C c1 + S c2) + 2 w2 B q' - Kq q
     const T turn = d_.l1 * w11, spin = 2 * w2;
     r.u[3] = w22 * Mq1 + turn * (c2_1_ * S) + spin * (B13_ * s3 + B14_ * s4) - K1_ * q1 - M1q1 * a1 - M2q1 * a2 -
@@ -139,10 +159,13 @@ Scene<Real> make(const Settings& settings) {
                            .h = value("h"),
                            .E = value("E"),
                            .rho = value("rho"),
-                           .omega = value("omega")};
+                           .omega = value("omega"),
+                           .Fc = value("Fc"),
+                           .smoothing = value("smoothing")};
   Scene<Real> scene;
   setProblem(scene, FlexibleSliderCrank<Real>(data));
   setStart(data, scene.start);
+  scene.start.d.setConstant(-1);  // the slider begins to move towards the crank
   completeStart(scene);
   scene.t_end = 0.1;
   setComponents(scene,
@@ -174,13 +197,18 @@ SceneEntry sliderCrankFlexibleEntry() {
                          positiveParameter("h", "m", "height of the rod", "0.008"),
                          positiveParameter("E", "Pa", "Young's modulus", "2e11"),
                          positiveParameter("rho", "kg/m^3", "density of the rod", "7870"),
-                         positiveParameter("omega", "rad/s", "rate of the crank", "150")},
+                         positiveParameter("omega", "rad/s", "rate of the crank", "150"),
+                         numberParameter("Fc", "N", "Coulomb friction of the slider", "0", 0, 1e15),
+                         smoothingParameter("m/s", "speed from which on friction has its full size", "1e-2")},
           .panels = {{"angles", {"phi1", "phi2"}},
                      {"bending modes", {"q1", "q2"}, "mm", 1e3},
                      {"longitudinal modes", {"q3", "q4"}, "µm", 1e6},
                      {"multipliers", {"lambda1", "lambda2"}},
                      {"multiplier", {"lambda3"}}},
-          .reference_cases = {{.times = "0.025 0.05", .tolerance = kFewDigits}},
+          .reference_cases = {{.times = "0.025 0.05", .tolerance = kFewDigits},
+                              {.settings = "Fc=20",
+                               .times = "0.005 0.01 0.015 0.02 0.025 0.03 0.035 0.04 0.045 0.05",
+                               .tolerance = kFewDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -44,6 +44,8 @@ inline std::vector<SceneCase> sceneCases() {
     }
   }
   cases.push_back({"slider_crank", {{"torque_off_at", "0.5"}}});
+  cases.push_back({"slider_crank", {{"torque_every", "0.2"}, {"T2", "-0.05"}}});
+  cases.push_back({"slider_crank_flexible", {{"Fc", "20"}}});
   cases.push_back({"stick_slip", {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}});
   return cases;
 }

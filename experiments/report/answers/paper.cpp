@@ -5,40 +5,71 @@
 #include <algorithm>
 
 namespace irk::report {
+namespace {
+
+struct Group {
+  std::string verdict;
+  std::array<std::vector<std::string>, 2> ids;  // by setting
+};
+
+std::vector<Group> groupsOf(const std::vector<ClaimVerdicts>& claims) {
+  std::vector<Group> groups;
+  for (std::size_t setting = 0; setting < 2; ++setting) {
+    for (const auto& claim : claims) {
+      const auto& verdict = claim.verdicts[setting];
+      auto at = std::ranges::find(groups, verdict, &Group::verdict);
+      if (at == groups.end()) at = groups.insert(at, {verdict, {}});
+      at->ids[setting].push_back(claim.id);
+    }
+  }
+  return groups;
+}
+
+std::string countsOf(const std::vector<Group>& groups, std::size_t setting) {
+  std::vector<std::string> parts;
+  for (const auto& [verdict, ids] : groups) {
+    if (!ids[setting].empty()) parts.push_back(fmt::format("{} {}", ids[setting].size(), verdict));
+  }
+  return listText(parts);
+}
+
+std::string linksTo(const std::vector<std::string>& ids) {
+  std::vector<std::string> links;
+  for (const auto& id : ids) links.push_back(linkHtml("#" + id, id));
+  return links.empty() ? "–" : fmt::format("{}", fmt::join(links, ", "));
+}
+
+}  // namespace
 
 Answer paperAnswer(const claims::ResultTables& tables) {
-  Verdicts verdicts;
-  for (const auto& claim : claims::claims()) {
-    verdicts.emplace_back(claim.id, claims::verdictText(claims::judge(claim, tables).verdict));
+  std::vector<ClaimVerdicts> verdicts;
+  for (const auto& findings : claims::judgeClaims(claims::protocol(), tables)) {
+    const auto textOf = [&](claims::Setting setting) { return std::string(verdictText(findings.verdict(setting))); };
+    verdicts.push_back({findings.claim->id, {textOf(claims::Setting::kPaper), textOf(claims::Setting::kBest)}});
   }
   Answer answer = paperAnswer(verdicts);
   if (tables.areQuick()) answer.sentences.emplace_back("Quick runs give no verdicts: `irk paper` makes the full ones.");
   return answer;
 }
 
-Answer paperAnswer(const Verdicts& verdicts) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> groups;  // verdict, ids
-  for (const auto& [id, verdict] : verdicts) {
-    const auto same = [&verdict = verdict](const auto& group) { return group.first == verdict; };
-    auto at = std::find_if(groups.begin(), groups.end(), same);
-    if (at == groups.end()) at = groups.insert(at, {verdict, {}});
-    at->second.push_back(id);
-  }
+Answer paperAnswer(const std::vector<ClaimVerdicts>& claims) {
+  const auto groups = groupsOf(claims);
   Answer answer{.id = "paper",
                 .question = "What did the paper get right?",
-                .table = {{}, {"verdict", "claims", "ids"}, {}},
-                .shown = {.caption = "Verdicts on the paper's claims", .titles = {"verdict", "claims", "which"}},
+                .table = {{}, {"verdict", "paper_claims", "paper_ids", "best_claims", "best_ids"}, {}},
+                .shown = {.caption = "Verdicts on the paper's claims",
+                          .titles = {"verdict", "in the paper's setting", "which", "in the best setting", "which"}},
                 .links = {{"#claims", "every claim with its measurement"}}};
-  std::vector<std::string> parts;
   for (const auto& [verdict, ids] : groups) {
-    parts.push_back(fmt::format("{} {}", ids.size(), verdict));
-    std::vector<std::string> links;
-    for (const auto& id : ids) links.push_back(linkHtml("#" + id, id));
-    answer.table.rows.push_back({verdict, fmt::format("{}", ids.size()), fmt::format("{}", fmt::join(ids, " "))});
+    const auto number = [](const auto& list) { return fmt::format("{}", list.size()); };
+    const auto words = [](const auto& list) { return fmt::format("{}", fmt::join(list, " ")); };
+    answer.table.rows.push_back({verdict, number(ids[0]), words(ids[0]), number(ids[1]), words(ids[1])});
     answer.shown.rows.push_back(
-        {{escapeHtml(verdict), fmt::format("{}", ids.size()), fmt::format("{}", fmt::join(links, ", "))}});
+        {{escapeHtml(verdict), number(ids[0]), linksTo(ids[0]), number(ids[1]), linksTo(ids[1])}});
   }
-  answer.sentences = {fmt::format("Of {} claims: {}.", verdicts.size(), listText(parts))};
+  answer.sentences = {
+      fmt::format("Of {} claims, in the setting that the paper describes: {}.", claims.size(), countsOf(groups, 0)),
+      fmt::format("With the suite's own best settings: {}.", countsOf(groups, 1))};
   return answer;
 }
 

@@ -1,4 +1,4 @@
-// What did the paper get right? Counts of verdicts on its claims.
+// What did the paper get right? Counts of verdicts on its claims, in its own setting and in the suite's best.
 #pragma once
 
 #include "experiments/claims/claims.h"
@@ -6,11 +6,14 @@
 
 namespace irk::report {
 
-/// A claim's id with its verdict.
-using Verdicts = std::vector<std::pair<std::string, std::string>>;
+/// A claim's id with its verdicts by setting (claims::kSettings).
+struct ClaimVerdicts {
+  std::string id;
+  std::array<std::string, 2> verdicts;
+};
 
 Answer paperAnswer(const claims::ResultTables& tables);
 /// The same for given verdicts, in their order of first appearance.
-Answer paperAnswer(const Verdicts& verdicts);
+Answer paperAnswer(const std::vector<ClaimVerdicts>& claims);
 
 }  // namespace irk::report

@@ -58,6 +58,16 @@ TEST(PaperController, GammaFollowsTheErrorAfterAChangeOfStep) {
   EXPECT_NEAR(controller->decide(1e-4, 0.05).h, 0.05 * std::min(5.0, 0.95 * std::pow(2500, 0.25)), 1e-12);
 }
 
+TEST(PaperController, WithoutGammaItDoesNotFollowTheError) {
+  StepOptions rules = paperRules();
+  rules.control.id = "paper_no_gamma";
+  const auto controller = makeController(rules, 3);
+  controller->decide(0.5, 0.1);
+  EXPECT_EQ(controller->decide(0.5 / 8 * 0.95, 0.05).h, 0.05);
+  EXPECT_NEAR(controller->decide(0.04, 0.05).h, 0.05, 1e-12);  // f = 1.58 as with gamma = 1
+  EXPECT_NEAR(controller->decide(1e-3, 0.05).h, 0.05 * std::pow(250, 0.25), 1e-12);
+}
+
 TEST(PaperController, HalvesAfterAFailedNewton) {
   EXPECT_NEAR(makeController(paperRules(), 3)->afterFailure(0.1), 0.05, 1e-15);
 }

@@ -255,10 +255,14 @@ TEST(FailureAnswer, SaysThatNothingFails) {
 }
 
 TEST(PaperAnswer, CountsVerdictsAndListsClaims) {
-  const Answer answer = paperAnswer(Verdicts{{"C1", "confirmed"}, {"C2", "contradicted"}, {"C3", "confirmed"}});
-  EXPECT_EQ(answer.sentences.at(0), "Of 3 claims: 2 confirmed and 1 contradicted.");
-  ASSERT_EQ(answer.table.rows.size(), 2u);
-  EXPECT_EQ(answer.table.rows[0], (TableRow{"confirmed", "2", "C1 C3"}));
+  const Answer answer = paperAnswer(std::vector<ClaimVerdicts>{
+      {"C1", {"confirmed", "undecided"}}, {"C2", {"contradicted", "confirmed"}}, {"C3", {"confirmed", "confirmed"}}});
+  EXPECT_EQ(answer.sentences.at(0),
+            "Of 3 claims, in the setting that the paper describes: 2 confirmed and 1 contradicted.");
+  EXPECT_EQ(answer.sentences.at(1), "With the suite's own best settings: 2 confirmed and 1 undecided.");
+  ASSERT_EQ(answer.table.rows.size(), 3u);
+  EXPECT_EQ(answer.table.rows[0], (TableRow{"confirmed", "2", "C1 C3", "2", "C2 C3"}));
+  EXPECT_EQ(answer.table.rows[2], (TableRow{"undecided", "0", "", "1", "C1"}));
   EXPECT_EQ(answer.shown.rows[1].cells.at(2), "<a href=\"#C2\">C2</a>");
 }
 

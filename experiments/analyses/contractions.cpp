@@ -1,0 +1,143 @@
+#include "experiments/analyses/contractions.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "core/newton/newton_base.h"
+#include "experiments/base/interrupt.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/runs/setup.h"
+#include "experiments/study/analysis.h"
+
+namespace irk {
+namespace {
+
+constexpr std::size_t kLeastIterations = 4;  // of a solve that counts: fewer show no course
+constexpr std::size_t kMostIterations = 6;   // in the table
+constexpr std::size_t kSamples = 100;        // solves of one run
+
+constexpr NewtonKind kObserved{{"modified_observed"}};
+
+// Where the observed solves of this thread's run go. A strategy is made from options only.
+thread_local std::vector<Contractions>* observed = nullptr;
+
+/// Newton 'modified'; before each solve the same solve is made for its residuals alone.
+class ObservedNewton final : public NewtonBase<double> {
+ public:
+  ObservedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<double>& scheme)
+      : NewtonBase<double>(options, sizes, scheme),
+        modified_(catalogue<NewtonKind>()[NewtonKind::kModified].make.in_double(options, sizes, scheme)) {}
+
+  NewtonResult solve(NewtonContext<double>& c, Mat<double>& W) override {
+    begin(c, W);
+    refresh(c, W);  // what `modified` would do; it finds the Jacobian fresh
+    Mat<double> copy = W;
+    if (observed) observed->push_back(contractions(c, copy));
+    return modified_->solve(c, W);
+  }
+  void forget() override { modified_->forget(); }
+
+ private:
+  Contractions contractions(NewtonContext<double>& c, Mat<double>& W) {
+    const NewtonOptions& o = options_.newton;
+    Contractions all;
+    if (!residual(c, W)) return all;
+    const double first = R_.norm();
+    double last = first;
+    for (int i = 1; i <= o.max_iterations && last > 0; ++i) {
+      if (c.matrix.prepare(c.eq.h()) != Outcome::kSuccess) break;
+      const double norm = update(c, c.matrix, W);
+      if (!std::isfinite(norm) || !residual(c, W)) break;
+      const double eps = R_.norm();
+      all.push_back(eps / last);
+      last = eps;
+      const bool at_round_off =
+          norm <= kRoundOffUnits * round_off_ || (all.back() >= 0.5 && norm <= kStagnationUnits * round_off_);
+      const bool too_slow = all.back() > o.contractivity_limit && i > o.contractivity_after;
+      if (eps <= o.residual_tolerance * first || at_round_off || too_slow) break;
+    }
+    return all;
+  }
+
+  std::unique_ptr<Newton<double>> modified_;
+};
+
+void registerObserved() {
+  static const bool done = [] {
+    registerStrategy<NewtonKind>({.id = kObserved,
+                                  .meaning = "newton 'modified', each solve observed",
+                                  .uses_stage_matrices = true,
+                                  .make = {kConstruct<ObservedNewton>, nullptr, nullptr}});
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+void appendRun(const TableRow& start, const std::string& rtol, const std::vector<Contractions>& solves, Table& table) {
+  std::vector<std::size_t> long_ones;
+  for (std::size_t i = 0; i < solves.size(); ++i) {
+    if (solves[i].size() >= kLeastIterations) long_ones.push_back(i);
+  }
+  const std::size_t stride = long_ones.size() / kSamples + 1;
+  for (std::size_t i = stride / 2; i < long_ones.size(); i += stride) {
+    const Contractions& c = solves[long_ones[i]];
+    TableRow row = start;
+    row.insert(row.end(), {rtol, std::to_string(long_ones[i] + 1), std::to_string(c.size())});
+    for (std::size_t k = 0; k < kMostIterations; ++k) row.push_back(k < c.size() ? numberText(c[k]) : "nan");
+    table.rows.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+std::vector<Contractions> observedContractions(const RunSpec& spec) {
+  registerObserved();
+  const auto setup = makeSetup<double>(spec);
+  IntegratorOptions options = setup.spec.options;
+  options.newton.kind = kObserved;
+  std::vector<Contractions> solves;
+  Monitor<double> monitor;
+  monitor.interrupt = [] { return interruptFlag() ? Outcome::kInterrupted : Outcome::kSuccess; };
+  auto integrator = setup.integrator(setup.methods, options);
+  observed = &solves;
+  const auto solution = integrator.integrate(setup.scene.start, setup.spec.t_end, monitor);
+  observed = nullptr;
+  if (solution.outcome != Outcome::kSuccess) solves.clear();
+  return solves;
+}
+
+Table contractionTable(const Study& study, const Table& runs) {
+  Table table{runs.head, seriesColumns(runs), {}};
+  table.columns.insert(table.columns.end(), {"rtol", "solve", "iterations"});
+  for (std::size_t k = 1; k <= kMostIterations; ++k) table.columns.push_back("c" + std::to_string(k));
+  const SpecsByKey specs(study);
+  for (const auto& series : seriesOf(runs)) {
+    for (const auto* run : series.rows) {
+      const auto spec = specs.find(run->front());
+      if (!spec || !succeededAt(runs, *run) || interruptFlag() || findPeer(spec->method) ||
+          spec->options.newton.kind != NewtonKind::kModified || spec->scalar != ScalarKind::kDouble) {
+        continue;
+      }
+      appendRun(series.name, textAt(runs, *run, "rtol"), observedContractions(*spec), table);
+    }
+  }
+  return table;
+}
+
+Analysis contractionsAnalysis() {
+  return {.id = "contractions",
+          .key = "contractions",
+          .meaning = "Newton's contraction, iteration by iteration",
+          .reads = "runs.csv",
+          .writes = "contractions.csv",
+          .one_method = "the iterations of one method are counted",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            writeTable(in.folder / "contractions.csv", contractionTable(in.study, in.runs));
+            return {};
+          }};
+}
+
+}  // namespace irk

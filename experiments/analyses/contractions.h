@@ -1,0 +1,23 @@
+// contractions.csv: how fast the paper's Newton method contracts, iteration by iteration.
+#pragma once
+
+#include <vector>
+
+#include "experiments/study/study.h"
+#include "experiments/tables/table.h"
+
+namespace irk {
+
+/// c(1), c(2), ... of the residual in one solve with a kept Jacobian, paper (3.3): c(i) = eps(i) / eps(i-1).
+using Contractions = std::vector<double>;
+
+/// Repeats a run with newton 'modified', observing every solve: the same Jacobian and start values, iterated until the
+/// residual has fallen by `residual_tolerance`, or as long as the paper's rule allows. Observing does not change the
+/// run. Solves of an attempt's whole step and of its halves are all there. Throws Misuse as makeSetup.
+std::vector<Contractions> observedContractions(const RunSpec& spec);
+
+/// A sample of the solves with at least four iterations of successful runs with newton 'modified', one row each: columns
+/// of a series, rtol, solve (its number in the run), iterations, and c1, c2, ... c6 (NaN where it needed fewer).
+Table contractionTable(const Study& study, const Table& runs);
+
+}  // namespace irk

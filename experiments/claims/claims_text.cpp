@@ -1,0 +1,153 @@
+#include "experiments/claims/claims_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiments/claims/sensitivity.h"
+
+namespace irk::claims {
+namespace {
+
+using Line = std::vector<std::string>;
+
+constexpr std::string_view kIndent = "\n            ";
+
+bool hasVerdict(const Judgement& judgement) {
+  return judgement.verdict == Verdict::kConfirmed || judgement.verdict == Verdict::kContradicted ||
+         judgement.verdict == Verdict::kUndecided;
+}
+
+// Lines of cells, each column as wide as its widest cell.
+std::string aligned(const std::vector<Line>& lines) {
+  std::vector<std::size_t> widths(lines.front().size(), 0);
+  const auto widthOf = [](const std::string& cell) {  // without the second and third bytes of a character
+    return static_cast<std::size_t>(
+        std::count_if(cell.begin(), cell.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  };
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], widthOf(line[i]));
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    std::string row;
+    for (std::size_t i = 0; i < line.size(); ++i) row += line[i] + std::string(widths[i] - widthOf(line[i]) + 2, ' ');
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
+
+std::string tableText(const std::vector<ClaimFindings>& all) {
+  std::vector<Line> lines{{"", "paper", "", "best", "", "confirmed if"}};
+  std::string reasons;
+  for (const auto& [claim, parts] : all) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Part& part = claim->parts[i];
+      Line line{part.id};
+      for (const auto& finding : parts[i]) {
+        line.emplace_back(verdictText(finding.judged.verdict));
+        line.push_back(numberText(part, finding.judged));
+      }
+      line.push_back(conditionText(part));
+      lines.push_back(line);
+      const auto& [paper, best] = parts[i];
+      const bool same = paper.judged.reason == best.judged.reason;
+      if (!paper.judged.reason.empty() && paper.judged.reason != kPreliminary) {
+        reasons += fmt::format("{}{}: {}\n", part.id, same ? "" : ", paper", paper.judged.reason);
+      }
+      if (!same && !best.judged.reason.empty() && best.judged.reason != kPreliminary) {
+        reasons += fmt::format("{}, best: {}\n", part.id, best.judged.reason);
+      }
+    }
+  }
+  return aligned(lines) + (reasons.empty() ? "" : "\n" + reasons);
+}
+
+std::string sensitivityText(const Part& part, const Finding& finding) {
+  std::string text;
+  for (const auto& line : sensitivityLines(part, finding)) text += std::string(kIndent) + line;
+  return text;
+}
+
+std::string findingText(const Part& part, const Finding& finding) {
+  const Judgement& judged = finding.judged;
+  std::string text = std::string(verdictText(judged.verdict));
+  if (judged.cases > 0) text += ", " + numberText(part, judged) + ", " + sampleText(judged);
+  if (!judged.reason.empty()) text += ": " + judged.reason;
+  if (!judged.remark.empty()) text += std::string(kIndent) + judged.remark;
+  return text + sensitivityText(part, finding);
+}
+
+std::string claimText(const ClaimFindings& findings) {
+  const Claim& claim = *findings.claim;
+  std::string text =
+      fmt::format("{}  \"{}\" (section {})\n    {}\n", claim.id, claim.words, claim.section, commandOf(claim));
+  for (std::size_t i = 0; i < findings.parts.size(); ++i) {
+    const Part& part = claim.parts[i];
+    text += fmt::format("  {}  {}{}{}\n", part.id, part.measured, part.statistic == Statistic::kReport ? "" : "; ",
+                        conditionText(part));
+    for (const Setting setting : kSettings) {
+      text += fmt::format("      {:<6}{}\n", fmt::format("{}:", settingName(setting)),
+                          findingText(part, findings.parts[i][static_cast<std::size_t>(setting)]));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string conditionText(const Part& part) {
+  const std::string unit = part.unit.empty() ? "" : " " + part.unit;
+  switch (part.statistic) {
+    case Statistic::kMedian:
+      return rangeText(part.confirmed) + unit;
+    case Statistic::kShare:
+      return fmt::format("{} {:.4g} % of the cases {}{}", part.confirmed.low_open ? "above" : "at least",
+                         100 * part.confirmed.low, rangeText(part.clean), unit);
+    case Statistic::kExistence:
+      return fmt::format("one case {}{}", rangeText(part.clean), unit);
+    case Statistic::kReport:
+      return "";
+  }
+  return "";
+}
+
+std::string sampleText(const Judgement& judgement) {
+  std::string scenes;
+  for (const auto& scene : judgement.scenes) scenes += (scenes.empty() ? "" : ", ") + scene;
+  return fmt::format("{} case{} of {} scene{}: {}", judgement.cases, judgement.cases == 1 ? "" : "s",
+                     judgement.scenes.size(), judgement.scenes.size() == 1 ? "" : "s", scenes);
+}
+
+std::vector<std::string> sensitivityLines(const Part& part, const Finding& finding) {
+  if (!hasVerdict(finding.judged)) return {};
+  const Sensitivity sensitivity = sensitivityOf(part, finding.measured);
+  std::vector<std::string> lines{fmt::format(
+      "threshold halved ({}): {}; doubled ({}): {}", conditionText(sensitivity.halved_part),
+      verdictText(sensitivity.halved), conditionText(sensitivity.doubled_part), verdictText(sensitivity.doubled))};
+  for (const auto& [scene, judged] : sensitivity.without) {
+    lines.push_back(fmt::format("without {}: {}, {}", scene, verdictText(judged.verdict), numberText(part, judged)));
+  }
+  return lines;
+}
+
+std::string commandOf(const Claim& claim) {
+  std::string command;
+  for (const auto& study : claim.studies) {
+    command += fmt::format("{}irk run {} && irk plot {}", command.empty() ? "" : " && ", study, study);
+  }
+  return command.empty() ? "irk claims" : command;
+}
+
+std::string claimsText(const ResultTables& tables, Detail detail) {
+  std::string text = tables.areQuick()
+                         ? "Results of --quick: small versions of the studies, which give no verdicts; all numbers are "
+                           "preliminary.\n"
+                         : "";
+  const auto all = judgeClaims(protocol(), tables);
+  if (detail == Detail::kTable) return text + tableText(all);
+  for (const auto& findings : all) text += claimText(findings);
+  return text;
+}
+
+}  // namespace irk::claims

@@ -1,0 +1,90 @@
+// Claims about the parts of a run: residuals, Jacobians, factorizations.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "experiments/claims/evaluations.h"
+#include "experiments/claims/measures.h"
+
+namespace irk::claims {
+namespace {
+
+// The parts of a run must cover its time, else their shares are wrong.
+constexpr double kMinCovered = 0.9, kMaxCovered = 1.1;
+
+Table coveredPhases(const ResultTables& tables, Setting setting) {
+  const Table phases = inSetting(tables.table("phases", "phases"), "phases", setting);
+  return where(phases, [&](const TableRow& row) {
+    const double covered = numberAt(phases, row, "covered");
+    return covered >= kMinCovered && covered <= kMaxCovered;
+  });
+}
+
+double massFactorizationsAt(const Table& runs, const TableRow& run) {
+  constexpr std::string_view kCount = "mass factorizations: ";
+  const std::string& detail = textAt(runs, run, "detail");
+  const auto at = detail.find(kCount);
+  return at == detail.npos ? 0 : std::stod(detail.substr(at + kCount.size()));
+}
+
+}  // namespace
+
+Measurement shareOfEvaluations(const ResultTables& tables, Setting setting) {
+  constexpr double kFewest = 3, kMost = 200;
+  const Table phases = coveredPhases(tables, setting);
+  Measurement measured;
+  std::map<std::string, double> crossing;  // the least n with a dearer factorization
+  for (const auto& row : phases.rows) {
+    const double n = numberAt(phases, row, "n");
+    if (n < kFewest || n > kMost) continue;
+    const auto share = [&](std::string_view part) { return numberAt(phases, row, fmt::format("share_{}", part)); };
+    const double evaluation = share("residual") + share("jacobian");
+    const double part = evaluation / (evaluation + share("factorization") + share("solve"));
+    const auto& scene = textAt(phases, row, "scene");
+    measured.cases.push_back({scene, part});
+    const auto at = crossing.try_emplace(scene, kInfinity).first;
+    if (part <= 0.5) at->second = std::min(at->second, n);
+  }
+  for (const auto& [scene, n] : crossing) {
+    measured.remark +=
+        fmt::format("{}{} {}", measured.remark.empty() ? "Evaluation no longer dominates from n on: " : ", ", scene,
+                    n == kInfinity ? "never" : fmt::format("{:g}", n));
+  }
+  return measured;
+}
+
+Measurement massFactorizations(const ResultTables& tables, Setting) {
+  const Table runs = where(tables.runs("k_form"), {{"formulation", "index2"}, {"outcome", "success"}});
+  Measurement measured;
+  for (const auto& run : runs.rows) {
+    measured.cases.push_back({textAt(runs, run, "scene"), massFactorizationsAt(runs, run)});
+  }
+  return measured;
+}
+
+Measurement firstOrderForm(const ResultTables& tables, Setting) {
+  const auto time = compareCosts(tables.runs("k_form"), "formulation", "first_order", "index2", "cpu_s");
+  std::vector<double> ratios;
+  for (const auto& one : time.cases) ratios.push_back(one.value);
+  return {{},
+          "study k_form lacks a first-order form that factorizes M once per step; its only one does so in every "
+          "evaluation, or once where M is constant",
+          fmt::format("Against that one, error at t_end: {:.3g} times the CPU time, median of {} cases.",
+                      median(ratios), ratios.size())};
+}
+
+Measurement costOfFactorization(const ResultTables& tables, Setting setting) {
+  const Table phases = coveredPhases(tables, setting);
+  Measurement measured;
+  for (const auto& row : phases.rows) {
+    // share_step = attempted steps * step_s / (covered * run_s)
+    const double sum = numberAt(phases, row, "covered") * numberAt(phases, row, "run_s");
+    const double steps = numberAt(phases, row, "share_step") * sum / numberAt(phases, row, "step_s");
+    measured.cases.push_back({textAt(phases, row, "scene"), numberAt(phases, row, "factorization_s") * steps / sum});
+  }
+  return measured;
+}
+
+}  // namespace irk::claims

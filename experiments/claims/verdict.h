@@ -1,0 +1,52 @@
+// The one judge of all claims: from measured values to a verdict.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/claims/claim.h"
+#include "experiments/claims/measurement.h"
+
+namespace irk::claims {
+
+enum class Verdict { kConfirmed, kContradicted, kUndecided, kNotMeasurable, kReported, kDoesNotApply };
+
+/// `confirmed`, `contradicted`, `undecided`, `not measurable`, `reported`, `does not apply`.
+std::string_view verdictText(Verdict verdict);
+
+/// The least sample for a verdict on a median or a share.
+struct Sample {
+  std::size_t cases = 10, scenes = 3;
+};
+inline constexpr Sample kAnySample{1, 1};
+
+struct Judgement {
+  Verdict verdict = Verdict::kNotMeasurable;
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< the statistic; of existence, the share of clean cases
+  double low = value, high = value;                         ///< 90 % interval; NaN for existence
+  std::size_t cases = 0, clean = 0;                         ///< clean: shares and existence only
+  std::vector<std::string> scenes = {};                     ///< of the cases, sorted
+  std::string reason = {};                                  ///< why it is not measurable or does not apply
+  std::string remark = {};                                  ///< of the measurement
+};
+
+/// The judgement of a part by its cases:
+/// - Median and share: `not measurable` below the sample; `confirmed` if the whole 90 % interval lies in the range,
+///   `contradicted` if it lies on one side outside of it, else `undecided`. The interval is a bootstrap that resamples
+///   scenes, not cases, because cases of one scene are not independent. The same on every machine.
+/// - Existence: `confirmed` by one clean case; `contradicted` if a full sample has none, else `not measurable`.
+/// - Report: no verdict.
+Judgement judge(const Part& part, const Measurement& measured, const Sample& least = {});
+
+/// `1.52 [1.49, 1.55] times`; `3 of 12 cases`; `–` without cases.
+std::string numberText(const Part& part, const Judgement& judgement);
+
+/// The verdict on a claim by those of its parts: contradicted if one part is, else not measurable if one is, else
+/// undecided if one is, else confirmed. Parts that are only reported or do not apply do not count; if none counts, the
+/// claim is reported or does not apply.
+Verdict combined(const std::vector<Verdict>& parts);
+
+}  // namespace irk::claims
