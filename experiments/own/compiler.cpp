@@ -16,6 +16,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/own/command.h"
+#include "experiments/own/crash.h"
 #include "experiments/tables/build_info.h"
 #include "irk/misuse.h"
 
@@ -58,6 +59,7 @@ std::vector<std::string> commandFor(const fs::path& source, int digits) {
     const bool searched_anyway = folder == "/usr/include";  // gcc finds its own headers no longer if this is given
     if (!searched_anyway) command.insert(command.end(), {"-isystem", folder});
   }
+  if (wantsChecks()) command.insert(command.end(), {"-UNDEBUG", "-D_GLIBCXX_ASSERTIONS", "-g", "-O1"});
   command.insert(command.end(), {fmt::format("-DIRK_DIGITS={}", digits), "-shared", "-fPIC", "-fmax-errors=5",
                                  "-fdiagnostics-color=never", source.string()});
   return command;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/own/compiler.h"
+#include "experiments/own/crash.h"
 #include "experiments/own/shared_library.h"
 #include "irk/options.h"
 #include "irk/registration.h"
@@ -25,6 +26,7 @@ std::ostream& log() { return report ? *report : std::cerr; }
 // Objects are never unloaded, not at the program's end either: what they registered is destroyed after that.
 const SharedLibrary& load(const std::filesystem::path& object, const std::filesystem::path& source) {
   static auto& loaded = *new std::vector<std::unique_ptr<SharedLibrary>>;
+  explainCrashes(source);
   try {
     return *loaded.emplace_back(std::make_unique<SharedLibrary>(object));
   } catch (const Misuse& misuse) {
@@ -85,8 +87,8 @@ std::set<Id> idsOfAxes() {
 
 // All that a file can register.
 std::set<Id> knownIds() {
-  auto ids =
-      idsOfAxes<NewtonKind, StageSolverKind, Predictor, ErrorEstimate, StepControl, OrderControl, Discontinuity>();
+  auto ids = idsOfAxes<NewtonKind, StageSolverKind, Predictor, ErrorEstimate, StepControl, OrderControl, Discontinuity,
+                       JacobianTerms>();
   for (const auto& scene : sceneCatalogue()) ids.insert({"scene", scene.id});
   return ids;
 }

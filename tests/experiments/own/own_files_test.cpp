@@ -19,9 +19,9 @@ struct Ran {
 class OwnFiles : public testing::Test {
  protected:
   /// The program in this test's folder, with a cache of its own.
-  Ran irk(const std::string& arguments) const {
+  Ran irk(const std::string& arguments, const std::string& environment = {}) const {
     const std::string command = "cd " + folder_.path().string() + " && IRK_CACHE=" + folder_.path().string() +
-                                "/cache " IRK_PROGRAM " " + arguments + " 2>&1";
+                                "/cache " + environment + " " IRK_PROGRAM " " + arguments + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
     Ran ran{0, {}};
     char buffer[4096];
@@ -131,6 +131,22 @@ TEST_F(OwnFiles, MistakesAreNamed) {
     EXPECT_EQ(ran.status, 2) << file;
     EXPECT_TRUE(containsAll(ran.text, parts));
   }
+}
+
+// Without setProblem the start has no components.
+TEST_F(OwnFiles, ACrashIsExplainedAndChecksNameThePlace) {
+  write("stiffness.h", "constexpr double kStiffness = 1;\n");
+  write("oscillator.cpp", kOscillator);
+  write("oscillator.cpp", replaced("oscillator.cpp", "setProblem(scene, Oscillator{});", ""));
+  const std::string solve = "solve oscillator.cpp --method gauss_3 --tol 1e-6";
+  const Ran crashed = irk(solve);
+  EXPECT_EQ(crashed.status, 1) << crashed.text;
+  EXPECT_TRUE(contains(crashed.text, "crashed while it ran code of oscillator.cpp")) << crashed.text;
+  EXPECT_TRUE(contains(crashed.text, "IRK_CHECKED=1")) << crashed.text;
+  const Ran checked = irk(solve, "IRK_CHECKED=1");
+  EXPECT_EQ(checked.status, 1) << checked.text;
+  EXPECT_TRUE(contains(checked.text, "Assertion")) << checked.text;
+  EXPECT_TRUE(contains(checked.text, "crashed while it ran code of oscillator.cpp")) << checked.text;
 }
 
 TEST_F(OwnFiles, ASolverIsAMethod) {
