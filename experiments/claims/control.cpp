@@ -94,7 +94,7 @@ Measurement timePerRestart(const ResultTables& tables, Setting) { return perRest
 Measurement residualsPerRestart(const ResultTables& tables, Setting) { return perRestart(tables, "residuals"); }
 
 Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting) {
-  const Table all = timedRuns(tables, "stages", setting);
+  const Table all = timedClaimRuns(tables, "stages", setting);
   const Table runs = where(all, {{"family", "radau_iia"}});
   const auto series = seriesOf(runs);
   Measurement measured;
@@ -112,9 +112,9 @@ Measurement stepAtSwitch(const ResultTables&, Setting) {
 }
 
 Measurement absoluteTolerances(const ResultTables& tables, Setting setting) {
-  const Table absolute = timedRuns(tables, "norm_absolute", setting);
-  const Table mixed = timedRuns(tables, "norm_mixed", setting);
-  const Table relative = timedRuns(tables, "norm_relative", setting);
+  const Table absolute = timedClaimRuns(tables, "norm_absolute", setting);
+  const Table mixed = timedClaimRuns(tables, "norm_mixed", setting);
+  const Table relative = timedClaimRuns(tables, "norm_relative", setting);
   std::map<std::pair<TableRow, double>, double> others;  // the least cost
   for (const Table* runs : {&mixed, &relative}) {
     for (const auto& series : seriesOf(*runs)) {

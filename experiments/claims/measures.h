@@ -20,9 +20,10 @@ using Cells = std::vector<std::pair<std::string_view, std::string_view>>;
 
 /// The rows with these cells.
 Table where(const Table& table, const Cells& cells);
-/// The rows of a built-in study's table that are of blocks whose names begin so. Throws Misuse for a table without the
-/// column of blocks, std::logic_error if the study has no such block.
-Table inBlocks(const Table& table, std::string_view study, std::string_view beginning);
+using Blocks = std::vector<std::string_view>;
+/// The rows of a built-in study's table that are of one of these blocks. Throws Misuse for a table without the column
+/// of blocks, std::logic_error for a block that the study does not have.
+Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks);
 /// The rows that the test accepts.
 Table where(const Table& table, const std::function<bool(const TableRow&)>& test);
 /// Different cells, in order of appearance.
@@ -41,12 +42,15 @@ inline constexpr int kReferenceTimes = 10;
 /// remain.
 Table overTimes(const Table& runs, std::string_view study);
 
-/// The runs of all blocks of the study claims whose names begin so.
+/// The runs of blocks of a study in a setting, with errors over ten times.
+Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting);
+
+/// The runs of all blocks of the study claims whose names begin so. Throws std::logic_error if there is no such block.
 Table claimRuns(const ResultTables& tables, std::string_view beginning);
 /// Those in a setting.
 Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
 /// Those with errors over ten times.
-Table timedRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
+Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
 
 /// `5 %`.
 std::string percent(double part);

@@ -80,7 +80,7 @@ Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t w
 // --- C13
 
 Measurement radauFor(const ResultTables& tables, Setting setting, std::string_view error) {
-  const Table runs = timedRuns(tables, "families", setting);
+  const Table runs = timedClaimRuns(tables, "families", setting);
   const auto series = seriesOf(runs);
   Measurement measured;
   std::map<std::string, int> best;
@@ -116,7 +116,7 @@ Measurement observedOrder(const ResultTables& tables, Setting) {
 
 Measurement costOfHighOrder(const ResultTables& tables, Setting setting) {
   constexpr double kHigh = 18;
-  const Table runs = timedRuns(tables, "stages", setting);
+  const Table runs = timedClaimRuns(tables, "stages", setting);
   const auto series = seriesOf(runs);
   Measurement measured;
   for (const auto& race : atSmallestError(runs, series, 3, {"control"})) {
@@ -127,7 +127,7 @@ Measurement costOfHighOrder(const ResultTables& tables, Setting setting) {
 }
 
 Measurement fastestStages(const ResultTables& tables, Setting setting) {
-  const Table runs = timedRuns(tables, "stages", setting);
+  const Table runs = timedClaimRuns(tables, "stages", setting);
   const auto series = seriesOf(runs);
   Measurement measured;
   for (const auto& race : atSmallestError(runs, series, 3, {"control", "family"})) {
@@ -139,7 +139,7 @@ Measurement fastestStages(const ResultTables& tables, Setting setting) {
 }
 
 Measurement limitOfManyStages(const ResultTables& tables, Setting setting) {
-  const Table runs = timedRuns(tables, "round_off", setting);
+  const Table runs = timedClaimRuns(tables, "round_off", setting);
   // Both step controls must show it.
   std::map<TableRow, std::vector<Limit>> limits;
   for (const auto& series : seriesOf(runs)) {
