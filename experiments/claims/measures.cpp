@@ -23,14 +23,13 @@ constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kErrorColumns[] = {"error", "error_u", "error_v", "error_x", "error_z"};
 
-void requireBlock(std::string_view study, std::string_view name) {
-  static std::map<std::string, std::set<std::string>, std::less<>> known;  // blocks of studies
+const std::set<std::string>& blocksOf(std::string_view study) {
+  static std::map<std::string, std::set<std::string>, std::less<>> known;
   const auto [at, added] = known.try_emplace(std::string(study));
   if (added) {
     for (const auto& series : loadStudy(study, StudyVariant::kQuick).series) at->second.insert(series.block);
   }
-  if (at->second.contains(std::string(name))) return;
-  throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
+  return at->second;
 }
 
 double errorAt(const Table& runs, const TableRow& run, std::string_view column) {
@@ -107,7 +106,11 @@ Table where(const Table& table, const Cells& cells) {
 }
 
 Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks) {
-  for (const auto name : blocks) requireBlock(study, name);
+  for (const auto name : blocks) {
+    if (!blocksOf(study).contains(std::string(name))) {
+      throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
+    }
+  }
   const auto column = table.column(kBlockColumn);
   return where(table, [&](const TableRow& row) {
     return std::any_of(blocks.begin(), blocks.end(), [&](auto name) { return hasBlock(row[column], name); });
@@ -161,6 +164,24 @@ Table overTimes(const Table& runs, std::string_view study) {
 
 Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting) {
   return overTimes(inSetting(inBlocks(tables.runs(study), study, blocks), study, setting), study);
+}
+
+Table claimRuns(const ResultTables& tables, std::string_view beginning) {
+  const Table& runs = tables.runs("claims");
+  Blocks blocks;
+  for (const auto& name : blocksOf("claims")) {
+    if (name.starts_with(beginning)) blocks.push_back(name);
+  }
+  if (blocks.empty()) throw std::logic_error(fmt::format("study claims has no block '{}...'", beginning));
+  return inBlocks(runs, "claims", blocks);
+}
+
+Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting setting) {
+  return inSetting(claimRuns(tables, beginning), "claims", setting);
+}
+
+Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting) {
+  return overTimes(claimRuns(tables, beginning, setting), "claims");
 }
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
