@@ -1,10 +1,13 @@
-# Observed order of convergence against the number of stages, one panel per family.
+# Observed order of convergence against the number of stages, one panel per family; the line of theory goes through every
+# number of stages, measured or not.
 #   gnuplot -e "data='results/order'; out='order_ode'; block='nonlinear'; components='x'" order_vs_stages.gp
-# Reads orders.csv. Options: block or scene and settings, formulation, components ('u v z': several in one panel).
+# Reads orders.csv, and order_theory.csv if there is one. Options: block or scene and settings, formulation, components ('u v z': several in one panel).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("formulation")) formulation = ''
 if (!exists("components")) components = 'x'
 file = data.'/orders.csv'
+theories = data.'/order_theory.csv'
+has_theories = int(system("test -f '".theories."' && echo 1 || echo 0"))
 parts = words(components)
 part(k) = word(components, k)
 partPoint(k) = word("7 5 9 13", k) + 0
@@ -16,9 +19,11 @@ chosen(d) = ofCase(0) && is("power_of", 'h') && has("formulation", formulation) 
 row(family, k) = chosen(0) && group(0) eq family && is("component", part(k))
 is_measured(d) = strcol("verdict") ne 'not_measurable'
 measured(family, k) = row(family, k) && is_measured(0) ? column("order") : outside
+pairOfPart(family, k) = family.':'.part(k)
 theory(family, k) = !row(family, k) ? NaN : !absent("theory") ? column("theory") \
-                    : position(with_theory, family.':'.part(k)) ? NaN : outside
+                    : position(with_theory, pairOfPart(family, k)) ? NaN : outside
 remember(d) = absent("theory") ? 0 : collect(group(0).':'.strcol("component"))
+theoryFile(family, k) = position(with_all, pairOfPart(family, k)) ? theories : file
 differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
 unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, so that marks do not overlap
@@ -31,6 +36,11 @@ found = collected
 collected = ""
 stats file using (chosen(0) ? remember(0) : 0) nooutput
 with_theory = collected
+collected = ""
+if (has_theories) { stats theories using (chosen(0) ? remember(0) : 0) nooutput }
+with_all = collected
+without_theory = 0
+stats file using (chosen(0) && position(components, strcol("component")) && is("verdict", 'no_theory') ? (without_theory = 1) : 0) nooutput
 present = ""
 do for [f in families_known.found] { present = present.(position(found, f) && !position(present, f) ? " ".f : "") }
 n = words(present)
@@ -60,7 +70,7 @@ do for [format in formats] {
     set format y when((i - 1) % columns == 0, '%g')
     set ylabel when((i - 1) % columns == 0, 'order of convergence') offset 0.3,0
     set xlabel when(i > n - columns, 'stages s') offset 0,0.5
-    plot for [k = 1 : parts] file using (place(k)):(theory(f, k)) smooth unique \
+    plot for [k = 1 : parts] theoryFile(f, k) using (place(k)):(theory(f, k)) smooth unique \
            with lines lw 1.3 dt partDash(k) lc rgb familyColour(f) notitle, \
          for [k = 1 : parts] file using (place(k)):(measured(f, k)):(column("confidence")) \
            with yerrorbars pt partPoint(k) ps 0.75 lw 1.2 lc rgb familyColour(f) notitle, \
@@ -73,7 +83,8 @@ do for [format in formats] {
   plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 \
          lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line), observed (mark)'), \
        keyentry with points pt failure_point ps 1.4 lw 2 lc rgb failure_colour title 'differs', \
-       keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable'
+       keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable', \
+       for [k = 1 : without_theory] keyentry with points pt partPoint(1) ps 0.75 lc rgb ink title 'mark without line: no theory known'
   unset multiplot
   unset output
   eval framed

@@ -2,13 +2,18 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "experiments/analyses/results.h"
 #include "experiments/audit/audit.h"
+#include "experiments/base/clock.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/base/studies_progress.h"
 #include "experiments/claims/claims_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/explorer.h"
@@ -17,6 +22,7 @@
 #include "experiments/runner/join_ranks.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/series_walk.h"
 #include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
 #include "irk/misuse.h"
@@ -163,6 +169,17 @@ int runOne(const Study& study, const FigureTables& figures, const RunnerOptions&
   }
 }
 
+// The expected runs of all studies of the paper.
+StudiesProgress paperProgress(StudyVariant variant) {
+  std::vector<std::pair<std::string, std::size_t>> expected;
+  for (const auto id : kPaperStudies) {
+    std::size_t runs = 0;
+    for (const Series& series : loadStudy(id, variant).series) runs += expectedRuns(series);
+    expected.emplace_back(id, runs);
+  }
+  return StudiesProgress(std::move(expected));
+}
+
 }  // namespace
 
 int runCommand(const RunOptions& options, Streams streams) {
@@ -201,7 +218,11 @@ int paperCommand(const RunOptions& options, Streams streams) {
   const InterruptScope interrupts;
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // continue with the other studies if one fails
-  for (const auto id : kPaperStudies) {
+  const StudiesProgress progress = paperProgress(options.variant);
+  const double start = wallSeconds();
+  for (std::size_t i = 0; i < std::size(kPaperStudies); ++i) {
+    const auto id = kPaperStudies[i];
+    fmt::print(streams.err, "paper: {}\n", progress.line(i, wallSeconds() - start));
     const int status = runOne(loadStudy(id, options.variant), {}, options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;
     worst = std::max(worst, status);

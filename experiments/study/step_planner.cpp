@@ -12,18 +12,30 @@ constexpr double kAboveRoundOff = 1e3;
 // slope; each difference is half the previous one.
 constexpr double kSettled = 0.04;
 constexpr int kSettledProbes = 4;
-// The measured steps: kPoints steps over a factor kRange, or over kDecades decades of the error if that factor is
-// smaller. For high orders, larger errors are not asymptotic.
-constexpr int kPoints = 8;
+// With this many probes their last slope predicts the next one.
+constexpr int kFewestProbes = 3;
+// Errors below this many floors that grow as the step shrinks are round-off, which for algebraic unknowns is divided
+// by h. Larger ones belong to an order below zero.
+constexpr double kSmall = 1e4;
+// The measured steps: over a factor kRange, or over kDecades decades of the error if that factor is smaller (for high
+// orders, larger errors are not asymptotic). Where the slope has settled, a few steps between the probes narrow its
+// confidence; where round-off comes first, the slope still changes, and the fit needs more of them to see how.
+constexpr int kPointsSettled = 5;
+constexpr int kPointsChanging = 8;
 constexpr double kRange = 4;
 constexpr double kDecades = 12;
 
 double slopeBetween(double h1, double e1, double h2, double e2) { return std::log(e1 / e2) / std::log(h1 / h2); }
 
+// The error of the next probe, after errors e1 and e2 at the steps h1 > h2.
+double nextError(double h1, double e1, double h2, double e2) {
+  return e2 * std::pow(0.5, slopeBetween(h1, e1, h2, e2));
+}
+
 }  // namespace
 
 StepPlanner::StepPlanner(std::vector<double> steps, double epsilon)
-    : steps_(std::move(steps)), floor_(kAboveRoundOff * epsilon) {}
+    : steps_(std::move(steps)), floor_(kAboveRoundOff * epsilon), small_(kSmall * floor_) {}
 
 std::optional<std::size_t> StepPlanner::next() {
   if (probing_) {
@@ -62,9 +74,29 @@ std::vector<StepPlanner::Probe> StepPlanner::probesOf(std::size_t group) const {
   return probes;
 }
 
+// The probes before the error reaches the floor, or before it is small and no longer shrinks.
+std::vector<StepPlanner::Probe> StepPlanner::aboveRoundOff(std::size_t group) const {
+  auto probes = probesOf(group);
+  const auto below = std::find_if(probes.begin(), probes.end(), [this](auto& p) { return p.error <= floor_; });
+  const auto grows = [this](auto& p, auto& q) { return q.error <= small_ && q.error >= p.error; };
+  const auto least = std::adjacent_find(probes.begin(), probes.end(), grows);
+  probes.erase(std::min(below, least), probes.end());
+  return probes;
+}
+
 bool StepPlanner::finished(std::size_t group) const {
   const auto probes = probesOf(group);
-  if (probes.back().error <= floor_) return true;
+  const double last_error = probes.back().error;
+  if (last_error <= floor_) return true;
+  if (probes.size() < kFewestProbes) return false;
+  const Probe& previous = *(probes.end() - 2);
+  if (last_error <= small_ && last_error >= previous.error) return true;
+  if (nextError(previous.h, previous.error, probes.back().h, last_error) <= floor_) return true;
+  return settled(group);
+}
+
+bool StepPlanner::settled(std::size_t group) const {
+  const auto probes = probesOf(group);
   if (probes.size() < kSettledProbes) return false;
   std::vector<double> slopes;
   for (auto p = probes.end() - kSettledProbes; p + 1 != probes.end(); ++p) {
@@ -74,23 +106,25 @@ bool StepPlanner::finished(std::size_t group) const {
   return before <= 2 * kSettled && last <= kSettled;
 }
 
-// The step at which the error reaches the floor, or the last probe's step if no probe is below it.
+// The step at which the error reaches the floor, by the last slope above it; no smaller than the next probe, made or
+// predicted. The last probe's step if no probe reaches the floor.
 std::optional<double> StepPlanner::smallestUseful(std::size_t group) const {
-  const auto probes = probesOf(group);
-  const auto below = std::find_if(probes.begin(), probes.end(), [this](auto& p) { return p.error <= floor_; });
-  if (below == probes.begin()) return {};
-  const Probe& last = *(below - 1);
-  if (below == probes.end() || below - probes.begin() < 2) return last.h;
-  const Probe& before = *(below - 2);
+  const auto all = probesOf(group), probes = aboveRoundOff(group);
+  if (probes.empty()) return {};
+  const Probe& last = probes.back();
+  if (probes.size() < 2) return last.h;
+  const Probe& before = *(probes.end() - 2);
+  const bool predicted = nextError(before.h, before.error, last.h, last.error) <= floor_;
+  if (all.size() == probes.size() && !predicted) return last.h;
   const double slope = slopeBetween(before.h, before.error, last.h, last.error);
   if (!(slope > 0)) return last.h;
-  return std::clamp(last.h * std::pow(floor_ / last.error, 1 / slope), below->h, last.h);
+  const double next = all.size() > probes.size() ? all[probes.size()].h : last.h / 2;
+  return std::clamp(last.h * std::pow(floor_ / last.error, 1 / slope), next, last.h);
 }
 
 // Ratio of the largest to the smallest measured step, from the slope of the last two probes above the floor.
 double StepPlanner::rangeOf(std::size_t group) const {
-  auto probes = probesOf(group);
-  std::erase_if(probes, [this](const Probe& p) { return p.error <= floor_; });
+  const auto probes = aboveRoundOff(group);
   if (probes.size() < 2) return kRange;
   const Probe &before = *(probes.end() - 2), &last = probes.back();
   const double slope = slopeBetween(before.h, before.error, last.h, last.error);
@@ -102,14 +136,26 @@ void StepPlanner::plan() {
   for (std::size_t group = 0; group < std::tuple_size_v<GroupErrors>; ++group) {
     const auto least = smallestUseful(group);
     if (!least) continue;
-    const double range = rangeOf(group);
-    for (int k = 0; k < kPoints; ++k) {
-      const std::size_t index = nearest(*least * std::pow(range, k / (kPoints - 1.0)));
-      if (!runs_.contains(index)) plan_.push_back(index);
+    const int points = settled(group) ? kPointsSettled : kPointsChanging;
+    const double ratio = std::pow(rangeOf(group), 1 / (points - 1.0));
+    for (int k = 0; k < points; ++k) {
+      const double h = *least * std::pow(ratio, k);
+      if (!measuredNear(h, ratio, group)) plan_.push_back(nearest(h));
     }
   }
   std::sort(plan_.begin(), plan_.end(), std::greater<>());
-  plan_.erase(std::unique(plan_.begin(), plan_.end()), plan_.end());
+}
+
+// Whether a run that shows the error of this group has a step within half a ratio of h, or will have it: components
+// share their steps.
+bool StepPlanner::measuredNear(double h, double ratio, std::size_t group) const {
+  const double distance = 0.5 * std::log(ratio) * (1 + 1e-9);
+  const auto near = [&](std::size_t index) { return std::abs(std::log(steps_[index] / h)) <= distance; };
+  const auto known = [&](const auto& run) { return std::isfinite(run.second[group]) && near(run.first); };
+  const std::size_t candidate = nearest(h);
+  return runs_.contains(candidate) || std::any_of(runs_.begin(), runs_.end(), known) ||
+         std::any_of(plan_.begin(), plan_.end(), near) ||
+         std::find(plan_.begin(), plan_.end(), candidate) != plan_.end();
 }
 
 std::size_t StepPlanner::nearest(double h) const {

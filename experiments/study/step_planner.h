@@ -13,9 +13,10 @@ namespace irk {
 using GroupErrors = std::array<double, 4>;
 
 /// Plans a series of runs with constant steps h_0 > h_1 > ... It first probes: steps are halved until the slope of
-/// every component has settled or its error has reached round-off. Then it measures each component with a geometric
-/// series of steps over a factor of four above the smallest useful step; for high orders over twelve decades of the
-/// error. The plan depends on errors only, so it is deterministic.
+/// every component has settled or its error reaches round-off, now or at the next step. Then it measures each component
+/// with a geometric series of steps over a factor of four above the smallest useful step; for high orders over twelve
+/// decades of the error. Steps of the probe and of other components count for a component, too. The plan depends on
+/// errors only, so it is deterministic.
 class StepPlanner {
  public:
   /// steps: the candidates, descending, > 0. epsilon: round-off of the runs' scalar.
@@ -41,14 +42,17 @@ class StepPlanner {
 
   std::optional<std::size_t> nextProbe() const;
   std::vector<Probe> probesOf(std::size_t group) const;
+  std::vector<Probe> aboveRoundOff(std::size_t group) const;
   bool finished(std::size_t group) const;
+  bool settled(std::size_t group) const;
   std::optional<double> smallestUseful(std::size_t group) const;
   double rangeOf(std::size_t group) const;
   void plan();
+  bool measuredNear(double h, double ratio, std::size_t group) const;
   std::size_t nearest(double h) const;
 
   std::vector<double> steps_;
-  double floor_;
+  double floor_, small_;
   bool probing_ = true, planned_ = false;
   std::map<std::size_t, GroupErrors> runs_;
   std::vector<std::size_t> plan_;  // descending; runs still to be made

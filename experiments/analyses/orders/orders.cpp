@@ -7,108 +7,20 @@
 #include <optional>
 
 #include "experiments/analyses/orders/order_fit.h"
+#include "experiments/analyses/orders/row_theory.h"
 #include "experiments/analyses/orders/theory.h"
+#include "experiments/analyses/orders/theory_table.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
-#include "experiments/runs/fields.h"
 #include "experiments/runs/run_spec.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/analysis.h"
 #include "irk/scene.h"
-#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-struct Theory {
-  double order = kUnknown;
-  std::string source;
-};
-
-// For |h lambda| above this, a stiff component agrees with its limit to several digits.
-constexpr double kStiffLimit = 1e3;
-
-Sizes sizesOf(const Table& runs, const TableRow& row) {
-  RunSpec spec;
-  findField("scene").set(spec, textAt(runs, row, "scene"));
-  findField("settings").set(spec, textAt(runs, row, "settings"));
-  return makeScene<double>(spec.scene, settingsAtStep(spec)).sizes();
-}
-
-// The setting that makes the scene stiff: `-1e8`, or `-1e8/h` if the stiffness grows as the step shrinks.
-std::string stiffnessText(const SceneEntry& scene, const std::string& settings) {
-  const std::string& name = scene.stiffness.parameter;
-  const std::string start = ' ' + name + '=', all = ' ' + settings;
-  if (const auto at = all.find(start); at != all.npos) {
-    const auto value = at + start.size();
-    return all.substr(value, all.find(' ', value) - value);
-  }
-  for (const Parameter& parameter : scene.parameters) {
-    if (parameter.name == name) return parameter.default_value;
-  }
-  return {};
-}
-
-// The kind of a scene that its settings make stiff.
-std::optional<SystemKind> stiffKind(const SceneEntry& scene, const std::string& settings, double h) {
-  const std::string text = stiffnessText(scene, settings);
-  const bool test = scene.kind == SceneKind::kStiffTest;
-  if (text.ends_with("/h")) return test ? std::optional(SystemKind::kStiffFixedZ) : std::nullopt;
-  const double value = std::abs(std::strtod(text.c_str(), nullptr));
-  const double stiffness = scene.stiffness.reciprocal ? 1 / value : value;
-  if (test && stiffness * h >= kStiffLimit) return SystemKind::kStiffFixedLambda;
-  return stiffness <= 1 ? std::optional(SystemKind::kOde) : std::nullopt;
-}
-
-std::optional<SystemKind> mechanicalKind(const std::string& formulation) {
-  if (formulation == "index3") return SystemKind::kMechanical3;
-  if (formulation == "index2") return SystemKind::kMechanical2;
-  if (formulation == "index2_projected") return SystemKind::kProjected;
-  if (formulation == "ggl") return SystemKind::kGgl;
-  return {};
-}
-
-std::optional<SystemKind> kindOf(const Table& runs, const TableRow& row, double h) {
-  const SceneEntry& scene = findScene(textAt(runs, row, "scene"));
-  switch (scene.kind) {
-    case SceneKind::kStiffTest:
-    case SceneKind::kSingularlyPerturbed:
-      return stiffKind(scene, textAt(runs, row, "settings"), h);
-    case SceneKind::kIndex1:
-      return SystemKind::kIndex1;
-    case SceneKind::kIndex2:
-      return SystemKind::kIndex2;
-    case SceneKind::kIndex3:
-      return SystemKind::kIndex3;
-    case SceneKind::kOde:
-    case SceneKind::kConstrained:
-      break;
-  }
-  const auto& formulation = textAt(runs, row, "formulation");
-  const Sizes n = sizesOf(runs, row);
-  if (n.nz == 0 || formulation == "first_order") return SystemKind::kOde;
-  return n.constraints < n.nz ? std::nullopt : mechanicalKind(formulation);
-}
-
-// The theoretical order. For a user's method it is the order that the tableau declares, for ordinary differential
-// equations only.
-Theory theoryFor(const Table& runs, const TableRow& row, std::optional<SystemKind> kind, char component) {
-  if (!kind) return {};
-  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
-  // z is solved again from u, v and x, so its order is that of v.
-  const bool consistent =
-      component == 'z' && textAt(runs, row, "multipliers") == "consistent" && sizesOf(runs, row).constraints > 0;
-  const auto order = theoreticalOrder(textAt(runs, row, "family"), stages, *kind, consistent ? 'v' : component);
-  if (order) return {order->order, std::string(order->source)};
-  if (*kind != SystemKind::kOde) return {};
-  try {
-    return {static_cast<double>(makeTableau<double>(textAt(runs, row, "method")).order), "tableau"};
-  } catch (const Misuse&) {  // the file is no longer there
-    return {};
-  }
-}
 
 std::string verdictText(const OrderFit& fit, double theory) {
   if (!fit.measurable) return "not_measurable";
@@ -225,10 +137,6 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 
 }  // namespace
 
-std::optional<SystemKind> systemKind(const Table& table, const TableRow& row, double h) {
-  return kindOf(table, row, h);
-}
-
 Table orderTable(const Table& runs) {
   Table orders;
   orders.head = runs.head;
@@ -263,9 +171,10 @@ Analysis ordersAnalysis() {
           .key = "orders",
           .meaning = "observed orders of convergence, with what theory says",
           .reads = "runs.csv",
-          .writes = "orders.csv",
+          .writes = "orders.csv order_theory.csv",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
             writeTable(in.folder / "orders.csv", orderTable(in.runs));
+            writeTable(in.folder / "order_theory.csv", theoryTable(in.runs));
             return {};
           }};
 }

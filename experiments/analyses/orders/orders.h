@@ -1,9 +1,6 @@
 // orders.csv: the observed order of every series of steps, the theoretical order, and a verdict.
 #pragma once
 
-#include <optional>
-
-#include "experiments/analyses/orders/theory.h"
 #include "experiments/tables/table.h"
 
 namespace irk {
@@ -15,9 +12,5 @@ namespace irk {
 /// the theoretical value (theory.h), or `tableau` for an order that a user's file declares. Verdicts: `agrees` (within
 /// orderTolerance), `differs`, `not_measurable`, `no_theory`.
 Table orderTable(const Table& runs);
-
-/// The kind of system of a row of runs.csv or orders.csv, whose scene is integrated with steps of about `h`; nullopt if
-/// theory knows no orders for it. `h` decides only whether a scene with a stiffness parameter counts as stiff.
-std::optional<SystemKind> systemKind(const Table& table, const TableRow& row, double h);
 
 }  // namespace irk

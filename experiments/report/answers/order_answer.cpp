@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "experiments/analyses/orders/orders.h"
+#include "experiments/analyses/orders/row_theory.h"
 #include "experiments/base/numbers.h"
 #include "experiments/report/answers/formula.h"
 #include "experiments/runs/run_table.h"
@@ -57,7 +57,7 @@ std::map<Place, OrderCheck> checksOf(const Table& orders) {
   std::map<Place, OrderCheck> checks;
   for (const auto& row : orders.rows) {
     if (textAt(orders, row, "power_of") != "h") continue;
-    const auto kind = systemKind(orders, row, numberAt(orders, row, "h_min"));
+    const auto kind = kindOf(orders, row, numberAt(orders, row, "h_min"));
     if (!kind) continue;
     add(orders, row, checks[{*kind, textAt(orders, row, "component").front(), textAt(orders, row, "family")}]);
   }
