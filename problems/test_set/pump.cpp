@@ -37,7 +37,8 @@ struct ChargePump {
     d[kRate] = T(rate);
   }
 
-  // The voltages of the gate over source and drain, less the threshold. They change places where the drain is lower.
+  // The voltages of the gate over source and drain, less the threshold. On the solution y8 = 4 y7 >= 0: the two never
+  // change places.
   template <class T>
   struct Voltages {
     T source, drain, depth;
@@ -45,9 +46,9 @@ struct ChargePump {
   template <class T>
   Voltages<T> voltages(const Point<T>& p) const {
     using std::sqrt;
-    const T &y6 = p.z[2], &y7 = p.z[3], &y8 = p.z[4], low = y7 < y8 ? y7 : y8, high = y7 < y8 ? y8 : y7;
-    const T depth = phi + low, threshold = UT0 + gamma * (sqrt(depth) - sqrt(phi));
-    return {y6 - low - threshold, y6 - high - threshold, depth};
+    const T &y6 = p.z[2], &y7 = p.z[3], &y8 = p.z[4];
+    const T depth = phi + y7, threshold = UT0 + gamma * (sqrt(depth) - sqrt(phi));
+    return {y6 - y7 - threshold, y6 - y8 - threshold, depth};
   }
   template <class T>
   void switching(const Point<T>& p, T* g) const {
