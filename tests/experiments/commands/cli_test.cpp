@@ -222,5 +222,20 @@ TEST(Cli, ListsNameEverything) {
   EXPECT_EQ(program({"--help"}).status, 0);
 }
 
+TEST(Cli, ListsTheScenesOfACollection) {
+  const auto ivp = program({"list", "scenes", "--collection", "ivp"});
+  EXPECT_EQ(ivp.status, 0) << ivp.err;
+  EXPECT_TRUE(containsAll(ivp.out, {"andrews\n", "unknowns: 7 second-order, 0 first-order, 6 algebraic",
+                                    "in: ivp, multibody", "from: IVP test set, ANDREWS"}));
+  EXPECT_EQ(ivp.out.find("stick_slip"), std::string::npos);
+  const auto json = program({"list", "scenes", "--collection", "probes", "--json"});
+  EXPECT_TRUE(containsAll(json.out, {"\"id\": \"kepler\"", "\"nu\": 2", "\"collections\""}));
+  EXPECT_EQ(json.out.find("andrews"), std::string::npos);
+  const auto unknown = program({"list", "scenes", "--collection", "ipv"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(containsAll(unknown.err, {"'ipv'", "'ivp'"}));
+  EXPECT_EQ(program({"list", "studies", "--json"}).status, 2);
+}
+
 }  // namespace
 }  // namespace irk

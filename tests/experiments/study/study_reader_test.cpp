@@ -51,6 +51,24 @@ TEST(StudyReader, RefusesEmptyRangesAndTwins) {
   EXPECT_NO_THROW(parse(kStart + "families = \"gauss\"\nstages = [1, \"3..5\", \"7..7\"]\n"));
 }
 
+TEST(StudyReader, ACollectionStandsForItsScenes) {
+  const auto scenesOf = [](const std::string& list) {
+    std::vector<std::string> scenes;
+    for (const auto& series : parse("[[block]]\nscene = " + list + "\nmethods = \"radau_iia_3\"\n").series) {
+      scenes.push_back(series.runs.front().scene);
+    }
+    return scenes;
+  };
+  const auto ivp = scenesOf("\"@ivp\"");
+  EXPECT_EQ(ivp.front(), "andrews");
+  EXPECT_EQ(std::count(ivp.begin(), ivp.end(), "pendulum"), 1);
+  const auto all = scenesOf("[\"@ivp\", \"kepler\", \"@multibody\"]");
+  EXPECT_GT(all.size(), ivp.size() + 1);
+  EXPECT_EQ(all[ivp.size()], "kepler");
+  EXPECT_EQ(std::count(all.begin(), all.end(), "pendulum"), 1) << "of both collections";
+  EXPECT_TRUE(containsAll(misuseOf([&] { scenesOf("\"@ipv\""); }), {"mine.toml:2: scene: ", "'ipv'", "'ivp'"}));
+}
+
 TEST(StudyReader, WantsIntegersWhereIntegersAreMeant) {
   const std::string block = "\n" + kStart;
   const auto head = [&](const std::string& lines) { return misuseOf([&] { parse(lines + block); }); };

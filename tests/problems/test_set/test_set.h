@@ -12,21 +12,28 @@ namespace irk::test {
 struct TestSetCase {
   const char* id;
   double tolerance = 1e-11;
-  double growth = 1e3;  ///< the error at the end is at most this many tolerances
   const char* setting = "";
   const char* value = "";
+  double until = 1e300;  ///< later values are left out
 
   Settings settings() const { return *setting == '\0' ? Settings{} : Settings{{setting, value}}; }
 };
 
-inline constexpr TestSetCase kTestSet[] = {
-    {.id = "andrews"}, {.id = "beam"},
-    {.id = "caraxis"}, {.id = "chemakzo"},
-    {.id = "e5"},      {.id = "medakzo"},
-    {.id = "nand"},    {.id = "nand", .setting = "beta_back", .value = "1.748e-3"},
-    {.id = "orego"},   {.id = "pollution"},
-    {.id = "pump"},    {.id = "ringmod"},
-    {.id = "transamp"}};
+// The charge pump cannot be integrated beyond the kink of its input at 60 ns, where its current jumps.
+inline constexpr TestSetCase kTestSet[] = {{.id = "andrews"},
+                                           {.id = "beam", .tolerance = 1e-10},
+                                           {.id = "caraxis"},
+                                           {.id = "chemakzo"},
+                                           {.id = "e5"},
+                                           {.id = "medakzo"},
+                                           {.id = "nand"},
+                                           {.id = "nand", .setting = "beta_back", .value = "1.748e-3"},
+                                           {.id = "orego"},
+                                           {.id = "pollution"},
+                                           {.id = "pump", .until = 59},
+                                           {.id = "ringmod", .tolerance = 1e-9},
+                                           {.id = "ringmod", .tolerance = 1e-9, .setting = "Cs", .value = "0"},
+                                           {.id = "transamp"}};
 
 inline bool isOfTheTestSet(std::string_view scene) {
   return std::any_of(std::begin(kTestSet), std::end(kTestSet), [&](const auto& c) { return c.id == scene; });

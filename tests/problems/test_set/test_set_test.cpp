@@ -34,6 +34,9 @@ std::map<std::string, std::pair<double, double>> valuesOf(const Scene<double>& s
   return values;
 }
 
+// Local errors accumulate: at most this many tolerances at the end.
+constexpr double kGrowth = 1e3;
+
 class TestSet : public testing::TestWithParam<TestSetCase> {};
 
 TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
@@ -46,6 +49,7 @@ TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
   State<double> state = scene.start;
   int compared = 0;
   for (const Reference& r : references(c.id, c.settings())) {
+    if (r.t > c.until) break;
     if (state.t < r.t) {
       const auto solution = integrator.integrate(state, r.t);
       ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
@@ -55,7 +59,7 @@ TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
     const auto [value, scale] = valuesOf(scene, state).at(r.component);
     const double wanted = std::strtod(r.value.c_str(), nullptr);
     const double size = std::max(std::abs(wanted), scale);
-    EXPECT_NEAR(value, wanted, c.growth * c.tolerance * size + r.accuracy) << r.component << " at " << r.t;
+    EXPECT_NEAR(value, wanted, kGrowth * c.tolerance * size + r.accuracy) << r.component << " at " << r.t;
     ++compared;
   }
   EXPECT_GE(compared, 3);
