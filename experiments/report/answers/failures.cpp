@@ -117,7 +117,9 @@ void appendRows(const Sample& sample, const std::vector<std::string>& causes, An
       const auto found = counts.find(cause);
       const std::size_t count = found == counts.end() ? 0 : found->second;
       cells.push_back(fmt::format("{}", count));
-      row.cells.push_back(count == 0 ? "–" : fmt::format("{} ({})", count, percent(static_cast<double>(count) / all)));
+      std::string text = fmt::format("{} ({})", count, percent(static_cast<double>(count) / all));
+      replacePlaceholder(text, " ", "&nbsp;");
+      row.cells.push_back(count == 0 ? "–" : text);
     }
     answer.shown.rows.push_back(std::move(row));
     answer.table.rows.push_back(std::move(cells));

@@ -28,7 +28,7 @@ std::string kindOf(const Table& table, const TableRow& row) {
 std::string kindTitle(const std::string& kind) {
   if (kind == "stiff") return "stiff ODEs";
   if (kind == "smooth") return "smooth ODEs";
-  if (kind == "mechanisms") return "mechanisms with constraints, beams";
+  if (kind == "mechanisms") return "mechanisms with constraints or elastic parts";
   if (kind == "switching") return "systems with switches";
   return kind;
 }
@@ -195,11 +195,13 @@ Answer solverAnswer(const claims::ResultTables& tables) {
     for (const auto& choice : choices) appendRow(choice, answer);
     answer.note =
         "4/4: reaches the error in 4 of 4 problems. Fastest: the solver that reaches the error in most problems, among "
-        "equals the one with the least CPU time. "
-        "Factors: geometric mean of CPU times over the problems that both solve. Wrong: success with an error above "
-        "1000 tolerances; failed and wrong runs are those of the fastest solver at all tolerances. `variable`, "
-        "`embedded` and `paper` are configurations of this suite; "
-        "`variable` is Radau IIA of variable order.";
+        "equals the one with the least CPU time. Factor: CPU time over that of the fastest, geometric mean of the "
+        "problems "
+        "that both solve. Failed and wrong runs are those of the fastest solver at all tolerances; wrong: success with "
+        "an "
+        "error above 1000 tolerances. `variable`, `embedded` and `paper` are configurations of this suite; `variable` "
+        "is "
+        "Radau IIA of variable order.";
     answer.links = {{"#profile", "performance profiles"}, {"#study_work_precision", "all diagrams"}};
   } catch (const claims::MissingResults& missing) {
     answer.sentences.push_back(missing.what());

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "experiments/base/median.h"
 #include "experiments/report/answers/answer.h"
 #include "experiments/report/answers/failures.h"
 #include "experiments/report/answers/order_answer.h"
@@ -51,10 +53,24 @@ std::string sentenceOf(const Comparison& comparison_of, const Table& costs) {
   const auto won = wins(found);
   const auto at = won.find(best.solver);
   return fmt::format(
-      "At an error of {}, {}`{}` is the best choice: it reaches the error in {} of {} problems, is the fastest in {}, "
+      "At an error of {}, {}`{}` is the cheapest: it reaches the error in {} of {} problems, is the fastest in {}, "
       "and {}.",
       errorText(target), comparison_of.noun, best.solver, best.solved, problems, at == won.end() ? 0 : at->second,
       comparison(ratio(found, next.solver, best.solver), best, next, problems));
+}
+
+// The violation of the position constraint by formulation, from the successful runs.
+std::string driftSentence(const Table& runs) {
+  std::map<std::string, std::vector<double>> drifts;
+  for (const auto& row : runs.rows) {
+    const double drift = numberAt(runs, row, "drift");
+    if (succeededAt(runs, row) && !std::isnan(drift)) drifts[textAt(runs, row, "formulation")].push_back(drift);
+  }
+  std::vector<std::string> parts;
+  for (const auto& [formulation, values] : drifts) {
+    parts.push_back(fmt::format("{:.0e} with `{}`", median(values), formulation));
+  }
+  return parts.empty() ? "" : fmt::format("The median drift of all runs is {}.", listText(parts));
 }
 
 // nullptr without the table.
@@ -76,7 +92,10 @@ std::vector<std::string> studyAnswers(std::string_view study, const claims::Resu
   }
   if (const Table* orders = tableIfAny(tables, study, "orders")) sentences.push_back(sentenceOf(checkOf(*orders)));
   if (study == "audit") sentences.push_back(wrongSentence(tables));
-  if (const Table* runs = tableIfAny(tables, study, "runs")) sentences.push_back(outcomeSentence(*runs));
+  if (const Table* runs = tableIfAny(tables, study, "runs")) {
+    if (study == "drift") sentences.push_back(driftSentence(*runs));
+    sentences.push_back(outcomeSentence(*runs));
+  }
   std::erase(sentences, "");
   return sentences;
 }

@@ -31,7 +31,7 @@ TEST_F(OwnStudies, AreDrawnAndReportedWithoutTheirFile) {
   const Ended report = program({"report", "--results", results()});
   EXPECT_EQ(report.status, 0) << report.err;
   EXPECT_TRUE(containsAll(page(), {"study_small", ">Small<", "Our &lt;figure&gt;", "What it says.",
-                                   "figures/small_ours.svg", "Study small"}));
+                                   "figures/small_ours.svg", "../small/runs.csv"}));
 }
 
 TEST_F(OwnStudies, HaveFiguresByDefault) {

@@ -278,9 +278,22 @@ TEST(StudyAnswers, CompareTheColumnOfTheStudy) {
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_EQ(
       sentences[0],
-      "At an error of 1e-6, the family `radau_iia` is the best choice: it reaches the error in 1 of 1 problems, is the "
+      "At an error of 1e-6, the family `radau_iia` is the cheapest: it reaches the error in 1 of 1 problems, is the "
       "fastest in 1, and 3.0 times as fast as `gauss`.");
   EXPECT_TRUE(studyAnswers("peers", tables).empty()) << "no results, no answer";
+}
+
+TEST(StudyAnswers, GiveTheMedianDriftOfSuccesses) {
+  claims::ResultTables tables;
+  const auto drifted = [](const char* formulation, const char* outcome, const char* drift) {
+    return Cells{{"formulation", formulation}, {"outcome", outcome}, {"drift", drift}};
+  };
+  tables.put("drift", "runs",
+             tableOf({"formulation", "outcome", "drift"},
+                     {drifted("index2", "success", "1e-6"), drifted("index2", "success", "3e-6"),
+                      drifted("index2", "success", "9e-6"), drifted("index2", "timeout", "1"),
+                      drifted("ggl", "success", "nan")}));
+  EXPECT_EQ(studyAnswers("drift", tables).at(0), "The median drift of all runs is 3e-06 with `index2`.");
 }
 
 TEST(StudyAnswers, CountOutcomes) {
