@@ -61,12 +61,12 @@ columns = n <= 3 ? n : 2
 lines = (n + columns - 1) / columns
 width = n <= 1 ? 560 : n == 3 ? 1080 : 820
 margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : 0.1
-margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = lines > 1 ? 0.06 : words(jumps) ? 0.17 : 0.1
+margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = words(jumps) ? (lines == 1 ? 0.17 : lines == 2 ? 0.1 : 0.08) : lines > 1 ? 0.06 : 0.1
 gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
   set multiplot
-  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.7 font ',10' textcolor rgb ink noenhanced }
+  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.6 font ',10' textcolor rgb ink noenhanced }
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)
