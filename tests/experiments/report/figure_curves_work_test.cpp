@@ -136,9 +136,19 @@ TEST(FigureCurves, BestCost) {
   const Svg svg = drawing.draw("best_cost.gp", "cases='pendulum kepler'");
   expectPoints(svg.marks('a', 1, kLog, kLog), {{1e-6, 0.1}, {1e-4, 0.01}}, "radau");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{1e-6, 9}, {1e-4, 0.3}}, "gauss");
-  expectPoints(svg.marks('b', 2, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler");
+  expectPoints(svg.marks('b', 1, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler, its only family");
+  EXPECT_EQ(svg.occurrences("no run reaches"), 0);
   const Svg other = drawing.draw("best_cost.gp", "cases='pendulum'; cost='residuals'; values='gauss'");
   expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 7000 / 9.0}, {1e-4, 7000 / 0.3}}, "residuals");
+  rows.push_back({{"scene", "robertson"},
+                  {"settings", ""},
+                  {"family", "gauss"},
+                  {"stages", "2"},
+                  {"target_error", "1e-4"},
+                  {"reached", "0"}});
+  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  const Svg empty = drawing.draw("best_cost.gp", "cases='pendulum robertson'");
+  EXPECT_EQ(empty.occurrences("no run reaches"), 1) << "an empty panel says why";
 }
 
 TEST(FigureCurves, CpuVsStages) {
