@@ -58,21 +58,26 @@ do for [format in formats] {
   eval decades("x"); eval decades("y")
   set xrange [2 * target(targets) : target(1) / 2]
   do for [i = 1 : n] {
-    low = 1e300; high = 0
+    low = 1e300; high = 0; have = ""
     do for [v = 1 : count] { do for [k = 1 : targets] {
       b = Best[slot(i, v, k)]
-      if (b < 1e300) { low = b < low ? b : low; high = b > high ? b : high }
+      if (b < 1e300) { low = b < low ? b : low; high = b > high ? b : high; have = have.(position(have, sprintf("%d", v)) ? "" : sprintf(" %d", v)) }
     } }
-    if (high == 0) { low = 1; high = 10 }
+    empty = high == 0
+    if (empty) { low = 1; high = 10 }
     set yrange [low / 1.5 : high * 1.5]
-    eval logTics('y', low, high)
+    if (empty) { set ytics ('' 1); set label 1 "no run reaches an error\nof the table" at graph 0.5, graph 0.5 center textcolor rgb ink } else { eval logTics('y', low, high) }
     if (n > 2 && targets > 5) { eval wide_tics }
     eval panel(i, n, 1)
     set title caseTitle(i) offset 0,-0.5 noenhanced
     set xlabel 'error'
     set ylabel when(i == 1, cost eq 'cpu_s' ? 'CPU time in s' : cost) offset 1,0 noenhanced
-    plot for [v = 1 : count] '+' using (target(int($0) + 1)):(Best[slot(i, v, int($0) + 1)] < 1e300 ? Best[slot(i, v, int($0) + 1)] : NaN) \
-      every ::0::(targets - 1) with linespoints lw 1.4 dt dash(v) pt pointOf(v) ps 0.8 lc rgb colour(v) notitle
+    best_at(v, j) = Best[slot(i, v, j + 1)] < 1e300 ? Best[slot(i, v, j + 1)] : NaN
+    if (empty) { plot 2 * high notitle } else {
+      plot for [v in have] '+' using (target(int($0) + 1)):(best_at(number(v), int($0))) every ::0::(targets - 1) \
+        with linespoints lw 1.4 dt dash(number(v)) pt pointOf(number(v)) ps 0.8 lc rgb colour(number(v)) notitle
+    }
+    unset label 1
   }
   eval legend(0.11)
   plot 2 notitle, for [v = 1 : count] keyentry with linespoints lw 1.4 dt dash(v) pt pointOf(v) ps 0.8 lc rgb colour(v) title titleOf(v)

@@ -33,6 +33,12 @@ rows = N_sum
 if (rows > 0) { stats file using (chosen(0) ? error(0) : NaN) name "E" nooutput }
 methods = sortedMethods(collected)
 method(k) = word(methods, k)
+# Round-off of the numbers of the runs.
+round_offs = "double 2.2e-16 mp50 5e-51 mp100 6e-101"
+scalars = ""
+stats file using (chosen(0) && succeeded(0) ? (position(scalars, strcol("scalar")) ? 0 : strlen(scalars = scalars." ".strcol("scalar"))) : 0) nooutput
+mantissa(x) = x[1 : strstrt(x, 'e') - 1] + 0
+roundOff(name) = mantissa(word(round_offs, position(round_offs, name) + 1)) * 10.0 ** int(word(round_offs, position(round_offs, name) + 1)[strstrt(word(round_offs, position(round_offs, name) + 1), 'e') + 1 : *])
 if (rows > 0) { y_max = 10 * E_max; y_min = E_min / 3; fail_at = 0.4 * y_max }
 
 # The theoretical slope, drawn through the middle of the points that the fit used.
@@ -85,6 +91,10 @@ do for [format in formats] {
       set xlabel 'step h'
       set ylabel when(i == 1, 'error') offset 1,0
       set key at graph 1.02, graph 1 left top Left reverse title (has_fits ? 's: order' : 'stages')
+      unset arrow; unset label
+      do for [s in scalars] { if (position(round_offs, s) && 100 * roundOff(s) > y_min && roundOff(s) < y_max && rows > 0) {
+        set arrow from graph 0, first roundOff(s) to graph 1, first roundOff(s) nohead dt 2 lw 1 lc rgb 0x888888 back
+        set label 'round-off, '.s at graph 0.02, first roundOff(s) left offset 0,-0.6 font ',9' textcolor rgb 0x666666 } }
       plot for [k in fittedIn(i, words(methods))] file using "h":(predicted(slot(i, number(k)), f, method(number(k)))) \
              smooth unique with lines lw 4 lc rgb 0xD0D0D0 notitle, \
            for [k in linesIn(i, words(methods))] file using "h":(row(f, method(number(k))) ? error(0) : NaN) \
@@ -93,7 +103,7 @@ do for [format in formats] {
              title seriesTitle(i, number(k)), \
            file using (failed(f)):(fail_at) with points pt failure_point ps 0.9 lw 1.5 lc rgb failure_colour notitle
     }
-    unset multiplot
+    unset multiplot; unset arrow; unset label
   }
   unset output
   unset logscale

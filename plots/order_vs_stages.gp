@@ -39,8 +39,9 @@ with_theory = collected
 collected = ""
 if (has_theories) { stats theories using (chosen(0) ? remember(0) : 0) nooutput }
 with_all = collected
-without_theory = 0
-stats file using (chosen(0) && position(components, strcol("component")) && is("verdict", 'no_theory') ? (without_theory = 1) : 0) nooutput
+# Which marks the legend explains: only those that are drawn.
+seen = ""
+stats file using (chosen(0) ? (position(seen, strcol("verdict")) ? 0 : strlen(seen = seen." ".strcol("verdict"))) : 0) nooutput
 present = ""
 do for [f in families_known.found] { present = present.(position(found, f) && !position(present, f) ? " ".f : "") }
 n = words(present)
@@ -80,11 +81,13 @@ do for [format in formats] {
            with points pt 10 ps 0.8 lc rgb 0x777777 notitle
   }
   eval legend(lines == 1 ? 0.13 : 0.07)
-  plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 \
-         lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line), observed (mark)'), \
-       keyentry with points pt failure_point ps 1.4 lw 2 lc rgb failure_colour title 'differs', \
-       keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable', \
-       for [k = 1 : without_theory] keyentry with points pt partPoint(1) ps 0.75 lc rgb ink title 'mark without line: no theory known'
+  entries = "plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 " \
+    ."lc rgb ink title (parts > 1 ? partTitle(part(k)) : 'theory (line), observed (mark)')"
+  if (position(seen, 'differs')) { entries = entries.", keyentry with points pt failure_point ps 1.4 lw 2 " \
+    ."lc rgb failure_colour title 'differs from theory'" }
+  if (position(seen, 'not_measurable')) { entries = entries.", keyentry with points pt 10 ps 0.8 lc rgb 0x777777 title 'not measurable'" }
+  if (position(seen, 'no_theory')) { entries = entries.", keyentry with dots lc rgb 'white' title 'without a line: no theory'" }
+  eval entries
   unset multiplot
   unset output
   eval framed

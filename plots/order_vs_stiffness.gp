@@ -28,7 +28,9 @@ if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (chosen(0) ? (collect(group(0)), stiffness(0)) : NaN) name "X" nooutput
 found = collected
 collected = ""
-stats file using (chosen(0) ? (collect(sprintf("%d", column("stages"))), 0) : NaN) nooutput
+# Without numbers of stages that were measured at the largest stiffness only.
+isCurve(d) = chosen(0) && (stiffness(0) < 0.99 * X_max || X_min > 0.99 * X_max)
+stats file using (isCurve(0) ? (collect(sprintf("%d", column("stages"))), 0) : NaN) nooutput
 stages = sorted(collected)
 collected = ""
 stats file using (chosen(0) ? (collect(sprintf("%.6f", log10(stiffness(0)))), 0) : NaN) nooutput
@@ -66,7 +68,7 @@ do for [format in formats] {
     set xlabel when(i > n - columns, 'stiffness |λ| in 1/s') offset 0,0.5
     set xrange [*:*]; set yrange [*:*]   # stats uses only values inside the ranges
     collected = ""
-    stats file using (chosen(0) && group(0) eq f ? (collect(sprintf("%d", column("stages"))), 1) : NaN) nooutput
+    stats file using (isCurve(0) && group(0) eq f ? (collect(sprintf("%d", column("stages"))), 1) : NaN) nooutput
     here = sorted(collected)
     set print $D
     do for [k in here] {

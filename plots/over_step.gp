@@ -19,6 +19,8 @@ stats file using (row(0) ? (collect(curve(0)), 1) : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (row(0) ? column("h") : NaN) name "H" nooutput
 curves = collected
+stats file using (row(0) && !succeeded(0) ? 1 : 0) name "F" nooutput
+failures = exists("F_sum") ? F_sum : 0
 n = words(quantities)
 count = words(curves)
 first(c) = c[1 : strstrt(c, ':') - 1]
@@ -27,6 +29,7 @@ second(c) = c[strstrt(c, ':') + 1 : strlen(c)]
 colours = "index3 0xD55E00 index2 0x0072B2 index1 0x009E73 ggl 0xCC79A7 index2_projected 0xE69F00"
 colourOf(c) = position(colours, first(c)) ? int(word(colours, position(colours, first(c)) + 1)) : 0x000000
 off(c) = second(c) eq 'off'
+sizeOf(c) = off(c) ? 1.5 : 0.7   # a ring around the filled mark where both coincide
 pointOf(c) = position("index3 index2 index1 ggl index2_projected", first(c)) * 2 + 3 - (off(c) ? 1 : 0)
 dashOf(c) = off(c) ? 3 : 1
 titleOf(c) = first(c).(by eq 'formulation scaling' ? (off(c) ? ', unscaled' : ', scaled') : ' '.second(c))
@@ -51,15 +54,15 @@ do for [format in formats] {
     set xlabel 'step h (smaller to the right)'
     set ylabel title_of(q) offset 1,0
     plot for [k = 1 : count] file using (at(k) && succeeded(0) ? column("h") : NaN):(valueOf(q)) \
-           smooth unique with linespoints lw 1.3 dt dashOf(word(curves, k)) pt pointOf(word(curves, k)) ps 0.8 \
+           smooth unique with linespoints lw 1.3 dt dashOf(word(curves, k)) pt pointOf(word(curves, k)) ps sizeOf(word(curves, k)) \
            lc rgb colourOf(word(curves, k)) notitle, \
          for [k = 1 : count] file using (at(k) && !succeeded(0) ? column("h") : outside):(lost * (q eq 'iterations' ? 1 + 0.03 * k : 2.0 ** k)) \
-           with points pt failure_point ps 0.8 lw 1.5 lc rgb colourOf(word(curves, k)) notitle
+           with points pt failure_point ps 1 lw 2.4 lc rgb colourOf(word(curves, k)) notitle
   }
   eval legend(0.12)
   plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt dashOf(word(curves, k)) \
-         pt pointOf(word(curves, k)) ps 0.8 lc rgb colourOf(word(curves, k)) title titleOf(word(curves, k)), \
-       keyentry with points pt failure_point ps 0.8 lw 1.5 lc rgb ink title 'failed'
+         pt pointOf(word(curves, k)) ps sizeOf(word(curves, k)) lc rgb colourOf(word(curves, k)) title titleOf(word(curves, k)), \
+       for [k = 1 : failures > 0] keyentry with points pt failure_point ps 1 lw 2.4 lc rgb ink title 'failed'
   unset multiplot
   unset output
   eval framed

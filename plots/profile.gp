@@ -8,13 +8,23 @@ if (!exists("targets")) targets = 'all'
 if (!exists("integrators")) integrators = ''
 file = data.'/profile.csv'
 undefine N_*
+columns = words(targets)
 ofTarget(i) = word(targets, i) eq 'all' ? strcol("target_error") eq 'all' : strcol("target_error") ne 'all' && \
   abs(log10(column("target_error")) - int(word(targets, i))) < 0.01
-stats file using (ofTarget(1) ? (collect(strcol("integrator")), 1) : 0) name "N" nooutput
-if (!exists("N_sum") || N_sum == 0) { eval absence(targets." in ".file) }
-if (words(integrators) == 0) { integrators = collected }
+array Rows[columns]
+tried = 0
+do for [i = 1 : columns] {
+  undefine N_*
+  stats file using (ofTarget(i) ? (collect(strcol("integrator")), 1) : 0) name "N" nooutput
+  Rows[i] = exists("N_sum") ? N_sum : 0
+  tried = tried + Rows[i]
+}
+if (tried == 0) { eval absence(targets." in ".file) }
+# The legend lists only solvers with a curve.
+in_data = ""
+do for [w in (words(integrators) == 0 ? collected : integrators)] { in_data = in_data.(position(collected, w) ? " ".w : "") }
+integrators = in_data
 count = words(integrators)
-columns = words(targets)
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
 curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
 curveDash(k) = (k - 1) % 4 + 1
@@ -40,8 +50,12 @@ do for [format in formats] {
     set xlabel 'time over that of the best solver'
     set ylabel when(i == 1, 'part of the problems given to it') offset 1,0
     if (i > 1) { set format y '' } else { set format y '%.1f' }
-    plot for [k = 1 : count] file using (at(i, k) ? column("ratio") : NaN):(column("fraction")) \
-      with steps lw 1.8 dt curveDash(k) lc rgb curveColour(k) notitle
+    if (Rows[i] == 0) { set label 1 "no run was asked\nfor this error" at graph 0.5, graph 0.5 center textcolor rgb ink }
+    if (Rows[i] == 0) { plot 2 notitle } else {
+      plot for [k = 1 : count] file using (at(i, k) ? column("ratio") : NaN):(column("fraction")) \
+        with steps lw 1.8 dt curveDash(k) lc rgb curveColour(k) notitle
+    }
+    unset label 1
   }
   eval legend(legend_height)
   set key noenhanced maxrows (count > 8 ? 3 : count > 4 ? 2 : 1)

@@ -20,6 +20,15 @@ do for [m in methods] { undefine C_*
   if (exists("C_sum") && C_sum > 0) { kept = kept.' '.m } }
 methods = kept
 columns = words(methods)
+# A way with a single point is no curve; the legend lists only ways that are drawn.
+curves = ""
+do for [k = 1 : words(ways)] {
+  most = 0
+  do for [i = 1 : columns] { undefine C_*
+    stats file using (at(i, k) ? 1 : 0) name "C" nooutput
+    if (exists("C_sum") && C_sum > most) { most = C_sum } }
+  if (most > 1) { curves = curves.sprintf(" %d", k) }
+}
 stagesIn(method) = system("echo '".method."' | sed 's/.*_//'")
 margin_left = columns == 1 ? 0.14 : 0.08; margin_top = 0.09; margin_bottom = columns == 1 ? 0.4 : 0.27; gap_x = 0.03
 do for [format in formats] {
@@ -35,12 +44,12 @@ do for [format in formats] {
     set ylabel when(i == 1, 'time of a step in s') offset 1,0
     if (i > 1) { set format y '' }
     plot T_min * x / N_min with lines lw 1 dt 3 lc rgb 0x888888 notitle, \
-      for [k = 1 : words(ways)] file using (at(i, k) ? column("n") : NaN):(column("step_s")) \
-      with linespoints lw 1.4 pt int(word(way_points, k)) ps 0.7 lc rgb int(word(way_colours, k)) notitle
+      for [k in curves] file using (at(i, number(k)) ? column("n") : NaN):(column("step_s")) \
+      with linespoints lw 1.4 pt int(word(way_points, number(k))) ps 0.7 lc rgb int(word(way_colours, number(k))) notitle
   }
   eval legend(columns == 1 ? 0.27 : 0.12)
-  plot 2 notitle, for [k = 1 : words(ways)] keyentry with linespoints lw 1.4 pt int(word(way_points, k)) ps 0.7 \
-      lc rgb int(word(way_colours, k)) title word(titles, k), keyentry with lines lw 1 dt 3 lc rgb 0x888888 title 'slope 1'
+  plot 2 notitle, for [k in curves] keyentry with linespoints lw 1.4 pt int(word(way_points, number(k))) ps 0.7 \
+      lc rgb int(word(way_colours, number(k))) title word(titles, number(k)), keyentry with lines lw 1 dt 3 lc rgb 0x888888 title 'slope 1'
   unset multiplot
   unset output
   eval framed

@@ -1,8 +1,10 @@
 # A scene's solution over time, one panel per kind of quantity.
 #   gnuplot -e "data='results/scenes'; out='solution'; scene='SCENE'" scene_solution.gp
-# Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels.
+# Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels, log_time (1: a
+# logarithmic time axis, from the first step on).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("method")) method = 'radau_iia_5'
+if (!exists("log_time")) log_time = 0
 if (!exists("file_name")) file_name = scene.'.'.method
 file = data.'/'.file_name.'.csv'
 
@@ -20,7 +22,10 @@ header = ""
 if (exists("W_columns")) {
   stats file using ($0 == 0 ? sum [c = 1 : W_columns] strlen(header = header.' '.strcol(c)) : 0) nooutput
 }
+first_step = 1e300
+if (exists("W_columns")) { stats file using ($1 > 0 && $1 < first_step ? (first_step = $1) : 0) nooutput }
 set datafile columnheaders
+timeOrBase(x, orbit) = log_time && !orbit ? positive(x) : x
 
 # Switches: dashed lines over the whole height, short ones where there are many.
 jumps = ""; kinds = ""
@@ -60,13 +65,13 @@ if (n == 0) { eval absence(scene." in ".file) }
 columns = n <= 3 ? n : 2
 lines = (n + columns - 1) / columns
 width = n <= 1 ? 560 : n == 3 ? 1080 : 820
-margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : 0.1
-margin_bottom = lines == 1 ? 0.15 : 0.09; margin_top = lines > 1 ? 0.06 : words(jumps) ? 0.17 : 0.1
-gap_x = n == 3 ? 0.085 : 0.11; gap_y = 0.12
+margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : n > 6 ? 0.12 : 0.1
+margin_bottom = lines == 1 ? 0.15 : lines > 2 ? 0.06 : 0.09; margin_top = words(jumps) ? (lines == 1 ? 0.17 : lines == 2 ? 0.1 : 0.08) : lines > 1 ? 0.06 : 0.1
+gap_x = n == 3 ? 0.085 : 0.12; gap_y = lines > 2 ? 0.24 / lines : 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
   set multiplot
-  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.7 font ',10' textcolor rgb ink noenhanced }
+  if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.6 font ',10' textcolor rgb ink noenhanced }
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)
@@ -80,15 +85,16 @@ do for [format in formats] {
     set xrange [*:*] noextend
     set yrange [*:*]
     set size noratio; set xtics autofreq
+    if (log_time && !orbit) { eval decades("x"); set xtics autofreq; if (W_max / first_step > 1e8) { set xtics 1e4 } }
     if (orbit) { set xrange [*:*] extend; set size ratio -1; set xtics 0.5 }
     unset arrow
     if (!orbit) {
       do for [j = 1 : words(jumps)] { set arrow from first real(word(jumps, j)), graph 0 to first real(word(jumps, j)), graph jump_height \
         nohead dt 2 lw 0.8 lc rgb 0xa0a0a0 back }
     }
-    plot for [k = 1 : words(list)] file using (column(over(word(list, k)))):(scale * column(of(word(list, k)))) \
+    plot for [k = 1 : words(list)] file using (timeOrBase(column(over(word(list, k))), orbit)):(scale * column(of(word(list, k)))) \
       with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
-    unset label 99
+    unset label 99; unset logscale x; set format x '%g'
   }
   unset multiplot
   unset output

@@ -1,16 +1,18 @@
 # The share of each part of an integration in its time, over the number of unknowns: one panel per number of stages,
 # one row per stage solver.
 #   gnuplot -e "data='results/phases'; out='phases'; scene='SCENE'" shares.gp
-# Reads phases.csv. Options: block or scene, derivatives, solvers (one row of panels each), methods (one column each).
+# Reads phases.csv. Options: block or scene, derivatives, solvers (one row of panels each), methods (one column each),
+# n_least (fewer unknowns are left out: their parts are as short as a call of the clock).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("derivatives")) derivatives = 'difference_forward'
 if (!exists("solvers")) solvers = 'coupled_dense schur'
 if (!exists("methods")) methods = 'radau_iia_3 radau_iia_5 radau_iia_10'
+if (!exists("n_least")) n_least = 0
 file = data.'/phases.csv'
 parts = "residual jacobian factorization solve update step start"
 part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves' 'rest of iterations' 'rest of steps' 'start'"
 part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B 0x8FBF9F 0x4C8C6B 0xBBBBBB"
-row(d) = ofScene(0) && is("derivatives", derivatives)
+row(d) = ofScene(0) && is("derivatives", derivatives) && column("n") >= n_least
 undefine N_*
 stats file using (row(0) ? (collect(sprintf("%d", column("n"))), 1) : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }

@@ -1,5 +1,6 @@
 # Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error
-# decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested.
+# decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested. A ring marks a
+# success whose error is more than 10^5 tolerances.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
 #   variant (a column; its values are the curves), variants (the values to show, in this order),
@@ -27,6 +28,11 @@ shown(d) = words(variants) == 0 || position(variants, curveOf(0))
 chosen(case) = inCase(case) && shown(0)
 error(d) = succeeded(0) && !absent(quantity) ? positive(column(quantity)) : NaN
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
+# A success whose error is this many tolerances. Fixed steps have no tolerance.
+loose_from = 1e5
+has_control = strlen(system("grep -m1 -v '^#' '".file."' | tr ',' '\\n' | grep -x control"))
+isFixed(d) = has_control ? is("control", 'fixed') : 0
+isLoose(d) = error(0) > 0 && !isFixed(0) ? error(0) > loose_from * asked(0) : 0
 
 panels = words(cases) > 1 ? words(cases) : words(costs)
 caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
@@ -59,7 +65,19 @@ do for [i = 1 : panels] {
   }
 }
 if (tried == 0) { eval absence(cases." in ".file) }
-if (words(variants) == 0) { variants = collected }
+# The legend lists only curves with a mark.
+collected = ""
+do for [i = 1 : panels] {
+  stats file using (chosen(caseOf(i)) && (error(0) > 0 || !succeeded(0)) ? collect(curveOf(0)) : 0) nooutput
+}
+drawn = collected
+loose = 0
+do for [i = 1 : panels] {
+  stats file using (chosen(caseOf(i)) && position(drawn, curveOf(0)) && isLoose(0) ? (loose = 1) : 0) nooutput
+}
+in_data = ""
+do for [w in (words(variants) == 0 ? drawn : variants)] { in_data = in_data.(position(drawn, w) ? " ".w : "") }
+variants = in_data
 count = words(variants)
 name(k) = word(variants, k)
 # Tables write numbers with all their digits; labels are shortened.
@@ -105,13 +123,16 @@ do for [format in formats] {
       plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
              with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
            for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? asked(0) : outside):(level(k)) \
-             with points pt failure_point ps 0.6 lw 1.5 lc rgb curveColour(k) notitle
+             with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
+           for [k = 1 : loose] file using (chosen(case) && position(variants, curveOf(0)) && isLoose(0) ? error(0) : outside):(positive(column(c))) \
+             with points pt 6 ps 1.7 lw 1.6 lc rgb failure_colour notitle
     }
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
     plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 \
            lc rgb curveColour(k) title titleOf(k), \
-         for [k = 1 : failures > 0] keyentry with points pt failure_point ps 0.6 lw 1.5 lc rgb ink title 'failed'
+         for [k = 1 : failures > 0] keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'failed', \
+         for [k = 1 : loose] keyentry with points pt 6 ps 1.7 lw 1.6 lc rgb failure_colour title 'error > 10⁵ tolerances'
     eval framed
     set title; unset multiplot
   }

@@ -87,8 +87,8 @@ do for [format in formats] {
              with linespoints lw 1.2 dt methodDash(curves, k) pt methodPoint(curves, k) ps 0.7 \
              lc rgb methodColour(curves, k) title methodTitle(curves, k), \
            for [k = 1 : count] file using (failed(k)):(level(k)) \
-             with points pt failure_point ps 0.85 lw 2.2 lc rgb methodColour(curves, k) notitle, \
-           keyentry with points pt failure_point ps 0.85 lw 2.2 lc rgb ink title 'failed'
+             with points pt failure_point ps 1 lw 2.8 lc rgb methodColour(curves, k) notitle, \
+           for [k = 1 : failures > 0] keyentry with points pt failure_point ps 1 lw 2.8 lc rgb ink title 'failed'
     }
     unset multiplot
   }

@@ -43,6 +43,19 @@ std::string causeOf(const Table& runs, const RunSeries& series) {
   return known ? "not accurate enough" : std::string(kNoReference);
 }
 
+// The smallest tolerance that a run of the series was given; NaN for fixed steps, and for tables without tolerances.
+double leastTolerance(const Table& runs, const RunSeries& series) {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  if (!runs.hasColumn("control") || !runs.hasColumn("rtol") || !runs.hasColumn("atol")) return least;
+  for (const auto* run : series.rows) {
+    if (textAt(runs, *run, "control") == "fixed") continue;
+    const double rtol = numberAt(runs, *run, "rtol"), atol = numberAt(runs, *run, "atol");
+    const double tolerance = rtol > 0 ? rtol : atol;
+    if (!(tolerance >= least)) least = tolerance;
+  }
+  return least;
+}
+
 }  // namespace
 
 double costAtError(std::vector<CostPoint> points, double target) {
@@ -70,7 +83,7 @@ Table costTable(const Table& runs, const std::vector<double>& targets) {
   costs.columns = seriesColumns(runs);
   costs.columns.emplace_back("target_error");
   costs.columns.insert(costs.columns.end(), std::begin(kCosts), std::end(kCosts));
-  costs.columns.insert(costs.columns.end(), {"reached", "cause", std::string(kBlockColumn)});
+  costs.columns.insert(costs.columns.end(), {"reached", "cause", "least_tolerance", std::string(kBlockColumn)});
   for (const auto& series : seriesOf(runs)) {
     for (const double target : targets) {
       TableRow row = series.name;
@@ -83,6 +96,7 @@ Table costTable(const Table& runs, const std::vector<double>& targets) {
       }
       row.emplace_back(reached ? "1" : "0");
       row.push_back(reached ? "" : causeOf(runs, series));
+      row.push_back(numberText(leastTolerance(runs, series)));
       row.push_back(series.blocks);
       costs.rows.push_back(row);
     }

@@ -28,7 +28,8 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
 
 /// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians, factorizations,
 /// reached (0 if the series does not reach the error; its costs are then nan), cause (the reason: `no reference`,
-/// `below the reference's accuracy`, `not accurate enough`, or `no success: ` with the outcome of the last run), block.
+/// `below the reference's accuracy`, `not accurate enough`, or `no success: ` with the outcome of the last run),
+/// least_tolerance (the smallest tolerance of the series, nan for fixed steps), block.
 Table costTable(const Table& runs, const std::vector<double>& targets);
 
 }  // namespace irk

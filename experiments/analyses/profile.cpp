@@ -58,6 +58,14 @@ void appendProfile(const std::string& target, const Costs& costs, Table& table) 
   }
 }
 
+// Whether the solver was asked for this error: with larger tolerances only, it has not failed where it does not reach
+// the error.
+bool wasAsked(const Table& costs, const TableRow& row) {
+  if (!costs.hasColumn("least_tolerance")) return true;
+  const double least = numberAt(costs, row, "least_tolerance");
+  return !(least > numberAt(costs, row, "target_error") * (1 + 1e-9));
+}
+
 }  // namespace
 
 Table profileTable(const Table& costs) {
@@ -68,7 +76,7 @@ Table profileTable(const Table& costs) {
     const std::string problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
     const auto& solver = textAt(costs, row, "integrator");
     const auto& cause = textAt(costs, row, "cause");
-    if (cause == kNoReference || cause == kNotMeasurable) continue;
+    if (cause == kNoReference || cause == kNotMeasurable || !wasAsked(costs, row)) continue;
     const double cost = numberAt(costs, row, "cpu_s");
     const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
     for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {

@@ -10,8 +10,9 @@ namespace irk {
 /// treatment of switches; if it has two runs of a problem, the cheaper one counts. Columns: target_error (`all` for
 /// every target), integrator, ratio, fraction, given, problems. The solver was given `given` of the study's
 /// `problems` problems; on `fraction` of those it takes at most `ratio` times the time of the best solver. Problems
-/// that no solver solves, and those without a reference, do not count. There is one row per step of the curve, the
-/// last one at ratio 1e6; a curve without other steps begins with ratio 1, fraction 0.
+/// that no solver solves, and those without a reference, do not count; nor do errors below a solver's smallest
+/// tolerance (least_tolerance), which it was never asked for. There is one row per step of the curve, the last one at
+/// ratio 1e6; a curve without other steps begins with ratio 1, fraction 0.
 Table profileTable(const Table& costs);
 
 }  // namespace irk

@@ -44,6 +44,25 @@ TEST(CostAtError, SaysWhyThereIsNone) {
                                                         {"failed", "no success: timeout"}}));
 }
 
+TEST(CostAtError, TellsTheSmallestToleranceOfASeries) {
+  Table runs;
+  runs.columns = {"scene",     "control",           "rtol",      "atol",          "outcome", "error", "cpu_s", "h",
+                  "residuals", "newton_iterations", "jacobians", "factorizations"};
+  const auto add = [&](const char* scene, const char* control, const char* rtol, const char* atol) {
+    runs.rows.push_back({scene, control, rtol, atol, "success", "1e-3", "1", "0", "1", "1", "1", "1"});
+  };
+  add("relative", "predictive", "1e-4", "1e-4");
+  add("relative", "predictive", "1e-7", "1e-7");
+  add("relative", "predictive", "1e-5", "1e-5");
+  add("absolute", "paper", "0", "1e-6");
+  add("steps", "fixed", "1e-6", "1e-6");
+  const Table costs = costTable(runs, {1e-8});
+  ASSERT_EQ(costs.rows.size(), 3u);
+  EXPECT_EQ(numberAt(costs, costs.rows[0], "least_tolerance"), 1e-7);
+  EXPECT_EQ(numberAt(costs, costs.rows[1], "least_tolerance"), 1e-6);
+  EXPECT_TRUE(std::isnan(numberAt(costs, costs.rows[2], "least_tolerance")));
+}
+
 // An error below ten accuracies of a computed reference is known to be at most that: the run reaches every target above
 // it, and nobody knows whether it reaches the others.
 TEST(CostAtError, CountsAnErrorThatIsNotMeasurableAsItsBound) {

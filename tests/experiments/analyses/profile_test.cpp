@@ -56,5 +56,28 @@ TEST(Profile, DividesByTheProblemsThatASolverWasGiven) {
   for (const auto& [solver, row] : last) EXPECT_EQ(textAt(profile, row, "problems"), "3") << solver;
 }
 
+// With tolerances down to 1e-8 only, a solver that does not reach 1e-10 has not failed.
+TEST(Profile, AnErrorBelowTheSmallestToleranceWasNotAskedFor) {
+  Table costs;
+  costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause", "least_tolerance"};
+  const std::string fails = "not accurate enough";
+  costs.rows = {{"a", "", "fine", "1e-8", "1", "", "1e-10"},  {"a", "", "coarse", "1e-8", "nan", fails, "1e-8"},
+                {"a", "", "fine", "1e-10", "2", "", "1e-10"}, {"a", "", "coarse", "1e-10", "nan", fails, "1e-8"},
+                {"a", "", "fine", "1e-11", "3", "", "1e-10"}, {"a", "", "steps", "1e-10", "nan", fails, "nan"}};
+  const Table profile = profileTable(costs);
+  std::map<std::string, std::string> given;
+  for (const auto& row : profile.rows) {
+    given[textAt(profile, row, "target_error") + " " + textAt(profile, row, "integrator")] =
+        textAt(profile, row, "given");
+  }
+  EXPECT_EQ(given, (std::map<std::string, std::string>{{"1e-8 fine", "1"},
+                                                       {"1e-8 coarse", "1"},
+                                                       {"1e-10 fine", "1"},
+                                                       {"1e-10 steps", "1"},
+                                                       {"all fine", "2"},
+                                                       {"all coarse", "1"},
+                                                       {"all steps", "1"}}));
+}
+
 }  // namespace
 }  // namespace irk

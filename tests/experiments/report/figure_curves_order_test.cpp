@@ -189,6 +189,33 @@ TEST(FigureCurves, OrderVsStages) {
   EXPECT_NEAR(z[0].y, 9, 0.1);
 }
 
+// Measured for 2 and 5 stages only: theory is drawn for all, and the legend explains only marks that are there.
+TEST(FigureCurves, TheoryOfOrdersForEveryNumberOfStages) {
+  Drawing drawing;
+  const auto row = [](int s, double theory) {
+    return Cells{{"scene", "kaps"},     {"settings", ""},
+                 {"component", "x"},    {"power_of", "h"},
+                 {"family", "gauss"},   {"method", "gauss_" + std::to_string(s)},
+                 {"confidence", "0.1"}, {"stages", std::to_string(s)},
+                 {"points", "13"},      {"theory", exact(theory)},
+                 {"verdict", "agrees"}, {"order", exact(theory)}};
+  };
+  drawing.put("orders.csv", kOrderColumns, {row(2, 2), row(5, 6)});
+  const std::vector<Cells> theory = {row(1, 2), row(2, 2), row(3, 4), row(4, 4), row(5, 6)};
+  drawing.put("order_theory.csv",
+              {"scene", "settings", "method", "formulation", "component", "power_of", "family", "stages", "theory"},
+              theory);
+  const Svg svg = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x'");
+  const auto line = svg.line('a', 1, kLin, kLin);
+  const auto through = [&](double x, double y) {
+    return std::any_of(line.begin(), line.end(),
+                       [&](auto& p) { return std::abs(p.x - x) < 0.02 && std::abs(p.y - y) < 0.05; });
+  };
+  EXPECT_TRUE(through(2, 2) && through(3, 4) && through(4, 4) && through(5, 6)) << "the steps of even and odd stages";
+  EXPECT_EQ(svg.occurrences("not measurable"), 0);
+  EXPECT_EQ(svg.occurrences("differs"), 0);
+}
+
 TEST(FigureCurves, OrderVsStiffness) {
   Drawing drawing;
   std::vector<Cells> rows;

@@ -119,11 +119,14 @@ TEST(FigureCurves, Scaling) {
   add("radau_iia_3", "schur", "dense", "1", 100, 5e-2);
   add("radau_iia_5", "schur", "sparse", "1", 10, 4e-5);
   add("radau_iia_5", "schur", "sparse", "1", 1000, 6e-3);
+  add("radau_iia_5", "schur", "automatic", "2", 1000, 4e-3);  // a lone mark is no curve
   drawing.put("scaling.csv", {"scene", "method", "solver", "storage", "threads", "n", "steps", "step_s"}, rows);
   const Svg svg = drawing.draw("scaling.gp", "");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{10, 1e-5}, {100, 2e-4}, {1000, 7e-3}}, "sparse");
-  expectPoints(svg.marks('a', 4, kLog, kLog), {{10, 3e-5}, {100, 5e-2}}, "dense");
+  expectPoints(svg.marks('a', 3, kLog, kLog), {{10, 3e-5}, {100, 5e-2}}, "dense");
   expectPoints(svg.marks('b', 2, kLog, kLog), {{10, 4e-5}, {1000, 6e-3}}, "five stages");
+  EXPECT_EQ(svg.occurrences("decoupled, sparse</text>"), 1);
+  EXPECT_EQ(svg.occurrences("2 threads"), 0) << "not drawn, so not in the legend";
 }
 
 TEST(FigureCurves, SceneSolution) {

@@ -86,6 +86,28 @@ TEST(FigureCurves, WorkBy) {
   expectPoints(costs.marks('c', 1, kLog, kLog), runPoints("error_v", "drift", 3, 6), "drift");
 }
 
+TEST(FigureCurves, WorkByExplainsOnlyWhatIsDrawn) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  for (int i = 1; i < 4; ++i) rows.push_back(run(i, {{"scene", "pendulum"}, {"newton", "simplified"}, {"rtol", "1"}}));
+  drawing.put("runs.csv", kRunColumns, rows);
+  const std::string options = "variant='newton'; variants='modified simplified'; cases='pendulum'";
+  const Svg svg = drawing.draw("work_by.gp", options);
+  EXPECT_EQ(svg.occurrences("<text>modified</text>"), 0) << "no run of it";
+  EXPECT_EQ(svg.occurrences("<text>simplified</text>"), 1);
+  EXPECT_EQ(svg.occurrences("<text>failed</text>"), 0);
+  EXPECT_EQ(svg.occurrences("tolerances</text>"), 0);
+  // Errors of 1e6 tolerances and of 1e4.
+  rows = {run(1, {{"scene", "pendulum"}, {"newton", "simplified"}, {"rtol", "1e-8"}, {"error", "1e-2"}}),
+          run(2, {{"scene", "pendulum"}, {"newton", "simplified"}, {"rtol", "1e-8"}, {"error", "1e-4"}})};
+  drawing.put("runs.csv", kRunColumns, rows);
+  const Svg loose = drawing.draw("work_by.gp", options);
+  EXPECT_EQ(loose.occurrences("tolerances</text>"), 1);
+  const auto rings = loose.marks('a', 3, kLog, kLog);
+  ASSERT_EQ(rings.size(), 1u);
+  EXPECT_NEAR(rings[0].x, 1e-2, 1e-4);
+}
+
 const std::vector<std::string> kCostColumns = {"scene",        "settings", "family", "method",    "stages",
                                                "target_error", "reached",  "cpu_s",  "residuals", "newton_iterations"};
 
@@ -114,9 +136,19 @@ TEST(FigureCurves, BestCost) {
   const Svg svg = drawing.draw("best_cost.gp", "cases='pendulum kepler'");
   expectPoints(svg.marks('a', 1, kLog, kLog), {{1e-6, 0.1}, {1e-4, 0.01}}, "radau");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{1e-6, 9}, {1e-4, 0.3}}, "gauss");
-  expectPoints(svg.marks('b', 2, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler");
+  expectPoints(svg.marks('b', 1, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler, its only family");
+  EXPECT_EQ(svg.occurrences("no run reaches"), 0);
   const Svg other = drawing.draw("best_cost.gp", "cases='pendulum'; cost='residuals'; values='gauss'");
   expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 7000 / 9.0}, {1e-4, 7000 / 0.3}}, "residuals");
+  rows.push_back({{"scene", "robertson"},
+                  {"settings", ""},
+                  {"family", "gauss"},
+                  {"stages", "2"},
+                  {"target_error", "1e-4"},
+                  {"reached", "0"}});
+  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  const Svg empty = drawing.draw("best_cost.gp", "cases='pendulum robertson'");
+  EXPECT_EQ(empty.occurrences("no run reaches"), 1) << "an empty panel says why";
 }
 
 TEST(FigureCurves, CpuVsStages) {
