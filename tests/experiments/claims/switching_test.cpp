@@ -1,5 +1,6 @@
 // Evaluations of claims about switches, contact, friction and reliability: made-up tables on both sides of their
 // thresholds.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
