@@ -36,13 +36,13 @@ double errorAt(const Table& runs, const TableRow& run, std::string_view column) 
   return column == "error" ? errorBoundAt(runs, run) : numberAt(runs, run, column);
 }
 
-// All fields of the run but t_end.
-TableRow withoutEnd(const Table& runs, const TableRow& run) {
-  TableRow key;
+// The columns of all fields of a run but t_end.
+std::vector<std::size_t> columnsButEnd(const Table& runs) {
+  std::vector<std::size_t> columns;
   for (const auto& field : specFields()) {
-    if (field.name != "t_end" && runs.hasColumn(field.name)) key.push_back(textAt(runs, run, field.name));
+    if (field.name != "t_end" && runs.hasColumn(field.name)) columns.push_back(runs.column(field.name));
   }
-  return key;
+  return columns;
 }
 
 // The run with the last t_end, with the largest errors of all.
@@ -149,8 +149,11 @@ Table inSetting(const Table& table, std::string_view study, Setting setting) {
 Table overTimes(const Table& runs, std::string_view study) {
   std::map<TableRow, std::size_t> place;
   std::vector<std::vector<const TableRow*>> groups;
+  const auto columns = columnsButEnd(runs);
   for (const auto& run : runs.rows) {
-    const auto [at, added] = place.try_emplace(withoutEnd(runs, run), groups.size());
+    TableRow key;
+    for (const auto column : columns) key.push_back(run[column]);
+    const auto [at, added] = place.try_emplace(std::move(key), groups.size());
     if (added) groups.emplace_back();
     groups[at->second].push_back(&run);
   }
