@@ -49,7 +49,7 @@ constexpr Origin kOrigins[] = {
     {"pendulum", "ivp multibody", "HW II (VII.1)"},
     {"pollution", "ivp", "IVP test set, POLLU; J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250"},
     {"prothero_robinson", "probes", "A. Prothero, A. Robinson, Math. Comp. 28 (1974) 145-162"},
-    {"pump", "ivp", "IVP test set, PUMP"},
+    {"pump", "ivp switching", "IVP test set, PUMP"},
     {"riccati_tracking", "probes"},
     {"ringmod", "ivp", "IVP test set, RINGMOD"},
     {"robertson", "ivp", "IVP test set, ROBER; HW II (IV.10)"},

@@ -65,8 +65,9 @@ TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
   EXPECT_GE(compared, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(, TestSet, testing::ValuesIn(kTestSet), [](const auto& info) {
-  return std::string(info.param.id) + (*info.param.setting == '\0' ? "" : "_with_" + std::string(info.param.setting));
+INSTANTIATE_TEST_SUITE_P(, TestSet, testing::ValuesIn(kTestSet), [](const auto& named) {
+  return std::string(named.param.id) +
+         (*named.param.setting == '\0' ? "" : "_with_" + std::string(named.param.setting));
 });
 
 }  // namespace
