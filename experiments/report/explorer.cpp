@@ -43,6 +43,13 @@ std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options,
   }
   std::string page = readInputFile(options.home / "plots" / "explore.html");
   replacePlaceholder(page, "@DATE@", dateText());
+  replacePlaceholder(
+      page, "@BANNER@",
+      options.results.filename() == "quick"
+          ? "  <p class=\"banner\"><b>A quick run:</b> small versions of all studies, which show that "
+            "everything works. Costs are coarse, and the few tolerances make curves that full results may "
+            "turn round.</p>\n"
+          : "");
   replacePlaceholder(page, "@TABLES@", tablesHtml(studies));
   replacePlaceholder(page, "@DATA@", explorerData(options.results));
   replacePlaceholder(page, "@D3@", readInputFile(library));

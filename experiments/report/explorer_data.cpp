@@ -162,11 +162,8 @@ std::string explorerData(const std::filesystem::path& results) {
     studies.push_back({{"id", study}, {"title", titleOf(results, study)}, {"no_times", refusedTimes(runs.head)}});
     collected.add(study, runs);
   }
-  const Json data{{"quick", results.filename() == "quick"},
-                  {"studies", studies},
-                  {"series", collected.series},
-                  {"words", collected.words},
-                  {"runs", collected.runs}};
+  const Json data{
+      {"studies", studies}, {"series", collected.series}, {"words", collected.words}, {"runs", collected.runs}};
   std::string safe;
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
     if (c == '<') {

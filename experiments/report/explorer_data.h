@@ -12,7 +12,6 @@ namespace irk {
 std::vector<std::string> exploredStudies(const std::filesystem::path& results);
 
 /// One object:
-///   quick    whether these are results of --quick
 ///   studies  [{id, title, no_times: why there are no CPU times, or ""}]
 ///   series   [{study, scene, settings, t_end, method, family, stages, peer, integrator, options: [[field, value]],
 ///            command}]; runs of one series differ in tolerances and steps only
