@@ -182,9 +182,9 @@ Claim claimOf(const toml::table& table, const std::string& file) {
 std::string_view settingName(Setting setting) { return setting == Setting::kPaper ? "paper" : "best"; }
 
 std::string rangeText(const Range& range) {
-  if (range.isTwoSided()) return fmt::format("{:.6g} to {:.6g}", range.low, range.high);
-  if (range.low != -kInfinity) return fmt::format("{} {:.6g}", range.low_open ? "above" : "at least", range.low);
-  if (range.high != kInfinity) return fmt::format("{} {:.6g}", range.high_open ? "below" : "at most", range.high);
+  if (range.isTwoSided()) return fmt::format("{:.4g} to {:.4g}", range.low, range.high);
+  if (range.low != -kInfinity) return fmt::format("{} {:.4g}", range.low_open ? "above" : "at least", range.low);
+  if (range.high != kInfinity) return fmt::format("{} {:.4g}", range.high_open ? "below" : "at most", range.high);
   return {};
 }
 

@@ -5,7 +5,7 @@
 
 namespace irk::claims {
 
-// Schemes: schemes.cpp.
+// Schemes: evaluations/schemes.cpp.
 Measurement observedOrder(const ResultTables& tables, Setting setting);        // C1a
 Measurement costOfHighOrder(const ResultTables& tables, Setting setting);      // C1b
 Measurement fastestStages(const ResultTables& tables, Setting setting);        // C2a
@@ -18,7 +18,7 @@ Measurement radauForPositions(const ResultTables& tables, Setting setting);    /
 Measurement radauForVelocities(const ResultTables& tables, Setting setting);   // C13v
 Measurement radauForMultipliers(const ResultTables& tables, Setting setting);  // C13z
 
-// Newton's method: newton.cpp, and what its parts cost: parts.cpp.
+// Newton's method: evaluations/newton.cpp, and what its parts cost: evaluations/parts.cpp.
 Measurement massDerivativesIterations(const ResultTables& tables, Setting setting);  // C5a
 Measurement massDerivativesTime(const ResultTables& tables, Setting setting);        // C5b
 Measurement iterationsAtSmallSteps(const ResultTables& tables, Setting setting);     // C6a
@@ -31,7 +31,7 @@ Measurement massFactorizations(const ResultTables& tables, Setting setting);    
 Measurement firstOrderForm(const ResultTables& tables, Setting setting);             // C11b
 Measurement costOfFactorization(const ResultTables& tables, Setting setting);        // C15b
 
-// Error estimates, step control and discontinuities: control.cpp.
+// Error estimates, step control and discontinuities: evaluations/control.cpp.
 Measurement costOfDoubling(const ResultTables& tables, Setting setting);       // C3a
 Measurement stepsPerRestart(const ResultTables& tables, Setting setting);      // C8a
 Measurement timePerRestart(const ResultTables& tables, Setting setting);       // C8b

@@ -23,27 +23,26 @@ constexpr double kErrors[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kErrorColumns[] = {"error", "error_u", "error_v", "error_x", "error_z"};
 
-void requireBlock(std::string_view study, std::string_view name) {
-  static std::map<std::string, std::set<std::string>, std::less<>> known;  // blocks of studies
+const std::set<std::string>& blocksOf(std::string_view study) {
+  static std::map<std::string, std::set<std::string>, std::less<>> known;
   const auto [at, added] = known.try_emplace(std::string(study));
   if (added) {
     for (const auto& series : loadStudy(study, StudyVariant::kQuick).series) at->second.insert(series.block);
   }
-  if (at->second.contains(std::string(name))) return;
-  throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
+  return at->second;
 }
 
 double errorAt(const Table& runs, const TableRow& run, std::string_view column) {
   return column == "error" ? errorBoundAt(runs, run) : numberAt(runs, run, column);
 }
 
-// All fields of the run but t_end.
-TableRow withoutEnd(const Table& runs, const TableRow& run) {
-  TableRow key;
+// The columns of all fields of a run but t_end.
+std::vector<std::size_t> columnsButEnd(const Table& runs) {
+  std::vector<std::size_t> columns;
   for (const auto& field : specFields()) {
-    if (field.name != "t_end" && runs.hasColumn(field.name)) key.push_back(textAt(runs, run, field.name));
+    if (field.name != "t_end" && runs.hasColumn(field.name)) columns.push_back(runs.column(field.name));
   }
-  return key;
+  return columns;
 }
 
 // The run with the last t_end, with the largest errors of all.
@@ -107,7 +106,11 @@ Table where(const Table& table, const Cells& cells) {
 }
 
 Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks) {
-  for (const auto name : blocks) requireBlock(study, name);
+  for (const auto name : blocks) {
+    if (!blocksOf(study).contains(std::string(name))) {
+      throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
+    }
+  }
   const auto column = table.column(kBlockColumn);
   return where(table, [&](const TableRow& row) {
     return std::any_of(blocks.begin(), blocks.end(), [&](auto name) { return hasBlock(row[column], name); });
@@ -146,8 +149,11 @@ Table inSetting(const Table& table, std::string_view study, Setting setting) {
 Table overTimes(const Table& runs, std::string_view study) {
   std::map<TableRow, std::size_t> place;
   std::vector<std::vector<const TableRow*>> groups;
+  const auto columns = columnsButEnd(runs);
   for (const auto& run : runs.rows) {
-    const auto [at, added] = place.try_emplace(withoutEnd(runs, run), groups.size());
+    TableRow key;
+    for (const auto column : columns) key.push_back(run[column]);
+    const auto [at, added] = place.try_emplace(std::move(key), groups.size());
     if (added) groups.emplace_back();
     groups[at->second].push_back(&run);
   }
@@ -161,6 +167,24 @@ Table overTimes(const Table& runs, std::string_view study) {
 
 Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting) {
   return overTimes(inSetting(inBlocks(tables.runs(study), study, blocks), study, setting), study);
+}
+
+Table claimRuns(const ResultTables& tables, std::string_view beginning) {
+  const Table& runs = tables.runs("claims");
+  Blocks blocks;
+  for (const auto& name : blocksOf("claims")) {
+    if (name.starts_with(beginning)) blocks.push_back(name);
+  }
+  if (blocks.empty()) throw std::logic_error(fmt::format("study claims has no block '{}...'", beginning));
+  return inBlocks(runs, "claims", blocks);
+}
+
+Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting setting) {
+  return inSetting(claimRuns(tables, beginning), "claims", setting);
+}
+
+Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting) {
+  return overTimes(claimRuns(tables, beginning, setting), "claims");
 }
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }

@@ -45,6 +45,13 @@ Table overTimes(const Table& runs, std::string_view study);
 /// The runs of blocks of a study in a setting, with errors over ten times.
 Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting);
 
+/// The runs of all blocks of the study claims whose names begin so. Throws std::logic_error if there is no such block.
+Table claimRuns(const ResultTables& tables, std::string_view beginning);
+/// Those in a setting.
+Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
+/// Those with errors over ten times.
+Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
+
 /// `5 %`.
 std::string percent(double part);
 

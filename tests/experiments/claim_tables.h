@@ -1,4 +1,4 @@
-// Synthetic results with known verdicts.
+// Made-up results with known verdicts.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,50 +7,118 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "experiments/claims/claims.h"
 #include "experiments/claims/measures.h"
 
 namespace irk::claims {
 
-inline const Claim& claim(std::string_view id) {
-  for (const auto& one : claims()) {
-    if (one.id == id) return one;
-  }
-  throw std::runtime_error("no claim " + std::string(id));
-}
-
-inline Verdict verdict(std::string_view id, const ResultTables& tables) { return judge(claim(id), tables).verdict; }
-
-inline std::string text(double x) { return std::to_string(x); }
-
-/// Adds runs of one method with cost = scale * error^(-1/4); `cells` gives all other columns.
-inline void addSeries(Table& table, const std::map<std::string, std::string>& cells, double scale) {
-  for (const double error : {1e-2, 1e-4, 1e-6, 1e-8, 1e-11}) {
-    TableRow row;
-    for (const auto& column : table.columns) {
-      const auto given = cells.find(column);
-      const double cost = scale * std::pow(error, -0.25);
-      if (given != cells.end()) {
-        row.push_back(given->second);
-      } else if (column == "outcome") {
-        row.emplace_back("success");
-      } else if (column == "error") {
-        row.push_back(fmt::format("{}", error));
-      } else {
-        row.push_back(fmt::format("{}", cost));  // for every kind of cost
-      }
+inline const Part& partOf(std::string_view id) {
+  for (const auto& claim : protocol().claims) {
+    for (const auto& part : claim.parts) {
+      if (part.id == id) return part;
     }
-    table.rows.push_back(std::move(row));
   }
+  throw std::runtime_error("no part " + std::string(id));
 }
 
-inline Table costColumns(std::vector<std::string> more) {
-  Table table;
-  table.columns = std::move(more);
-  table.columns.insert(table.columns.end(),
-                       {"outcome", "error", "cpu_s", "newton_iterations", "jacobians", "residuals"});
-  return table;
+inline Finding finding(std::string_view id, const ResultTables& tables, Setting setting = Setting::kPaper) {
+  return findingOn(partOf(id), setting, tables, protocol().multibody);
 }
+inline Verdict verdict(std::string_view id, const ResultTables& tables, Setting setting = Setting::kPaper) {
+  return finding(id, tables, setting).judged.verdict;
+}
+
+inline const ResultTables kNoResults;
+
+/// Multibody systems, as most claims want them.
+inline const std::vector<std::string> kScenes = {"pendulum", "slider_crank", "ancf_pendulum"};
+
+using Row = std::map<std::string, std::string>;
+
+inline std::string text(double x) { return fmt::format("{}", x); }
+
+/// A table of the study claims with every column that an evaluation reads. Cells that a row does not give are those of
+/// a successful run in the paper's setting.
+class RunTable {
+ public:
+  RunTable() {
+    for (const auto& [column, cell] : defaults()) table_.columns.push_back(column);
+  }
+  /// A row that gives a family has a method of that family and number of stages.
+  void add(Row cells) {
+    if (cells.contains("family") && !cells.contains("method")) {
+      cells["method"] = cells["family"] + "_" + (cells.contains("stages") ? cells["stages"] : "3");
+    }
+    TableRow row;
+    for (const auto& [column, cell] : defaults()) {
+      const auto given = cells.find(column);
+      row.push_back(given == cells.end() ? cell : given->second);
+    }
+    table_.rows.push_back(std::move(row));
+  }
+  /// The same at ten reference times.
+  void addTimes(Row cells) {
+    for (int i = 1; i <= kReferenceTimes; ++i) {
+      cells["t_end"] = std::to_string(i);
+      add(cells);
+    }
+  }
+  /// A series of runs with all costs = scale * error^(-1/4), at ten reference times.
+  void addSeries(Row cells, double scale) {
+    for (const double error : {1e-2, 1e-4, 1e-6, 1e-8, 1e-11}) {
+      cells["rtol"] = text(error);
+      for (const char* column : {"error", "error_u", "error_v", "error_z"}) cells[column] = text(error);
+      for (const char* column : {"cpu_s", "newton_iterations"}) cells[column] = text(scale * std::pow(error, -0.25));
+      addTimes(cells);
+    }
+  }
+  const Table& table() const { return table_; }
+  ResultTables results() const {
+    ResultTables results;
+    results.put("claims", "runs", table_);
+    return results;
+  }
+
+ private:
+  static const Row& defaults() {
+    static const Row kDefaults = {{"scene", "pendulum"},
+                                  {"settings", ""},
+                                  {"configuration", "paper"},
+                                  {"method", "radau_iia_3"},
+                                  {"family", "radau_iia"},
+                                  {"stages", "3"},
+                                  {"control", "paper"},
+                                  {"jacobian", "full"},
+                                  {"norm", "absolute"},
+                                  {"formulation", "index2"},
+                                  {"scaling", "on"},
+                                  {"contractivity_limit", "0.7"},
+                                  {"contractivity_after", "3"},
+                                  {"max_iterations", "25"},
+                                  {"rtol", "1e-6"},
+                                  {"t_end", "1"},
+                                  {"outcome", "success"},
+                                  {"error", "nan"},
+                                  {"error_u", "nan"},
+                                  {"error_v", "nan"},
+                                  {"error_z", "nan"},
+                                  {"drift", "nan"},
+                                  {"cpu_s", "1"},
+                                  {"newton_iterations", "1"},
+                                  {"residuals", "1"},
+                                  {"steps_accepted", "1"},
+                                  {"steps_rejected_error", "0"},
+                                  {"steps_rejected_newton", "0"},
+                                  {"newton_restarts", "0"},
+                                  {"located_events", "0"},
+                                  {"detail", ""},
+                                  {"block", ""}};
+    return kDefaults;
+  }
+
+  Table table_;
+};
 
 }  // namespace irk::claims

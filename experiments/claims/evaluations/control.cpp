@@ -51,9 +51,7 @@ std::map<TableRow, std::map<std::string, double>> slopes(const Table& runs, std:
 
 // Each BDF code over each Radau IIA.
 Measurement perRestart(const ResultTables& tables, std::string_view cost) {
-  const Table runs = inBlocks(tables.runs("claims"), "claims",
-                              {"restarts", "restarts_bdf", "restarts_chopper", "restarts_chopper_bdf",
-                               "restarts_plastic", "restarts_plastic_bdf", "restarts_torque", "restarts_torque_bdf"});
+  const Table runs = claimRuns(tables, "restarts");
   if (runs.rows.empty()) throw MissingResults("study claims lacks the runs of the blocks restarts");
   Measurement measured;
   for (const auto& [place, methods] : slopes(runs, cost)) {
@@ -73,8 +71,7 @@ Measurement perRestart(const ResultTables& tables, std::string_view cost) {
 
 Measurement costOfDoubling(const ResultTables& tables, Setting setting) {
   const auto inBlock = [&](std::string_view block) {
-    const Table runs = inBlocks(tables.runs("claims"), "claims", {block});
-    return where(inSetting(runs, "claims", setting), {{"outcome", "success"}});
+    return where(claimRuns(tables, block, setting), {{"outcome", "success"}});
   };
   const Table plain = inBlock("plain_steps"), doubled = inBlock("doubled_steps");
   std::map<TableRow, const TableRow*> same;
@@ -99,7 +96,7 @@ Measurement timePerRestart(const ResultTables& tables, Setting) { return perRest
 Measurement residualsPerRestart(const ResultTables& tables, Setting) { return perRestart(tables, "residuals"); }
 
 Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting) {
-  const Table all = timedRuns(tables, "claims", {"stages", "stages_crank"}, setting);
+  const Table all = timedClaimRuns(tables, "stages", setting);
   const Table runs = where(all, {{"family", "radau_iia"}});
   const auto series = seriesOf(runs);
   Measurement measured;
@@ -113,9 +110,9 @@ Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting) {
 }
 
 Measurement absoluteTolerances(const ResultTables& tables, Setting setting) {
-  const Table absolute = timedRuns(tables, "claims", {"norm_absolute", "norm_absolute_beam"}, setting);
-  const Table mixed = timedRuns(tables, "claims", {"norm_mixed", "norm_mixed_beam"}, setting);
-  const Table relative = timedRuns(tables, "claims", {"norm_relative", "norm_relative_beam"}, setting);
+  const Table absolute = timedClaimRuns(tables, "norm_absolute", setting);
+  const Table mixed = timedClaimRuns(tables, "norm_mixed", setting);
+  const Table relative = timedClaimRuns(tables, "norm_relative", setting);
   std::map<std::pair<TableRow, double>, double> others;  // the least cost
   for (const Table* runs : {&mixed, &relative}) {
     for (const auto& series : seriesOf(*runs)) {

@@ -18,10 +18,8 @@ std::vector<double> valuesOf(const std::vector<Case>& cases) {
   return values;
 }
 
-const Blocks kMassTerms = {"mass_terms_crank", "mass_terms_elastic_rod", "mass_terms_manipulator"};
-
 CostRatios withoutMassDerivatives(const ResultTables& tables, Setting setting, std::string_view cost) {
-  return compareCosts(timedRuns(tables, "claims", kMassTerms, setting), "jacobian", "full", "no_mass", cost);
+  return compareCosts(timedClaimRuns(tables, "mass_terms", setting), "jacobian", "full", "no_mass", cost);
 }
 
 // --- C6
@@ -29,7 +27,7 @@ CostRatios withoutMassDerivatives(const ResultTables& tables, Setting setting, s
 // One value per scene, method, formulation and scaling; the step of 1e-8 and that of 1e-4 are two blocks.
 std::map<TableRow, double> multiplierErrors(const ResultTables& tables, std::string_view block, Setting setting,
                                             const Cells& cells) {
-  const Table runs = where(timedRuns(tables, "claims", {block}, setting), cells);
+  const Table runs = where(timedClaimRuns(tables, block, setting), cells);
   std::map<TableRow, double> errors;
   for (const auto& run : runs.rows) {
     if (!succeededAt(runs, run)) continue;
@@ -144,7 +142,7 @@ Measurement digitsLostIndex2(const ResultTables& tables, Setting setting) {
 }
 
 Measurement newtonRule(const ResultTables& tables, Setting setting) {
-  const Table runs = timedRuns(tables, "claims", {"newton_rule", "newton_rule_crank", "newton_rule_beam"}, setting);
+  const Table runs = timedClaimRuns(tables, "newton_rule", setting);
   const auto cases = ruleCases(runs);
   Rule papers;
   std::set<std::string> halves[2];

@@ -61,9 +61,7 @@ Limit firstLimit(const Table& runs, std::vector<const TableRow*> series) {
 // --- C7
 
 Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t which) {
-  const Table runs = where(
-      inSetting(inBlocks(tables.runs("claims"), "claims", {"drift", "drift_crank", "drift_curve"}), "claims", setting),
-      {{"outcome", "success"}});
+  const Table runs = where(claimRuns(tables, "drift", setting), {{"outcome", "success"}});
   std::map<std::string, std::set<double>> ends;
   for (const auto& run : runs.rows) ends[textAt(runs, run, "scene")].insert(numberAt(runs, run, "t_end"));
   Measurement measured;
@@ -82,7 +80,7 @@ Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t w
 // --- C13
 
 Measurement radauFor(const ResultTables& tables, Setting setting, std::string_view error) {
-  const Table runs = timedRuns(tables, "claims", {"families", "families_crank", "families_elastic_rod"}, setting);
+  const Table runs = timedClaimRuns(tables, "families", setting);
   const auto series = seriesOf(runs);
   Measurement measured;
   std::map<std::string, int> best;
@@ -118,7 +116,7 @@ Measurement observedOrder(const ResultTables& tables, Setting) {
 
 Measurement costOfHighOrder(const ResultTables& tables, Setting setting) {
   constexpr double kHigh = 18;
-  const Table runs = timedRuns(tables, "claims", {"stages", "stages_crank"}, setting);
+  const Table runs = timedClaimRuns(tables, "stages", setting);
   const auto series = seriesOf(runs);
   Measurement measured;
   for (const auto& race : atSmallestError(runs, series, 3, {"control"})) {
@@ -129,7 +127,7 @@ Measurement costOfHighOrder(const ResultTables& tables, Setting setting) {
 }
 
 Measurement fastestStages(const ResultTables& tables, Setting setting) {
-  const Table runs = timedRuns(tables, "claims", {"stages", "stages_crank"}, setting);
+  const Table runs = timedClaimRuns(tables, "stages", setting);
   const auto series = seriesOf(runs);
   Measurement measured;
   for (const auto& race : atSmallestError(runs, series, 3, {"control", "family"})) {
@@ -141,7 +139,7 @@ Measurement fastestStages(const ResultTables& tables, Setting setting) {
 }
 
 Measurement limitOfManyStages(const ResultTables& tables, Setting setting) {
-  const Table runs = timedRuns(tables, "claims", {"round_off", "round_off_crank"}, setting);
+  const Table runs = timedClaimRuns(tables, "round_off", setting);
   // Both step controls must show it.
   std::map<TableRow, std::vector<Limit>> limits;
   for (const auto& series : seriesOf(runs)) {

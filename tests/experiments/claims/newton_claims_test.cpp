@@ -1,0 +1,161 @@
+// Claims about Newton's method and its parts, on made-up tables on both sides of every threshold.
+#include <gtest/gtest.h>
+
+#include "tests/experiments/claim_tables.h"
+#include "tests/experiments/support.h"
+
+namespace irk::claims {
+namespace {
+
+constexpr Verdict kYes = Verdict::kConfirmed, kNo = Verdict::kContradicted, kOpen = Verdict::kUndecided,
+                  kUnknown = Verdict::kNotMeasurable;
+
+// --- C4 and C15b
+
+struct Shares {
+  double residual = 0.3, jacobian = 0.3, factorization = 0.2, solve = 0.2;
+};
+
+ResultTables phaseTables(const std::vector<Shares>& of_scenes, const char* n = "20", const char* covered = "1") {
+  Table phases;
+  phases.columns = {"scene",          "configuration",       "n",           "share_residual",
+                    "share_jacobian", "share_factorization", "share_solve", "share_step",
+                    "step_s",         "factorization_s",     "run_s",       "covered"};
+  for (std::size_t i = 0; i < of_scenes.size(); ++i) {
+    for (int k = 0; k < 4; ++k) {
+      const Shares& s = of_scenes[i];
+      // Ten steps of 0.01 s in a run of 1 s.
+      phases.rows.push_back({kScenes[i], "paper", n, text(s.residual), text(s.jacobian), text(s.factorization),
+                             text(s.solve), "0.1", "0.01", "0.03", "1", covered});
+    }
+  }
+  ResultTables results;
+  results.put("phases", "phases", phases);
+  return results;
+}
+
+TEST(NewtonClaims, ShareOfEvaluations) {
+  const Shares much{0.3, 0.3, 0.2, 0.2}, half{0.25, 0.25, 0.25, 0.25}, little{0.1, 0.1, 0.4, 0.2};
+  EXPECT_EQ(verdict("C4", phaseTables({much, much, much})), kYes);
+  EXPECT_EQ(verdict("C4", phaseTables({half, half, half})), kNo) << "above, not at, one half";
+  EXPECT_EQ(verdict("C4", phaseTables({little, little, little})), kNo);
+  EXPECT_EQ(verdict("C4", phaseTables({much, little, much})), kOpen);
+  EXPECT_EQ(verdict("C4", phaseTables({much, much, much}, "201")), kUnknown);
+  EXPECT_EQ(verdict("C4", phaseTables({much, much, much}, "2")), kUnknown);
+  EXPECT_EQ(verdict("C4", phaseTables({much, much, much}, "20", "0.8")), kUnknown) << "parts that do not add up";
+  EXPECT_TRUE(containsAll(finding("C4", phaseTables({much, little, much})).judged.remark,
+                          {"pendulum never", "slider_crank 20"}));
+  EXPECT_EQ(verdict("C4", phaseTables({much, much, much}), Setting::kBest), kUnknown);
+}
+
+TEST(NewtonClaims, CostOfAFactorizationIsReported) {
+  const auto found = finding("C15b", phaseTables({{}, {}, {}}));
+  EXPECT_EQ(found.judged.verdict, Verdict::kReported);
+  EXPECT_NEAR(found.judged.value, 0.3, 1e-12) << "0.03 s of a step of 0.1 s";
+}
+
+// --- C5
+
+RunTable massTerms(const std::vector<double>& factors) {
+  RunTable runs;
+  for (std::size_t i = 0; i < kScenes.size(); ++i) {
+    for (const char* jacobian : {"full", "no_mass"}) {
+      runs.addSeries({{"block", "mass_terms_crank"}, {"scene", kScenes[i]}, {"jacobian", jacobian}},
+                     jacobian[0] == 'f' ? 1 : factors[i]);
+    }
+  }
+  return runs;
+}
+
+TEST(NewtonClaims, MassDerivatives) {
+  EXPECT_EQ(verdict("C5a", massTerms({1.09, 1.05, 1}).results()), kYes);
+  EXPECT_EQ(verdict("C5a", massTerms({1.11, 1.2, 1.3}).results()), kNo);
+  EXPECT_EQ(verdict("C5a", massTerms({1, 1, 1.3}).results()), kOpen);
+  const auto time = finding("C5b", massTerms({2, 2, 2}).results());
+  EXPECT_EQ(time.judged.verdict, kUnknown);
+  EXPECT_TRUE(containsAll(time.judged.reason, {"no_mass"}));
+  EXPECT_TRUE(containsAll(time.judged.remark, {"2 times"}));
+}
+
+// --- C6
+
+Verdict digits(const char* id, const char* formulation, const std::vector<std::string>& tiny,
+               const char* scaling = "on") {
+  RunTable runs;
+  for (std::size_t i = 0; i < kScenes.size(); ++i) {
+    for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_4", "radau_iia_5"}) {
+      Row row{{"scene", kScenes[i]}, {"method", method}, {"formulation", formulation}, {"scaling", scaling}};
+      row["block"] = "usual_steps";
+      row["error_z"] = "1e-10";
+      runs.addTimes(row);
+      row["block"] = "tiny_steps";
+      row["rtol"] = "1e-7";
+      row["error_z"] = tiny[i];
+      runs.addTimes(row);
+    }
+  }
+  return verdict(id, runs.results());
+}
+
+TEST(NewtonClaims, DigitsLost) {
+  EXPECT_EQ(digits("C6b", "index3", {"1.1e-6", "1e-5", "1e-4"}), kYes);
+  EXPECT_EQ(digits("C6b", "index3", {"0.9e-6", "1e-7", "1e-8"}), kNo);
+  EXPECT_EQ(digits("C6b", "index3", {"1e-4", "1e-4", "1e-9"}), kOpen);
+  EXPECT_EQ(digits("C6b", "index2", {"1e-4", "1e-4", "1e-4"}), kUnknown);
+  EXPECT_EQ(digits("C6c", "index2", {"0.9e-9", "1e-10", "1e-12"}), kYes);
+  EXPECT_EQ(digits("C6c", "index2", {"1.1e-9", "1e-8", "1e-7"}), kNo);
+  EXPECT_EQ(digits("C6c", "index2", {"1e-10", "1e-10", "1e-10"}, "off"), kUnknown);
+  EXPECT_EQ(verdict("C6a", kNoResults), kUnknown);
+}
+
+// --- C11
+
+ResultTables kForm(const std::string& detail) {
+  RunTable runs;
+  for (const auto& scene : kScenes) {
+    for (int i = 0; i < 4; ++i) runs.add({{"scene", scene}, {"rtol", text(i + 1)}, {"detail", detail}});
+    runs.add({{"scene", scene}, {"formulation", "first_order"}, {"detail", "mass factorizations: 99"}});
+  }
+  ResultTables results;
+  results.put("k_form", "runs", runs.table());
+  return results;
+}
+
+TEST(NewtonClaims, MassIsNotFactorized) {
+  EXPECT_EQ(verdict("C11a", kForm("")), kYes);
+  EXPECT_EQ(verdict("C11a", kForm("mass factorizations: 1")), kNo);
+  EXPECT_TRUE(containsAll(finding("C11b", kForm("")).judged.reason, {"study k_form lacks", "once per step"}));
+}
+
+// --- C12: the best rule of one half of the scenes is judged on the other.
+
+Verdict rule(double papers, const std::vector<double>& others) {
+  const std::vector<std::string> scenes = {"a", "b", "c", "d"};
+  RunTable runs;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Row row{{"block", "newton_rule"}, {"scene", scenes[i]}};
+    runs.addSeries(row, papers);
+    Row other = row;
+    other["contractivity_limit"] = "0.3";
+    runs.addSeries(other, others[i]);
+  }
+  return verdict("C12", runs.results());
+}
+
+TEST(NewtonClaims, RuleOfTheModifiedMethod) {
+  EXPECT_EQ(rule(1, {1, 1, 1, 1}), kYes);
+  EXPECT_EQ(rule(1.09, {1, 1, 1, 1}), kYes);
+  EXPECT_EQ(rule(1.11, {1, 1, 1, 1}), kNo);
+  EXPECT_EQ(rule(1, {2, 2, 2, 2}), kYes) << "the paper's is the best";
+  // 0.3 is the best on a and c, and dear on b and d, where it is judged.
+  EXPECT_EQ(rule(1, {0.5, 4, 0.5, 4}), kYes);
+  EXPECT_EQ(rule(1, {0.5, 0.5, 0.5, 4}), kOpen);
+}
+
+TEST(NewtonClaims, ReuseAcrossChangesOfStep) {
+  EXPECT_EQ(verdict("C15a", kNoResults), kUnknown);
+  EXPECT_TRUE(containsAll(finding("C15a", kNoResults).judged.reason, {"jacobian lacks"}));
+}
+
+}  // namespace
+}  // namespace irk::claims
