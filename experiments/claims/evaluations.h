@@ -39,7 +39,7 @@ Measurement residualsPerRestart(const ResultTables& tables, Setting setting);  /
 Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting);  // C9a
 Measurement absoluteTolerances(const ResultTables& tables, Setting setting);   // C14
 
-// Switches, contact and friction, reliability: switching.cpp.
+// Switches, contact and friction, reliability: evaluations/switching.cpp.
 Measurement reliableStepsU(const ResultTables& tables, Setting setting);         // C3bu
 Measurement reliableStepsV(const ResultTables& tables, Setting setting);         // C3bv
 Measurement reliableStepsX(const ResultTables& tables, Setting setting);         // C3bx
