@@ -22,8 +22,8 @@ double classicalOrder(const Table& runs, const TableRow& run) {
 
 // --- C2b
 
-// What grows first as the tolerance is lowered.
-enum class Limit { kNone, kNewton, kEstimate };
+// What ends the gain from lower tolerances; unknown if they still help at the lowest one.
+enum class Limit { kUnknown, kNewton, kOther };
 
 // Rejected by Newton's method, or begun again, per accepted step.
 double newtonTrouble(const Table& runs, const TableRow& run) {
@@ -34,28 +34,28 @@ double estimateTrouble(const Table& runs, const TableRow& run) {
   return numberAt(runs, run, "steps_rejected_error") / std::max(numberAt(runs, run, "steps_accepted"), 1.0);
 }
 
-// The runs from the coarsest tolerance on; the first one that is not more accurate than the one before it is where they
-// stop improving. Trouble has come when it is this much, per step, more than in the coarsest run.
-Limit firstLimit(const Table& runs, std::vector<const TableRow*> series) {
-  constexpr double kTrouble = 0.1;
+// The runs from the coarsest tolerance on improve until one is not more accurate than the one before it, or fails. What
+// limits them is what has grown there, per accepted step, against the median of the runs that still improve.
+Limit limitOf(const Table& runs, std::vector<const TableRow*> series) {
   std::sort(series.begin(), series.end(),
             [&](auto* a, auto* b) { return numberAt(runs, *a, "rtol") > numberAt(runs, *b, "rtol"); });
-  if (series.empty() || !succeededAt(runs, *series.front())) return Limit::kNone;
-  const double newton = newtonTrouble(runs, *series.front()), estimate = estimateTrouble(runs, *series.front());
-  double error = errorBoundAt(runs, *series.front());
+  std::vector<double> newton, estimate;
+  double error = kInfinity;
   for (const auto* run : series) {
-    const double more_newton = newtonTrouble(runs, *run) - newton;
-    const double more_estimate = estimateTrouble(runs, *run) - estimate;
-    if (textAt(runs, *run, "outcome") == "newton_failed") return Limit::kNewton;
-    if (std::max(more_newton, more_estimate) >= kTrouble) {
-      return more_newton >= more_estimate ? Limit::kNewton : Limit::kEstimate;
-    }
     const double now = errorBoundAt(runs, *run);
-    const bool stops = !succeededAt(runs, *run) || (run != series.front() && !(now < error));
-    if (stops) return more_newton > std::max(more_estimate, 0.0) ? Limit::kNewton : Limit::kEstimate;
-    error = now;
+    if (succeededAt(runs, *run) && now < error) {
+      error = now;
+      newton.push_back(newtonTrouble(runs, *run));
+      estimate.push_back(estimateTrouble(runs, *run));
+      continue;
+    }
+    if (newton.empty()) return Limit::kUnknown;
+    if (textAt(runs, *run, "outcome") == "newton_failed") return Limit::kNewton;
+    const double more_newton = newtonTrouble(runs, *run) - median(newton);
+    const double more_estimate = estimateTrouble(runs, *run) - median(estimate);
+    return more_newton > std::max(more_estimate, 0.0) ? Limit::kNewton : Limit::kOther;
   }
-  return Limit::kNone;
+  return Limit::kUnknown;
 }
 
 // --- C7
@@ -145,12 +145,12 @@ Measurement limitOfManyStages(const ResultTables& tables, Setting setting) {
   for (const auto& series : seriesOf(runs)) {
     const TableRow& run = *series.rows.front();
     limits[{textAt(runs, run, "scene"), textAt(runs, run, "settings"), textAt(runs, run, "method")}].push_back(
-        firstLimit(runs, series.rows));
+        limitOf(runs, series.rows));
   }
   Measurement measured;
   for (const auto& [place, by_control] : limits) {
     const bool known =
-        by_control.size() == 2 && std::find(by_control.begin(), by_control.end(), Limit::kNone) == by_control.end();
+        by_control.size() == 2 && std::find(by_control.begin(), by_control.end(), Limit::kUnknown) == by_control.end();
     const bool newton =
         std::all_of(by_control.begin(), by_control.end(), [](Limit one) { return one == Limit::kNewton; });
     measured.cases.push_back({place.front(), !known ? std::nan("") : newton ? 1.0 : 0.0});

@@ -91,7 +91,8 @@ TEST(SchemeClaims, FastestStages) {
 }
 
 // Ten methods on three scenes; of `newton` of ten, Newton's method is in trouble first, under the given control.
-Verdict limit(int newton, const char* other_control = "predictive", const char* other_trouble = "newton_restarts") {
+Verdict limit(int newton, const char* other_control = "predictive", const char* other_trouble = "newton_restarts",
+              const char* last_error = "1e-10", const char* last_outcome = "success") {
   RunTable runs;
   for (const auto& scene : kScenes) {
     for (int i = 0; i < 10; ++i) {
@@ -108,7 +109,8 @@ Verdict limit(int newton, const char* other_control = "predictive", const char* 
                 : "steps_rejected_error"] = "20";
         runs.addTimes(row);
         row["rtol"] = "1e-13";
-        row["error"] = "1e-10";
+        row["error"] = last_error;
+        row["outcome"] = last_outcome;
         runs.addTimes(row);
       }
     }
@@ -121,6 +123,9 @@ TEST(SchemeClaims, LimitOfManyStages) {
   EXPECT_EQ(limit(8), kYes) << "80 %";
   EXPECT_EQ(limit(7), kNo);
   EXPECT_EQ(limit(10, "predictive", "steps_rejected_error"), kNo) << "under the paper's control only";
+  EXPECT_EQ(limit(10, "predictive", "newton_restarts", "1e-11"), kUnknown) << "the lowest tolerance still helps";
+  EXPECT_EQ(limit(0, "predictive", "newton_restarts", "nan", "newton_failed"), kYes);
+  EXPECT_EQ(limit(0, "predictive", "newton_restarts", "nan", "max_steps"), kNo);
 }
 
 // --- C7
