@@ -59,6 +59,15 @@ TEST_F(Origin, FreshRunsCountWhateverWasTimedBefore) {
   for (const auto& row : again.rows) EXPECT_NE(textAt(again, row, "cpu_s"), "77");
 }
 
+// Whoever reads a table of a quick run must see that it is one.
+TEST_F(Origin, TheHeadOfAQuickRunSaysSo) {
+  const auto isQuick = [](const Table& table) {
+    return std::any_of(table.head.begin(), table.head.end(), [](const auto& entry) { return entry.first == "quick"; });
+  };
+  EXPECT_TRUE(isQuick(run("quick")));
+  EXPECT_FALSE(isQuick(run("results")));
+}
+
 // The head of a table tells when and where its rows were made, not when they were exported.
 TEST_F(Origin, TheHeadIsThatOfTheRows) {
   run();
