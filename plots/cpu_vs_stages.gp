@@ -79,10 +79,10 @@ do for [format in formats] {
              using (from(case, target(k))):(last_y):(this_x - last_x):(this_y - last_y) \
              with vectors nohead lw 1.2 dt errorDash(k) lc rgb errorColour(k) notitle, \
            for [k = 1 : count] file using (missed(case, target(k))):(level(k)) \
-             with points pt failure_point ps 0.7 lw 1.5 lc rgb errorColour(k) notitle, \
+             with points pt failure_point ps 0.9 lw 2.4 lc rgb errorColour(k) notitle, \
            for [k = 1 : count] keyentry with linespoints lw 1.2 dt errorDash(k) pt errorPoint(k) ps 0.8 \
              lc rgb errorColour(k) title sprintf("10^{%.0f}", log10(target(k))), \
-           keyentry with points pt failure_point ps 0.7 lw 1.5 lc rgb ink title 'not reached'
+           keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'not reached'
     }
     unset multiplot
   }

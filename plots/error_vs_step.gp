@@ -101,7 +101,7 @@ do for [format in formats] {
              smooth unique with linespoints lw 1 dt methodDash(methods, number(k)) pt methodPoint(methods, number(k)) \
              ps 0.6 pi interval(i, number(k)) lc rgb methodColour(methods, number(k)) \
              title seriesTitle(i, number(k)), \
-           file using (failed(f)):(fail_at) with points pt failure_point ps 0.9 lw 1.5 lc rgb failure_colour notitle
+           file using (failed(f)):(fail_at) with points pt failure_point ps 1 lw 2.4 lc rgb failure_colour notitle
     }
     unset multiplot; unset arrow; unset label
   }

@@ -129,10 +129,12 @@ do for [format in formats] {
     }
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
-    plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 \
-           lc rgb curveColour(k) title titleOf(k), \
-         for [k = 1 : failures > 0] keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'failed', \
-         for [k = 1 : loose] keyentry with points pt 6 ps 1.7 lw 1.6 lc rgb failure_colour title 'error > 10⁵ tolerances'
+    # An iteration without turns would still widen the legend by its title.
+    entries = "plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 " \
+      ."lc rgb curveColour(k) title titleOf(k)"
+    if (failures > 0) { entries = entries.", keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'failed'" }
+    if (loose) { entries = entries.", keyentry with points pt 6 ps 1.7 lw 1.6 lc rgb failure_colour title 'error > 10⁵ tolerances'" }
+    eval entries
     eval framed
     set title; unset multiplot
   }

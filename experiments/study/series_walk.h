@@ -13,7 +13,7 @@
 namespace irk {
 
 /// The usual number of runs in a planned series.
-inline constexpr std::size_t kPlannedRuns = 11;
+inline constexpr std::size_t kPlannedRuns = 8;
 
 /// The facts about a run that decide about later runs. `errors` are used by planned series only.
 struct RunFacts {
