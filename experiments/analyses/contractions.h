@@ -16,8 +16,9 @@ using Contractions = std::vector<double>;
 /// run. Solves of an attempt's whole step and of its halves are all there. Throws Misuse as makeSetup.
 std::vector<Contractions> observedContractions(const RunSpec& spec);
 
-/// A sample of the solves with at least four iterations of successful runs with newton 'modified', one row each: columns
-/// of a series, rtol, solve (its number in the run), iterations, and c1, c2, ... c6 (NaN where it needed fewer).
+/// A sample of the solves with at least four iterations of successful runs with newton 'modified', one row each:
+/// columns of a series, rtol, solve (its number in the run), iterations, and c1, c2, ... c6 (NaN where it needed
+/// fewer).
 Table contractionTable(const Study& study, const Table& runs);
 
 }  // namespace irk

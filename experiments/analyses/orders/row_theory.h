@@ -22,8 +22,8 @@ Sizes sizesOf(const Table& runs, const TableRow& row);
 /// The setting that makes the scene stiff: `-1e8`, or `-1e8/h` if the stiffness grows as the step shrinks.
 std::string stiffnessText(const SceneEntry& scene, const std::string& settings);
 
-/// The kind of the system of a row of runs.csv or orders.csv, whose scene is integrated with steps of about `h`; nullopt
-/// if no theory treats it. `h` decides only whether a scene with a stiffness parameter counts as stiff.
+/// The kind of the system of a row of runs.csv or orders.csv, whose scene is integrated with steps of about `h`;
+/// nullopt if no theory treats it. `h` decides only whether a scene with a stiffness parameter counts as stiff.
 std::optional<SystemKind> kindOf(const Table& table, const TableRow& row, double h);
 
 /// The theoretical order. For a user's method it is the order that the tableau declares, for ordinary differential

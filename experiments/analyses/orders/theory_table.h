@@ -6,8 +6,9 @@
 namespace irk {
 
 /// From runs.csv: for each scene, settings and formulation, each of its families and components, and every number of
-/// stages from one below the smallest to one above the largest there. Figures draw theory from it, so that numbers of stages that were
-/// not measured do not hide the steps between even and odd ones. Rows without a known order are left out.
+/// stages from one below the smallest to one above the largest there. Figures draw theory from it, so that numbers of
+/// stages that were not measured do not hide the steps between even and odd ones. Rows without a known order are left
+/// out.
 Table theoryTable(const Table& runs);
 
 }  // namespace irk
