@@ -266,9 +266,7 @@ class Program {
     addResults(*report);
     auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
                         [this](Streams s) { return claimsCommand(results(), sensitivity_, s); });
-    judged->add_flag(
-        "--sensitivity", sensitivity_,
-        "Print each verdict with its interval, with thresholds halved and doubled, and without each scene.");
+    judged->add_flag("--sensitivity", sensitivity_, "Intervals, thresholds halved and doubled, each scene left out.");
     addQuick(*judged);
     addResults(*judged);
   }
@@ -324,9 +322,8 @@ class Program {
   Action action_;
   bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false, sensitivity_ = false;
   std::string stale_ = "keep", times_ = "all";
-  std::string study_, shard_, what_, collection_, method_;
+  std::string study_, shard_, what_, collection_, method_, shell_, out_ = "stability";
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
-  std::string out_ = "stability", shell_;
   std::vector<std::string> folders_, methods_, load_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;

@@ -16,7 +16,7 @@
 #include "experiments/base/studies_progress.h"
 #include "experiments/claims/claims_text.h"
 #include "experiments/commands/commands.h"
-#include "experiments/report/explorer.h"
+#include "experiments/report/explorer/explorer.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/join_ranks.h"

@@ -223,7 +223,7 @@ std::vector<report::Answer> pageAnswers(const ReportOptions& options) {
 }
 
 std::string pageHtml(const ReportOptions& options, const std::vector<report::Answer>& answers) {
-  const auto plots = options.home / "plots";
+  const auto plots = options.home / "plots" / "page";
   std::string html = readInputFile(plots / "report.html");
   const Page page(options);
   const bool explorer = std::filesystem::exists(options.results / "report" / "explore.html");

@@ -1,5 +1,5 @@
 // The report's page: answers first, then the claims, one section per study, tableaus, environment. One HTML file with
-// its style and script (plots/report.html, .css, .js); figures and tables are links.
+// its style and script (plots/page/report.html, .css, .js); figures and tables are links.
 #pragma once
 
 #include <string>

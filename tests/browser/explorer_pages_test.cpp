@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "experiments/report/explorer.h"
+#include "experiments/report/explorer/explorer.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "tests/browser/browser.h"

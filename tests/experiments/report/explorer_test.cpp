@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "experiments/report/explorer.h"
-#include "experiments/report/explorer_data.h"
-#include "experiments/report/run_command.h"
+#include "experiments/report/explorer/explorer.h"
+#include "experiments/report/explorer/explorer_data.h"
+#include "experiments/report/explorer/run_command.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"

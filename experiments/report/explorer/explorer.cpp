@@ -1,4 +1,4 @@
-#include "experiments/report/explorer.h"
+#include "experiments/report/explorer/explorer.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -11,7 +11,7 @@
 #include "core/base/input_file.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/html.h"
-#include "experiments/report/explorer_data.h"
+#include "experiments/report/explorer/explorer_data.h"
 #include "experiments/tables/environment.h"
 
 namespace irk {
@@ -41,7 +41,7 @@ std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options,
     fmt::print(err, "the explorer is left out: no {}; install the package node-d3\n", library.string());
     return std::nullopt;
   }
-  std::string page = readInputFile(options.home / "plots" / "explore.html");
+  std::string page = readInputFile(options.home / "plots" / "page" / "explore.html");
   replacePlaceholder(page, "@DATE@", dateText());
   replacePlaceholder(
       page, "@BANNER@",

@@ -1,4 +1,4 @@
-#include "experiments/report/run_command.h"
+#include "experiments/report/explorer/run_command.h"
 
 #include <fmt/format.h>
 

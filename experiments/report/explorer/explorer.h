@@ -15,8 +15,8 @@ namespace irk {
 /// Where the package node-d3 has the library; read when the page is made, so that it may be installed after the build.
 std::filesystem::path d3File();
 
-/// Writes the page from plots/explore.html and returns its path. Without the library, and without runs to be shown, it
-/// removes an older page, says so in one line on `err`, and returns nothing.
+/// Writes the page from plots/page/explore.html and returns its path. Without the library, and without runs to be
+/// shown, it removes an older page, says so in one line on `err`, and returns nothing.
 std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options, std::ostream& err,
                                                    const std::filesystem::path& library = d3File());
 

@@ -1,4 +1,4 @@
-#include "experiments/report/explorer_data.h"
+#include "experiments/report/explorer/explorer_data.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "experiments/analyses/results.h"
 #include "experiments/audit/judge.h"
 #include "experiments/base/numbers.h"
+#include "experiments/report/explorer/run_command.h"
 #include "experiments/report/own_figures.h"
-#include "experiments/report/run_command.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study.h"
 #include "experiments/study/study_reader.h"
