@@ -87,7 +87,7 @@ std::string claimText(const ClaimFindings& findings) {
     text += fmt::format("  {}  {}{}{}\n", part.id, part.measured, part.statistic == Statistic::kReport ? "" : "; ",
                         conditionText(part));
     for (const Setting setting : kSettings) {
-      text += fmt::format("      {:<6}{}\n", fmt::format("{}:", settingName(setting)),
+      text += fmt::format("      {:<7}{}\n", fmt::format("{}:", settingName(setting)),
                           findingText(part, findings.parts[i][static_cast<std::size_t>(setting)]));
     }
   }
@@ -115,8 +115,7 @@ std::string conditionText(const Part& part) {
 std::string sampleText(const Judgement& judgement) {
   std::string scenes;
   for (const auto& scene : judgement.scenes) scenes += (scenes.empty() ? "" : ", ") + scene;
-  return fmt::format("{} case{} of {} scene{}: {}", judgement.cases, judgement.cases == 1 ? "" : "s",
-                     judgement.scenes.size(), judgement.scenes.size() == 1 ? "" : "s", scenes);
+  return fmt::format("{}: {}", countsText(judgement.cases, judgement.scenes.size()), scenes);
 }
 
 std::vector<std::string> sensitivityLines(const Part& part, const Finding& finding) {
@@ -126,7 +125,9 @@ std::vector<std::string> sensitivityLines(const Part& part, const Finding& findi
       "threshold halved ({}): {}; doubled ({}): {}", conditionText(sensitivity.halved_part),
       verdictText(sensitivity.halved), conditionText(sensitivity.doubled_part), verdictText(sensitivity.doubled))};
   for (const auto& [scene, judged] : sensitivity.without) {
-    lines.push_back(fmt::format("without {}: {}, {}", scene, verdictText(judged.verdict), numberText(part, judged)));
+    lines.push_back(judged.cases == 0 ? fmt::format("without {}: no case is left", scene)
+                                      : fmt::format("without {}: {}, {}", scene, verdictText(judged.verdict),
+                                                    numberText(part, judged)));
   }
   return lines;
 }

@@ -48,7 +48,7 @@ std::pair<double, double> intervalOf(Statistic statistic, const ByScene& scenes)
 std::string lackingSample(std::size_t cases, std::size_t scenes, const Sample& least) {
   if (cases == 0) return "no case has a value";
   if (cases >= least.cases && scenes >= least.scenes) return {};
-  return fmt::format("{} cases of {} scenes, needed are {} of {}", cases, scenes, least.cases, least.scenes);
+  return fmt::format("{}, needed are {}", countsText(cases, scenes), countsText(least.cases, least.scenes));
 }
 
 Verdict verdictOn(const Range& range, double low, double high) {
@@ -70,6 +70,10 @@ void judgeExistence(Judgement& judgement, const std::string& lacking) {
 }
 
 }  // namespace
+
+std::string countsText(std::size_t cases, std::size_t scenes) {
+  return fmt::format("{} case{} of {} scene{}", cases, cases == 1 ? "" : "s", scenes, scenes == 1 ? "" : "s");
+}
 
 std::string_view verdictText(Verdict verdict) {
   switch (verdict) {

@@ -17,6 +17,9 @@ enum class Verdict { kConfirmed, kContradicted, kUndecided, kNotMeasurable, kRep
 /// `confirmed`, `contradicted`, `undecided`, `not measurable`, `reported`, `does not apply`.
 std::string_view verdictText(Verdict verdict);
 
+/// `12 cases of 3 scenes`.
+std::string countsText(std::size_t cases, std::size_t scenes);
+
 /// The least sample for a verdict on a median or a share.
 struct Sample {
   std::size_t cases = 10, scenes = 3;

@@ -116,7 +116,10 @@ Rule bestRule(const std::vector<RuleCase>& cases, const std::set<std::string>& s
 
 Measurement massDerivativesIterations(const ResultTables& tables, Setting setting) {
   const CostRatios ratios = withoutMassDerivatives(tables, setting, "newton_iterations");
-  return {ratios.cases, {}, fmt::format("{} errors are no longer reached, {} only now.", ratios.lost, ratios.won)};
+  const bool some = ratios.lost + ratios.won > 0;
+  return {ratios.cases,
+          {},
+          some ? fmt::format("{} errors are no longer reached, {} only now.", ratios.lost, ratios.won) : ""};
 }
 
 Measurement massDerivativesTime(const ResultTables& tables, Setting setting) {
@@ -124,8 +127,9 @@ Measurement massDerivativesTime(const ResultTables& tables, Setting setting) {
   return {{},
           "no strategy leaves the evaluations of the dropped terms out: no_mass differentiates the whole residual at a "
           "= 0",
-          fmt::format("With no_mass: {:.3g} times the CPU time, median of {} cases.", median(valuesOf(ratios.cases)),
-                      ratios.cases.size())};
+          ratios.cases.empty() ? ""
+                               : fmt::format("With no_mass: {:.3g} times the CPU time, median of {} cases.",
+                                             median(valuesOf(ratios.cases)), ratios.cases.size())};
 }
 
 Measurement iterationsAtSmallSteps(const ResultTables&, Setting) {

@@ -57,7 +57,8 @@ TEST(SchemeClaims, CostOfHighOrder) {
   EXPECT_EQ(verdict("C1b", stageTable(1.04, "9").results()), kYes);
   EXPECT_EQ(verdict("C1b", stageTable(1.06, "9").results()), kUnknown);
   EXPECT_EQ(verdict("C1b", stageTable(0.5, "8").results()), kUnknown) << "order 16 is no high one";
-  EXPECT_TRUE(containsAll(finding("C1b", stageTable(1.06, "9").results()).judged.reason, {"2 cases of 1 scenes"}));
+  EXPECT_TRUE(
+      containsAll(finding("C1b", stageTable(1.06, "9").results()).judged.reason, {"2 cases of 1 scene, needed"}));
 }
 
 // --- C2

@@ -80,7 +80,7 @@ TEST(ClaimVerdict, NeedsTenCasesOfThreeScenes) {
   EXPECT_EQ(measured.cases.size(), 9u);
   auto judged = judge(median(kAtMost), measured);
   EXPECT_EQ(judged.verdict, Verdict::kNotMeasurable);
-  EXPECT_TRUE(containsAll(judged.reason, {"9 cases of 3 scenes", "10 of 3"}));
+  EXPECT_TRUE(containsAll(judged.reason, {"9 cases of 3 scenes", "10 cases of 3 scenes"}));
   EXPECT_EQ(judged.value, 1) << "the number is kept";
   measured.cases.push_back({"a", 1});
   EXPECT_EQ(verdictOf(median(kAtMost), measured), Verdict::kConfirmed);
