@@ -62,9 +62,10 @@ std::string kluVersion() {
 }
 
 std::string libraryVersions() {
-  return fmt::format("{}; glibc {}; Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}; KLU {}; fmt {}", operatingSystem(),
-                     gnu_get_libc_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
-                     BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION, kluVersion(), FMT_VERSION);
+  return fmt::format("{}; glibc {}; Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}; KLU {}; fmt {}.{}.{}",
+                     operatingSystem(), gnu_get_libc_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION, kluVersion(),
+                     FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
 TableRow makeEnvironment() {
