@@ -141,12 +141,12 @@ TEST_F(OwnFiles, ACrashIsExplainedAndChecksNameThePlace) {
   const std::string solve = "solve oscillator.cpp --method gauss_3 --tol 1e-6";
   const Ran crashed = irk(solve);
   EXPECT_EQ(crashed.status, 1) << crashed.text;
-  EXPECT_TRUE(contains(crashed.text, "crashed while it ran code of oscillator.cpp")) << crashed.text;
-  EXPECT_TRUE(contains(crashed.text, "IRK_CHECKED=1")) << crashed.text;
+  EXPECT_NE(crashed.text.find("crashed while it ran code of oscillator.cpp"), std::string::npos) << crashed.text;
+  EXPECT_NE(crashed.text.find("IRK_CHECKED=1"), std::string::npos) << crashed.text;
   const Ran checked = irk(solve, "IRK_CHECKED=1");
   EXPECT_EQ(checked.status, 1) << checked.text;
-  EXPECT_TRUE(contains(checked.text, "Assertion")) << checked.text;
-  EXPECT_TRUE(contains(checked.text, "crashed while it ran code of oscillator.cpp")) << checked.text;
+  EXPECT_NE(checked.text.find("Assertion"), std::string::npos) << checked.text;
+  EXPECT_NE(checked.text.find("crashed while it ran code of oscillator.cpp"), std::string::npos) << checked.text;
 }
 
 TEST_F(OwnFiles, ASolverIsAMethod) {
