@@ -21,7 +21,9 @@ struct Origin {
 // Sorted by scene.
 constexpr Origin kOrigins[] = {
     {"ancf_cantilever", "multibody"},
+    {"ancf_leaf_stop", "multibody switching"},
     {"ancf_pendulum", "multibody"},
+    {"ancf_stop", "multibody switching"},
     {"andrews", "ivp multibody", "IVP test set, ANDREWS; HW II (VII.7)"},
     {"beam", "ivp multibody", "IVP test set, BEAM; HW II (IV.10)"},
     {"beam_chain", "multibody"},
