@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <boost/container/small_vector.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,8 +22,8 @@ struct Rows {
   VecView<T> u, x, z;
 };
 
-/// Largest numbers of discrete states and of switching functions.
-constexpr Index kMaxDiscrete = 16;
+/// Groups of up to this many numbers are copied without allocating memory.
+constexpr std::size_t kFew = 16;
 
 /// A problem struct P in one formulation (all but GGL, core/include/irk/ggl.h), over one scalar.
 template <class P, class Real>
@@ -34,11 +34,6 @@ class ProblemSystem final : public System<Real> {
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
     requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
-    if (sizes_.discrete > kMaxDiscrete || sizes_.switches > kMaxDiscrete) {
-      throw Misuse("a problem has " + std::to_string(sizes_.discrete) + " discrete states and " +
-                   std::to_string(sizes_.switches) + " switching functions, allowed are " +
-                   std::to_string(kMaxDiscrete) + " each");
-    }
     if (smooth() && kHasSwitching && !kHasSmoothed) {
       throw Misuse(
           "illegal combination: discontinuity 'smooth' with a scene that has no "
@@ -92,19 +87,15 @@ class ProblemSystem final : public System<Real> {
   }
   void onSwitch(Index i, State<Real>& state) const override {
     if constexpr (kHasSwitching) {
-      Vec<Real> d = state.d;
-      problem_.onSwitch(i, pointOf(state), d.data());
-      state.d = d;
+      change(state, [&](const Point<Real>& p, Real* d) { problem_.onSwitch(i, p, d); });
     }
   }
   void jump(Index i, State<Real>& state) const override {
     if constexpr (kHasJump) {
-      const State<Real> before = state;
-      problem_.jump(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+      move(state, [&](const Point<Real>& p, Real* u, Real* v, Real* x) { problem_.jump(i, p, u, v, x); });
     }
     if constexpr (kHasSnap) {
-      const State<Real> before = state;
-      problem_.snap(i, pointOf(before), state.u.data(), state.v.data(), state.x.data());
+      move(state, [&](const Point<Real>& p, Real* u, Real* v, Real* x) { problem_.snap(i, p, u, v, x); });
     }
   }
   std::vector<Real> times() const override {
@@ -113,9 +104,7 @@ class ProblemSystem final : public System<Real> {
   }
   void onTime(Index i, State<Real>& state) const override {
     if constexpr (requires(const Point<Real>& p, Real* d) { problem_.onTime(i, p, d); }) {
-      Vec<Real> d = state.d;
-      problem_.onTime(i, pointOf(state), d.data());
-      state.d = d;
+      change(state, [&](const Point<Real>& p, Real* d) { problem_.onTime(i, p, d); });
     }
   }
   std::string switchName(Index i) const override {
@@ -136,8 +125,7 @@ class ProblemSystem final : public System<Real> {
   void evaluateAt(Level level, const Point<T>& p, T* r) const {
     const bool implied = kHasSwitching && options_.discontinuity.sees == ModeSeen::kImplied;
     if (sizes_.switches == 0 || !(implied || smooth())) return evaluateFrozen(level, p, r);
-    std::array<T, kMaxDiscrete> d;
-    std::copy(p.d.data(), p.d.data() + p.d.size(), d.begin());
+    FewOrMany<T> d(p.d.data(), p.d.data() + p.d.size());
     const Point<T> at{p.t, p.u, p.v, p.x, p.a, p.k, p.z, {d.data(), p.d.size()}};
     if (smooth()) {
       if constexpr (kHasSmoothed) problem_.smoothed(p, d.data());
@@ -182,6 +170,28 @@ class ProblemSystem final : public System<Real> {
     problem.smoothed(p, out);
   };
 
+  // Calls f(p, d) for the state and the discrete states that it is to change.
+  template <class F>
+  static void change(State<Real>& state, F&& f) {
+    FewOrMany<Real> d(state.d.begin(), state.d.end());
+    f(pointOf(state), d.data());
+    std::copy(d.begin(), d.end(), state.d.begin());
+  }
+
+  // Calls f(p, u, v, x) for the state and the numbers that it is to change.
+  template <class F>
+  static void move(State<Real>& state, F&& f) {
+    FewOrMany<Real> u(state.u.begin(), state.u.end()), v(state.v.begin(), state.v.end()),
+        x(state.x.begin(), state.x.end());
+    f(pointOf(state), u.data(), v.data(), x.data());
+    std::copy(u.begin(), u.end(), state.u.begin());
+    std::copy(v.begin(), v.end(), state.v.begin());
+    std::copy(x.begin(), x.end(), state.x.begin());
+  }
+
+  template <class T>
+  using FewOrMany = boost::container::small_vector<T, kFew>;
+
   // Not inlined: in another context the compiler would contract other products and sums, and the bits
   // would depend on how many stages are asked for at once.
   [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const { evaluateAt(Level::kFormulated, p, r); }
@@ -219,15 +229,15 @@ class ProblemSystem final : public System<Real> {
   // The mode that p implies: due switches done until none is due. A cascade that does not end is
   // cut: the error estimate has to deal with what is left.
   template <class T>
-  void imply(const Point<T>& p, std::array<T, kMaxDiscrete>& d) const {
+  void imply(const Point<T>& p, FewOrMany<T>& d) const {
     if constexpr (kHasSwitching) {
-      std::array<T, kMaxDiscrete> g;
+      FewOrMany<T> g(static_cast<std::size_t>(sizes_.switches));
       for (Index pass = 0; pass < 2 * sizes_.switches; ++pass) {
         problem_.switching(p, g.data());
         Index due = 0;
         while (due < sizes_.switches && !(g[static_cast<std::size_t>(due)] > T(0.0))) ++due;
         if (due == sizes_.switches) return;
-        std::array<T, kMaxDiscrete> next = d;
+        FewOrMany<T> next = d;
         problem_.onSwitch(due, p, next.data());
         d = next;
       }
