@@ -116,18 +116,18 @@ class Doubling : public StepAttempt<Real> {
     steps_ = 0;
     sum_ = 0;
     accumulation_.begin();
-    continues_ = restarted_ = watches_start_ = false;
+    continues_ = restarted_ = watches_start_ = vague_start_ = false;
   }
   void restart() override {
     forget();
     continues_ = false;
-    restarted_ = watches_start_ = true;
+    restarted_ = watches_start_ = vague_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
     // A restart at the end of this very step came first.
     if (!std::exchange(restarted_, false)) {
       watches_start_ = false;
-      continues_ = true;
+      continues_ = continues_ || !vague_start_ || whole_.tellsRates();
     }
     ++steps_;
     sum_ += result.added;
@@ -184,7 +184,8 @@ class Doubling : public StepAttempt<Real> {
   bool looks_again_;            // `richardson`: whether the halves show the order
   bool watches_start_ = false;  // the first step after a restart
   bool restarted_ = false;      // since the last step was taken over
-  bool continues_ = false;      // a step of the same mode
+  bool continues_ = false;      // (a, k) at the start of a step are those of the same mode
+  bool vague_start_ = false;    // of the mode: a restart, which may not determine (a, k)
   Index worst_ = -1;
   double rough_whole_ = 0, rough_halves_ = 0;
   int order_;

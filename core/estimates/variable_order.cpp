@@ -147,7 +147,7 @@ void VariableOrder<Real>::begin() {
   past_ = &member().stepper.stages();
   past_at_ = at_;
   solved_ = false;
-  continues_ = restarted_ = watches_start_ = false;
+  continues_ = restarted_ = watches_start_ = vague_start_ = false;
   steps_ = 0;
   sum_ = 0;
   for (auto& m : members_) {
@@ -192,7 +192,7 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
   // A restart at the end of this very step came first.
   if (!std::exchange(restarted_, false)) {
     watches_start_ = false;
-    continues_ = true;
+    continues_ = continues_ || !vague_start_ || member().stepper.tellsRates();
   }
   ++steps_;
   sum_ += estimate_;

@@ -37,7 +37,7 @@ class VariableOrder final : public StepAttempt<Real> {
   void restart() override {
     forget();
     continues_ = false;
-    restarted_ = watches_start_ = true;
+    restarted_ = watches_start_ = vague_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   int order() const override;
@@ -101,7 +101,8 @@ class VariableOrder final : public StepAttempt<Real> {
   double estimate_ = 0, sum_ = 0;            // of the last attempt; of all accepted steps
   bool watches_start_ = false;               // the first step after a restart
   bool restarted_ = false;                   // since the last step was taken over
-  bool continues_ = false;                   // a step of the same mode
+  bool continues_ = false;                   // (a, k) at the start of a step are those of the same mode
+  bool vague_start_ = false;                 // of the mode: a restart, which may not determine (a, k)
   int since_change_ = 0;                     // accepted steps
   double lower_error_;                       // of the member below, NaN if not known
   double unknowns_;

@@ -37,6 +37,13 @@ ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, c
   return norm;
 }
 
+// Algebraic unknowns of index 2 that are no multipliers: D0 is singular, and (a, k) follow from a step only.
+template <class Real>
+bool hidesRates(const System<Real>& system) {
+  const auto& powers = system.errorPowers().z;
+  return std::any_of(powers.begin() + system.sizes().constraints, powers.end(), [](int power) { return power > 0; });
+}
+
 }  // namespace
 
 template <class Real>
@@ -195,7 +202,8 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
     // In index 3 the stages' accelerations are of low order: what they miss at the start says nothing.
-    if (report.determined && !projection_) attempt_->restart();
+    // Where D0 is singular they are not known, and the first step may change them: it has no rates to follow.
+    if ((report.determined || hidesRates(system_)) && !projection_) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
     blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;

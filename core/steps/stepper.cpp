@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "irk/multiprecision.h"
 
@@ -17,6 +18,8 @@ constexpr double kStartTolerances = 10;
 
 // Rates that differ from those before by this part of their size are those of another root.
 constexpr double kAnotherRoot = 0.25;
+// Round-off of (v, x) after many operations, in epsilons.
+constexpr double kRoundOff = 1000;
 
 template <class Real>
 bool hasHiddenUnknowns(const System<Real>& system) {
@@ -116,6 +119,8 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
 
 template <class Real>
 double Stepper<Real>::startDefect(const State<Real>& from) {
+  // What index 2 hides is not known at a restart: (a, k) are those of the mode before.
+  if (has_hidden_unknowns_) return 0;
   rates_.noalias() = W_ * eq_.scheme().start;
   rates_ -= from.w;
   const double missed = rate_norm_(rates_, stages_.h);
@@ -124,15 +129,23 @@ double Stepper<Real>::startDefect(const State<Real>& from) {
 }
 
 template <class Real>
+bool Stepper<Real>::tellsRates() {
+  if (!has_hidden_unknowns_) return true;
+  rates_ = W_.col(W_.cols() - 1);
+  return rate_norm_(rates_, stages_.h) > 1;
+}
+
+template <class Real>
 bool Stepper<Real>::leavesRoot(const State<Real>& from) {
   // A step that moves the solution by more than a tolerance may change its rates.
-  if (!has_hidden_unknowns_) return false;
-  rates_ = W_.col(W_.cols() - 1);
-  if (rate_norm_(rates_, stages_.h) > 1) return false;
+  if (!has_hidden_unknowns_ || tellsRates()) return false;
   const Index n = sizes_.nu + sizes_.nx;
   rates_.noalias() = W_ * eq_.scheme().start;
   const Real size = rates_.head(n).norm() + from.w.head(n).norm();
-  return (rates_.head(n) - from.w.head(n)).norm() > Real(kAnotherRoot) * size;
+  const Real change = (rates_.head(n) - from.w.head(n)).norm();
+  // At rest the rates are the round-off of (v, x) over h.
+  const Real round_off = Real(kRoundOff) * std::numeric_limits<Real>::epsilon() * (from.v.norm() + from.x.norm());
+  return change > Real(kAnotherRoot) * size && stages_.h * change > round_off;
 }
 
 template <class Real>

@@ -34,6 +34,10 @@ class Stepper final : private StepRepeater<Real> {
   /// do not continue those of `from`. Always false where (a, k) follow from (u, v, x).
   bool leavesRoot(const State<Real>& from);
 
+  /// Whether (a, k) of the step solved last are rates that later steps can be compared with: where index 2 hides them,
+  /// those of a step that moves the solution by less than a tolerance may be an error of its start, divided by h.
+  bool tellsRates();
+
   /// Of the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in
   /// the stages' polynomial and, of stiffly accurate methods, what it misses of (a, k) at the start. They
   /// fall with h^decay() where the step resolves the motion.
