@@ -41,9 +41,11 @@ Index worstRow(const Vec<Real>& r) {
 }  // namespace
 
 template <class Real>
-ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required)
+ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required,
+                                       Counters* counters)
     : system_(system),
       w_required_(w_required),
+      counters_(counters),
       differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic, Matrices::kOnlyD0),
       r_(system.sizes().n()),
       dw_(system.sizes().n()),
@@ -61,7 +63,12 @@ bool ConsistentStart<Real>::factorize() {
 template <class Real>
 void ConsistentStart<Real>::solve() {
   if (D_.pattern->full) {
-    dw_.noalias() = dense_lu_.solve(r_);
+    // dense_lu_.solve(r_) without the memory that it takes: P D0 Q = L U.
+    dw_.noalias() = dense_lu_.permutationP() * r_;
+    dense_lu_.matrixLU().template triangularView<Eigen::UnitLower>().solveInPlace(dw_);
+    dense_lu_.matrixLU().template triangularView<Eigen::Upper>().solveInPlace(dw_);
+    r_.noalias() = dense_lu_.permutationQ() * dw_;
+    dw_.swap(r_);
   } else {
     dw_ = r_;
     lu_.solve(dw_);
@@ -114,6 +121,9 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
   const StartReport found = determine(state, kConsistent, 0);
   if (found.outcome == Outcome::kSuccess) return {};
   state.w = given_;
+  if (found.outcome == Outcome::kSingular) {
+    return "z is that of the stages, (u, v, x) do not determine it: " + found.detail;
+  }
   return "multipliers of the stages: " + found.detail;
 }
 
@@ -137,6 +147,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
   for (int i = 0; i < kIterations; ++i) {
     if (!evaluate()) break;
     if (renew) {
+      if (counters_) ++counters_->jacobians;
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
         return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)", static_cast<double>(D_.d0.sum()));

@@ -8,6 +8,7 @@
 #include "core/derivatives/differentiator.h"
 #include "core/derivatives/rate_lu.h"
 #include "irk/outcome.h"
+#include "irk/statistics.h"
 
 namespace irk {
 
@@ -28,8 +29,8 @@ template <class Real>
 class ConsistentStart {
  public:
   /// Keeps a reference to the system. `w_required`: if (a, k, z) cannot be determined, the given values have to
-  /// satisfy the residual.
-  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required);
+  /// satisfy the residual. `counters`, if given, count the Jacobians; they must live as long as this object.
+  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required, Counters* counters = nullptr);
 
   /// Resets all history before a new integration: results are then bitwise those of a new object.
   void forgetPattern() { differentiator_.forgetPattern(); }
@@ -54,6 +55,7 @@ class ConsistentStart {
 
   const System<Real>& system_;
   bool w_required_;
+  Counters* counters_;
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
   RateLu<Real> lu_;  // for a sparse pattern

@@ -12,9 +12,10 @@ namespace {
 template <class Real>
 class FollowedModes : public ModesInStep<Real> {
  public:
-  FollowedModes(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm, Counters&)
+  FollowedModes(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm,
+                Counters& counters)
       : switches_(system),
-        effect_(system, options, norm),
+        effect_(system, options, norm, counters),
         before_(system.sizes()),
         sees_switches_(catalogue<ErrorEstimate>()[options.step.estimate].sees_switches) {}
 

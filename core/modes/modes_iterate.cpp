@@ -23,7 +23,7 @@ class IteratedInStep final : public ModesInStep<Real> {
       : system_(system),
         counters_(counters),
         switches_(system),
-        effect_(system, options, norm),
+        effect_(system, options, norm, counters),
         frozen_(system.sizes()),
         first_mode_(system.sizes()),
         g_before_(system.sizes().switches) {}

@@ -7,11 +7,11 @@ namespace irk {
 
 template <class Real>
 SwitchEffect<Real>::SwitchEffect(const System<Real>& system, const IntegratorOptions& options,
-                                 const ErrorNorm<Real>& norm)
+                                 const ErrorNorm<Real>& norm, Counters& counters)
     : norm_(norm),
       switches_(system),
       scan_(system),
-      consistent_(system, options.derivatives, false),
+      consistent_(system, options.derivatives, false, &counters),
       rate_norm_(system.sizes(), norm),
       inside_(system.sizes()),
       rates_(system.sizes().n()),

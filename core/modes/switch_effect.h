@@ -12,7 +12,8 @@ namespace irk {
 template <class Real>
 class SwitchEffect {
  public:
-  SwitchEffect(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm);
+  SwitchEffect(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm,
+               Counters& counters);
 
   /// Whether a switch is due inside the step, whatever is at its end, and which. `inside()` becomes the state there,
   /// with the mode of the start.

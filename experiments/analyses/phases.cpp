@@ -126,10 +126,11 @@ class PhaseMeasurement {
   Parts counts() const {
     const Counters& run = counters_;
     const auto number = [](std::int64_t count) { return static_cast<double>(count); };
+    const std::int64_t jacobians = run.jacobians - start_counters_.jacobians;
     const auto inside =
-        (run.jacobians - 1) * kernel_.residualsPerJacobian() + kernel_.residualsOfFirst() + start_counters_.residuals;
+        (jacobians - 1) * kernel_.residualsPerJacobian() + kernel_.residualsOfFirst() + start_counters_.residuals;
     return {number(std::max<std::int64_t>(run.residuals - inside, 0)),
-            number(run.jacobians),
+            number(jacobians),
             number(run.factorizations),
             number(run.solves),
             number(run.newton_iterations),

@@ -8,7 +8,7 @@ namespace irk {
 struct Counters {
   std::int64_t residuals = 0;       ///< evaluations of r over plain numbers
   std::int64_t dual_residuals = 0;  ///< evaluations of r over dual numbers (8 directions each)
-  std::int64_t jacobians = 0;       ///< evaluations of (D0, D1, D2) at one point
+  std::int64_t jacobians = 0;  ///< evaluations of (D0, D1, D2) at one point, of D0 alone at starts, restarts and ends
   std::int64_t factorizations = 0;  ///< of the Newton matrix (all its blocks together count as one)
   std::int64_t solves = 0;          ///< with a factorized Newton matrix (all its blocks together count as one)
   std::int64_t newton_iterations = 0;

@@ -80,7 +80,7 @@ TEST(Integrator, CountersAreWhatTheAlgorithmSays) {
   const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("radau_iia_2"), o);
   ASSERT_EQ(s.outcome, Outcome::kSuccess);
   EXPECT_EQ(s.counters.steps_accepted, 8);
-  EXPECT_EQ(s.counters.jacobians, 1);
+  EXPECT_EQ(s.counters.jacobians, 1 + 1) << "one of the consistent start";
   EXPECT_EQ(s.counters.factorizations, 1);
   EXPECT_EQ(s.counters.newton_iterations, 8);
   EXPECT_EQ(s.counters.solves, 8);

@@ -122,7 +122,7 @@ TEST(Order, UnknownsThatDoNotFollowAtTheEndStayThoseOfTheStages) {
   EXPECT_NEAR(kept.state.w[1], std::cos(1.0), 1e-4);
   EXPECT_EQ(kept.state.w, stages.state.w);
   EXPECT_EQ(stages.detail, "");
-  EXPECT_EQ(kept.detail, "multipliers of the stages: dr/d(a, k, z) is singular at t = 1");
+  EXPECT_EQ(kept.detail, "z is that of the stages, (u, v, x) do not determine it: dr/d(a, k, z) is singular at t = 1");
 }
 
 /// y' = t^(d-1) applies the method's quadrature.
