@@ -140,5 +140,21 @@ TEST(Allocation, VariableOrderAllocatesForNewMembersOnly) {
   }
 }
 
+// The first switch allocates what all later ones use, and the object of the monitor is the caller's.
+TEST(Allocation, LaterSwitchesAllocateNothing) {
+  for (const char* id : {"bouncing_mass", "stick_slip", "elastoplastic", "dc_motor_chopper", "sampled_control",
+                         "hydraulic_arm", "mechatronic_crank"}) {
+    const Scene<double> scene = makeScene<double>(id);
+    for (const bool embedded : {false, true}) {
+      IntegratorOptions o = adaptive(1e-5);
+      if (embedded) o.step.estimate = ErrorEstimate::kEmbedded;
+      Integrator<double> integrator(scene.system({}), makeTableau<double>("radau_iia_3"), o, scene.scale);
+      const double t_end = static_cast<double>(scene.t_end);
+      EXPECT_GE(integrator.integrate(scene.start, t_end).counters.switches, 2) << id;
+      EXPECT_EQ(allocationsOf(integrator, scene.start, t_end), 0) << id << (embedded ? " embedded" : " doubling");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace irk::test
