@@ -1,4 +1,5 @@
-// Whether numbers are exactly zero, with their derivatives: a residual may then leave out what it would multiply by them.
+// Whether numbers are exactly zero, with their derivatives: a residual may then leave out what it would multiply by
+// them.
 //
 // The simplified Jacobians `no_mass` and `no_mass_vxz` differentiate at a = 0 (JacobianTerms, irk/options.h). A problem
 // whose M(u) is worth the test saves its evaluation there:
