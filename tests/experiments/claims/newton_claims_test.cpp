@@ -160,7 +160,31 @@ ResultTables kForm(const std::string& detail) {
 TEST(NewtonClaims, MassIsNotFactorized) {
   EXPECT_EQ(verdict("C11a", kForm("")), kYes);
   EXPECT_EQ(verdict("C11a", kForm("mass factorizations: 1")), kNo);
-  EXPECT_TRUE(containsAll(finding("C11b", kForm("")).judged.reason, {"study k_form lacks", "once per step"}));
+}
+
+// The costs of the K-form and of both first-order forms.
+ResultTables massForms(const std::vector<double>& k_form, double per_point, double per_step) {
+  RunTable runs;
+  for (std::size_t i = 0; i < kScenes.size(); ++i) {
+    Row row{{"block", "mass_form_crank"}, {"scene", kScenes[i]}};
+    const std::pair<const char*, double> forms[] = {
+        {"index2", k_form[i]}, {"first_order", per_point}, {"first_order_per_step", per_step}};
+    for (const auto& [formulation, cost] : forms) {
+      row["formulation"] = formulation;
+      runs.addSeries(row, cost);
+    }
+  }
+  return runs.results();
+}
+
+TEST(NewtonClaims, KFormAgainstTheBestFirstOrderForm) {
+  EXPECT_EQ(verdict("C11b", massForms({0.9, 0.99, 0.9}, 1, 2)), kYes);
+  EXPECT_EQ(verdict("C11b", massForms({0.9, 0.99, 0.9}, 2, 1)), kYes);
+  EXPECT_EQ(verdict("C11b", massForms({1.01, 1.1, 1.2}, 1, 2)), kNo) << "once per evaluation is the best";
+  EXPECT_EQ(verdict("C11b", massForms({1.01, 1.1, 1.2}, 2, 1)), kNo) << "once per step is the best";
+  EXPECT_EQ(verdict("C11b", massForms({0.5, 0.5, 2}, 1, 2)), kOpen);
+  EXPECT_TRUE(containsAll(finding("C11b", massForms({1, 1, 1}, 2, 1)).judged.remark, {"per step in 15 of 15"}));
+  EXPECT_EQ(verdict("C11b", kForm("")), kUnknown) << "the study claims has its runs";
 }
 
 // --- C12: the best rule of one half of the scenes is judged on the other.
