@@ -43,9 +43,12 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
   // Only the rows F2 have a constant stiffness. If there are other rows, D2 has to be evaluated for them anyway.
   const bool once = terms_.stiffness_once && sizes_.n() == sizes_.nu;
   const Index rates = sizes_.nu + sizes_.nx;
+  // Where no derivative of M a is kept, those along a are taken at a = 0 as well: they are M whatever a is, and one
+  // group needs fewer evaluations than two.
+  const bool all_at_zero = terms_.mass_without_vxz && terms_.mass_without_u;
   for (const Direction& d : allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1)) {
     const bool vxz = d.matrix == 1 || (d.matrix == 0 && d.column >= rates);
-    const bool at_zero = (terms_.mass_without_vxz && vxz) || (terms_.mass_without_u && d.matrix == 2);
+    const bool at_zero = all_at_zero || (terms_.mass_without_vxz && vxz) || (terms_.mass_without_u && d.matrix == 2);
     (at_zero ? at_zero_ : once && d.matrix == 2 ? stiffness_ : at_a_).directions.push_back(d);
   }
   forgetPattern();

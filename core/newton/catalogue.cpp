@@ -1,6 +1,7 @@
 // The Newton methods that come with the library.
 #include "core/newton/residual_newton.h"
 #include "core/newton/simplified_newton.h"
+#include "core/newton/step_reuse.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -9,8 +10,12 @@ IRK_STRATEGIES(NewtonKind, "newton")
 
 template <>
 Catalogue<NewtonKind>& catalogue<NewtonKind>() {
-  static Catalogue<NewtonKind> all(
-      {simplifiedNewton(), broydenNewton(), modifiedNewton(), modifiedOnlyNewton(), fullNewton()});
+  static Catalogue<NewtonKind> all([] {
+    std::vector<Strategy<NewtonKind>> entries{simplifiedNewton(),   broydenNewton(),   modifiedNewton(),
+                                              modifiedOnlyNewton(), paperRuleNewton(), fullNewton()};
+    for (auto& entry : newtonWithReuseByStep()) entries.push_back(std::move(entry));
+    return entries;
+  }());
   return all;
 }
 

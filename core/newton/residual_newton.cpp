@@ -8,13 +8,17 @@
 namespace irk {
 namespace {
 
-/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). An increment at round-off ends
+/// Whether an increment at round-off ends the iteration, though the residual has not shrunk by the asked factor.
+enum class AtRoundOff { kEnd, kGoOn };
+
+/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). By default an increment at round-off ends
 /// the iteration as well: then the residual cannot shrink by the asked factor.
 template <class Real>
 class ResidualNewton : public NewtonBase<Real> {
  public:
-  ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : NewtonBase<Real>(options, sizes, scheme) {}
+  ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme,
+                 AtRoundOff at_round_off = AtRoundOff::kEnd)
+      : NewtonBase<Real>(options, sizes, scheme), at_round_off_(at_round_off) {}
 
  protected:
   enum Jacobian { kKept, kStagewise };
@@ -37,8 +41,10 @@ class ResidualNewton : public NewtonBase<Real> {
       eps = residualNorm();
       result.theta = eps / previous;
       if (eps <= o.residual_tolerance * eps0) return result;
-      if (norm <= kRoundOffUnits * this->round_off_) return result;
-      if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+      if (at_round_off_ == AtRoundOff::kEnd) {
+        if (norm <= kRoundOffUnits * this->round_off_) return result;
+        if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+      }
       // (3.4). Full Newton is the last resort and uses all its iterations.
       if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
         return fail(result, Outcome::kNewtonFailed);
@@ -53,6 +59,8 @@ class ResidualNewton : public NewtonBase<Real> {
     result.outcome = outcome;
     return result;
   }
+
+  AtRoundOff at_round_off_;
 };
 
 /// With the kept Jacobian, then with a new one, then with those of the stages, where these are the last resort.
@@ -62,8 +70,8 @@ class ModifiedNewton : public ResidualNewton<Real> {
 
  public:
   ModifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme,
-                 bool full_at_last = true)
-      : Base(options, sizes, scheme), full_at_last_(full_at_last) {}
+                 bool full_at_last = true, AtRoundOff at_round_off = AtRoundOff::kEnd)
+      : Base(options, sizes, scheme, at_round_off), full_at_last_(full_at_last) {}
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     this->begin(c, W);
     auto& shared = c.matrix.shared();
@@ -105,13 +113,22 @@ class ModifiedOnlyNewton final : public ModifiedNewton<Real> {
       : ModifiedNewton<Real>(options, sizes, scheme, false) {}
 };
 
+/// The paper's stopping rule (3.2) to the letter: round-off ends nothing.
+template <class Real>
+class PaperRuleNewton final : public ModifiedNewton<Real> {
+ public:
+  PaperRuleNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : ModifiedNewton<Real>(options, sizes, scheme, true, AtRoundOff::kGoOn) {}
+};
+
 /// With those of the stages, new in every iteration.
 template <class Real>
 class FullNewton final : public ResidualNewton<Real> {
   using Base = ResidualNewton<Real>;
 
  public:
-  using Base::Base;
+  FullNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
+      : Base(options, sizes, scheme) {}
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     this->begin(c, W);
     return this->iterate(c, W, Base::kStagewise);
@@ -131,6 +148,13 @@ Strategy<NewtonKind> modifiedOnlyNewton() {
   return {.id = {{"modified_only"}},
           .meaning = "the paper's without its last resort, full Newton: shows what that repairs",
           .make = makes<NewtonMaker, ModifiedOnlyNewton>()};
+}
+
+Strategy<NewtonKind> paperRuleNewton() {
+  return {.id = {{"paper_rule"}},
+          .meaning = "the paper's with its stopping rule (3.2) alone: round-off does not end the iteration",
+          .uses_stage_matrices = true,
+          .make = makes<NewtonMaker, PaperRuleNewton>()};
 }
 
 Strategy<NewtonKind> fullNewton() {

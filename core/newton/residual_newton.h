@@ -7,6 +7,7 @@ namespace irk {
 
 Strategy<NewtonKind> modifiedNewton();
 Strategy<NewtonKind> modifiedOnlyNewton();
+Strategy<NewtonKind> paperRuleNewton();
 Strategy<NewtonKind> fullNewton();
 
 }  // namespace irk

@@ -1,6 +1,8 @@
 #include "core/options/option_fields.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <tuple>
 
 namespace irk {
@@ -28,7 +30,12 @@ OptionField number(std::string name, auto member, const Range& range, std::strin
 
 bool fixedSteps(const Options& o) { return o.step.control == StepControl::kFixed; }
 bool isModified(const Options& o) {
-  return o.newton.kind == NewtonKind::kModified || o.newton.kind.id == "modified_only";
+  static constexpr std::string_view kIds[] = {"modified", "modified_only", "paper_rule", "modified_each_step",
+                                              "modified_step_change"};
+  return std::find(std::begin(kIds), std::end(kIds), o.newton.kind.id) != std::end(kIds);
+}
+bool reusesByStep(const Options& o) {
+  return o.newton.kind.id == "broyden_each_step" || o.newton.kind.id == "broyden_step_change";
 }
 bool stopsByResidual(const Options& o) { return isModified(o) || o.newton.kind == NewtonKind::kFull; }
 bool isPaperControl(const Options& o) {
@@ -41,16 +48,19 @@ std::string_view noEstimate(const Options& o) {
 }
 std::string_view noChosenStep(const Options& o) { return fixedSteps(o) ? "fixed steps all have one size" : ""; }
 std::string_view ofIncrementTest(const Options& o) {
-  return stopsByResidual(o) ? "it belongs to newton 'simplified' and 'broyden'" : "";
+  return stopsByResidual(o) ? "it belongs to newton 'simplified', 'broyden' and its variants" : "";
+}
+std::string_view ofContraction(const Options& o) {
+  return reusesByStep(o) ? "the Jacobian is kept by rule, whatever the contraction is" : ofIncrementTest(o);
 }
 std::string_view ofKappa(const Options& o) {
   return fixedSteps(o) ? "with fixed steps Newton's method iterates to round-off" : ofIncrementTest(o);
 }
 std::string_view ofResidualTest(const Options& o) {
-  return stopsByResidual(o) ? "" : "it belongs to newton 'modified', 'modified_only' and 'full'";
+  return stopsByResidual(o) ? "" : "it belongs to newton 'modified', its variants, and 'full'";
 }
 std::string_view ofModifiedNewton(const Options& o) {
-  return isModified(o) ? "" : "it belongs to newton 'modified' and 'modified_only'";
+  return isModified(o) ? "" : "it belongs to newton 'modified' and its variants";
 }
 std::string_view ofPaperControl(const Options& o) {
   return isPaperControl(o) ? "" : "it belongs to control 'paper' and 'paper_no_gamma'";
@@ -90,7 +100,7 @@ std::span<const OptionField> optionFields() {
              "Newton's method fails after this many iterations."),
       number("keep_jacobian_below", IRK_MEMBER(newton.keep_jacobian_below), Range::from(0).below(1),
              "The Jacobian is kept for the next step while Newton's method contracts by less than this factor.",
-             ofIncrementTest),
+             ofContraction),
       number("kappa", IRK_MEMBER(newton.kappa), Range::from(0),
              "Newton's method stops when its error falls below this part of the tolerance; 0 = by order and rtol.",
              ofKappa),

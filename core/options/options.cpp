@@ -15,7 +15,9 @@ constexpr Named<Formulation> kFormulations[] = {
     {Formulation::kIndex2Projected, "index2_projected", "index 2, v projected after each step"},
     {Formulation::kIndex1, "index1", "constraints differentiated twice"},
     {Formulation::kFirstOrder, "first_order",
-     "y' = f(t, y): index 1 solved for (a, k), M factorized in every evaluation"}};
+     "y' = f(t, y): index 1 solved for (a, k), M factorized in every evaluation"},
+    {Formulation::kFirstOrderPerStep, "first_order_per_step",
+     "the same, M factorized once per step, its other solves refined by residuals"}};
 constexpr Named<ConstraintScaling> kScalings[] = {
     {ConstraintScaling::kOn, "on", "constraint rows multiplied by 1/h or 1/h^2 (paper)"},
     {ConstraintScaling::kOff, "off", "constraint rows as they are"}};

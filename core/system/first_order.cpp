@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
@@ -37,9 +38,10 @@ State<Real> moved(const State<Real>& from, int sample) {
 }  // namespace
 
 template <class Real>
-FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner)
+FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner, MassFactors factors)
     : inner_(std::move(inner)),
       inner_sizes_(inner_->sizes()),
+      factors_(factors),
       at_(inner_sizes_),
       start_w_(at_.w),
       residual_(inner_sizes_.n()),
@@ -68,10 +70,24 @@ void FirstOrderForm<Real>::evaluate(Level, const Point<Real>& p, VecView<Real> r
 }
 
 template <class Real>
+void FirstOrderForm<Real>::evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const {
+  const bool renewed = std::exchange(renewed_, false);
+  if (at.t[first] != first_time_ || at.t[last - 1] != last_time_) {
+    first_time_ = at.t[first];
+    last_time_ = at.t[last - 1];
+    if (!renewed) renew_ = true;
+  }
+  System<Real>::evaluateStages(at, first, last, r);
+}
+
+template <class Real>
 void FirstOrderForm<Real>::evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const {
   const Index nu = inner_sizes_.nu, nx = inner_sizes_.nx, n = inner_sizes_.n();
   for (Index i = 0; i < p.x.size(); ++i) values_[i] = p.x[i].value;
   for (Index i = 0; i < p.d.size(); ++i) values_[p.x.size() + i] = p.d[i].value;
+  if (factors_ == MassFactors::kEachStep && !holds(p.t.value, values_.data(), values_.data() + p.x.size())) {
+    renew_ = renewed_ = true;  // derivatives take the factors as they are
+  }
   if (!solve(p.t.value, values_.data(), values_.data() + p.x.size())) {
     r.setConstant(Dual<Real>(std::numeric_limits<Real>::quiet_NaN()));
     return;
@@ -117,7 +133,13 @@ bool FirstOrderForm<Real>::solve(const Real& t, const Real* y, const Real* d) co
   std::copy_n(y + nu, nu, at_.v.begin());
   std::copy_n(y + 2 * nu, inner_sizes_.nx, at_.x.begin());
   std::copy_n(d, inner_sizes_.discrete, at_.d.begin());
-  solved_ = rates_ == Rates::kNonlinear ? solveNewton() : solveLinear();
+  const bool varies = rates_ == Rates::kLinear || rates_ == Rates::kNonlinear;
+  if (factors_ == MassFactors::kEachStep && varies && !std::exchange(renew_, false) && refine()) {
+    solved_ = true;
+  } else {
+    solved_ = rates_ == Rates::kNonlinear ? solveNewton() : solveLinear();
+    renew_ = !solved_;
+  }
   return solved_;
 }
 
@@ -134,6 +156,27 @@ bool FirstOrderForm<Real>::solveLinear() const {
   at_.w = -residual_;
   divideByMatrix(at_.w);
   return allFinite(at_.w);
+}
+
+// With the factors of another point: w -= M^-1 r from the w of the last point, until the change is as small as
+// round-off. The residual is exact, so w is as well.
+template <class Real>
+bool FirstOrderForm<Real>::refine() const {
+  using std::sqrt;
+  const Real eps = Eigen::NumTraits<Real>::epsilon();
+  Real last = std::numeric_limits<Real>::max();
+  for (int i = 0; i < kIterations; ++i) {
+    inner_->evaluate(Level::kAcceleration, pointOf(at_), {residual_.data(), residual_.size()});
+    divideByMatrix(residual_);
+    at_.w -= residual_;
+    const Real change = residual_.norm(), size = Real(1) + Real(at_.w.norm());
+    const bool stalled = change >= last && change <= Real(sqrt(eps)) * size;
+    if (change <= Real(100) * eps * size || stalled) return allFinite(at_.w);
+    if (!(change < last / 2)) break;
+    last = change;
+  }
+  at_.w = start_w_;
+  return false;
 }
 
 // Newton's method from the w of the last point, until the change is as small as round-off.
@@ -217,6 +260,7 @@ void FirstOrderForm<Real>::divideByMatrix(Vec<Real>& x) const {
 template <class Real>
 bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   solved_ = false;
+  renew_ = true;
   at_ = scene;
   evaluateMatrix();
   const Mat<Real> D0 = lu_.matrix();
@@ -307,13 +351,21 @@ State<Real> FirstOrderForm<Real>::toScene(const State<Real>& state) const {
 }
 
 template <class Real>
+std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system, MassFactors factors) {
+  return std::make_shared<const FirstOrderForm<Real>>(std::move(system), factors);
+}
+
+template <class Real>
 std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system) {
-  return std::make_shared<const FirstOrderForm<Real>>(std::move(system));
+  return firstOrderForm(std::move(system), MassFactors::kEachPoint);
 }
 
 IRK_INSTANTIATE_CLASS(FirstOrderForm)
+template std::shared_ptr<const System<double>> firstOrderForm(std::shared_ptr<const System<double>>, MassFactors);
 template std::shared_ptr<const System<double>> firstOrderForm(std::shared_ptr<const System<double>>);
+template std::shared_ptr<const System<mp50>> firstOrderForm(std::shared_ptr<const System<mp50>>, MassFactors);
 template std::shared_ptr<const System<mp50>> firstOrderForm(std::shared_ptr<const System<mp50>>);
+template std::shared_ptr<const System<mp100>> firstOrderForm(std::shared_ptr<const System<mp100>>, MassFactors);
 template std::shared_ptr<const System<mp100>> firstOrderForm(std::shared_ptr<const System<mp100>>);
 
 }  // namespace irk

@@ -8,20 +8,21 @@
 #include <vector>
 
 #include "core/linear/dense_lu.h"
-#include "irk/system.h"
+#include "irk/problem.h"
 
 namespace irk {
 
 /// A system in first-order form: its x is (u, v, x) of the inner system, its rows are f(t, x) - k. z is eliminated:
 /// position constraints enter twice differentiated, so that positions drift. For a mechanism f contains
-/// v' = M^-1 F: M (the whole D0) is evaluated and factorized at every new point, unless it is constant.
+/// v' = M^-1 F: M (the whole D0) is evaluated and factorized at every new point or once per step, unless it is
+/// constant.
 ///
 /// Unlike other systems it keeps scratch: use one object per thread.
 template <class Real>
 class FirstOrderForm final : public System<Real> {
  public:
   /// Shares ownership of `inner`, which is evaluated at acceleration level only.
-  explicit FirstOrderForm(std::shared_ptr<const System<Real>> inner);
+  explicit FirstOrderForm(std::shared_ptr<const System<Real>> inner, MassFactors factors = MassFactors::kEachPoint);
 
   Sizes sizes() const override { return sizes_; }
   Sizes sceneSizes() const override { return inner_sizes_; }
@@ -29,6 +30,8 @@ class FirstOrderForm final : public System<Real> {
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override;
   /// Differentiates implicitly: D0 dw = -dr, where dr is taken at fixed w = (a, k, z).
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override;
+  /// The points of one residual evaluation: with other times than those before, they are a new step.
+  void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const override;
   const std::vector<int>& rowPowers() const override { return row_powers_; }
   const ErrorPowers& errorPowers() const override { return error_powers_; }
   void switching(const Point<Real>& p, VecView<Real> g) const override;
@@ -58,6 +61,7 @@ class FirstOrderForm final : public System<Real> {
   bool holds(const Real& t, const Real* y, const Real* d) const;
   bool solveLinear() const;
   bool solveNewton() const;
+  bool refine() const;
   bool isSolution(const Vec<Real>& residual) const;
   void evaluateMatrix() const;
   bool factorize() const;
@@ -68,6 +72,10 @@ class FirstOrderForm final : public System<Real> {
   std::vector<int> row_powers_;
   ErrorPowers error_powers_;
 
+  MassFactors factors_;
+  mutable bool renew_ = true;                // the next solve factorizes
+  mutable bool renewed_ = false;             // by a Jacobian, at the start of the step that follows
+  mutable Real first_time_{}, last_time_{};  // of the last stages
   mutable Rates rates_ = Rates::kNonlinear;
   mutable bool solved_ = false;
   mutable State<Real> at_;     // the last point, with its solution w

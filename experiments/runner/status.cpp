@@ -9,6 +9,7 @@
 
 #include "experiments/base/progress.h"
 #include "experiments/base/time_left.h"
+#include "experiments/runner/over_time.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_walk.h"
@@ -20,7 +21,9 @@ namespace {
 /// Goes through all series and counts their runs.
 class Counting {
  public:
-  Counting(const Study& study, const store::Store& store) : study_(study), store_(store) {}
+  Counting(const Study& study, const store::Store& store) : study_(study), store_(store) {
+    if (study.timing.wanted) earlier_ = earlierEnds(study);
+  }
 
   void count(const Series& series, const std::vector<std::uint64_t>& keys) {
     const bool planned = series.end == SeriesEnd::kAsymptotic;
@@ -32,7 +35,7 @@ class Counting {
     });
     RunCounts counts;
     counts.planned = state.found.size() + state.missing.size() + state.unplanned;
-    for (const std::size_t run : state.found) countFinished(series, run, *runs.find(keys[run]), counts);
+    for (const std::size_t run : state.found) countFinished(series, run, keys[run], counts);
     for (const std::size_t run : state.missing) expect(kindOf(series.runs[run], series.end), 1);
     expect(kindOf(series.runs.front(), series.end), state.unplanned);
     part(series.block.empty() ? series.runs.front().scene : series.block).add(counts);
@@ -57,8 +60,9 @@ class Counting {
     expected_[kind] += runs;
   }
 
-  void countFinished(const Series& series, std::size_t run, const store::Entry& entry, RunCounts& counts) {
+  void countFinished(const Series& series, std::size_t run, std::uint64_t key, RunCounts& counts) {
     const store::Rows& runs = store_.runs();
+    const store::Entry& entry = *runs.find(key);
     const bool stale = !runs.isCurrent(entry), success = runs.name(entry.outcome) == name(Outcome::kSuccess);
     ++counts.finished;
     if (!success) ++counts.failed;
@@ -71,7 +75,7 @@ class Counting {
       made_.insert(kind);
     }
     const TimingOptions& timing = study_.timing;
-    if (!timing.wanted || !success || stale || seconds > timing.skip_above_s) return;
+    if (!timing.wanted || !success || stale || seconds > timing.skip_above_s || earlier_.contains(key)) return;
     const int repetitions = seconds > timing.once_above_s ? 1 : timing.repetitions;
     if (entry.repetitions >= repetitions) return;
     ++status_.to_time;
@@ -99,6 +103,7 @@ class Counting {
   std::map<std::string, std::size_t> expected_;
   std::set<std::string> made_;
   std::map<std::uint16_t, bool> foreign_;
+  std::unordered_set<std::uint64_t> earlier_;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
+#include "experiments/runner/over_time.h"
 #include "experiments/runner/runner.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
@@ -68,12 +69,13 @@ double lengthOf(const store::Store& store, const Table& runs, const TableRow& ro
 
 std::vector<Candidate> candidates(const Study& study, const store::Store& store, Table& runs) {
   const SpecsByKey specs(study);
+  const auto earlier = earlierEnds(study);
   std::vector<Candidate> wanted;
   for (auto& row : runs.rows) {
     const auto spec = specs.find(row.front());
     // Times of this code do not belong to the counters of stale rows.
     const bool stale = textAt(runs, row, "code") != buildInfo().code;
-    if (!spec || stale || !succeededAt(runs, row)) continue;
+    if (!spec || stale || !succeededAt(runs, row) || earlier.contains(store::keyNumber(row.front()))) continue;
     const double seconds = lengthOf(store, runs, row);
     const int repetitions = seconds > study.timing.once_above_s ? 1 : study.timing.repetitions;
     if (seconds > study.timing.skip_above_s || numberAt(runs, row, "cpu_runs") >= repetitions) continue;

@@ -31,8 +31,13 @@ struct Choice {
 };
 constexpr Choice kConfigurations[] = {{"default", 0.35}, {"paper", 0.15}, {"embedded", 0.25}, {"variable", 0.25}};
 constexpr Choice kTreatments[] = {{"", 0.48}, {"ignore", 0.1}, {"iterate", 0.13}, {"locate", 0.19}, {"smooth", 0.1}};
-constexpr Choice kFormulations[] = {{"", 0.5},       {"index3", 0.1},     {"ggl", 0.1}, {"index2_projected", 0.1},
-                                    {"index1", 0.1}, {"first_order", 0.1}};
+constexpr Choice kFormulations[] = {{"", 0.5},
+                                    {"index3", 0.1},
+                                    {"ggl", 0.1},
+                                    {"index2_projected", 0.1},
+                                    {"index1", 0.1},
+                                    {"first_order", 0.08},
+                                    {"first_order_per_step", 0.02}};
 
 template <std::size_t N>
 std::string chosen(Dice& dice, const Choice (&choices)[N]) {
@@ -190,7 +195,8 @@ class Drawer {
     const bool switches = variant.sizes.switches > 0;
     if (!switches) treatment.clear();
     if (variant.sizes.constraints == 0) formulation.clear();
-    const bool first_order = formulation == idOf(Formulation::kFirstOrder);
+    const bool first_order =
+        formulation == idOf(Formulation::kFirstOrder) || formulation == idOf(Formulation::kFirstOrderPerStep);
     const bool algebraic = variant.sizes.nz > 0 && !first_order;
     if (!allowsSystem(scene.id, variant.settings, formulation, treatment)) return std::nullopt;
     if (!allowsMethod(configuration, method, algebraic)) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "irk/scene_file.h"
+#include "irk/vanishes.h"
 
 namespace irk::slider_crank {
 
@@ -49,12 +50,16 @@ template <class Real, class T>
 TreeRows<T> treeRows(const Data<Real>& d, const Angles<T>& q, const T& theta_rate, const T& phi_rate,
                      const T& theta_acc, const T& phi_acc) {
   const Real half = d.m2 * d.L1 * d.L2 / 2;
-  const T cos_diff = q.cos_theta * q.cos_phi + q.sin_theta * q.sin_phi;
   const T sin_diff = q.sin_theta * q.cos_phi - q.cos_theta * q.sin_phi;
   const T s1 = d.L1 * q.sin_theta, s2 = d.L2 * q.sin_phi;  // x3' = -s1 theta' - s2 phi'
   const T theta_rate2 = theta_rate * theta_rate, phi_rate2 = phi_rate * phi_rate;
   // x3'' = alpha - s1 theta'' - s2 phi''
   const T alpha = -(d.L1 * q.cos_theta) * theta_rate2 - (d.L2 * q.cos_phi) * phi_rate2;
+  if (vanishes(theta_acc) && vanishes(phi_acc)) {  // M is not needed
+    const T slider = d.m3 * alpha;
+    return {s1 * slider - half * (sin_diff * phi_rate2), s2 * slider + half * (sin_diff * theta_rate2)};
+  }
+  const T cos_diff = q.cos_theta * q.cos_phi + q.sin_theta * q.sin_phi;
   const T slider = d.m3 * (alpha - s1 * theta_acc - s2 * phi_acc);
   const Real M11 = d.J1() + d.L1 * d.L1 * (d.m1 / 4 + d.m2);
   const Real M22 = d.J2() + d.L2 * d.L2 * d.m2 / 4;

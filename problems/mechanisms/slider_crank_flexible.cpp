@@ -7,6 +7,7 @@
 
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
+#include "irk/vanishes.h"
 
 namespace irk {
 namespace {
@@ -72,46 +73,35 @@ class FlexibleSliderCrank {
     const T &q1 = p.u[3], &q2 = p.u[4], &q3 = p.u[5], &q4 = p.u[6];
     const T &w1 = p.v[0], &w2 = p.v[1];
     const T &s1 = p.v[3], &s2 = p.v[4], &s3 = p.v[5], &s4 = p.v[6];  // q'
-    const T &a1 = p.a[0], &a2 = p.a[1];
     const T C = cos(p.u[0] - p.u[1]), S = sin(p.u[0] - p.u[1]);
     const T w11 = w1 * w1, w22 = w2 * w2;
 
     const T Mq1 = FM_ / 2 * q1, Mq2 = FM_ / 2 * q2;  // Mq q
     const T Mq3 = FM_ * (8 * q3 + q4), Mq4 = FM_ * (q3 + 2 * q4);
-    const T qMq = q1 * Mq1 + q2 * Mq2 + q3 * Mq3 + q4 * Mq4;
     const T sMq = s1 * Mq1 + s2 * Mq2 + s3 * Mq3 + s4 * Mq4;
     const T c1q = c1_3_ * q3 + c1_4_ * q4, c1s = c1_3_ * s3 + c1_4_ * s4;
     const T c2q = c2_1_ * q1, c2s = c2_1_ * s1;
-    const T c12q = c12_3_ * q3 + c12_4_ * q4, c12s = c12_3_ * s3 + c12_4_ * s4;
+    const T c12s = c12_3_ * s3 + c12_4_ * s4;
     const Real half = d_.l1 * d_.l2 * d_.m2 / 2;
-
-    // Rows of M that couple the rotations with q: M1q = l1 (-S c1 + C c2), M2q = c21 + q^T B.
-    const T M1q1 = d_.l1 * c2_1_ * C, M1q3 = -d_.l1 * c1_3_ * S, M1q4 = -d_.l1 * c1_4_ * S;
-    const T M2q1 = c21_1_ - B13_ * q3 - B14_ * q4, M2q2 = c21_2_ - B24_ * q4;
-    const T M2q3 = B13_ * q1, M2q4 = B14_ * q1 + B24_ * q2;
-    const T M12 = half * C + d_.l1 * (S * c2q + C * c1q);
 
     const auto& z = p.z;
     const T cos1 = cos(p.u[0]), sin1 = sin(p.u[0]), cos2 = cos(p.u[1]), sin2 = sin(p.u[1]);
     const T rod = d_.l2 + q4;
     const T f1 = -half * (w22 * S) + d_.l1 * (w22 * (C * c2q - S * c1q)) - 2 * d_.l1 * (w2 * (C * c1s + S * c2s));
-    r.u[0] = f1 - (d_.J1 + d_.m2 * d_.l1 * d_.l1) * a1 - M12 * a2 - M1q1 * p.a[3] - M1q3 * p.a[5] - M1q4 * p.a[6] -
-             d_.l1 * (cos1 * z[0] + sin1 * z[1]) - z[2];
+    r.u[0] = f1 - d_.l1 * (cos1 * z[0] + sin1 * z[1]) - z[2];
     // q'.B q' vanishes because B is skew.
     const T f2 = half * (w11 * S) + d_.l1 * (w11 * (S * c1q - C * c2q)) - 2 * (w2 * (c12s + sMq));
-    r.u[1] = f2 - M12 * a1 - (d_.J2 + qMq + 2 * c12q) * a2 - M2q1 * p.a[3] - M2q2 * p.a[4] - M2q3 * p.a[5] -
-             M2q4 * p.a[6] - rod * (cos2 * z[0] + sin2 * z[1]);
-    r.u[2] = -d_.m3 * p.a[2] - z[1];
+    r.u[1] = f2 - rod * (cos2 * z[0] + sin2 * z[1]);
+    r.u[2] = -z[1];
     if (d_.Fc > 0) r.u[2] -= d_.Fc * p.d[0];
     // fq = w2^2 Mq q + w2^2 c12 + l1 w1^2 (C c1 + S c2) + 2 w2 B q' - Kq q
     const T turn = d_.l1 * w11, spin = 2 * w2;
-    r.u[3] = w22 * Mq1 + turn * (c2_1_ * S) + spin * (B13_ * s3 + B14_ * s4) - K1_ * q1 - M1q1 * a1 - M2q1 * a2 -
-             FM_ / 2 * p.a[3];
-    r.u[4] = w22 * Mq2 + spin * (B24_ * s4) - K2_ * q2 - M2q2 * a2 - FM_ / 2 * p.a[4];
-    r.u[5] = w22 * (Mq3 + c12_3_) + turn * (c1_3_ * C) - spin * (B13_ * s1) - K33_ * q3 - K34_ * q4 - M1q3 * a1 -
-             M2q3 * a2 - FM_ * (8 * p.a[5] + p.a[6]);
+    r.u[3] = w22 * Mq1 + turn * (c2_1_ * S) + spin * (B13_ * s3 + B14_ * s4) - K1_ * q1;
+    r.u[4] = w22 * Mq2 + spin * (B24_ * s4) - K2_ * q2;
+    r.u[5] = w22 * (Mq3 + c12_3_) + turn * (c1_3_ * C) - spin * (B13_ * s1) - K33_ * q3 - K34_ * q4;
     r.u[6] = w22 * (Mq4 + c12_4_) + turn * (c1_4_ * C) - spin * (B14_ * s1 + B24_ * s2) - K34_ * q3 - K44_ * q4 -
-             M1q4 * a1 - M2q4 * a2 - FM_ * (p.a[5] + 2 * p.a[6]) - sin2 * z[0] + cos2 * z[1];
+             sin2 * z[0] + cos2 * z[1];
+    if (!vanishes(p.a)) subtractInertia(p, C, S, r);
   }
 
   template <class T, class U, class G>
@@ -125,6 +115,27 @@ class FlexibleSliderCrank {
   }
 
  private:
+  // r -= M(u) a.
+  template <class T>
+  void subtractInertia(const Point<T>& p, const T& C, const T& S, Rows<T>& r) const {
+    const T &q1 = p.u[3], &q2 = p.u[4], &q3 = p.u[5], &q4 = p.u[6];
+    const T &a1 = p.a[0], &a2 = p.a[1];
+    const T qMq = q1 * (FM_ / 2 * q1) + q2 * (FM_ / 2 * q2) + q3 * (FM_ * (8 * q3 + q4)) + q4 * (FM_ * (q3 + 2 * q4));
+    const T c1q = c1_3_ * q3 + c1_4_ * q4, c2q = c2_1_ * q1, c12q = c12_3_ * q3 + c12_4_ * q4;
+    // Rows of M that couple the rotations with q: M1q = l1 (-S c1 + C c2), M2q = c21 + q^T B.
+    const T M1q1 = d_.l1 * c2_1_ * C, M1q3 = -d_.l1 * c1_3_ * S, M1q4 = -d_.l1 * c1_4_ * S;
+    const T M2q1 = c21_1_ - B13_ * q3 - B14_ * q4, M2q2 = c21_2_ - B24_ * q4;
+    const T M2q3 = B13_ * q1, M2q4 = B14_ * q1 + B24_ * q2;
+    const T M12 = d_.l1 * d_.l2 * d_.m2 / 2 * C + d_.l1 * (S * c2q + C * c1q);
+    r.u[0] -= (d_.J1 + d_.m2 * d_.l1 * d_.l1) * a1 + M12 * a2 + M1q1 * p.a[3] + M1q3 * p.a[5] + M1q4 * p.a[6];
+    r.u[1] -= M12 * a1 + (d_.J2 + qMq + 2 * c12q) * a2 + M2q1 * p.a[3] + M2q2 * p.a[4] + M2q3 * p.a[5] + M2q4 * p.a[6];
+    r.u[2] -= d_.m3 * p.a[2];
+    r.u[3] -= M1q1 * a1 + M2q1 * a2 + FM_ / 2 * p.a[3];
+    r.u[4] -= M2q2 * a2 + FM_ / 2 * p.a[4];
+    r.u[5] -= M1q3 * a1 + M2q3 * a2 + FM_ * (8 * p.a[5] + p.a[6]);
+    r.u[6] -= M1q4 * a1 + M2q4 * a2 + FM_ * (p.a[5] + 2 * p.a[6]);
+  }
+
   RodData<Real> d_;
   Real FM_, K1_, K2_, K33_, K34_, K44_;
   Real B13_, B14_, B24_, c1_3_, c1_4_, c2_1_, c12_3_, c12_4_, c21_1_, c21_2_;

@@ -9,6 +9,7 @@
 #include "irk/misuse.h"
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
+#include "irk/vanishes.h"
 
 namespace irk {
 namespace {
@@ -110,9 +111,14 @@ struct HydraulicManipulator {
     const T s_rate = slope * p.v[0];
     const T F = (p.x[1] - p.x[0]) * A - c * s_rate;
     const Real J1 = L * L * (m1 / 3 + mt + m2), J2 = m2 * L2 * L2, J12 = m2 * L * L2;
-    const T sine = J12 * sin(theta1 - theta2), cosine = J12 * cos(theta1 - theta2);
-    r.u[0] = F * slope - load() * cos(theta1) - sine * (p.v[1] * p.v[1]) - J1 * p.a[0] - cosine * p.a[1];
-    r.u[1] = sine * (p.v[0] * p.v[0]) - m2 * g * L2 * cos(theta2) - cosine * p.a[0] - J2 * p.a[1];
+    const T sine = J12 * sin(theta1 - theta2);
+    r.u[0] = F * slope - load() * cos(theta1) - sine * (p.v[1] * p.v[1]);
+    r.u[1] = sine * (p.v[0] * p.v[0]) - m2 * g * L2 * cos(theta2);
+    if (!vanishes(p.a)) {
+      const T cosine = J12 * cos(theta1 - theta2);
+      r.u[0] = r.u[0] - J1 * p.a[0] - cosine * p.a[1];
+      r.u[1] = r.u[1] - cosine * p.a[0] - J2 * p.a[1];
+    }
 
     const T Ai = Av * kappa<T>(p), Ao = Av - Ai;
     const std::array<T, kEdges> drop = drops<T>(p);

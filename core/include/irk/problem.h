@@ -62,21 +62,35 @@
 
 namespace irk {
 
+/// When the first-order form factorizes a mass matrix (its whole D0) that is not constant.
+enum class MassFactors {
+  kEachPoint,
+  /// The factors of a step's first point serve the others, too: each solve is refined by residuals until it is as
+  /// exact as one with its own factors. Where that does not converge, M is factorized after all.
+  kEachStep,
+};
+
 /// `system` in the form y' = f(t, y) that codes for ordinary differential equations need: y = (u, v, x) and
 /// f = (v, a, k), where (a, k, z) solve the rows of `system` at acceleration level. Shares ownership of `system`.
 /// The result keeps scratch: use one object per thread. Its fromScene throws Misuse if (a, k, z) do not follow
 /// from (u, v, x).
 template <class Real>
+std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system, MassFactors factors);
+/// The same with the factors of each point.
+template <class Real>
 std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system);
 
 /// The system of a problem struct P in the formulation that the options name. Keeps a copy of the problem; the
-/// result is immutable and may be shared by threads, except in the formulation kFirstOrder (see firstOrderForm).
+/// result is immutable and may be shared by threads, except in the formulations kFirstOrder and kFirstOrderPerStep
+/// (see firstOrderForm).
 /// Throws Misuse for invalid sizes (irk/system_check.h) and for options that the problem does not allow
 /// (see ProblemSystem).
 template <class Real, class P>
 std::shared_ptr<const System<Real>> makeSystem(P problem, const SystemOptions& options = {}) {
-  if (options.formulation == Formulation::kFirstOrder) {
-    return firstOrderForm<Real>(std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options));
+  if (options.formulation == Formulation::kFirstOrder || options.formulation == Formulation::kFirstOrderPerStep) {
+    const bool each_point = options.formulation == Formulation::kFirstOrder;
+    return firstOrderForm<Real>(std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options),
+                                each_point ? MassFactors::kEachPoint : MassFactors::kEachStep);
   }
   if constexpr (requires(const Vec<Real>& u, Real* g) { problem.constraints(g[0], u, g); }) {
     if (options.formulation == Formulation::kGgl && problem.sizes().constraints > 0) {

@@ -217,6 +217,7 @@ class ProblemSystem final : public System<Real> {
         return 3;
       case Formulation::kIndex1:
       case Formulation::kFirstOrder:
+      case Formulation::kFirstOrderPerStep:
         return 1;
       case Formulation::kIndex2:
       case Formulation::kIndex2Projected:

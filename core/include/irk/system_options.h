@@ -8,12 +8,13 @@ namespace irk {
 
 /// The form in which position constraints g(t, u) = 0 enter the system.
 enum class Formulation {
-  kIndex2,           ///< dg/dt = 0; positions drift
-  kIndex3,           ///< g = 0
-  kGgl,              ///< g = 0 and dg/dt = 0 with u' = v + G^T mu; Gear, Gupta, Leimkuhler 1985
-  kIndex2Projected,  ///< dg/dt = 0; after each step v is projected onto it, HW II (VII.2)
-  kIndex1,           ///< d2g/dt2 = 0; positions and velocities drift
-  kFirstOrder,       ///< y' = f(t, y) with y = (u, v, x); see firstOrderForm in irk/problem.h
+  kIndex2,             ///< dg/dt = 0; positions drift
+  kIndex3,             ///< g = 0
+  kGgl,                ///< g = 0 and dg/dt = 0 with u' = v + G^T mu; Gear, Gupta, Leimkuhler 1985
+  kIndex2Projected,    ///< dg/dt = 0; after each step v is projected onto it, HW II (VII.2)
+  kIndex1,             ///< d2g/dt2 = 0; positions and velocities drift
+  kFirstOrder,         ///< y' = f(t, y) with y = (u, v, x); see firstOrderForm in irk/problem.h
+  kFirstOrderPerStep,  ///< the same with M factorized once per step; see MassFactors in irk/problem.h
 };
 
 /// Whether constraint rows are multiplied by 1/h^power (paper, section 4). kOff exists to show what scaling gains.

@@ -49,7 +49,8 @@ std::map<TableRow, std::map<std::string, double>> slopes(const Table& runs, std:
   return all;
 }
 
-// Each BDF code over each Radau IIA.
+}  // namespace
+
 Measurement perRestart(const ResultTables& tables, std::string_view cost) {
   const Table runs = claimRuns(tables, "restarts");
   if (runs.rows.empty()) throw MissingResults("study claims lacks the runs of the blocks restarts");
@@ -59,15 +60,14 @@ Measurement perRestart(const ResultTables& tables, std::string_view cost) {
       if (!radau.starts_with("radau")) continue;
       for (const auto& [bdf, more_steps] : methods) {
         if (bdf.find("bdf") == bdf.npos) continue;
-        // A restart that costs Radau IIA nothing: any cost is infinitely more.
-        measured.cases.push_back({place.front(), steps > 0 ? more_steps / steps : kInfinity});
+        // Where a restart costs Radau IIA nothing, any cost is infinitely more.
+        const double without = more_steps > 0 ? kInfinity : std::nan("");
+        measured.cases.push_back({place.front(), steps > 0 ? more_steps / steps : without});
       }
     }
   }
   return measured;
 }
-
-}  // namespace
 
 Measurement costOfDoubling(const ResultTables& tables, Setting setting) {
   const auto inBlock = [&](std::string_view block) {
@@ -90,10 +90,6 @@ Measurement costOfDoubling(const ResultTables& tables, Setting setting) {
   }
   return measured;
 }
-
-Measurement stepsPerRestart(const ResultTables& tables, Setting) { return perRestart(tables, "steps_accepted"); }
-Measurement timePerRestart(const ResultTables& tables, Setting) { return perRestart(tables, "cpu_s"); }
-Measurement residualsPerRestart(const ResultTables& tables, Setting) { return perRestart(tables, "residuals"); }
 
 Measurement gainBetweenSwitches(const ResultTables& tables, Setting setting) {
   const Table all = timedClaimRuns(tables, "stages", setting);

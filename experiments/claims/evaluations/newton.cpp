@@ -22,7 +22,44 @@ CostRatios withoutMassDerivatives(const ResultTables& tables, Setting setting, s
   return compareCosts(timedClaimRuns(tables, "mass_terms", setting), "jacobian", "full", "no_mass", cost);
 }
 
+Measurement ofCosts(const CostRatios& ratios) {
+  const bool some = ratios.lost + ratios.won > 0;
+  return {ratios.cases,
+          {},
+          some ? fmt::format("{} errors are no longer reached, {} only now.", ratios.lost, ratios.won) : ""};
+}
+
 // --- C6
+
+// Newton iterations per step at tiny steps over those at the usual one, per scene, method, scaling and tolerance of the
+// residual. What fails at the tiny step needs infinitely many; what fails at the usual step, too, is no case.
+Measurement moreIterations(const ResultTables& tables, Setting setting, const Cells& cells) {
+  const auto placeOf = [](const Table& runs, const TableRow& run) {
+    return TableRow{textAt(runs, run, "scene"), textAt(runs, run, "method"), textAt(runs, run, "scaling"),
+                    textAt(runs, run, "residual_tolerance")};
+  };
+  const auto perStep = [](const Table& runs, const TableRow& run) {
+    if (!succeededAt(runs, run)) return kInfinity;
+    return numberAt(runs, run, "newton_iterations") / numberAt(runs, run, "steps_accepted");
+  };
+  const Table usual = where(claimRuns(tables, "rule_usual", setting), cells);
+  const Table tiny = where(claimRuns(tables, "rule_tiny", setting), cells);
+  std::map<TableRow, double> at_usual;
+  for (const auto& run : usual.rows) at_usual[placeOf(usual, run)] = perStep(usual, run);
+  Measurement measured;
+  std::size_t failed = 0;
+  for (const auto& run : tiny.rows) {
+    const TableRow place = placeOf(tiny, run);
+    const auto at = at_usual.find(place);
+    if (at == at_usual.end() || std::isinf(at->second)) continue;
+    // A step that starts below the tolerance has no iteration.
+    const double ratio = perStep(tiny, run) / std::max(at->second, 1.0);
+    if (std::isinf(ratio)) ++failed;
+    measured.cases.push_back({place.front(), ratio});
+  }
+  measured.remark = fmt::format("{} of {} runs fail at the tiny step only.", failed, measured.cases.size());
+  return measured;
+}
 
 // One value per scene, method, formulation and scaling; the step of 1e-8 and that of 1e-4 are two blocks.
 std::map<TableRow, double> multiplierErrors(const ResultTables& tables, std::string_view block, Setting setting,
@@ -115,26 +152,22 @@ Rule bestRule(const std::vector<RuleCase>& cases, const std::set<std::string>& s
 }  // namespace
 
 Measurement massDerivativesIterations(const ResultTables& tables, Setting setting) {
-  const CostRatios ratios = withoutMassDerivatives(tables, setting, "newton_iterations");
-  const bool some = ratios.lost + ratios.won > 0;
-  return {ratios.cases,
-          {},
-          some ? fmt::format("{} errors are no longer reached, {} only now.", ratios.lost, ratios.won) : ""};
+  return ofCosts(withoutMassDerivatives(tables, setting, "newton_iterations"));
 }
 
 Measurement massDerivativesTime(const ResultTables& tables, Setting setting) {
-  const CostRatios ratios = withoutMassDerivatives(tables, setting, "cpu_s");
-  return {{},
-          "no strategy leaves the evaluations of the dropped terms out: no_mass differentiates the whole residual at a "
-          "= 0",
-          ratios.cases.empty() ? ""
-                               : fmt::format("With no_mass: {:.3g} times the CPU time, median of {} cases.",
-                                             median(valuesOf(ratios.cases)), ratios.cases.size())};
+  return ofCosts(withoutMassDerivatives(tables, setting, "cpu_s"));
 }
 
-Measurement iterationsAtSmallSteps(const ResultTables&, Setting) {
-  return cannotMeasure(
-      "no strategy has the paper's stopping rule alone: newton 'modified' also ends at stagnation and at round-off");
+Measurement iterationsAtSmallSteps(const ResultTables& tables, Setting setting) {
+  Measurement measured = moreIterations(tables, setting, {{"formulation", "index3"}});
+  Measurement index2 = moreIterations(tables, setting, {{"formulation", "index2"}, {"scaling", "on"}});
+  std::erase_if(index2.cases, [](const Case& one) { return std::isnan(one.value); });
+  if (!index2.cases.empty()) {
+    measured.remark += fmt::format(" In index 2, scaled: {:.3g} times, median of {} cases.",
+                                   median(valuesOf(index2.cases)), index2.cases.size());
+  }
+  return measured;
 }
 
 Measurement digitsLostIndex3(const ResultTables& tables, Setting setting) {
@@ -173,10 +206,18 @@ Measurement newtonRule(const ResultTables& tables, Setting setting) {
   return measured;
 }
 
-Measurement jacobianReuse(const ResultTables&, Setting) {
-  return cannotMeasure(
-      "no strategy of Newton's method keeps a Jacobian only across changes of the step size; study jacobian lacks such "
-      "runs");
+Measurement jacobianReuse(const ResultTables& tables, Setting setting) {
+  const Table runs = timedClaimRuns(tables, "step_reuse", setting);
+  const bool paper = setting == Setting::kPaper;
+  const std::string_view without = paper ? "modified_each_step" : "broyden_each_step";
+  const std::string_view with = paper ? "modified_step_change" : "broyden_step_change";
+  Measurement measured = ofCosts(compareCosts(runs, "newton", without, with, "cpu_s"));
+  const CostRatios jacobians = compareCosts(runs, "newton", without, with, "jacobians");
+  if (!jacobians.cases.empty()) {
+    measured.remark += fmt::format("{}Jacobians: {:.3g} times, median.", measured.remark.empty() ? "" : " ",
+                                   median(valuesOf(jacobians.cases)));
+  }
+  return measured;
 }
 
 }  // namespace irk::claims

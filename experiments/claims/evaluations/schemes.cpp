@@ -58,49 +58,6 @@ Limit limitOf(const Table& runs, std::vector<const TableRow*> series) {
   return Limit::kUnknown;
 }
 
-// --- C7
-
-Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t which) {
-  const Table runs = where(claimRuns(tables, "drift", setting), {{"outcome", "success"}});
-  std::map<std::string, std::set<double>> ends;
-  for (const auto& run : runs.rows) ends[textAt(runs, run, "scene")].insert(numberAt(runs, run, "t_end"));
-  Measurement measured;
-  for (const auto& run : runs.rows) {
-    const auto& scene = textAt(runs, run, "scene");
-    const auto& times = ends[scene];
-    if (times.size() <= which ||
-        *std::next(times.begin(), static_cast<std::ptrdiff_t>(which)) != numberAt(runs, run, "t_end")) {
-      continue;
-    }
-    measured.cases.push_back({scene, numberAt(runs, run, "drift") / numberAt(runs, run, "error_u")});
-  }
-  return measured;
-}
-
-// --- C13
-
-Measurement radauFor(const ResultTables& tables, Setting setting, std::string_view error) {
-  const Table runs = timedClaimRuns(tables, "families", setting);
-  const auto series = seriesOf(runs);
-  Measurement measured;
-  std::map<std::string, int> best;
-  for (const auto& race : races(runs, series, error)) {
-    const auto ofFamily = [&](std::string_view family) {
-      return race.least([&](const TableRow& run) { return textAt(runs, run, "family") == family; });
-    };
-    std::set<std::string> families;
-    for (const auto& [one, cost] : race.costs) families.insert(textAt(runs, *one->rows.front(), "family"));
-    if (families.size() < 2) continue;
-    const double least = race.least([](const TableRow&) { return true; });
-    for (const auto& family : families) best[family] += ofFamily(family) == least ? 1 : 0;
-    measured.cases.push_back({race.scene, ofFamily("radau_iia") / least});
-  }
-  for (const auto& [family, times] : best) {
-    measured.remark += fmt::format("{}{} {}", measured.remark.empty() ? "Cheapest, times: " : ", ", family, times);
-  }
-  return measured;
-}
-
 }  // namespace
 
 Measurement observedOrder(const ResultTables& tables, Setting) {
@@ -158,9 +115,22 @@ Measurement limitOfManyStages(const ResultTables& tables, Setting setting) {
   return measured;
 }
 
-Measurement driftOnce(const ResultTables& tables, Setting setting) { return driftOver(tables, setting, 0); }
-Measurement driftTenTimes(const ResultTables& tables, Setting setting) { return driftOver(tables, setting, 1); }
-Measurement driftHundredTimes(const ResultTables& tables, Setting setting) { return driftOver(tables, setting, 2); }
+Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t which) {
+  const Table runs = where(claimRuns(tables, "drift", setting), {{"outcome", "success"}});
+  std::map<std::string, std::set<double>> ends;
+  for (const auto& run : runs.rows) ends[textAt(runs, run, "scene")].insert(numberAt(runs, run, "t_end"));
+  Measurement measured;
+  for (const auto& run : runs.rows) {
+    const auto& scene = textAt(runs, run, "scene");
+    const auto& times = ends[scene];
+    if (times.size() <= which ||
+        *std::next(times.begin(), static_cast<std::ptrdiff_t>(which)) != numberAt(runs, run, "t_end")) {
+      continue;
+    }
+    measured.cases.push_back({scene, numberAt(runs, run, "drift") / numberAt(runs, run, "error_u")});
+  }
+  return measured;
+}
 
 Measurement newmarkDifference(const ResultTables&, Setting) {
   Measurement measured;
@@ -170,14 +140,26 @@ Measurement newmarkDifference(const ResultTables&, Setting) {
   return measured;
 }
 
-Measurement radauForPositions(const ResultTables& tables, Setting setting) {
-  return radauFor(tables, setting, "error_u");
-}
-Measurement radauForVelocities(const ResultTables& tables, Setting setting) {
-  return radauFor(tables, setting, "error_v");
-}
-Measurement radauForMultipliers(const ResultTables& tables, Setting setting) {
-  return radauFor(tables, setting, "error_z");
+Measurement radauFor(const ResultTables& tables, Setting setting, std::string_view error) {
+  const Table runs = timedClaimRuns(tables, "families", setting);
+  const auto series = seriesOf(runs);
+  Measurement measured;
+  std::map<std::string, int> best;
+  for (const auto& race : races(runs, series, error)) {
+    const auto ofFamily = [&](std::string_view family) {
+      return race.least([&](const TableRow& run) { return textAt(runs, run, "family") == family; });
+    };
+    std::set<std::string> families;
+    for (const auto& [one, cost] : race.costs) families.insert(textAt(runs, *one->rows.front(), "family"));
+    if (families.size() < 2) continue;
+    const double least = race.least([](const TableRow&) { return true; });
+    for (const auto& family : families) best[family] += ofFamily(family) == least ? 1 : 0;
+    measured.cases.push_back({race.scene, ofFamily("radau_iia") / least});
+  }
+  for (const auto& [family, times] : best) {
+    measured.remark += fmt::format("{}{} {}", measured.remark.empty() ? "Cheapest, times: " : ", ", family, times);
+  }
+  return measured;
 }
 
 }  // namespace irk::claims

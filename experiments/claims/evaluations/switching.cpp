@@ -27,19 +27,6 @@ double overTolerance(const Table& runs, const TableRow& run) {
   return differentialError(runs, run) / numberAt(runs, run, "rtol");
 }
 
-// --- C3b, steps
-
-Measurement reliableSteps(const ResultTables& tables, const char* group) {
-  const Table& estimates = tables.table("estimate", "estimates");
-  Measurement measured;
-  for (const auto& step : estimates.rows) {
-    // The paper integrates in index 2.
-    if (textAt(estimates, step, "group") != group || textAt(estimates, step, "formulation") == "index3") continue;
-    measured.cases.push_back({textAt(estimates, step, "scene"), numberAt(estimates, step, "doubling")});
-  }
-  return measured;
-}
-
 // --- C3b, runs; C16
 
 constexpr std::size_t kLeastRuns = 50;
@@ -51,34 +38,6 @@ const Blocks kWithoutJumps = {"orbit", "pendulum", "tracking", "singular_perturb
 TableRow placeOf(const Table& runs, const TableRow& run) {
   return {textAt(runs, run, "scene"), textAt(runs, run, "settings"), textAt(runs, run, "method"),
           textAt(runs, run, "rtol")};
-}
-
-// Error over tolerance of runs that leave their switches alone; what fails does not reach its tolerance.
-Measurement reachedTolerances(const ResultTables& tables, Setting setting, const char* treatment) {
-  const Table all = timedRuns(tables, "reliability", kWithJumps, setting);
-  const Table runs = where(all, {{"discontinuity", treatment}});
-  Measurement measured;
-  for (const auto& run : runs.rows) {
-    const double value = succeededAt(runs, run) ? overTolerance(runs, run) : kInfinity;
-    measured.cases.push_back({textAt(runs, run, "scene"), value});
-  }
-  return measured;
-}
-
-// Residuals over those of the run that locates its switches, where both succeed.
-Measurement costOverLocating(const ResultTables& tables, Setting setting, const char* treatment) {
-  const Table runs = timedRuns(tables, "reliability", kWithJumps, setting);
-  std::map<TableRow, double> located;
-  for (const auto& run : where(runs, {{"discontinuity", "locate"}, {"outcome", "success"}}).rows) {
-    located[placeOf(runs, run)] = numberAt(runs, run, "residuals");
-  }
-  Measurement measured;
-  for (const auto& run : where(runs, {{"discontinuity", treatment}, {"outcome", "success"}}).rows) {
-    const auto at = located.find(placeOf(runs, run));
-    if (at == located.end()) continue;
-    measured.cases.push_back({textAt(runs, run, "scene"), numberAt(runs, run, "residuals") / at->second});
-  }
-  return measured;
 }
 
 // --- C9b
@@ -114,9 +73,16 @@ constexpr double kClean = 0.1;  // error of a solution that can be used
 
 }  // namespace
 
-Measurement reliableStepsU(const ResultTables& tables, Setting) { return reliableSteps(tables, "u"); }
-Measurement reliableStepsV(const ResultTables& tables, Setting) { return reliableSteps(tables, "v"); }
-Measurement reliableStepsX(const ResultTables& tables, Setting) { return reliableSteps(tables, "x"); }
+Measurement reliableSteps(const ResultTables& tables, std::string_view group) {
+  const Table& estimates = tables.table("estimate", "estimates");
+  Measurement measured;
+  for (const auto& step : estimates.rows) {
+    // The paper integrates in index 2.
+    if (textAt(estimates, step, "group") != group || textAt(estimates, step, "formulation") == "index3") continue;
+    measured.cases.push_back({textAt(estimates, step, "scene"), numberAt(estimates, step, "doubling")});
+  }
+  return measured;
+}
 
 Measurement reliableRuns(const ResultTables& tables, Setting setting) {
   const Table jumps = where(timedRuns(tables, "reliability", kWithJumps, setting), {{"discontinuity", "ignore"}});
@@ -143,17 +109,30 @@ Measurement reliableRuns(const ResultTables& tables, Setting setting) {
   return measured;
 }
 
-Measurement ignoredReach(const ResultTables& tables, Setting setting) {
-  return reachedTolerances(tables, setting, "ignore");
+Measurement reachedTolerances(const ResultTables& tables, Setting setting, std::string_view treatment) {
+  const Table all = timedRuns(tables, "reliability", kWithJumps, setting);
+  const Table runs = where(all, {{"discontinuity", treatment}});
+  Measurement measured;
+  for (const auto& run : runs.rows) {
+    const double value = succeededAt(runs, run) ? overTolerance(runs, run) : kInfinity;
+    measured.cases.push_back({textAt(runs, run, "scene"), value});
+  }
+  return measured;
 }
-Measurement iteratedReach(const ResultTables& tables, Setting setting) {
-  return reachedTolerances(tables, setting, "iterate");
-}
-Measurement ignoredCost(const ResultTables& tables, Setting setting) {
-  return costOverLocating(tables, setting, "ignore");
-}
-Measurement iteratedCost(const ResultTables& tables, Setting setting) {
-  return costOverLocating(tables, setting, "iterate");
+
+Measurement costOverLocating(const ResultTables& tables, Setting setting, std::string_view treatment) {
+  const Table runs = timedRuns(tables, "reliability", kWithJumps, setting);
+  std::map<TableRow, double> located;
+  for (const auto& run : where(runs, {{"discontinuity", "locate"}, {"outcome", "success"}}).rows) {
+    located[placeOf(runs, run)] = numberAt(runs, run, "residuals");
+  }
+  Measurement measured;
+  for (const auto& run : where(runs, {{"discontinuity", treatment}, {"outcome", "success"}}).rows) {
+    const auto at = located.find(placeOf(runs, run));
+    if (at == located.end()) continue;
+    measured.cases.push_back({textAt(runs, run, "scene"), numberAt(runs, run, "residuals") / at->second});
+  }
+  return measured;
 }
 
 Measurement stepAtSwitch(const ResultTables& tables, Setting) {

@@ -69,7 +69,8 @@ void refuse(const PeerEntry& peer, E value, std::string_view reason) {
 }
 
 void refuseFormulation(const PeerEntry& peer, Formulation formulation) {
-  const bool explicit_form = formulation == Formulation::kIndex1 || formulation == Formulation::kFirstOrder;
+  const bool explicit_form = formulation == Formulation::kIndex1 || formulation == Formulation::kFirstOrder ||
+                             formulation == Formulation::kFirstOrderPerStep;
   if (!peer.takesConstraints() && !explicit_form) {
     refuse(peer, formulation,
            "it solves ordinary differential equations only; use formulation 'index1', where "

@@ -28,7 +28,8 @@ bool isDetermined(const Scene<double>& scene, const RunSpec& spec) {
 // A peer that takes a mass matrix gets y' = f(t, y) where no unknown is algebraic.
 PeerForm formOf(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec) {
   if (entry.form != PeerForm::kMass) return entry.form;
-  const bool explicit_form = spec.formulation == Formulation::kFirstOrder || scene.sizes().nz == 0;
+  const bool explicit_form = spec.formulation == Formulation::kFirstOrder ||
+                             spec.formulation == Formulation::kFirstOrderPerStep || scene.sizes().nz == 0;
   return explicit_form && isDetermined(scene, spec) ? PeerForm::kOde : PeerForm::kMass;
 }
 

@@ -77,6 +77,7 @@ TEST(Allocation, StepsAllocateNothing) {
         IntegratorOptions o = adaptive(1e-5);
         o.solver = solver.value;
         o.newton.kind = newton.value;
+        o.newton.residual_tolerance = 1e-3;  // `paper_rule` fails below what round-off allows
         const std::string what = std::string(solver.id) + " " + std::string(newton.id) + " " + method;
         EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), tableau, o), 0) << what;
       }

@@ -117,8 +117,8 @@ std::vector<std::int64_t> counted(const Solution<double>& s) {
   return all;
 }
 
-// With a constant M its derivatives vanish, so no iteration may change. (`no_mass` differentiates at a = 0 in
-// separate passes, so evaluations over dual numbers are not compared.)
+// With a constant M its derivatives vanish, so no iteration may change. (`no_mass_vxz` differentiates in two
+// passes, so evaluations over dual numbers are not compared.)
 TEST(JacobianTerms, ChangeNothingWithConstantMass) {
   IntegratorOptions options = adaptive(1e-8);
   const auto run = [&](JacobianTerms terms) {

@@ -40,9 +40,9 @@ TEST(ControlClaims, CostOfDoubling) {
   EXPECT_EQ(doubling({1.5, 1.5, 1.5}, "100", "1"), kUnknown) << "a rejected one";
 }
 
-// --- C8: `bdf` steps per restart beside 3 of Radau IIA; the smooth part costs BDF nothing and Radau IIA much.
+// --- C8: 3 `bdf` steps per restart beside `radau` of Radau IIA; the smooth part costs BDF nothing and Radau IIA much.
 
-ResultTables restarts(const std::vector<double>& bdf, const char* outcome = "success") {
+ResultTables restarts(const std::vector<double>& bdf, const char* outcome = "success", double radau = 3) {
   RunTable runs;
   for (std::size_t i = 0; i < kScenes.size(); ++i) {
     for (const char* rtol : {"1e-4", "1e-6", "1e-7", "1e-8"}) {
@@ -60,7 +60,7 @@ ResultTables restarts(const std::vector<double>& bdf, const char* outcome = "suc
                     {"cpu_s", cost},
                     {"residuals", cost}});
         };
-        add("radau_iia_3", 1000, 3);
+        add("radau_iia_3", 1000, radau);
         add("cvode_bdf", 1, 3 * bdf[i]);
       }
     }
@@ -75,6 +75,8 @@ TEST(ControlClaims, Restarts) {
     EXPECT_EQ(best(restarts({1.9, 1, 1})), kNo);
     EXPECT_EQ(best(restarts({1, 5, 5})), kOpen);
     EXPECT_EQ(best(restarts({5, 5, 5}, "max_steps")), kUnknown);
+    EXPECT_EQ(best(restarts({1, 1, 1}, "success", 0)), kYes) << "any cost is more than none";
+    EXPECT_EQ(best(restarts({0, 0, 0}, "success", 0)), kUnknown) << "neither costs anything";
     EXPECT_EQ(verdict(id, restarts({5, 5, 5})), Verdict::kDoesNotApply);
   }
   const auto residuals = finding("C8c", restarts({4, 4, 4}), Setting::kBest);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "experiments/base/clock.h"
+#include "experiments/runner/status.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"
 
@@ -101,6 +102,32 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
     EXPECT_GT(setup, 0);
     EXPECT_LT(setup, median) << "a part of the whole call";
     EXPECT_LT(least, 0.1) << "of one integration";
+  }
+}
+
+// Ten ends give the error over time: only the last integration is timed. Nine are runs of their own.
+TEST(TimeStudy, TimesTheLastOfTenEnds) {
+  for (const bool ten : {true, false}) {
+    const TemporaryFolder folder;
+    std::ostringstream quiet;
+    Study study = parseStudy(
+        "[[block]]\nscene = \"kepler\"\nmethods = \"radau_iia_3\"\ntolerances = [1e-4, 1e-6]\n"
+        "t_end = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.1" +
+            std::string(ten ? ", 0.09]\n" : "]\n"),
+        "small.toml", StudyVariant::kFull);
+    RunnerOptions options;
+    options.results = folder.path();
+    options.jobs = 1;
+    Table runs = runStudy(study, options, quiet);
+    study.timing = {true, 1e-5, 1, 10, 20};
+    store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
+    timeStudy(study, store, runs, quiet);
+    ASSERT_EQ(runs.rows.size(), ten ? 20u : 18u);
+    for (const auto& row : runs.rows) {
+      const bool last = numberAt(runs, row, "t_end") == 0.1;
+      EXPECT_EQ(numberAt(runs, row, "cpu_runs"), ten && !last ? 0 : 1) << textAt(runs, row, "t_end");
+    }
+    EXPECT_EQ(statusOf(study, options, store).to_time, 0u) << "status counts what is timed";
   }
 }
 

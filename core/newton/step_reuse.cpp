@@ -1,0 +1,79 @@
+#include "core/newton/step_reuse.h"
+
+#include <optional>
+#include <utility>
+
+#include "core/newton/residual_newton.h"
+#include "core/newton/simplified_newton.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+enum class Reuse {
+  kNever,             ///< each attempted step begins with a new Jacobian
+  kAcrossStepChange,  ///< unless its size is not that of the attempt before
+};
+
+/// Another Newton method that is told when its Jacobian is stale. What does not converge with a kept one begins again
+/// with a new one, as it always does. Half steps keep the Jacobian of their attempt.
+template <class Real>
+class ReuseByStep final : public Newton<Real> {
+ public:
+  ReuseByStep(std::unique_ptr<Newton<Real>> inner, Reuse reuse) : inner_(std::move(inner)), reuse_(reuse) {}
+
+  NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) override {
+    if (context.use == JacobianUse::kKeep) return inner_->solve(context, W);
+    NewtonContext<Real> own = context;
+    const Real h = context.eq.h();
+    const bool changed = last_h_ && *last_h_ != h;
+    last_h_ = h;
+    if (reuse_ == Reuse::kAcrossStepChange && changed) {
+      own.use = JacobianUse::kKeep;
+    } else {
+      context.matrix.shared().markStale();
+    }
+    return inner_->solve(own, W);
+  }
+  // The step size before stays known: after a switch the shared Jacobian is gone, and a new one is evaluated anyway.
+  void forget() override { inner_->forget(); }
+
+ private:
+  std::unique_ptr<Newton<Real>> inner_;
+  Reuse reuse_;
+  std::optional<Real> last_h_;
+};
+
+template <class Real>
+NewtonMaker<Real> reusing(const NewtonMaker<Real>& inner, Reuse reuse) {
+  return [inner, reuse](const IntegratorOptions& options, const Sizes& sizes,
+                        const Scheme<Real>& scheme) -> std::unique_ptr<Newton<Real>> {
+    return std::make_unique<ReuseByStep<Real>>(inner(options, sizes, scheme), reuse);
+  };
+}
+
+Strategy<NewtonKind> withReuse(Strategy<NewtonKind> method, std::string_view id, Reuse reuse, std::string meaning) {
+  method.id = {{id}};
+  method.meaning = std::move(meaning);
+  method.make = {reusing(method.make.in_double, reuse), reusing(method.make.in_mp50, reuse),
+                 reusing(method.make.in_mp100, reuse)};
+  return method;
+}
+
+}  // namespace
+
+std::vector<Strategy<NewtonKind>> newtonWithReuseByStep() {
+  const auto never = [](Strategy<NewtonKind> method, std::string_view id, const std::string& whose) {
+    return withReuse(std::move(method), id, Reuse::kNever, whose + " with a new Jacobian in every step");
+  };
+  const auto across = [](Strategy<NewtonKind> method, std::string_view id, const std::string& whose) {
+    return withReuse(std::move(method), id, Reuse::kAcrossStepChange,
+                     whose + " with a Jacobian that is kept only where the step size changes");
+  };
+  return {never(modifiedNewton(), "modified_each_step", "modified"),
+          across(modifiedNewton(), "modified_step_change", "modified"),
+          never(broydenNewton(), "broyden_each_step", "broyden"),
+          across(broydenNewton(), "broyden_step_change", "broyden")};
+}
+
+}  // namespace irk

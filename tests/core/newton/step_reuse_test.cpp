@@ -1,0 +1,83 @@
+// The Newton methods that keep their Jacobian by rule: counted Jacobians.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string_view>
+
+#include "tests/core/support.h"
+#include "tests/core/watched.h"
+
+namespace irk::test {
+namespace {
+
+NewtonKind newtonNamed(std::string_view id) { return parseId<NewtonKind>(id); }
+
+/// x' = -x: every Jacobian serves for ever, so that no iteration asks for another one.
+struct Linear {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = -p.x[0] - p.k[0];
+  }
+};
+
+/// x' = 5 x (1 - x): the Jacobian changes along the solution, and so do the steps.
+struct Logistic {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = 5.0 * p.x[0] * (1.0 - p.x[0]) - p.k[0];
+  }
+};
+
+template <class P>
+Taken run(const P& problem, double x0, double t_end, std::string_view newton, IntegratorOptions o) {
+  State<double> start(problem.sizes());
+  start.x[0] = x0;
+  o.newton.kind = newtonNamed(newton);
+  const Taken all = taken(problem, start, t_end, o);
+  EXPECT_EQ(all.solution.outcome, Outcome::kSuccess) << newton;
+  return all;
+}
+
+// Three steps of 0.3 and one of 0.1.
+TEST(ReuseByStep, CountsTheJacobiansOfFixedSteps) {
+  const auto jacobians = [](std::string_view newton) {
+    return run(Linear{}, 1, 1, newton, fixedSteps(0.3)).solution.counters.jacobians;
+  };
+  EXPECT_EQ(jacobians("modified"), 1);
+  EXPECT_EQ(jacobians("modified_each_step"), 4);
+  EXPECT_EQ(jacobians("modified_step_change"), 3) << "the last step is shorter and keeps that of the one before";
+  EXPECT_EQ(jacobians("broyden_each_step"), 4);
+  EXPECT_EQ(jacobians("broyden_step_change"), 3);
+}
+
+// With step doubling: both half steps work with the Jacobian of their attempt, and an attempt whose size is not that of
+// the one before keeps the former Jacobian.
+TEST(ReuseByStep, CountsAttemptsOfChangingSteps) {
+  for (const std::string_view method : {"modified", "broyden"}) {
+    IntegratorOptions o = adaptive(1e-6);
+    o.step.control = StepControl::kPaper;
+    o.step.estimate = ErrorEstimate::kDoubling;
+    o.step.h = 1e-3;
+    const std::string name(method);
+    const Taken each = run(Logistic{}, 0.01, 3, name + "_each_step", o);
+    const Taken change = run(Logistic{}, 0.01, 3, name + "_step_change", o);
+    const auto& c = each.solution.counters;
+    const auto attempts = c.steps_accepted + c.steps_rejected_error + c.steps_rejected_newton;
+    EXPECT_EQ(c.jacobians, attempts + c.newton_restarts) << name;
+    EXPECT_EQ(c.newton_restarts, 0) << name;
+
+    const auto& d = change.solution.counters;
+    ASSERT_EQ(d.steps_rejected_error + d.steps_rejected_newton, 0) << "else attempts are not the steps below";
+    std::int64_t changes = 0;
+    for (std::size_t i = 1; i < change.h.size(); ++i) changes += change.h[i] != change.h[i - 1] ? 1 : 0;
+    EXPECT_GT(changes, 2) << name;
+    EXPECT_LT(changes + 2, d.steps_accepted) << name;
+    EXPECT_EQ(d.jacobians, d.steps_accepted - changes + d.newton_restarts) << name;
+    EXPECT_NEAR(change.solution.state.x[0], each.solution.state.x[0], 1e-5) << name;
+  }
+}
+
+}  // namespace
+}  // namespace irk::test
