@@ -78,7 +78,7 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
   });
-  for (const auto& [invariant, unit, change] : record.invariants) {
+  for (const auto& [invariant, unit, start, change] : record.invariants) {
     fmt::print(out, "invariant {:<12} changes by at most {:.3e}{}{}\n", invariant, change, unit.empty() ? "" : " ",
                unit);
   }
