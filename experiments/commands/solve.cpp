@@ -14,6 +14,7 @@
 #include "experiments/report/report.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/loaded/load_method.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/unused_options.h"
 #include "experiments/solution/file.h"
@@ -196,6 +197,7 @@ RunSpec solveSpec(const SolveOptions& options) {
   set(true);  // first: other fields override it
   set(false);
   applyStep(options, spec);
+  refuseUnknownMethod(spec.method);
   spec = resolved(spec);
   refuseUnused(spec, givenFields(options));
   return spec;

@@ -125,7 +125,7 @@ template <class Real>
 Real number(const Settings& settings, const std::string& name) {
   const auto found = settings.find(name);
   if (found == settings.end()) {
-    throw Misuse(fmt::format("a scene asks for its parameter '{}', which its entry does not declare", name));
+    throw Misuse(fmt::format("it asks for the parameter '{}', which its entry does not declare", name));
   }
   return decimal<Real>(found->second.c_str());
 }
@@ -195,7 +195,7 @@ void completeStart(Scene<Real>& scene) {
     report = consistent.apply(scene.start);
   }
   if (report.outcome != Outcome::kSuccess) {
-    throw Misuse("a scene's start: " + report.detail);
+    throw Misuse("its start: " + report.detail);
   }
 }
 
@@ -247,7 +247,7 @@ void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) 
   std::vector<Index> u, v;
   for (const auto& name : unknown) {
     const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) throw Misuse("a scene's start: " + unknownName("component of u and v", name, known));
+    if (at == known.end()) throw Misuse("its start: " + unknownName("component of u and v", name, known));
     const Index i = at - known.begin();
     (i < nu ? u : v).push_back(i < nu ? i : i - nu);
   }

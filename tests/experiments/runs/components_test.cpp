@@ -1,6 +1,7 @@
 // What is said of single components and outputs of a run: absolute tolerances by name, invariants.
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run.h"
+#include "experiments/runs/run_table.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 

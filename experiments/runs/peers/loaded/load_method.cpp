@@ -14,6 +14,7 @@
 #include "experiments/runs/peers/loaded/dassl.h"
 #include "experiments/runs/peers/loaded/hairer.h"
 #include "irk/misuse.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -68,6 +69,19 @@ std::string methodIn(const std::string& file) {
 bool isLibrary(std::string_view given) {
   const bool code = given.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == given.find('@');
   return given.ends_with(".so") || given.find(".so.") != given.npos || (code && given.find('@') != given.npos);
+}
+
+void refuseUnknownMethod(const std::string& method) {
+  if (findPeer(method) || method.find_first_of("./") != method.npos || std::filesystem::exists(method)) return;
+  const auto number = method.find_last_not_of("0123456789") + 1;
+  const std::string stages = number < method.size() ? method.substr(number) : "S";
+  std::vector<std::string> known;
+  for (const auto& family : familyCatalogue()) {
+    if (method.starts_with(family.id)) return;  // the catalogue of tableaus tells more
+    known.push_back(family.id + "_" + stages);
+  }
+  for (const auto& peer : peerCatalogue()) known.push_back(peer.id);
+  throw Misuse(unknownName("method", method, known));
 }
 
 std::string libraryOf(const std::string& method) {

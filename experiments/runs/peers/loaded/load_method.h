@@ -12,6 +12,10 @@ namespace irk {
 /// for an id that is taken. Not while other threads use the catalogue of peers.
 std::string loadMethod(std::string_view given);
 
+/// Throws Misuse, with the nearest name, for a text without '.' and '/' that is neither the id of a peer nor begins
+/// with the id of a family.
+void refuseUnknownMethod(const std::string& method);
+
 /// Whether a text names a solver's library, as loadMethod takes it.
 bool isLibrary(std::string_view given);
 
