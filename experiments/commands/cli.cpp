@@ -14,6 +14,7 @@
 #include "experiments/commands/shell.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/own_files.h"
 #include "experiments/tables/build_info.h"
 #include "irk/registration.h"
 
@@ -194,13 +195,15 @@ class Program {
     }
   }
   void addLoad(CLI::App& sub) {
-    sub.add_option("--load", load_, "A file of your own with scenes, integrators or strategies: FILE.cpp.")
+    sub.add_option(
+           "--load", load_,
+           "A file of your own with scenes, integrators or strategies: FILE.cpp, or LIBRARY.so with an integrator.")
         ->take_all()
         ->expected(1)
         ->type_name("FILE");
   }
   void loadFiles() const {
-    for (const auto& file : load_) own::loadFile(file);
+    for (const auto& file : load_) loadOwn(file);
   }
 
   int solve(Streams streams) {
@@ -214,7 +217,7 @@ class Program {
   void addNew() {
     auto* sub =
         verb(app_, "new", "write a file to begin with", [this](Streams s) { return newCommand(what_, out_, s); });
-    sub->add_option("what", what_, "scene")->required();
+    sub->add_option("kind", what_, "scene")->required();
     sub->add_option("file", out_, "the file, such as four_bar.cpp; the scene's id is its name")->required();
   }
 

@@ -75,21 +75,31 @@ void printSummary(const Study& study, const store::Store& store, const std::vect
   out << '\n';
 }
 
-// If all runs were refused, the reason for the first one: such a study cannot work. Else empty.
-std::string allRefused(const std::string& study, const store::Store& store, const std::vector<std::uint64_t>& keys) {
-  std::size_t runs = 0;
+/// Runs that can never work.
+struct Refusals {
+  std::size_t refused = 0, runs = 0;
+  std::string line;  // how many, and the reason for the first one; empty if there are none
+  bool all() const { return refused > 0 && refused == runs; }
+};
+
+Refusals refusalsOf(const std::string& study, const store::Store& store, const std::vector<std::uint64_t>& keys) {
+  Refusals found;
   const store::Entry* first = nullptr;
   for (const auto key : keys) {
     const auto* entry = store.runs().find(key);
     if (!entry) continue;
-    if (store.runs().name(entry->outcome) != "refused") return {};
+    ++found.runs;
+    if (store.runs().name(entry->outcome) != "refused") continue;
+    ++found.refused;
     if (!first) first = entry;
-    ++runs;
   }
-  if (!first) return {};
+  if (!first) return found;
   const Table columns{{}, runColumns(), {}};
-  return fmt::format("{}: all {} runs were refused, the first one for: {}", study, runs,
-                     textAt(columns, store.runs().row(*first), "detail"));
+  const std::string count =
+      found.all() ? fmt::format("all {}", found.runs) : fmt::format("{} of {}", found.refused, found.runs);
+  found.line = fmt::format("{}: {} runs were refused, the first one for: {}", study, count,
+                           textAt(columns, store.runs().row(*first), "detail"));
+  return found;
 }
 
 // Figures are those of a study's id, built in or with results, or those of its file.
@@ -153,9 +163,13 @@ int runStored(const Study& study, const FigureTables& figures, const RunnerOptio
     }
   }
   for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
-  const std::string refused = allRefused(study.id, store, keys);
-  if (!refused.empty()) printErrorLine(streams.err, refused);
-  if (!interruptFlag()) return doubts.empty() && refused.empty() ? 0 : 1;
+  const Refusals refusals = refusalsOf(study.id, store, keys);
+  if (refusals.all()) {
+    printErrorLine(streams.err, refusals.line);
+  } else if (refusals.refused > 0) {
+    fmt::print(streams.err, "{}\n", refusals.line);
+  }
+  if (!interruptFlag()) return doubts.empty() && !refusals.all() ? 0 : 1;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;
 }

@@ -78,29 +78,36 @@ std::string nameOf(const CLI::Option& option) {
   return option.get_lnames().empty() ? '-' + option.get_snames().front() : "--" + option.get_lnames().front();
 }
 
-// The values of an option or argument; none where they are not words.
-Words valuesOf(const CLI::Option& option) {
-  static const std::map<std::string, Words> named{
-      {"scene", scenes()},
-      {"scenes", scenes()},
-      {"--method", methods()},
-      {"method", methods()},
-      {"methods", methods()},
-      {"study", studies()},
-      {"--study", studies()},
-      {"shell", {"bash", "fish", "zsh"}},
-      {"what", {"analyses", "methods", "numbers", "scenes", "strategies", "studies"}},
+/// What an option or argument takes.
+struct Values {
+  Words words;
+  bool files = false;  ///< besides, or if there are no words
+};
+
+Values valuesOf(const CLI::Option& option) {
+  static const std::map<std::string, Values> named{
+      {"scene", {scenes(), true}},
+      {"scenes", {scenes(), true}},
+      {"--method", {methods(), true}},
+      {"method", {methods(), true}},
+      {"methods", {methods(), true}},
+      {"study", {studies(), true}},
+      {"--study", {studies(), true}},
+      {"shell", {{"bash", "fish", "zsh"}}},
+      {"kind", {{"scene"}}},
+      {"what", {{"analyses", "methods", "numbers", "scenes", "strategies", "studies"}}},
   };
   const std::string name = nameOf(option);
   const auto found = named.find(name);
   if (found != named.end()) return found->second;
   for (const auto& field : specFields()) {
     if (field.kind != FieldKind::kAxis || optionName(field.name) != name) continue;
-    Words ids;
-    for (const auto& choice : field.choices()) ids.push_back(choice.id);
+    Values ids;
+    for (const auto& choice : field.choices()) ids.words.push_back(choice.id);
     return ids;
   }
-  return listed(option.get_type_name());
+  const std::string type = option.get_type_name();
+  return {listed(type), type == "TEXT" || type == "FILE"};
 }
 
 struct Parts {
@@ -135,9 +142,9 @@ void printBash(const CLI::App& program, std::ostream& out) {
   fmt::print(out, "  else\n    case \"$verb ${{COMP_WORDS[COMP_CWORD - 1]}}\" in\n");
   for (const Verb& verb : verbsOf(program)) {
     for (const CLI::Option* option : partsOf(*verb.app).options) {
-      const Words values = valuesOf(*option);
-      if (values.empty()) continue;
-      fmt::print(out, "      '{} {}') words='{}';;\n", verb.name, nameOf(*option), fmt::join(values, " "));
+      const Words words = valuesOf(*option).words;
+      if (words.empty()) continue;
+      fmt::print(out, "      '{} {}') words='{}';;\n", verb.name, nameOf(*option), fmt::join(words, " "));
     }
   }
   fmt::print(out, "      *) case \"$verb\" in\n");
@@ -146,7 +153,7 @@ void printBash(const CLI::App& program, std::ostream& out) {
     const Parts parts = partsOf(*verb.app);
     for (const CLI::Option* option : parts.options) options.push_back(nameOf(*option));
     for (const CLI::Option* argument : parts.arguments) {
-      for (auto& value : valuesOf(*argument)) arguments.push_back(std::move(value));
+      for (auto& word : valuesOf(*argument).words) arguments.push_back(std::move(word));
     }
     fmt::print(out, "        '{}') if [[ $cur == -* ]]; then words='{}'; else words='{}'; fi;;\n", verb.name,
                fmt::join(options, " "), fmt::join(arguments, " "));
@@ -161,6 +168,22 @@ std::string fishQuoted(std::string text) {
     if (text[i] == '\'' || text[i] == '\\') text.insert(i++, 1, '\\');
   }
   return '\'' + text + '\'';
+}
+
+// The first sentence: shells show one line.
+std::string shortened(const std::string& description) {
+  return fishQuoted(description.substr(0, std::min(description.find(". "), description.find(" ["))));
+}
+
+void printFishOption(const CLI::Option& option, const std::string& when, std::ostream& out) {
+  const std::string name = nameOf(option);
+  const bool is_long = name.starts_with("--");
+  fmt::print(out, "complete -c irk -n '{}' {} {} -d {}", when, is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1),
+             shortened(option.get_description()));
+  const Values values = valuesOf(option);
+  if (option.get_items_expected_max() > 0) out << (values.files ? " -r -F" : " -x");
+  if (!values.words.empty()) fmt::print(out, " -a '{}'", fmt::join(values.words, " "));
+  out << '\n';
 }
 
 void printFish(const CLI::App& program, std::ostream& out) {
@@ -178,19 +201,15 @@ void printFish(const CLI::App& program, std::ostream& out) {
       when += "; and __fish_seen_subcommand_from " + inner;
     }
     const Parts parts = partsOf(*verb.app);
+    bool files = false;
+    Words words;
     for (const CLI::Option* argument : parts.arguments) {
-      const Words values = valuesOf(*argument);
-      if (!values.empty()) fmt::print(out, "complete -c irk -n '{}' -a '{}'\n", when, fmt::join(values, " "));
+      Values values = valuesOf(*argument);
+      files = files || values.files;
+      words.insert(words.end(), values.words.begin(), values.words.end());
     }
-    for (const CLI::Option* option : parts.options) {
-      const std::string name = nameOf(*option);
-      const Words values = valuesOf(*option);
-      const bool flag = option->get_items_expected_max() == 0;
-      fmt::print(out, "complete -c irk -n '{}' {} {} -d {}", when, name.starts_with("--") ? "-l" : "-s",
-                 name.substr(name.starts_with("--") ? 2 : 1), fishQuoted(option->get_description()));
-      if (!values.empty()) fmt::print(out, " -x -a '{}'", fmt::join(values, " "));
-      fmt::print(out, "{}\n", flag || !values.empty() ? "" : " -r");
-    }
+    fmt::print(out, "complete -c irk -n '{}'{} -a '{}'\n", when, files ? "" : " -f", fmt::join(words, " "));
+    for (const CLI::Option* option : parts.options) printFishOption(*option, when, out);
   }
 }
 
@@ -251,7 +270,10 @@ void printCompletion(const CLI::App& program, const std::string& shell, std::ost
   const Words shells{"bash", "zsh", "fish"};
   if (std::find(shells.begin(), shells.end(), shell) == shells.end()) throw Misuse(unknownName("shell", shell, shells));
   if (shell == "fish") return printFish(program, out);
-  if (shell == "zsh") out << "autoload -Uz compinit bashcompinit && compinit && bashcompinit\n";
+  if (shell == "zsh") {
+    out << "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit; }\n"
+           "autoload -Uz bashcompinit && bashcompinit\n";
+  }
   printBash(program, out);
 }
 

@@ -14,6 +14,7 @@
 #include "experiments/report/report.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/loaded/load_method.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/unused_options.h"
 #include "experiments/solution/file.h"
@@ -78,7 +79,7 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);
   });
-  for (const auto& [invariant, unit, change] : record.invariants) {
+  for (const auto& [invariant, unit, start, change] : record.invariants) {
     fmt::print(out, "invariant {:<12} changes by at most {:.3e}{}{}\n", invariant, change, unit.empty() ? "" : " ",
                unit);
   }
@@ -196,6 +197,7 @@ RunSpec solveSpec(const SolveOptions& options) {
   set(true);  // first: other fields override it
   set(false);
   applyStep(options, spec);
+  refuseUnknownMethod(spec.method);
   spec = resolved(spec);
   refuseUnused(spec, givenFields(options));
   return spec;

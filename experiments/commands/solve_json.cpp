@@ -109,8 +109,8 @@ std::string solveJson(const RunRecord& record, int indent) {
                       {"solves", c.solves},
                       {"newton_iterations", c.newton_iterations}};
   addSwitches(record, json);
-  for (const auto& [name, unit, change] : record.invariants)
-    json["invariants"][name] = {{"change", change}, {"unit", unit}};
+  for (const auto& [name, unit, start, change] : record.invariants)
+    json["invariants"][name] = {{"change", change}, {"start", start}, {"unit", unit}};
   if (!record.detail.empty()) json["detail"] = record.detail;
   json["cpu_s"] = record.cpu_s;
   json["spec"] = specObject(record.spec);

@@ -18,7 +18,8 @@
 namespace irk::compare {
 namespace {
 
-constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift"};
+constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",         "error_x",
+                                        "error_z", "drift",   "invariant_change"};
 // Errors below this many units of round-off of their scalar are not compared: 1.1e-14 in double precision.
 constexpr double kRoundOff = 50;
 // A rank test with fewer repetitions cannot be significant: for samples of four and four the most extreme order has

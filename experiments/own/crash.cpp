@@ -32,9 +32,12 @@ void useOwnStack() {
 }  // namespace
 
 void explainCrashes(const std::filesystem::path& file) {
-  message() = "irk: the program crashed while it ran code of " + file.string() + ", most likely by an index out of " +
-              "range; what was finished before is kept" +
-              (wantsChecks() ? ".\n" : "; compiled with checks it tells the place: IRK_CHECKED=1 irk ...\n");
+  const bool is_source = file.extension() == ".cpp";
+  message() = "irk: the program crashed while it ran code of " + file.string() + ", most likely by " +
+              (is_source ? "an index out of range" : "another calling sequence or an index out of range") +
+              "; what was finished before is kept";
+  message() +=
+      is_source && !wantsChecks() ? "; compiled with checks it tells the place: IRK_CHECKED=1 irk ...\n" : ".\n";
   static const bool installed = [] {
     useOwnStack();
     struct sigaction action = {};

@@ -162,6 +162,13 @@ std::string hashOfFile(const std::string& file) {
   return error || known == loadedFiles().end() ? "" : known->second.hash;
 }
 
+std::string fileWithHash(std::string_view hash) {
+  for (const auto& [file, loaded] : loadedFiles()) {
+    if (!hash.empty() && loaded.hash == hash) return file.string();
+  }
+  return "";
+}
+
 std::string hashOf(std::string_view kind, std::string_view id) {
   const auto at = hashes().find({std::string(kind), std::string(id)});
   return at == hashes().end() ? "" : at->second;

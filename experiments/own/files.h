@@ -32,4 +32,7 @@ std::string hashOf(std::string_view kind, std::string_view id);
 /// The hash of a loaded file, by its name; empty for others.
 std::string hashOfFile(const std::string& file);
 
+/// The absolute path of the loaded file that has this hash; empty if there is none.
+std::string fileWithHash(std::string_view hash);
+
 }  // namespace irk::own

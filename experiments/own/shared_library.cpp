@@ -13,6 +13,14 @@ namespace {
 
 using Library = boost::dll::shared_library;
 
+// What the system's loader says, without what Boost puts around it: `... (dlerror system message: REASON): ...`.
+std::string reasonOf(const std::string& text) {
+  const std::string before = "dlerror system message: ";
+  const auto begin = text.find(before), end = text.rfind("): ");
+  if (begin == text.npos || end == text.npos || end < begin) return text;
+  return "it cannot be loaded: " + text.substr(begin + before.size(), end - begin - before.size());
+}
+
 constexpr std::size_t kMaxLibraryBytes = std::size_t{1} << 30U;
 
 }  // namespace
@@ -23,7 +31,7 @@ SharedLibrary::SharedLibrary(const std::filesystem::path& path) : path_(path) {
     // Without a folder the loader would search the system's libraries.
     library_ = std::make_shared<Library>(std::filesystem::absolute(path), boost::dll::load_mode::rtld_now);
   } catch (const std::exception& error) {
-    refuse(error.what());
+    refuse(reasonOf(error.what()));
   }
 }
 

@@ -6,6 +6,7 @@ std::vector<ReferenceTask> referenceTasks() {
   std::vector<ReferenceTask> tasks;
   for (const auto& scene : sceneCatalogue()) {
     for (const auto& reference_case : scene.reference_cases) tasks.push_back({scene.id, reference_case});
+    if (scene.registered && scene.reference_cases.empty()) tasks.push_back({scene.id});
   }
   return tasks;
 }

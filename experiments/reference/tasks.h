@@ -22,7 +22,8 @@ struct ReferenceTask {
 /// Ratio of the finer tolerance to the coarser one.
 inline constexpr double kFiner = 1e-3;
 
-/// The reference cases of all scenes, grouped by scene.
+/// The reference cases of all scenes, grouped by scene. A registered scene without any has its parameters' defaults
+/// and its end.
 std::vector<ReferenceTask> referenceTasks();
 
 enum class Fineness { kCoarse, kFine };

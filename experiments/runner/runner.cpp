@@ -198,7 +198,8 @@ class Sweep {
   }
 
   RunRecord make(const RunSpec& spec) {
-    const Watch watch{&interruptFlag(), {}, {}, [this](const RunSpec& run) { return references_.of(run); }};
+    Watch watch{&interruptFlag(), {}, {}, [this](const RunSpec& run) { return references_.of(run); }};
+    watch.invariants = true;
     return withoutMachine(orRefused(spec, [&] {
       return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(store_.folder(), spec))
                                  : execute(spec, watch);

@@ -153,7 +153,10 @@ class Prepared final : public PreparedRun {
   std::vector<Followed> invariantsAtStart() const {
     std::vector<Followed> all;
     for (const auto& output : scene_.outputs) {
-      if (output.invariant) all.push_back({&output, output.value(scene_.start), {output.name, output.unit, 0}});
+      if (output.invariant) {
+        const Real start = output.value(scene_.start);
+        all.push_back({&output, start, {output.name, output.unit, static_cast<double>(start), 0}});
+      }
     }
     return all;
   }
@@ -248,6 +251,16 @@ void requireKnownStep(const RunSpec& spec) {
 }
 
 }  // namespace
+
+double largestChange(const std::vector<InvariantChange>& invariants) {
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& one : invariants) {
+    const double change = one.start == 0 ? one.change : one.change / std::abs(one.start);
+    if (std::isnan(change)) return change;
+    largest = std::fmax(largest, change);
+  }
+  return largest;
+}
 
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   validate(spec);

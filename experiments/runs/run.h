@@ -26,9 +26,14 @@ struct SwitchEvent {
 /// How an invariant of the scene changed.
 struct InvariantChange {
   std::string name, unit;
-  double
-      change;  ///< the largest distance from its value at the start, over all accepted steps; NaN if it is not finite
+  double start;  ///< its value at the start
+  /// The largest distance from its value at the start, over all accepted steps; NaN if it is not finite.
+  double change;
 };
+
+/// The largest change of all invariants, each divided by the magnitude of its value at the start unless that is 0. NaN
+/// without invariants.
+double largestChange(const std::vector<InvariantChange>& invariants);
 
 struct RunRecord {
   RunSpec spec;

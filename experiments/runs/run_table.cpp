@@ -7,6 +7,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/own_files.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 
@@ -17,7 +18,9 @@ namespace {
 constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 constexpr std::string_view kAccuracy = "reference_accuracy";
-constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift", kAccuracy};
+constexpr std::string_view kInvariant = "invariant_change";
+constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",  "error_x",
+                                        "error_z", "drift",   kInvariant, kAccuracy};
 constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",   "cpu_spread",
                                        "cpu_runs", "cpu_all",     "cpu_environment"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
@@ -57,7 +60,7 @@ std::vector<std::string> runColumns() {
   append(columns, kErrors);
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
   append(columns, kTimes);
-  columns.emplace_back("detail");
+  columns.insert(columns.end(), {"detail", "files"});
   append(columns, kOrigin);
   return columns;
 }
@@ -69,11 +72,12 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
-  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, e.accuracy}) row.push_back(numberText(error));
+  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, largestChange(record.invariants), e.accuracy})
+    row.push_back(numberText(error));
   record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
   row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "nan", "0", "", environment, detailOf(record),
-                         std::string(buildInfo().code), environment, dateText(), ""});
+                         filesOf(record.spec), std::string(buildInfo().code), environment, dateText(), ""});
   return row;
 }
 

@@ -11,6 +11,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/own_files.h"
 #include "experiments/runs/run.h"
 #include "experiments/study/dice.h"
 #include "irk/misuse.h"
@@ -270,9 +271,10 @@ std::vector<DrawnRun> drawnRuns(const AuditOptions& options) {
 std::string commandOf(const DrawnRun& run) {
   const RunSpec& spec = run.spec;
   std::string command = "irk solve " + spec.scene;
-  for (const auto& [name, value] : spec.settings) command += fmt::format(" --set {}={}", name, value);
+  for (const auto& [name, value] : spec.settings) command += fmt::format(" --set {}", shellWord(name + "=" + value));
   if (spec.configuration != "default") command += " --configuration " + spec.configuration;
-  command += " --method " + spec.method;
+  const std::string files = filesOf(spec);
+  command += " --method " + shellWord(methodIn(files, spec.method));
   const RunSpec defaults;
   if (spec.formulation != defaults.formulation) {
     command += fmt::format(" --formulation {}", idOf(spec.formulation));
@@ -285,7 +287,7 @@ std::string commandOf(const DrawnRun& run) {
     command += " --t-end " + numberText(spec.t_end);
   }
   if (spec.time_limit > 0) command += " --time-limit " + numberText(spec.time_limit);
-  return command;
+  return command + loadOptions(files);
 }
 
 }  // namespace irk::audit

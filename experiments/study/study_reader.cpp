@@ -129,7 +129,10 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
     for (const auto& item : listed->items) {
       const auto method = atPlace(*listed, [&] { return loadMethod(item); });
       if (!findPeer(method) && !isFamily(method)) {
-        atPlace(*listed, [&] { return makeTableau<double>(method).stages(); });
+        atPlace(*listed, [&] {
+          refuseUnknownMethod(method);
+          return makeTableau<double>(method).stages();
+        });
       }
       methods.push_back(method);
     }
@@ -204,10 +207,11 @@ void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
   if (scene.items.empty()) throw Misuse(scene.place + ": the block names no scene");
   refuseContradictions(keys);
   const auto methods = methodList(keys);
-  refusePeersInSweeps(keys, methods);
   const auto most = integer(keys, "most_runs", kMaxRuns, 1, kMaxRunsAsked);
   refuseTooMany(keys, methods.size(), runsOfSeries(keys), most);
-  for (RunSpec spec : specProduct(keys)) {
+  const auto specs = specProduct(keys);
+  refusePeersInSweeps(keys, methods);
+  for (RunSpec spec : specs) {
     spec = atPlace(scene, [&] { return resolved(spec); });
     for (const auto& method : methods) {
       spec.method = method;

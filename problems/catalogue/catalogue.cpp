@@ -157,6 +157,16 @@ template <class Real>
                "; with " + id + ": " + offering);
 }
 
+// Messages of what makes a scene name the scene.
+template <class F>
+auto withNameOf(const SceneEntry& entry, const F& make) {
+  try {
+    return make();
+  } catch (const Misuse& misuse) {
+    throw Misuse("scene " + entry.id + ": " + misuse.what());
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -164,7 +174,7 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
   const Settings completed = completedSettings(entry.id, entry.parameters, settings);
   const auto& make = makerOf<Real>(entry);
   if (!make) refuseScalar<Real>(entry);
-  Scene<Real> scene = make(completed);
+  Scene<Real> scene = withNameOf(entry, [&] { return make(completed); });
   if (!scene.system) throw Misuse("scene " + entry.id + " makes no system");
   scene.id = entry.id;
   const State<Real>& s = scene.start;

@@ -11,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "core/derivatives/consistent_start.h"
+#include "core/derivatives/differentiator.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -124,7 +125,7 @@ template <class Real>
 Real number(const Settings& settings, const std::string& name) {
   const auto found = settings.find(name);
   if (found == settings.end()) {
-    throw Misuse(fmt::format("a scene asks for its parameter '{}', which its entry does not declare", name));
+    throw Misuse(fmt::format("it asks for the parameter '{}', which its entry does not declare", name));
   }
   return decimal<Real>(found->second.c_str());
 }
@@ -162,12 +163,39 @@ void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const st
   scene.scale = Eigen::Map<const Vec<double>>(scale.data(), static_cast<Index>(scale.size()));
 }
 
+namespace {
+
+// Gauss-Newton steps for (a, k, z) where dr/d(a, k, z) is singular, as the matrix in front of k of an electric circuit
+// is: what the residual does not determine stays as near to the given values as it can.
+template <class Real>
+void solveRates(const System<Real>& system, State<Real>& state) {
+  constexpr int kSteps = 10;
+  Differentiator<Real> differentiator(system, DerivativeSource::kAutomatic);
+  Linearization<Real> D;
+  Vec<Real> r(system.sizes().n());
+  for (int i = 0; i < kSteps; ++i) {
+    system.evaluate(Level::kFormulated, pointOf(state), {r.data(), r.size()});
+    differentiator.evaluate(Level::kFormulated, pointOf(state), D);
+    if (!r.allFinite() || !D.d0.allFinite()) return;
+    const Vec<Real> dw = Mat<Real>(D.dense0()).completeOrthogonalDecomposition().solve(r);
+    state.w -= dw;
+    if (dw.norm() <= Real(100) * Eigen::NumTraits<Real>::epsilon() * (Real(1) + state.w.norm())) return;
+  }
+}
+
+}  // namespace
+
 template <class Real>
 void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
-  const StartReport report = ConsistentStart<Real>(*system, DerivativeSource::kAutomatic, true).apply(scene.start);
+  ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true);
+  StartReport report = consistent.apply(scene.start);
+  if (report.outcome == Outcome::kInconsistentStart) {
+    solveRates(*system, scene.start);
+    report = consistent.apply(scene.start);
+  }
   if (report.outcome != Outcome::kSuccess) {
-    throw Misuse("a scene's start: " + report.detail);
+    throw Misuse("its start: " + report.detail);
   }
 }
 
@@ -219,7 +247,7 @@ void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) 
   std::vector<Index> u, v;
   for (const auto& name : unknown) {
     const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) throw Misuse("a scene's start: " + unknownName("component of u and v", name, known));
+    if (at == known.end()) throw Misuse("its start: " + unknownName("component of u and v", name, known));
     const Index i = at - known.begin();
     (i < nu ? u : v).push_back(i < nu ? i : i - nu);
   }

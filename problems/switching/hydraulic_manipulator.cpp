@@ -199,7 +199,7 @@ void setEquilibrium(HydraulicManipulator<Real>& problem, State<Real>& start) {
   const Real sum = problem.pP + problem.pT, difference = force / problem.A;
   const Real p1 = (sum - difference) / 2;
   if (!(p1 > problem.pT && p1 < problem.pP)) {
-    throw Misuse("scene hydraulic_manipulator: no equilibrium, the load needs more than pP - pT");
+    throw Misuse("no equilibrium, the load needs more than pP - pT");
   }
   const Real q = sqrt((p1 - problem.pT) / (problem.pP - p1));
   problem.kappa0 = q / (1 + q);

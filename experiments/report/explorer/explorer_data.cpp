@@ -27,6 +27,7 @@ constexpr std::string_view kStudies[] = {"work_precision", "peers",   "beam",   
 
 // Columns of runs.csv that are drawn; of the errors, whatever the table has.
 constexpr std::string_view kQuantities[] = {"drift",
+                                            "invariant_change",
                                             "h",
                                             "cpu_s",
                                             "cpu_median_s",

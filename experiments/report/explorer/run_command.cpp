@@ -8,6 +8,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/own_files.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/unused_options.h"
 #include "irk/misuse.h"
@@ -24,18 +25,6 @@ constexpr std::string_view kLimits[] = {"max_steps", "time_limit", "threads", "r
 template <class Names>
 bool isIn(const Names& names, std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
-}
-
-// For the shell.
-std::string word(const std::string& text) {
-  constexpr std::string_view kPlain = "-_./=+:@,%";
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [&](unsigned char c) {
-    return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != kPlain.npos;
-  });
-  if (plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 class Row {
@@ -136,23 +125,24 @@ std::string sweptOptions(const Table& runs, const TableRow& line) {
 SeriesCommand seriesCommand(const Table& runs, const TableRow& line) {
   const Row row(runs, line);
   SeriesCommand command;
-  command.text = "irk solve " + word(row.text("scene"));
+  command.text = "irk solve " + shellWord(row.text("scene"));
   const auto settings = row.text("settings");
   for (std::size_t at = 0; at < settings.size();) {
     const auto end = std::min(settings.find(' ', at), settings.size());
-    if (end > at) command.text += " --set " + word(settings.substr(at, end - at));
+    if (end > at) command.text += " --set " + shellWord(settings.substr(at, end - at));
     at = end + 1;
   }
   const auto configuration = row.text("configuration");
   if (!configuration.empty() && configuration != RunSpec{}.configuration && !row.isPeer()) {
-    command.text += " --configuration " + word(configuration);
+    command.text += " --configuration " + shellWord(configuration);
   }
-  command.text += " --method " + word(row.text("method"));
+  const std::string files = row.text("files");
+  command.text += " --method " + shellWord(methodIn(files, row.text("method")));
   for (const auto& [name, value] : differences(row)) {
-    command.text += " " + optionName(name) + (name == "reference" ? "" : " " + word(value));
+    command.text += " " + optionName(name) + (name == "reference" ? "" : " " + shellWord(value));
     if (!isIn(kLimits, name)) command.options.emplace_back(name, value);
   }
-  command.text += endOption(row);
+  command.text += endOption(row) + loadOptions(files);
   return command;
 }
 

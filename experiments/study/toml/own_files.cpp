@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "experiments/own/files.h"
+#include "experiments/runs/own_files.h"
+#include "experiments/runs/peers/loaded/load_method.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -15,14 +17,14 @@ void findFiles(StudyValue& value, const std::string& study_file) {
   for (auto& item : value.items) {
     const auto at = item.find('@') + 1;  // of a code in a library: radau5@libradau5.so; else 0
     const std::filesystem::path path = item.substr(at);
-    const bool is_file = own::isFile(item) || path.extension() == ".so";
+    const bool is_file = own::isFile(item) || isLibrary(item) || std::filesystem::is_regular_file(folder / path);
     if (is_file && path.is_relative()) item = item.substr(0, at) + (folder / path).string();
   }
 }
 
 void load(const StudyValue& files) {
   try {
-    for (const auto& file : files.items) own::loadFile(file);
+    for (const auto& file : files.items) loadOwn(file);
   } catch (const Misuse& misuse) {
     throw Misuse(fmt::format("{}: load: {}", files.place, misuse.what()));
   }

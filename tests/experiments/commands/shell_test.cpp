@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -53,11 +54,67 @@ TEST_F(Completion, OffersVerbsOptionsAndValues) {
   EXPECT_EQ(offered({"irk", "tableau", "show", "--d"}), " --digits \n");
 }
 
-TEST_F(Completion, ForOtherShells) {
-  const Ended fish = program({"completion", "fish"});
-  EXPECT_EQ(fish.status, 0) << fish.err;
-  EXPECT_TRUE(containsAll(fish.out, {"-a solve", "-l newton", "slider_crank", "radau_iia_5"}));
-  EXPECT_TRUE(containsAll(program({"completion", "zsh"}).out, {"bashcompinit", "complete "}));
+bool isInstalled(const std::string& shell) { return std::system(("command -v " + shell + " >/dev/null").c_str()) == 0; }
+
+// What fish offers, one word a line; the descriptions behind a tab are cut off.
+TEST_F(Completion, InFish) {
+  if (!isInstalled("fish")) GTEST_SKIP() << "fish is not installed";
+  const std::string script = folder_.path() / "irk.fish";
+  std::ofstream(script) << program({"completion", "fish"}).out;
+  std::ofstream(folder_.path() / "my.txt") << "";
+  const auto words = [&](const std::string& line) {
+    return '\n' + outputOf("cd " + folder_.path().string() +
+                           " && HOME=$PWD XDG_CONFIG_HOME=$PWD fish --no-config -c \"source " + script +
+                           "; complete -C '" + line + "' | string replace -r '\\t.*' ''\"");
+  };
+  EXPECT_TRUE(containsAll(words("irk "), {"\nsolve\n", "\nrun\n", "\ntableau\n"}));
+  EXPECT_EQ(words("irk sol"), "\nsolve\n");
+  EXPECT_TRUE(containsAll(words("irk solve sli"), {"\nslider_crank\n"}));
+  EXPECT_TRUE(containsAll(words("irk solve kepler --newton "), {"\nsimplified\n", "\nfull\n"}));
+  EXPECT_EQ(words("irk solve kepler --newton m"), "\nmodified\nmodified_only\n");
+  EXPECT_TRUE(containsAll(words("irk solve kepler --method "), {"\nradau_iia_5\n", "\ncvode_bdf\n", "\nmy.txt\n"}));
+  EXPECT_EQ(words("irk solve kepler --tol "), "\n") << "a number";
+  EXPECT_TRUE(containsAll(words("irk solve kepler --po"), {"\n--points\n"}));
+  EXPECT_TRUE(containsAll(words("irk run or"), {"\norder\n"}));
+  EXPECT_EQ(words("irk run order --stale "), "\nkeep\nremake\n");
+  EXPECT_TRUE(containsAll(words("irk tableau "), {"\nshow\n", "\ncheck\n"}));
+  EXPECT_EQ(words("irk tableau show gauss_3 --d"), "\n--digits\n");
+  EXPECT_EQ(words("irk completion "), "\nbash\nfish\nzsh\n") << "no files";
+  EXPECT_EQ(words("irk new "), "\nscene\n");
+}
+
+// Types each line into an interactive zsh and asks for the list of completions; ends when the list has `wanted`.
+constexpr const char* kAskZsh = R"(zmodload zsh/zpty || exit 3
+zpty -b z zsh -f -i
+zpty -w z 'autoload -Uz compinit; compinit -u -D; source ./irk.zsh; LISTMAX=0; PS1=; echo "READ""Y"'
+zpty -r z seen '*READY*' || exit 3
+zpty -w -n z "$1"$'\C-d'
+all= tries=0
+while (( tries++ < 200 )) && [[ $all != *"$2"* ]]; do
+  sleep 0.05
+  while zpty -r -t z seen; do all+=$seen; done
+done
+zpty -d z
+[[ $all == *"$2"* ]] && print found || print -r -- "no '$2' in: $all"
+)";
+
+TEST_F(Completion, InZsh) {
+  if (!isInstalled("zsh")) GTEST_SKIP() << "zsh is not installed";
+  std::ofstream(folder_.path() / "irk.zsh") << program({"completion", "zsh"}).out;
+  std::ofstream(folder_.path() / "ask.zsh") << kAskZsh;
+  const std::string begin = "cd " + folder_.path().string() + " && HOME=$PWD zsh -f ";
+  EXPECT_EQ(outputOf(begin + "-n irk.zsh 2>&1"), "");
+  const auto ask = [&](const std::string& line, const std::string& wanted) {
+    return outputOf(begin + "ask.zsh '" + line + "' '" + wanted + "' 2>&1");
+  };
+  EXPECT_EQ(ask("irk ", "tableau"), "found\n");
+  EXPECT_EQ(ask("irk solve slid", "slider_crank_flexible"), "found\n");
+  EXPECT_EQ(ask("irk solve kepler --newton ", "modified_only"), "found\n");
+  EXPECT_EQ(ask("irk solve kepler --method radau_iia_", "radau_iia_7"), "found\n");
+  EXPECT_EQ(ask("irk tableau ", "export"), "found\n");
+}
+
+TEST_F(Completion, OfUnknownShellsIsRefused) {
   const Ended none = program({"completion", "fsh"});
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(containsAll(none.err, {"shell", "fsh", "bash, zsh, fish"})) << none.err;

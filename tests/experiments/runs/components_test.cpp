@@ -1,6 +1,7 @@
 // What is said of single components and outputs of a run: absolute tolerances by name, invariants.
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run.h"
+#include "experiments/runs/run_table.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
@@ -54,6 +55,26 @@ TEST(Invariants, TheLargestChangeIsTold) {
   EXPECT_GE(record.invariants[0].change, std::abs(energy + 0.5) * (1 - 1e-9));
   EXPECT_GT(record.invariants[0].change, 1e-6);
   EXPECT_LT(record.invariants[0].change, 1);
+  EXPECT_EQ(record.invariants[0].start, -0.5);
+}
+
+// One number for the row of a run: the worst of all, relative where it can be.
+TEST(Invariants, AreAColumnOfRuns) {
+  EXPECT_TRUE(std::isnan(largestChange({})));
+  EXPECT_EQ(largestChange({{"energy", "J", -4, 2}, {"momentum", "", 0, 0.25}}), 0.5);
+  EXPECT_EQ(largestChange({{"energy", "J", -4, 0.5}, {"momentum", "", 0, 0.25}}), 0.25);
+  EXPECT_TRUE(std::isnan(largestChange({{"energy", "J", 1, std::nan("")}, {"momentum", "", 1, 2}})));
+  const auto cell = [](const char* scene) {
+    RunSpec spec = resolved(
+        parseSpec("method=radau_iia_2;h=0.05;control=fixed;estimate=none;t_end=1;scene=" + std::string(scene)));
+    Watch watch;
+    watch.invariants = true;
+    const RunRecord record = execute(spec, watch);
+    const Table table{{}, runColumns(), {}};
+    return numberAt(table, runRow("k", "s", record), "invariant_change") / largestChange(record.invariants);
+  };
+  EXPECT_EQ(cell("kepler"), 1);
+  EXPECT_TRUE(std::isnan(cell("van_der_pol"))) << "without invariants";
 }
 
 }  // namespace

@@ -7,20 +7,22 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "experiments/own/crash.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/loaded/c_peer.h"
 #include "experiments/runs/peers/loaded/dassl.h"
 #include "experiments/runs/peers/loaded/hairer.h"
 #include "irk/misuse.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
 
-// A file may be called my_solver.so or my_solver.so.1; an '@' separates the name of a code from its library.
-bool isLibrary(std::string_view given) {
-  const bool code = given.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == given.find('@');
-  return given.ends_with(".so") || given.find(".so.") != given.npos || (code && given.find('@') != given.npos);
+// What users gave, by the id of the method; paths are absolute.
+std::map<std::string, std::string>& libraries() {
+  static std::map<std::string, std::string> all;
+  return all;
 }
 
 PeerEntry entryOf(std::string_view given) {
@@ -39,6 +41,9 @@ PeerEntry entryOf(std::string_view given) {
     }
   }
   entry.source = library->hash();
+  own::explainCrashes(library->path());
+  const auto path = std::filesystem::absolute(library->path()).lexically_normal().string();
+  libraries()[entry.id] = at == given.npos ? path : std::string(given.substr(0, at + 1)) + path;
   return entry;
 }
 
@@ -59,6 +64,30 @@ std::string methodIn(const std::string& file) {
 }
 
 }  // namespace
+
+// A file may be called my_solver.so or my_solver.so.1; an '@' separates the name of a code from its library.
+bool isLibrary(std::string_view given) {
+  const bool code = given.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == given.find('@');
+  return given.ends_with(".so") || given.find(".so.") != given.npos || (code && given.find('@') != given.npos);
+}
+
+void refuseUnknownMethod(const std::string& method) {
+  if (findPeer(method) || method.find_first_of("./") != method.npos || std::filesystem::exists(method)) return;
+  const auto number = method.find_last_not_of("0123456789") + 1;
+  const std::string stages = number < method.size() ? method.substr(number) : "S";
+  std::vector<std::string> known;
+  for (const auto& family : familyCatalogue()) {
+    if (method.starts_with(family.id)) return;  // the catalogue of tableaus tells more
+    known.push_back(family.id + "_" + stages);
+  }
+  for (const auto& peer : peerCatalogue()) known.push_back(peer.id);
+  throw Misuse(unknownName("method", method, known));
+}
+
+std::string libraryOf(const std::string& method) {
+  const auto known = libraries().find(method);
+  return known == libraries().end() ? "" : known->second;
+}
 
 std::string loadMethod(std::string_view given) {
   if (own::isFile(given)) return methodIn(std::string(given));

@@ -12,4 +12,14 @@ namespace irk {
 /// for an id that is taken. Not while other threads use the catalogue of peers.
 std::string loadMethod(std::string_view given);
 
+/// Throws Misuse, with the nearest name, for a text without '.' and '/' that is neither the id of a peer nor begins
+/// with the id of a family.
+void refuseUnknownMethod(const std::string& method);
+
+/// Whether a text names a solver's library, as loadMethod takes it.
+bool isLibrary(std::string_view given);
+
+/// The library of a loaded method as loadMethod takes it, with its absolute path; empty for other methods.
+std::string libraryOf(const std::string& method);
+
 }  // namespace irk
