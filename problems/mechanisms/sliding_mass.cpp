@@ -218,7 +218,7 @@ Scene<Real> make(const Settings& settings) {
   scene.start.u.head(straight.size()) = straight;
   scene.start.d << static_cast<double>(slide.elementAt(s0));
   completeStart(scene);
-  scene.t_end = 0.45;
+  scene.t_end = 0.35;
   return scene;
 }
 
@@ -230,12 +230,12 @@ std::vector<Parameter> parameters() {
           elementsParameter("2"),
           positiveParameter("L", "m", "length of the beam", "1"),
           positiveParameter("A", "m^2", "area of the section", "0.0018"),
-          positiveParameter("I", "m^4", "second moment of area", "1.35e-7"),
-          positiveParameter("E", "Pa", "Young's modulus", "1e8"),
+          positiveParameter("I", "m^4", "second moment of area", "1.35e-6"),
+          positiveParameter("E", "Pa", "Young's modulus", "1e7"),
           positiveParameter("rho", "kg/m^3", "density", "1200"),
           numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
           positiveParameter("m", "kg", "mass that slides", "1"),
-          numberParameter("start", "", "where the mass starts, as a part of the beam's length", "0.2", 0, 1),
+          numberParameter("start", "", "where the mass starts, as a part of the beam's length", "0.3", 0, 1),
           numberParameter("v0", "m/s", "velocity of the mass at the start", "1", -1e6, 1e6)};
 }
 
@@ -252,8 +252,7 @@ SceneEntry slidingMassEntry() {
                      {"mass and tip", {"y", "tip_y"}},
                      {"force of the joint", {"lambda_x", "lambda_y"}},
                      {"path of the mass", {"x:y"}}},
-          .reference_cases = {{.times = "0.1 0.2 0.3 0.4", .tolerance = kFewDigits},
-                              {.settings = "elements=4", .times = "0.3", .tolerance = kFewDigits}},
+          .reference_cases = {{.times = "0.1 0.2 0.3", .tolerance = kFewDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -40,7 +40,7 @@ TEST(SlidingMass, KeepsItsEnergyAndConstraints) {
 // The mass crosses each node once, where s is that of the node.
 TEST(SlidingMass, ChangesItsElementAtTheNodes) {
   for (const char* coordinates : {"joint", "inserted"}) {
-    const SceneCase c{"sliding_mass", {{"coordinates", coordinates}, {"elements", "4"}}};
+    const SceneCase c{"sliding_mass", {{"coordinates", coordinates}, {"elements", "4"}, {"start", "0.2"}, {"v0", "2"}}};
     const auto scene = makeScene<double>(c.id, c.settings);
     const Result r = run(c, scene.t_end, Discontinuity::kLocate);
     ASSERT_EQ(r.events.size(), 3U);
@@ -55,7 +55,7 @@ TEST(SlidingMass, ChangesItsElementAtTheNodes) {
 }
 
 TEST(SlidingMass, SlidesAlongAStiffBeamAtConstantSpeed) {
-  const auto scene = makeScene<double>("sliding_mass", {{"E", "1e12"}, {"v0", "2"}});
+  const auto scene = makeScene<double>("sliding_mass", {{"E", "1e11"}, {"v0", "2"}});
   const auto s = stateAfter<double>(scene, 0.2, 1e-6, 5);
   EXPECT_NEAR(valueByName(scene, "s", s), 0.6, 1e-4);
   EXPECT_NEAR(valueByName(scene, "s'", s), 2, 1e-3);
@@ -78,8 +78,10 @@ TEST(SlidingMass, GoesBack) {
 // The curvature jumps at the node, and with it the force: over 2e-6 s far more than before and after.
 TEST(SlidingMass, TheForceJumpsBetweenElements) {
   const auto scene = makeScene<double>("sliding_mass");
+  const Result r = run({"sliding_mass", {}}, scene.t_end, Discontinuity::kLocate);
+  ASSERT_EQ(r.events.size(), 1U);
   const auto force = [&](double t) { return stateAfter<double>(scene, t, 1e-10, 5).z()[1]; };
-  const double node = 0.263998, step = 2e-6;
+  const double step = 2e-6, node = r.events[0].t - step / 2;
   const double before = force(node) - force(node - step), across = force(node + step) - force(node);
   const double after = force(node + 2 * step) - force(node + step);
   EXPECT_GT(std::abs(across), 0.1);
