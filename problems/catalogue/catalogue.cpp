@@ -26,6 +26,7 @@ namespace irk {
   scene(e5Entry) \
   scene(elasticaEntry) \
   scene(elastoplasticEntry) \
+  scene(heavyTopEntry) \
   scene(hiresEntry) \
   scene(hydraulicArmEntry) \
   scene(hydraulicManipulatorEntry) \
@@ -49,6 +50,8 @@ namespace irk {
   scene(sampledControlEntry) \
   scene(sliderCrankEntry) \
   scene(sliderCrankFlexibleEntry) \
+  scene(slidingMassEntry) \
+  scene(spatialSliderCrankEntry) \
   scene(stickSlipEntry) \
   scene(stickSlipLugreEntry) \
   scene(transampEntry) \

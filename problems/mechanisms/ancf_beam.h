@@ -147,8 +147,46 @@ class AncfBeam {
   Index tipX() const { return nu_ - 4; }
   Index tipY() const { return nu_ - 3; }
 
- private:
+  /// Index of a coordinate that the support fixes.
   static constexpr Index kFixed = -1;
+  Index elements() const { return d_.elements; }
+  const Real& elementLength() const { return le_; }
+  /// The index in u of the coordinate i, 0 to 7, of an element, or kFixed.
+  Index unknown(Index element, std::size_t i) const { return unknown_[static_cast<std::size_t>(4 * element) + i]; }
+  /// The eight coordinates of an element, or their rates: `from` is u, v or a.
+  template <class T, class Vector>
+  std::array<T, 8> gather(const Vector& from, Index element) const {
+    std::array<T, 8> q;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Index index = unknown(element, i);
+      q[i] = index == kFixed ? T(0.0) : T(from[index]);
+    }
+    return q;
+  }
+
+  /// The cubic Hermite functions for (r0, r0', r1, r1') at x = le xi, and their derivatives with respect to x.
+  template <class T>
+  std::array<T, 4> shapes(const T& xi) const {
+    const T rest = 1 - xi, left = xi * rest * rest, right = xi * xi * rest;
+    return {rest * rest * (1 + 2 * xi), le_ * left, xi * xi * (3 - 2 * xi), -le_ * right};
+  }
+  template <class T>
+  std::array<T, 4> firstDerivatives(const T& xi) const {
+    const T bump = 6 * xi * (1 - xi) / le_;
+    return {-bump, 1 - 4 * xi + 3 * xi * xi, bump, -2 * xi + 3 * xi * xi};
+  }
+  template <class T>
+  std::array<T, 4> secondDerivatives(const T& xi) const {
+    const T jump = (12 * xi - 6) / (le_ * le_);
+    return {jump, (6 * xi - 4) / le_, -jump, (6 * xi - 2) / le_};
+  }
+  /// The sum of four functions times the coordinates of an element along one axis, 0 or 1.
+  template <class T, class Shapes>
+  static T dot(const Shapes& s, const std::array<T, 8>& q, std::size_t axis) {
+    return s[0] * q[axis] + s[1] * q[axis + 2] + s[2] * q[axis + 4] + s[3] * q[axis + 6];
+  }
+
+ private:
   using Shape = std::array<Real, 4>;
   struct Axial {
     Real stiffness;  // EA times the weight
@@ -171,22 +209,6 @@ class AncfBeam {
           inverse(T(1.0) / (x * x + y * y)),
           K((x * yy - y * xx) * inverse) {}
   };
-
-  template <class T>
-  static T dot(const Shape& s, const std::array<T, 8>& q, std::size_t axis) {
-    return s[0] * q[axis] + s[1] * q[axis + 2] + s[2] * q[axis + 4] + s[3] * q[axis + 6];
-  }
-
-  Index unknown(Index element, std::size_t i) const { return unknown_[static_cast<std::size_t>(4 * element) + i]; }
-  template <class T, class Vector>
-  std::array<T, 8> gather(const Vector& from, Index element) const {
-    std::array<T, 8> q;
-    for (std::size_t i = 0; i < 8; ++i) {
-      const Index index = unknown(element, i);
-      q[i] = index == kFixed ? T(0.0) : from[index];
-    }
-    return q;
-  }
 
   template <class T>
   void addElastic(const std::array<T, 8>& q, std::array<T, 8>& f) const {
@@ -229,23 +251,14 @@ class AncfBeam {
     const Real axial[5][2] = {
         {-far, far_weight}, {-near, near_weight}, {0, Real(128) / 225}, {near, near_weight}, {far, far_weight}};
     for (std::size_t i = 0; i < 5; ++i) {
-      axial_[i] = {d_.EA * axial[i][1] * le_ / 2, firstDerivatives((1 + axial[i][0]) / 2)};
+      axial_[i] = {d_.EA * axial[i][1] * le_ / 2, firstDerivatives<Real>((1 + axial[i][0]) / 2)};
     }
     const Real third = sqrt(Real(3) / 5);
     const Real bending[3][2] = {{-third, Real(5) / 9}, {0, Real(8) / 9}, {third, Real(5) / 9}};
     for (std::size_t i = 0; i < 3; ++i) {
       const Real xi = (1 + bending[i][0]) / 2;
-      bending_[i] = {d_.EI * bending[i][1] * le_ / 2, firstDerivatives(xi), secondDerivatives(xi)};
+      bending_[i] = {d_.EI * bending[i][1] * le_ / 2, firstDerivatives<Real>(xi), secondDerivatives<Real>(xi)};
     }
-  }
-  // Derivatives of the cubic Hermite functions for (r0, r0', r1, r1') with respect to x = le xi.
-  Shape firstDerivatives(const Real& xi) const {
-    const Real bump = 6 * xi * (1 - xi) / le_;
-    return {-bump, 1 - 4 * xi + 3 * xi * xi, bump, -2 * xi + 3 * xi * xi};
-  }
-  Shape secondDerivatives(const Real& xi) const {
-    const Real jump = (12 * xi - 6) / (le_ * le_);
-    return {jump, (6 * xi - 4) / le_, -jump, (6 * xi - 2) / le_};
   }
 
   AncfData<Real> d_;

@@ -28,7 +28,7 @@ struct Pendulum {
     using std::sqrt;
     const Real omega = sqrt(g / l);
     const Real k = sqrt(Real(0.5));
-    const auto [sn, cn, dn] = jacobiFunctions<Real>(omega * t, Real(0.5));
+    const auto [sn, cn, dn, am] = jacobiFunctions<Real>(omega * t, Real(0.5));
     const Real half_sine = k * cn / dn, half_cosine = k / dn;
     const Real sine = 2 * half_sine * half_cosine;
     const Real cosine = 1 - 2 * half_sine * half_sine;

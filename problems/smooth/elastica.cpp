@@ -46,7 +46,7 @@ class ExactElastica {
   State<Real> at(const Real& s) const {
     using std::atan2;
     using std::cos;
-    const auto [sn, cn, dn] = jacobiFunctions<Real>(a_ * s + F_, k_ * k_);
+    const auto [sn, cn, dn, am] = jacobiFunctions<Real>(a_ * s + F_, k_ * k_);
     const Real sine = 2 * k_ * k_ * sn * sn - 1, cosine = 2 * k_ * sn * dn;
     State<Real> state(problem_.sizes());
     state.t = s;

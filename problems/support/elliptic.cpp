@@ -35,7 +35,7 @@ JacobiFunctions<Real> jacobiFunctions(const Real& u, const Real& m) {
     phi = (phi + asin(ratio[n] * sin(phi))) / 2;
   }
   const Real sn = sin(phi);
-  return {sn, cos(phi), sqrt(1 - m * sn * sn)};
+  return {sn, cos(phi), sqrt(1 - m * sn * sn), phi};
 }
 
 template JacobiFunctions<double> jacobiFunctions(const double&, const double&);

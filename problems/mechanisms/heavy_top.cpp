@@ -1,0 +1,339 @@
+// A heavy top in Euler parameters: the benchmark of O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012)
+// 121-137, after M. Geradin, A. Cardona, Flexible Multibody Dynamics, Wiley 2001.
+//
+// The unit quaternion e turns the body's axes into those of space; Omega is the angular velocity in the body's axes:
+//   e' = e o (0, Omega) / 2,   Omega = 2 G(e) e',   (0, G(e) v) the product of conj(e) and v.
+// Lagrange's equations of the kinetic energy 2 e'^T G^T J G e' (Nikravesh, Computer-Aided Analysis of Mechanical
+// Systems, 1988, 11.2) are
+//   4 G^T J G e'' + 8 G'^T J G e' = f - lambda e,   0 = (e^T e - 1) / 2.
+// The mass matrix is singular along e; with the constraint the motion is determined.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "irk/scene_file.h"
+#include "problems/mechanisms/heavy_top_motion.h"
+
+namespace irk {
+namespace {
+
+using heavy_top::Data;
+using heavy_top::Motion;
+
+template <class T>
+struct Vector {
+  T x, y, z;
+};
+
+/// The vector part of conj(e) o v: G(e) v. E and V are vectors from `first` on.
+template <class T, class E, class V>
+Vector<T> bodyRate(const E& e, const V& v, Index i) {
+  return {e[i] * v[i + 1] - e[i + 1] * v[i] - e[i + 2] * v[i + 3] + e[i + 3] * v[i + 2],
+          e[i] * v[i + 2] - e[i + 2] * v[i] - e[i + 3] * v[i + 1] + e[i + 1] * v[i + 3],
+          e[i] * v[i + 3] - e[i + 3] * v[i] - e[i + 1] * v[i + 2] + e[i + 2] * v[i + 1]};
+}
+
+/// e o (0, w) = G^T w.
+template <class T, class E>
+std::array<T, 4> product(const E& e, Index i, const Vector<T>& w) {
+  return {-e[i + 1] * w.x - e[i + 2] * w.y - e[i + 3] * w.z, e[i] * w.x + e[i + 2] * w.z - e[i + 3] * w.y,
+          e[i] * w.y + e[i + 3] * w.x - e[i + 1] * w.z, e[i] * w.z + e[i + 1] * w.y - e[i + 2] * w.x};
+}
+
+/// The body's y-axis in space, of the length |e|^2: homogeneous of degree 2 in e.
+template <class E>
+auto axisOf(const E& e, Index i) {
+  const auto e0 = e[i], e1 = e[i + 1], e2 = e[i + 2], e3 = e[i + 3];
+  using T = std::decay_t<decltype(e0)>;
+  return Vector<T>{2 * (e1 * e2 - e0 * e3), e0 * e0 - e1 * e1 + e2 * e2 - e3 * e3, 2 * (e2 * e3 + e0 * e1)};
+}
+
+/// The derivative of axis . f with respect to e.
+template <class T, class E>
+std::array<T, 4> axisForce(const E& e, Index i, const Vector<T>& f) {
+  return {2 * (e[i] * f.y + e[i + 1] * f.z - e[i + 3] * f.x), 2 * (e[i + 2] * f.x - e[i + 1] * f.y + e[i] * f.z),
+          2 * (e[i + 1] * f.x + e[i + 2] * f.y + e[i + 3] * f.z), 2 * (e[i + 2] * f.z - e[i] * f.x - e[i + 3] * f.y)};
+}
+
+/// The inertia's rows, 4 G^T J G e'' + 8 G'^T J G e', with J = diag(J1, J3, J1).
+template <class T, class Real>
+std::array<T, 4> inertia(const Point<T>& p, Index i, const Real& J1, const Real& J3) {
+  const Vector<T> w = bodyRate<T>(p.u, p.v, i), rate = bodyRate<T>(p.u, p.a, i);
+  const auto accelerated = product<T>(p.u, i, {J1 * rate.x, J3 * rate.y, J1 * rate.z});
+  const auto turned = product<T>(p.v, i, {J1 * w.x, J3 * w.y, J1 * w.z});
+  std::array<T, 4> rows;
+  for (std::size_t k = 0; k < 4; ++k) rows[k] = 4 * accelerated[k] + 8 * turned[k];
+  return rows;
+}
+
+/// u = (x, y, z, e): position of the centre of mass and Euler parameters. The multipliers are the force on the joint
+/// and that of the norm.
+template <class Real>
+struct Absolute {
+  static constexpr Index kFirst = 3;  // of e
+  Data<Real> d;
+
+  Sizes sizes() const { return {.nu = 7, .nz = 4, .constraints = 4}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const auto rows = inertia<T, Real>(p, kFirst, d.J1, d.J3);
+    const auto force = axisForce<T>(p.u, kFirst, {d.l * p.z[0], d.l * p.z[1], d.l * p.z[2]});
+    for (Index i = 0; i < 3; ++i) r.u[i] = -d.m * p.a[i] - p.z[i];
+    r.u[2] -= d.m * d.g;
+    for (Index i = 0; i < 4; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      r.u[kFirst + i] = force[k] - rows[k] - p.u[kFirst + i] * p.z[3];
+    }
+  }
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    const auto axis = axisOf(u, kFirst);
+    g[0] = u[0] - d.l * axis.x;
+    g[1] = u[1] - d.l * axis.y;
+    g[2] = u[2] - d.l * axis.z;
+    g[3] = (u[3] * u[3] + u[4] * u[4] + u[5] * u[5] + u[6] * u[6] - 1) * 0.5;
+  }
+};
+
+/// u = e: the top about its fixed point. The multiplier is that of the norm.
+template <class Real>
+struct FixedPoint {
+  static constexpr Index kFirst = 0;
+  Data<Real> d;
+
+  Sizes sizes() const { return {.nu = 4, .nz = 1, .constraints = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const auto rows = inertia<T, Real>(p, kFirst, d.Jt(), d.J3);
+    const auto weight = axisForce<T>(p.u, kFirst, {T(0.0), T(0.0), T(-d.m * d.g * d.l)});
+    for (Index i = 0; i < 4; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      r.u[i] = weight[k] - rows[k] - p.u[i] * p.z[0];
+    }
+  }
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    g[0] = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + u[3] * u[3] - 1) * 0.5;
+  }
+};
+
+/// Angular velocity in the body's axes at a state.
+template <class Real, class P>
+Vector<Real> omegaOf(const P&, const State<Real>& s) {
+  const auto half = bodyRate<Real>(s.u, s.v, P::kFirst);
+  return {2 * half.x, 2 * half.y, 2 * half.z};
+}
+
+/// The vertical in the body's axes.
+template <class Real>
+Vector<Real> verticalOf(const Vec<Real>& u, Index i) {
+  const Real e0 = u[i], e1 = u[i + 1], e2 = u[i + 2], e3 = u[i + 3];
+  return {2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), e0 * e0 - e1 * e1 - e2 * e2 + e3 * e3};
+}
+
+/// e, e', e'' of the exact motion. R = Rz(phi) Rx(pi/2 - theta) Ry(psi).
+template <class Real>
+void setAttitude(const Data<Real>& d, const Motion<Real>& motion, Index first, State<Real>& s) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const auto now = motion.at(s.t);
+  const Real q0 = now.half_cosine * cos(now.half_sum), q3 = now.half_cosine * sin(now.half_sum);
+  const Real q1 = -now.half_sine * cos(now.half_difference), q2 = -now.half_sine * sin(now.half_difference);
+  s.u.segment(first, 4) << q0 - q1, q0 + q1, q2 + q3, q3 - q2;
+  s.u.segment(first, 4) *= Real(sqrt(Real(0.5)));
+
+  const Real sine = 2 * now.half_sine * now.half_cosine;
+  const Real c = now.half_cosine * now.half_cosine - now.half_sine * now.half_sine;
+  const Real rise = now.rate / sine, turn = motion.precession(c) / sine, psi = now.half_sum - now.half_difference;
+  const Vector<Real> w{rise * cos(psi) - turn * sin(psi), d.spin, rise * sin(psi) + turn * cos(psi)};
+  const Vector<Real> up = verticalOf<Real>(s.u, first);
+  const Real Jt = d.Jt(), weight = d.m * d.g * d.l;  // Euler's equations about the fixed point
+  const Vector<Real> w_rate{(-weight * up.z - (Jt - d.J3) * w.y * w.z) / Jt, Real(0),
+                            (weight * up.x + (Jt - d.J3) * w.x * w.y) / Jt};
+  const auto e_rate = product<Real>(s.u, first, w);
+  for (Index i = 0; i < 4; ++i) s.v[first + i] = e_rate[static_cast<std::size_t>(i)] / 2;
+  const auto turned = product<Real>(s.v, first, w), accelerated = product<Real>(s.u, first, w_rate);
+  for (Index i = 0; i < 4; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    s.w[first + i] = (turned[k] + accelerated[k]) / 2;
+  }
+}
+
+/// The multiplier of the norm follows from e^T times the rows of e.
+template <class Real>
+State<Real> exactOf(const FixedPoint<Real>& problem, const Motion<Real>& motion, const Real& t) {
+  const Data<Real>& d = problem.d;
+  State<Real> s(problem.sizes());
+  s.t = t;
+  setAttitude(d, motion, 0, s);
+  const auto w = omegaOf(problem, s);
+  s.w[4] = 2 * (d.Jt() * (w.x * w.x + w.z * w.z) + d.J3 * w.y * w.y) - 2 * d.m * d.g * d.l * axisOf(s.u, 0).z;
+  return s;
+}
+
+/// The symmetric bilinear form of which axisOf is the quadratic one.
+template <class Real>
+Vector<Real> mixedAxis(const Vec<Real>& a, const Vec<Real>& b, Index i) {
+  return {a[i + 1] * b[i + 2] + a[i + 2] * b[i + 1] - a[i] * b[i + 3] - a[i + 3] * b[i],
+          a[i] * b[i] - a[i + 1] * b[i + 1] + a[i + 2] * b[i + 2] - a[i + 3] * b[i + 3],
+          a[i + 2] * b[i + 3] + a[i + 3] * b[i + 2] + a[i] * b[i + 1] + a[i + 1] * b[i]};
+}
+
+template <class Real>
+State<Real> exactOf(const Absolute<Real>& problem, const Motion<Real>& motion, const Real& t) {
+  const Data<Real>& d = problem.d;
+  State<Real> s(problem.sizes());
+  s.t = t;
+  setAttitude(d, motion, 3, s);
+  const auto axis = mixedAxis<Real>(s.u, s.u, 3), rate = mixedAxis<Real>(s.u, s.v, 3);
+  const auto turned = mixedAxis<Real>(s.v, s.v, 3), accelerated = mixedAxis<Real>(s.u, s.w, 3);
+  s.u.head(3) << d.l * axis.x, d.l * axis.y, d.l * axis.z;
+  s.v.head(3) << 2 * d.l * rate.x, 2 * d.l * rate.y, 2 * d.l * rate.z;
+  s.w.head(3) << 2 * d.l * (turned.x + accelerated.x), 2 * d.l * (turned.y + accelerated.y),
+      2 * d.l * (turned.z + accelerated.z);
+  for (Index i = 0; i < 3; ++i) s.w[7 + i] = -d.m * s.w[i];
+  s.w[9] -= d.m * d.g;
+  const auto w = omegaOf(problem, s);
+  s.w[10] = 2 * (d.J1 * (w.x * w.x + w.z * w.z) + d.J3 * w.y * w.y);
+  for (Index i = 0; i < 3; ++i) s.w[10] += 2 * s.u[i] * s.w[7 + i];
+  return s;
+}
+
+template <class Real>
+Real rotationEnergy(const Vector<Real>& w, const Real& J1, const Real& J3) {
+  return (J1 * (w.x * w.x + w.z * w.z) + J3 * w.y * w.y) / 2;
+}
+
+/// Angular momentum about the vertical through the centre of rotation.
+template <class Real>
+Real verticalMomentum(const Vector<Real>& up, const Vector<Real>& w, const Real& J1, const Real& J3) {
+  return J1 * (up.x * w.x + up.z * w.z) + J3 * up.y * w.y;
+}
+
+template <class Real>
+Real energyOf(const Absolute<Real>& problem, const State<Real>& s) {
+  const Data<Real>& d = problem.d;
+  return d.m * (s.v.head(3).squaredNorm() / 2 + d.g * s.u[2]) + rotationEnergy(omegaOf(problem, s), d.J1, d.J3);
+}
+template <class Real>
+Real energyOf(const FixedPoint<Real>& problem, const State<Real>& s) {
+  const Data<Real>& d = problem.d;
+  return d.m * d.g * d.l * axisOf(s.u, 0).z + rotationEnergy(omegaOf(problem, s), d.Jt(), d.J3);
+}
+template <class Real>
+Real momentumOf(const Absolute<Real>& problem, const State<Real>& s) {
+  const Data<Real>& d = problem.d;
+  return d.m * (s.u[0] * s.v[1] - s.u[1] * s.v[0]) +
+         verticalMomentum(verticalOf<Real>(s.u, 3), omegaOf(problem, s), d.J1, d.J3);
+}
+template <class Real>
+Real momentumOf(const FixedPoint<Real>& problem, const State<Real>& s) {
+  return verticalMomentum(verticalOf<Real>(s.u, 0), omegaOf(problem, s), problem.d.Jt(), problem.d.J3);
+}
+
+template <class Real>
+std::vector<Component> eulerParameters(const Data<Real>& d) {
+  const double rate = std::max(std::abs(static_cast<double>(d.spin)), 1.0);
+  return {{"e0", "", 1, rate}, {"e1", "", 1, rate}, {"e2", "", 1, rate}, {"e3", "", 1, rate}};
+}
+/// Magnitude of the multiplier of the norm, in J: twice the energy of rotation is about J3 spin^2.
+template <class Real>
+double normScale(const Data<Real>& d) {
+  return static_cast<double>(Real(d.J3 * d.spin * d.spin + 2 * d.m * d.g * d.l));
+}
+
+template <class Real>
+Absolute<Real> setUp(Absolute<Real> problem, Scene<Real>& scene) {
+  const Data<Real>& d = problem.d;
+  setProblem(scene, problem);
+  const double l = static_cast<double>(d.l), force = static_cast<double>(Real(d.m * d.g));
+  const double speed = l * std::max(std::abs(static_cast<double>(d.precession)), 1.0);
+  std::vector<Component> u = {{"x", "m", l, speed}, {"y", "m", l, speed}, {"z", "m", l, speed}};
+  for (const Component& e : eulerParameters(d)) u.push_back(e);
+  setComponents(
+      scene, u, {},
+      {{"lambda_x", "N", force}, {"lambda_y", "N", force}, {"lambda_z", "N", force}, {"lambda", "J", normScale(d)}});
+  scene.start.u << Real(0), d.l, Real(0), Real(1), Real(0), Real(0), Real(0);
+  scene.start.v << -d.l * d.precession, Real(0), Real(0), Real(0), Real(0), d.spin / 2, d.precession / 2;
+  return problem;
+}
+
+template <class Real>
+FixedPoint<Real> setUp(FixedPoint<Real> problem, Scene<Real>& scene) {
+  const Data<Real>& d = problem.d;
+  setProblem(scene, problem);
+  setComponents(scene, eulerParameters(d), {}, {{"lambda", "J", normScale(d)}});
+  scene.start.u << Real(1), Real(0), Real(0), Real(0);
+  scene.start.v << Real(0), Real(0), d.spin / 2, d.precession / 2;
+  const auto position = [d](Real Vector<Real>::*along) {
+    return [d, along](const State<Real>& s) { return Real(d.l * (axisOf(s.u, 0).*along)); };
+  };
+  scene.outputs = {{"x", position(&Vector<Real>::x), "m"},
+                   {"y", position(&Vector<Real>::y), "m"},
+                   {"z", position(&Vector<Real>::z), "m"}};
+  return problem;
+}
+
+template <class Real, class P>
+Scene<Real> sceneOf(const P& plain) {
+  Scene<Real> scene;
+  const P problem = setUp(plain, scene);
+  completeStart(scene);
+  scene.t_end = 1;
+  const Motion<Real> motion(problem.d);
+  if (motion.regular()) {
+    scene.exact = [problem, motion](const Real& t) { return exactOf(problem, motion, t); };
+  }
+  const auto spin = [problem](const State<Real>& s) { return Real(problem.d.J3 * omegaOf(problem, s).y); };
+  const auto vertical = [problem](const State<Real>& s) { return momentumOf(problem, s); };
+  scene.outputs.push_back({"energy", [problem](const State<Real>& s) { return energyOf(problem, s); }, "J", true});
+  scene.outputs.push_back({"Lz", vertical, "N m s", true});
+  scene.outputs.push_back({"L_axis", spin, "N m s", true});
+  return scene;
+}
+
+template <class Real>
+Scene<Real> make(const Settings& settings) {
+  const auto value = [&](const char* name) { return number<Real>(settings, name); };
+  const Data<Real> d{.m = value("m"),
+                     .l = value("l"),
+                     .J1 = value("J1"),
+                     .J3 = value("J3"),
+                     .g = value("g"),
+                     .spin = value("spin"),
+                     .precession = value("precession")};
+  return settings.at("coordinates") == "absolute" ? sceneOf<Real>(Absolute<Real>{d})
+                                                  : sceneOf<Real>(FixedPoint<Real>{d});
+}
+
+}  // namespace
+
+SceneEntry heavyTopEntry() {
+  Parameter coordinates = wordParameter("coordinates", "position and attitude, or the attitude about the fixed point",
+                                        {"absolute", "fixed_point"});
+  coordinates.changes_solution = false;
+  return {
+      .id = "heavy_top",
+      .title = "heavy top in Euler parameters",
+      .shows = "a singular mass matrix M(u), fast rotation in space; against elliptic functions",
+      .kind = SceneKind::kConstrained,
+      .parameters = {coordinates, positiveParameter("m", "kg", "mass", "15"),
+                     positiveParameter("l", "m", "distance of the centre of mass from the fixed point", "1"),
+                     positiveParameter("J1", "kg m^2", "moment of inertia across the axis, about the centre of mass",
+                                       "0.234375"),
+                     positiveParameter("J3", "kg m^2", "moment of inertia about the axis", "0.46875"),
+                     positiveParameter("g", "m/s^2", "gravity", "9.81"),
+                     numberParameter("spin", "rad/s", "speed about the axis", "150", -1e6, 1e6),
+                     numberParameter("precession", "rad/s",
+                                     "speed of the horizontal axis about the vertical, at the start", "-4.61538", -1e6,
+                                     1e6)},
+      .panels = {{"centre of mass", {"x", "y", "z"}}, {"path from above", {"x:y"}}, {"path from the front", {"x:z"}}},
+      .reference_cases = {{.times = "0.3726 0.5", .tolerance = kFewDigits}},
+      .make = make<double>,
+      .make_mp50 = make<mp50>};
+}
+
+}  // namespace irk

@@ -1,0 +1,77 @@
+// Shared by the tests of mechanisms: runs with what is recorded at each step.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "irk/integrator.h"
+#include "irk/tableaus.h"
+#include "tests/problems/scene_cases.h"
+
+namespace irk::test {
+
+/// The value of a component or an output by its name; NaN if there is none.
+template <class Real>
+Real valueByName(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
+  Vec<Real> y(scene.sizes().components());
+  y << s.u, s.v, s.x, s.z();
+  for (std::size_t i = 0; i < scene.names.size(); ++i) {
+    if (scene.names[i] == name) return y[static_cast<Index>(i)];
+  }
+  for (const auto& output : scene.outputs) {
+    if (output.name == name) return output.value(s);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The state at t_end, with radau_iia of `stages`.
+template <class Real>
+State<Real> stateAfter(const Scene<Real>& scene, const Real& t_end, double tolerance, int stages,
+                       Formulation formulation = Formulation::kIndex2, const Monitor<Real>& monitor = {}) {
+  IntegratorOptions options;
+  options.tolerances.rtol = options.tolerances.atol = tolerance;
+  options.newton.max_iterations = 100;
+  const auto tableau = makeTableau<Real>("radau_iia_" + std::to_string(stages));
+  const auto system = scene.system({formulation});
+  Vec<double> scale = Vec<double>::Ones(system->sizes().components());  // mu of GGL is behind those of the scene
+  scale.head(scene.scale.size()) = scene.scale;
+  Integrator<Real> integrator(system, tableau, options, scale);
+  const auto solution = integrator.integrate(scene.start, t_end, monitor);
+  EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  return solution.state;
+}
+
+/// The largest violation of the position constraints and of their first derivatives over a run, and the largest change
+/// of each output that is invariant.
+struct Drift {
+  double position = 0, velocity = 0;
+  std::map<std::string, double> invariants;
+};
+
+inline Drift driftOf(const Scene<double>& scene, double tolerance, Formulation formulation) {
+  const auto system = scene.system({Formulation::kIndex3});
+  const Sizes n = system->sizes();
+  Drift drift;
+  Monitor<double> monitor;
+  monitor.accepted = [&](const StepRecord<double>& step) {
+    const auto violation = [&](Level level) {
+      const auto r = residualAt<double, double>(*system, level, step.t, pointVector(step.state), step.state.d);
+      return r.segment(n.nu + n.nx, n.constraints).template lpNorm<Eigen::Infinity>();
+    };
+    if (n.constraints > 0) {
+      drift.position = std::max(drift.position, violation(Level::kPosition));
+      drift.velocity = std::max(drift.velocity, violation(Level::kVelocity));
+    }
+    for (const auto& output : scene.outputs) {
+      if (!output.invariant) continue;
+      double& largest = drift.invariants[output.name];
+      largest = std::max(largest, std::abs(output.value(step.state) - output.value(scene.start)));
+    }
+  };
+  stateAfter<double>(scene, scene.t_end, tolerance, 5, formulation, monitor);
+  return drift;
+}
+
+}  // namespace irk::test
