@@ -26,8 +26,8 @@ struct SwitchEvent {
 /// How an invariant of the scene changed.
 struct InvariantChange {
   std::string name, unit;
-  double
-      change;  ///< the largest distance from its value at the start, over all accepted steps; NaN if it is not finite
+  /// The largest distance from its value at the start, over all accepted steps; NaN if it is not finite.
+  double change;
 };
 
 struct RunRecord {
@@ -40,6 +40,7 @@ struct RunRecord {
   Vec<double> u, v, x, z;           ///< the last accepted state
   std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
   RunErrors errors;
+  RunErrors errors_over_time;  ///< the largest at the spec's reference_times; unknown unless the run is a success
   Counters counters;
   std::vector<SwitchEvent> switches;        ///< the first kMaxRecordedSwitches
   std::vector<InvariantChange> invariants;  ///< with Watch::invariants
