@@ -153,7 +153,7 @@ std::string Page::ratiosOf(const std::string& study) const {
   const auto file = folder(study) / "ratios.csv";
   if (!std::filesystem::exists(file)) return {};
   const Table ratios = readTable(file);
-  return fmt::format("<p>{}</p>\n{}", report::codeHtml(ratiosSentence(ratios)), table(ratiosHtml(ratios)));
+  return table(ratiosHtml(ratios));
 }
 
 std::string Page::figuresOf(const std::string& study) const {

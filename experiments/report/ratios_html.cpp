@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kEqual = 0.05;  // CPU times that are closer than this do not differ
 
-// A choice on a scene, with all methods.
+// A choice on a scene, with all methods and all other choices of its block.
 struct Choice {
-  std::string scene, value, base, others;
-  std::vector<std::vector<double>> ratios;  // of kRatioCosts, one per method
+  std::string scene, value, base;
+  std::vector<std::vector<double>> ratios;  // of kRatioCosts, one per method and other choices
   double lost = 0, won = 0;
 
   double median(std::size_t cost) const { return irk::median(ratios[cost]); }
@@ -31,7 +31,7 @@ std::vector<Choice> choicesOf(const Table& table) {
   std::vector<Choice> choices;
   for (const auto& row : table.rows) {
     std::vector<std::string> key;
-    for (const char* column : {"block", "scene", "settings", "column", "value", "base", "others"}) {
+    for (const char* column : {"block", "scene", "settings", "column", "value", "base"}) {
       key.push_back(textAt(table, row, column));
     }
     const auto [at, added] = place.try_emplace(key, choices.size());
@@ -39,7 +39,6 @@ std::vector<Choice> choicesOf(const Table& table) {
       choices.push_back({.scene = key[1] + (key[2].empty() ? "" : " " + key[2]),
                          .value = key[3] + " = " + key[4],
                          .base = key[5],
-                         .others = key[6],
                          .ratios = std::vector<std::vector<double>>(std::size(kRatioCosts))});
     }
     Choice& choice = choices[at->second];
@@ -55,16 +54,25 @@ std::vector<Choice> choicesOf(const Table& table) {
 
 std::string ratioText(double ratio) { return std::isnan(ratio) ? "–" : fmt::format("{:.2f}", ratio); }
 
+// The least and the largest one.
+std::string rangeText(const std::vector<double>& ratios) {
+  if (ratios.empty()) return "–";
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return ratioText(*least) + " … " + ratioText(*most);
+}
+
 }  // namespace
 
 HtmlTable ratiosHtml(const Table& ratios) {
-  HtmlTable html{.caption = "Costs over those of the first choice at equal errors: medians over errors and methods",
-                 .titles = {"scene", "choice", "instead of", "with", "CPU time", "residuals", "Newton iterations",
-                            "Jacobians", "factorizations", "errors lost", "errors won"}};
+  HtmlTable html{.caption =
+                     "Costs over those of the first choice at equal errors: medians over errors, methods and the "
+                     "other choices",
+                 .titles = {"scene", "choice", "instead of", "CPU time", "least … most", "residuals",
+                            "Newton iterations", "Jacobians", "factorizations", "errors lost", "errors won"}};
   for (const auto& choice : choicesOf(ratios)) {
     HtmlTable::Row row{{escapeHtml(choice.scene), escapeHtml(choice.value), escapeHtml(choice.base),
-                        choice.others.empty() ? "–" : escapeHtml(choice.others)}};
-    for (std::size_t i = 0; i < std::size(kRatioCosts); ++i) row.cells.push_back(ratioText(choice.median(i)));
+                        ratioText(choice.median(0)), rangeText(choice.ratios.front())}};
+    for (std::size_t i = 1; i < std::size(kRatioCosts); ++i) row.cells.push_back(ratioText(choice.median(i)));
     row.cells.push_back(fmt::format("{:g}", choice.lost));
     row.cells.push_back(fmt::format("{:g}", choice.won));
     html.rows.push_back(std::move(row));

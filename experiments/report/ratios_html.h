@@ -8,7 +8,7 @@
 
 namespace irk {
 
-/// One row for each choice on each scene: medians over the methods.
+/// One row for each choice on each scene: medians over the methods and the other choices of its block.
 HtmlTable ratiosHtml(const Table& ratios);
 
 /// How far the CPU times of the choices lie apart; empty without times.
