@@ -63,6 +63,7 @@ lines = (n + columns - 1) / columns
 # The names of twins need room beside the panels.
 longest = 0
 do for [k = 1 : count] { length = strlen(methodTitle(curves, k)); longest = length > longest ? length : longest }
+longest = W_sum > 0 && longest < 15 ? 15 : longest   # 'wrong success'
 room = longest > 6 ? 7.5 * (longest - 6) : 0
 usual = n == 1 ? 640.0 : 1080.0
 width = usual + room

@@ -79,7 +79,7 @@ TEST(ErrorsOverTime, AskForTheReferenceOfEachTime) {
   watch.reference = [&](const RunSpec& run) -> MadeReference {
     asked.push_back(run.t_end);
     // As far off as the time is late, but for one time in the middle.
-    return {{{run.t_end, "x", std::abs(run.t_end - 0.04) < 1e-9 ? "1e3" : "1", 1e-20}}, {}};
+    return {{{run.t_end, "x", std::abs(run.t_end - 0.04) < 1e-9 ? "1e3" : "1", 1e-20, {}}}, {}};
   };
   const RunRecord run = execute(spec, watch);
   ASSERT_TRUE(run.succeeded()) << run.detail;
