@@ -1,7 +1,7 @@
 # Quantities over the step size for fixed steps, one curve per formulation and scaling of the constraints.
 #   gnuplot -e "data='results/small_steps'; out='small'; block='known_multiplier'; quantities='error_z error_v'" over_step.gp
-# Reads runs.csv. Options: block or scene, method, newton, quantities (columns, or iterations for Newton iterations
-# per step; one panel each), by (two columns; each pair of their values is a curve).
+# Reads runs.csv. Options: block or scene, method, newton, quantities (columns, or iterations and new_jacobians for
+# Newton iterations and Jacobians per step; one panel each), by (two columns; each pair of their values is a curve).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("method")) method = 'radau_iia_3'
 if (!exists("newton")) newton = ''
@@ -9,11 +9,12 @@ if (!exists("quantities")) quantities = 'error_z error_v iterations'
 if (!exists("by")) by = 'formulation scaling'
 file = data.'/runs.csv'
 title_of(q) = q eq 'error_z' ? 'error of the multiplier' : q eq 'error_v' ? 'error of the velocities' : q eq 'error_u' \
-  ? 'error of the positions' : q eq 'iterations' ? 'Newton iterations per step' : q eq 'drift' ? 'drift |g|' : q
+  ? 'error of the positions' : q eq 'iterations' ? 'Newton iterations per step' : q eq 'new_jacobians' ? 'Jacobians per step' : q eq 'drift' ? 'drift |g|' : q
 
 row(d) = ofScene(0) && is("method", method) && has("newton", newton)
 curve(d) = strcol(word(by, 1)).':'.strcol(word(by, 2))
-valueOf(q) = q eq 'iterations' ? column("newton_iterations") / column("steps_accepted") : positive(column(q))
+valueOf(q) = q eq 'iterations' ? column("newton_iterations") / column("steps_accepted") \
+  : q eq 'new_jacobians' ? positive(column("jacobians") / column("steps_accepted")) : positive(column(q))
 undefine N_*
 stats file using (row(0) ? (collect(curve(0)), 1) : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }

@@ -83,6 +83,29 @@ has(name, wish) = wish eq "" || strcol(name) eq wish
 positive(x) = x > 0 ? x : NaN      # logarithmic axes
 succeeded(dummy) = strcol("outcome") eq "success"
 
+# Tables of older programs have fewer columns.
+hasColumn(file, name) = strlen(system("grep -m1 -v '^#' '".file."' | tr ',' '\\n' | grep -x '".name."'")) > 0
+
+# `eval errors(file, at_end)` defines the error of a run: the largest at its reference times, if the table has it and
+# at_end is 0, else that at the end; the number of these times; and which successes are wrong by the bar of the audit
+# (experiments/audit/judge.h): an error of u, v or x at the end above 1000 tolerances + 1e-9. Fixed steps have no
+# tolerance.
+errors(file, at_end) = sprintf("has_times = !%d && hasColumn('%s', 'error_over_time'); ", at_end, file) \
+  .sprintf("has_control = hasColumn('%s', 'control'); has_accuracy = hasColumn('%s', 'reference_accuracy')", file, file)
+has_times = 0; has_control = 0; has_accuracy = 0
+timed(name) = name[1 : 5] eq 'error' && has_times ? !absent(name.'_over_time') : 0
+errorOf(name) = !succeeded(0) ? NaN : timed(name) ? positive(column(name.'_over_time')) : absent(name) ? NaN : positive(column(name))
+timesOf(d) = has_times ? column("reference_times") : 1
+bar(d) = 1000 * (column("rtol") > column("atol") ? column("rtol") : column("atol")) + 1e-9
+isFixed(d) = has_control ? is("control", 'fixed') : 0
+isVague(d) = has_accuracy ? (absent("reference_accuracy") ? 0 : column("reference_accuracy") > 0.1 * bar(0)) : 0
+isAbove(name) = absent(name) ? 0 : column(name) > bar(0)
+isWrong(d) = succeeded(0) && !isFixed(0) && !isVague(0) ? isAbove("error_u") || isAbove("error_v") || isAbove("error_x") : 0
+wrong_point = 6; wrong_title = 'wrong success'
+errorTitle(name, times) = (name eq 'error' ? 'error' : name eq 'error_u' ? 'error of the positions' \
+  : name eq 'error_v' ? 'error of the velocities' : name eq 'error_z' ? 'error of the multipliers' : 'error of the states') \
+  .when(times > 1, sprintf(', largest at %d times', times))
+
 # Distinct values: words in order of appearance, numbers ascending (as words without exponents, which gnuplot cannot
 # read).
 collected = ""

@@ -1,12 +1,12 @@
-# Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error
-# decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested. A ring marks a
-# success whose error is more than 10^5 tolerances.
+# Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error, the
+# largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at the tolerance
+# that was requested. A ring marks a success that is wrong by the bar of the audit.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
 #   variant (a column; its values are the curves), variants (the values to show, in this order),
 #   cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, in quotes if they contain blanks; one panel each),
 #   titles (quoted words, one per case),
-#   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...),
+#   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...), at_end (1: the error at the end, whatever the reference times),
 #   only (quoted words column=value that all rows must have), columns (of panels).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("variant")) variant = 'jacobian'
@@ -16,9 +16,9 @@ if (!exists("titles")) titles = ''
 if (!exists("costs")) costs = 'cpu_s'
 if (!exists("quantity")) quantity = 'error'
 if (!exists("only")) only = ''
+if (!exists("at_end")) at_end = 0
 file = data.'/runs.csv'
-what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the positions' : quantity eq 'error_v' \
-  ? 'error of the velocities' : quantity eq 'error_z' ? 'error of the multipliers' : 'error of the states'
+eval errors(file, at_end)
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c eq 'drift' ? 'drift |g|' : c
 
@@ -26,13 +26,8 @@ inCase(case) = isCase(case) && allowed(only)
 curveOf(d) = oneWord(strcol(variant))
 shown(d) = words(variants) == 0 || position(variants, curveOf(0))
 chosen(case) = inCase(case) && shown(0)
-error(d) = succeeded(0) && !absent(quantity) ? positive(column(quantity)) : NaN
+error(d) = errorOf(quantity)
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
-# A success whose error is this many tolerances. Fixed steps have no tolerance.
-loose_from = 1e5
-has_control = strlen(system("grep -m1 -v '^#' '".file."' | tr ',' '\\n' | grep -x control"))
-isFixed(d) = has_control ? is("control", 'fixed') : 0
-isLoose(d) = error(0) > 0 && !isFixed(0) ? error(0) > loose_from * asked(0) : 0
 
 panels = words(cases) > 1 ? words(cases) : words(costs)
 caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
@@ -71,9 +66,10 @@ do for [i = 1 : panels] {
   stats file using (chosen(caseOf(i)) && (error(0) > 0 || !succeeded(0)) ? collect(curveOf(0)) : 0) nooutput
 }
 drawn = collected
-loose = 0
+wrong = 0; times = 1
 do for [i = 1 : panels] {
-  stats file using (chosen(caseOf(i)) && position(drawn, curveOf(0)) && isLoose(0) ? (loose = 1) : 0) nooutput
+  stats file using (chosen(caseOf(i)) && position(drawn, curveOf(0)) && error(0) > 0 \
+    ? (wrong = wrong || isWrong(0), times = timesOf(0) > times ? timesOf(0) : times) : 0) nooutput
 }
 in_data = ""
 do for [w in (words(variants) == 0 ? drawn : variants)] { in_data = in_data.(position(drawn, w) ? " ".w : "") }
@@ -118,14 +114,14 @@ do for [format in formats] {
       set yrange [Least[i] / 1.5 : level(count + 1)]
       eval panel(i, columns, lines)
       set title when(words(cases) > 1 || words(titles) > 0, caseTitle(i)) offset 0,-0.5 noenhanced
-      set xlabel when(i > panels - columns, what)
+      set xlabel when(i > panels - columns, errorTitle(quantity, times))
       set ylabel when(words(costs) > 1 || i % columns == 1 || columns == 1, cost_title(c)) offset 1,0 noenhanced
       plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
              with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
            for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? asked(0) : outside):(level(k)) \
              with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
-           for [k = 1 : loose] file using (chosen(case) && position(variants, curveOf(0)) && isLoose(0) ? error(0) : outside):(positive(column(c))) \
-             with points pt 6 ps 1.7 lw 1.6 lc rgb failure_colour notitle
+           for [k = 1 : wrong] file using (chosen(case) && position(variants, curveOf(0)) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
+             with points pt wrong_point ps 1.7 lw 1.6 lc rgb failure_colour notitle
     }
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
@@ -133,7 +129,7 @@ do for [format in formats] {
     entries = "plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 " \
       ."lc rgb curveColour(k) title titleOf(k)"
     if (failures > 0) { entries = entries.", keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'failed'" }
-    if (loose) { entries = entries.", keyentry with points pt 6 ps 1.7 lw 1.6 lc rgb failure_colour title 'error > 10⁵ tolerances'" }
+    if (wrong) { entries = entries.", keyentry with points pt wrong_point ps 1.7 lw 1.6 lc rgb failure_colour title wrong_title" }
     eval entries
     eval framed
     set title; unset multiplot

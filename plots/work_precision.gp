@@ -1,8 +1,10 @@
 # Work against accuracy: CPU time or counters over the error reached, one line per number of stages (and method).
-# The error decreases to the right. A failed run is drawn above the lines, at the tolerance that was requested.
+# The error, the largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at
+# the tolerance that was requested; a ring marks a success that is wrong by the bar of the audit.
 #   gnuplot -e "data='results/cpu_time'; out='work'; block='crank'; family='radau_iia'" work_precision.gp
 # Reads runs.csv. Options: block or scene and settings, family, formulation, stages_shown,
-# only (quoted words column=value that all rows must have), quantity (error, error_u, error_v, error_x, error_z), costs ('cpu_s', or several counters: one panel each).
+# only (quoted words column=value that all rows must have), quantity (error, error_u, error_v, error_x, error_z), at_end
+# (1: the error at the end, whatever the reference times), costs ('cpu_s', or several counters: one panel each).
 # With variant (a column; its values are the curves) work_by.gp draws the figure, with variants and only.
 load system('dirname "'.ARG0.'"')."/style.gp"
 here = system('dirname "'.ARG0.'"')
@@ -21,9 +23,9 @@ if (!exists("formulation")) formulation = ''
 if (!exists("stages_shown")) stages_shown = '1 2 3 5 7 10 15 20'
 if (!exists("quantity")) quantity = 'error'
 if (!exists("costs")) costs = 'cpu_s'
-what = quantity eq 'error' ? 'error' : quantity eq 'error_u' ? 'error of the positions' : quantity eq 'error_v' \
-  ? 'error of the velocities' : quantity eq 'error_z' ? 'error of the multipliers' : 'error of the states'
+if (!exists("at_end")) at_end = 0
 file = data.'/runs.csv'
+eval errors(file, at_end)
 n = words(costs)
 cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'Newton iterations' \
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c
@@ -31,7 +33,7 @@ cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'New
 chosen(d) = ofCase(0) && allowed(only) && is("family", family) \
             && has("formulation", formulation) && position(stages_shown, sprintf("%d", column("stages")))
 row(k) = chosen(0) && isMethod(word(curves, k))
-error(d) = succeeded(0) ? positive(column(quantity)) : NaN
+error(d) = errorOf(quantity)
 reached(k) = row(k) ? error(0) : NaN
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
 failed(k) = row(k) && !succeeded(0) ? asked(0) : outside
@@ -39,11 +41,14 @@ failed(k) = row(k) && !succeeded(0) ? asked(0) : outside
 stats file using (chosen(0) ? 1 : 0) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(caseName." in ".file) }
 stats file using (chosen(0) ? (collect(methodWord(0)), asked(0)) : NaN) name "T" nooutput
-drawable(d) = succeeded(0) && !absent(quantity) && !absent(word(costs, 1))
+drawable(d) = error(0) > 0 && !absent(word(costs, 1))
 stats file using (chosen(0) && drawable(0) ? 1 : 0) name "N" nooutput
 rows = N_sum
 if (rows > 0) { stats file using (chosen(0) && drawable(0) ? error(0) : NaN) name "E" nooutput }
 stats file using (chosen(0) && !succeeded(0) ? 1 : 0) name "F" nooutput
+times = 1
+stats file using (chosen(0) && error(0) > 0 && timesOf(0) > times ? (times = timesOf(0)) : 0) nooutput
+stats file using (chosen(0) && drawable(0) && isWrong(0) ? 1 : 0) name "W" nooutput
 curves = sortedMethods(collected)
 count = words(curves)
 failures = F_sum
@@ -58,6 +63,7 @@ lines = (n + columns - 1) / columns
 # The names of twins need room beside the panels.
 longest = 0
 do for [k = 1 : count] { length = strlen(methodTitle(curves, k)); longest = length > longest ? length : longest }
+longest = W_sum > 0 && longest < 15 ? 15 : longest   # 'wrong success'
 room = longest > 6 ? 7.5 * (longest - 6) : 0
 usual = n == 1 ? 640.0 : 1080.0
 width = usual + room
@@ -79,7 +85,7 @@ do for [format in formats] {
       set xrange [2 * (E_max > T_max ? E_max : T_max) : finest / 2]
       set yrange [C_min / 1.5 : failures > 0 ? level(count + 1) : 1.5 * C_max]
       eval panel(i, columns, lines)
-      set xlabel when(i > n - columns, what)
+      set xlabel when(i > n - columns, errorTitle(quantity, times))
       set ylabel cost_title(c) offset 1,0
       unset key
       if (i == columns || n == 1) { set key at graph 1.03, graph 1 left top Left reverse title 'stages' }
@@ -88,6 +94,8 @@ do for [format in formats] {
              lc rgb methodColour(curves, k) title methodTitle(curves, k), \
            for [k = 1 : count] file using (failed(k)):(level(k)) \
              with points pt failure_point ps 1 lw 2.8 lc rgb methodColour(curves, k) notitle, \
+           for [k = 1 : W_sum > 0] file using (chosen(0) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
+             with points pt wrong_point ps 1.7 lw 1.6 lc rgb failure_colour title wrong_title, \
            for [k = 1 : failures > 0] keyentry with points pt failure_point ps 1 lw 2.8 lc rgb ink title 'failed'
     }
     unset multiplot

@@ -71,6 +71,9 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   printComponents(out, record, names);
   if (!std::isnan(record.errors.all)) {
     fmt::print(out, "error {:.3e}\n", record.errors.all);
+    if (spec.reference_times > 1 && !std::isnan(record.errors_over_time.all)) {
+      fmt::print(out, "largest error at {} times {:.3e}\n", spec.reference_times, record.errors_over_time.all);
+    }
   } else if (!record.errors.remark.empty()) {
     fmt::print(out, "{}\n", record.errors.remark);
   } else if (record.succeeded()) {

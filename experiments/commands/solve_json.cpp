@@ -96,6 +96,7 @@ std::string solveJson(const RunRecord& record, int indent) {
   json["z"] = numbers(record, record.z, place);
   addNames(sceneOf<double>(record.spec), json);
   json["error"] = record.errors.all;
+  if (record.spec.reference_times > 1) json["error_over_time"] = record.errors_over_time.all;
   json["drift"] = record.errors.drift;
   json["reference"] = referenceName(record.errors.reference);
   if (!std::isnan(record.errors.accuracy)) json["reference_accuracy"] = record.errors.accuracy;

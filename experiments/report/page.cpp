@@ -17,6 +17,7 @@
 #include "experiments/report/figure_html.h"
 #include "experiments/report/html_tables.h"
 #include "experiments/report/own_figures.h"
+#include "experiments/report/ratios_html.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_file.h"
 #include "experiments/tables/environment.h"
@@ -69,6 +70,7 @@ class Page {
   std::string table(HtmlTable table) const;
   std::string tableLinks(const std::string& study) const;
   std::string ordersOf(const std::string& study) const;
+  std::string ratiosOf(const std::string& study) const;
   std::string figuresOf(const std::string& study) const;
   std::string section(const std::string& study) const;
 
@@ -147,6 +149,13 @@ std::string Page::ordersOf(const std::string& study) const {
       study, orders.rows.size(), windowText(), table(ordersHtml(orders)));
 }
 
+std::string Page::ratiosOf(const std::string& study) const {
+  const auto file = folder(study) / "ratios.csv";
+  if (!std::filesystem::exists(file)) return {};
+  const Table ratios = readTable(file);
+  return table(ratiosHtml(ratios));
+}
+
 std::string Page::figuresOf(const std::string& study) const {
   std::string html;
   for (const auto& one : figures_) {
@@ -166,7 +175,7 @@ std::string Page::section(const std::string& study) const {
   } catch (const Misuse& old) {  // a table of another version
     html += fmt::format("<p>{}</p>\n", escapeHtml(old.what()));
   }
-  return html + tableLinks(study) + ordersOf(study) + figuresOf(study) + "</section>\n";
+  return html + tableLinks(study) + ordersOf(study) + ratiosOf(study) + figuresOf(study) + "</section>\n";
 }
 
 std::string Page::studies() const {
@@ -228,6 +237,7 @@ std::string pageHtml(const ReportOptions& options, const std::vector<report::Ans
   const Page page(options);
   const bool explorer = std::filesystem::exists(options.results / "report" / "explore.html");
   // Texts of results come last, so that nothing is replaced in them.
+  replacePlaceholder(html, "@COMMON@", readInputFile(plots / "common.css"));
   replacePlaceholder(html, "@STYLE@", readInputFile(plots / "report.css"));
   replacePlaceholder(html, "@SCRIPT@", readInputFile(plots / "report.js"));
   replacePlaceholder(html, "@DATE@", dateText());

@@ -83,7 +83,8 @@ class Sweep {
     for (const std::size_t i : work_) {
       if (!asks(study_.series[i])) continue;
       for (std::size_t run = 0; run < keys_[i].size(); ++run) {
-        if (!store_.finished(keys_[i][run])) missing.push_back(study_.series[i].runs[run]);
+        if (store_.finished(keys_[i][run])) continue;
+        for (auto& spec : atReferenceTimes(study_.series[i].runs[run])) missing.push_back(std::move(spec));
       }
     }
     if (ranks.rank() == 0) references_.prepare(missing, study_.id + " references", out);

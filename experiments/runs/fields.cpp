@@ -156,7 +156,9 @@ std::vector<SpecField> makeFields() {
       {atolOfField(), maxStagesField(), endField(),
        numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
                             kNotNegative, IRK_MEMBER(time_limit)),
-       axisField<RunSpec>("What an error is measured by where no reference is stored.", IRK_MEMBER(reference))});
+       axisField<RunSpec>("What an error is measured by where no reference is stored.", IRK_MEMBER(reference)),
+       numberField<RunSpec>("reference_times", "The largest error is taken at this many times, equally far apart.",
+                            Range::integers(1, kMaxReferenceTimes), IRK_MEMBER(reference_times))});
   constexpr std::size_t kOwn = std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)>;
   static_assert(kOwn + 1 == memberCount<RunSpec>(), "a member of RunSpec has no field");
   std::vector<SpecField> fields;

@@ -93,8 +93,7 @@ class Prepared final : public PreparedRun {
       : method_(spec),
         spec_(method_.spec()),
         scene_(method_.scene()),
-        references_(references(spec_.scene, settingsAtStep(spec_))),
-        needs_reference_(needsReference(spec_)) {}
+        references_(references(spec_.scene, settingsAtStep(spec_))) {}
 
   RunRecord execute(const Watch& watch) override {
     Monitor<Real> monitor;
@@ -126,6 +125,7 @@ class Prepared final : public PreparedRun {
     RunRecord result = record(solution, threadSeconds() - start, watch);
     result.switches = std::move(switches);
     for (auto& one : invariants) result.invariants.push_back(std::move(one.change));
+    if (result.succeeded()) addErrorsOverTime(watch, result);
     return result;
   }
 
@@ -190,12 +190,31 @@ class Prepared final : public PreparedRun {
     return all;
   }
 
-  RunErrors errorsAt(const State<Real>& state, const Watch& watch) const {
-    if (!needs_reference_ || !watch.reference) return errorsOf(scene_, references_, state);
-    const MadeReference made = watch.reference(spec_);
+  // `spec` is that of a run to the state's time.
+  RunErrors errorsAt(const State<Real>& state, const RunSpec& spec, const Watch& watch) const {
+    if (!watch.reference || !needsReference(spec)) return errorsOf(scene_, references_, state);
+    const MadeReference made = watch.reference(spec);
     RunErrors errors = errorsByComputed(scene_, made.values, state);
     if (errors.reference == ReferenceKind::kNone) errors.remark = made.problem;
     return errors;
+  }
+
+  // The larger ones of the errors of `record`, a success, and those of the runs to the earlier reference times: a run
+  // to an earlier time takes the same steps up to there.
+  void addErrorsOverTime(const Watch& watch, RunRecord& record) {
+    record.errors_over_time = record.errors;
+    auto runs = atReferenceTimes(spec_);
+    runs.pop_back();
+    for (const auto& run : runs) {
+      Monitor<Real> monitor;
+      monitor.interrupt = interruption(watch, threadSeconds(), spec_.time_limit);
+      const auto solution = method_.integrate(scene_.start, decimalNumber<Real>(run.t_end), monitor);
+      const bool success = solution.outcome == Outcome::kSuccess;
+      if (solution.outcome == Outcome::kInterrupted) record.outcome = name(Outcome::kInterrupted);
+      record.errors_over_time =
+          largerErrors(record.errors_over_time, success ? errorsAt(solution.state, run, watch) : RunErrors{});
+      if (!success) return;
+    }
   }
 
   RunRecord record(const Solution<Real>& solution, double seconds, const Watch& watch) const {
@@ -212,13 +231,14 @@ class Prepared final : public PreparedRun {
                      .z = rounded(state.z()),
                      .digits = {},
                      .errors = {},
+                     .errors_over_time = {},
                      .counters = solution.counters,
                      .switches = {},
                      .invariants = {},
                      .cpu_s = seconds};
     // A state that violates its constraints is a final state as well; its error shows how large the violation is.
     if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
-      record.errors = errorsAt(state, watch);
+      record.errors = errorsAt(state, spec_, watch);
     }
     if constexpr (!std::is_same_v<Real, double>) {
       const auto append = [&record](const auto& y) {
@@ -236,7 +256,6 @@ class Prepared final : public PreparedRun {
   const RunSpec& spec_;
   const Scene<Real>& scene_;
   std::vector<Reference> references_;
-  bool needs_reference_;
   Outcome last_ = Outcome::kSuccess;
 };
 

@@ -45,6 +45,7 @@ struct RunRecord {
   Vec<double> u, v, x, z;           ///< the last accepted state
   std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
   RunErrors errors;
+  RunErrors errors_over_time;  ///< the largest at the spec's reference_times; unknown unless the run is a success
   Counters counters;
   std::vector<SwitchEvent> switches;        ///< the first kMaxRecordedSwitches
   std::vector<InvariantChange> invariants;  ///< with Watch::invariants

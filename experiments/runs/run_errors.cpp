@@ -122,6 +122,19 @@ std::string_view referenceName(ReferenceKind kind) {
   return "?";
 }
 
+RunErrors largerErrors(const RunErrors& a, const RunErrors& b) {
+  RunErrors larger;
+  raise(larger.drift, a.drift);
+  raise(larger.drift, b.drift);
+  if (a.reference == ReferenceKind::kNone || b.reference == ReferenceKind::kNone) return larger;
+  larger = a;
+  for (auto error : {&RunErrors::all, &RunErrors::u, &RunErrors::v, &RunErrors::x, &RunErrors::z, &RunErrors::drift,
+                     &RunErrors::accuracy}) {
+    raise(larger.*error, b.*error);
+  }
+  return larger;
+}
+
 template <class Real>
 Vec<Real> components(const State<Real>& s) {
   Vec<Real> y(s.u.size() + s.v.size() + s.x.size() + s.z().size());

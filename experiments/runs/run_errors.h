@@ -34,6 +34,10 @@ struct RunErrors {
   std::string remark = {};
 };
 
+/// The larger errors of two times. Errors are unknown if there is no reference at one of the times; an error that is
+/// not measurable at one time is that at the other.
+RunErrors largerErrors(const RunErrors& a, const RunErrors& b);
+
 /// An error below this many accuracies of a computed reference is not measurable.
 inline constexpr double kMeasurable = 10;
 

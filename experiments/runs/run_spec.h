@@ -32,6 +32,8 @@ ReferenceUse parseId<ReferenceUse>(std::string_view id);
 template <>
 std::string_view axisName<ReferenceUse>();
 
+inline constexpr int kMaxReferenceTimes = 1000;
+
 /// The unit round-off of this kind of number.
 double epsilonOf(ScalarKind scalar);
 
@@ -59,6 +61,8 @@ struct RunSpec {
   /// Changes no number of a run but its errors. It is part of the key, so that a run without an error is made again
   /// when a study begins to ask for one.
   ReferenceUse reference = ReferenceUse::kNone;
+  /// n >= 1: errors are also taken at k / n of t_end, k = 1 .. n, by a run to each of these times.
+  int reference_times = 1;
 };
 
 /// Fills in the scene's t_end and removes settings that equal their defaults, so that equal runs have equal specs.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "experiments/base/numbers.h"
@@ -19,8 +20,19 @@ constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 constexpr std::string_view kAccuracy = "reference_accuracy";
 constexpr std::string_view kInvariant = "invariant_change";
-constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",  "error_x",
-                                        "error_z", "drift",   kInvariant, kAccuracy};
+constexpr std::string_view kErrors[] = {"error",
+                                        "error_u",
+                                        "error_v",
+                                        "error_x",
+                                        "error_z",
+                                        "drift",
+                                        kInvariant,
+                                        kAccuracy,
+                                        "error_over_time",
+                                        "error_u_over_time",
+                                        "error_v_over_time",
+                                        "error_x_over_time",
+                                        "error_z_over_time"};
 constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",   "cpu_spread",
                                        "cpu_runs", "cpu_all",     "cpu_environment"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
@@ -74,6 +86,8 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   const RunErrors& e = record.errors;
   for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, largestChange(record.invariants), e.accuracy})
     row.push_back(numberText(error));
+  const RunErrors& largest = record.errors_over_time;
+  for (const double error : {largest.all, largest.u, largest.v, largest.x, largest.z}) row.push_back(numberText(error));
   record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
   row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "nan", "0", "", environment, detailOf(record),
@@ -145,6 +159,9 @@ bool notMeasurableAt(const Table& table, const TableRow& row) {
 }
 
 double errorBoundAt(const Table& table, const TableRow& row) {
+  const double over_time = table.hasColumn("error_over_time") ? numberAt(table, row, "error_over_time")
+                                                              : std::numeric_limits<double>::quiet_NaN();
+  if (!std::isnan(over_time)) return over_time;
   return notMeasurableAt(table, row) ? kMeasurable * numberAt(table, row, kAccuracy) : numberAt(table, row, "error");
 }
 

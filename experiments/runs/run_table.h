@@ -46,7 +46,8 @@ const std::string& textAt(const Table& table, const TableRow& row, std::string_v
 bool succeededAt(const Table& table, const TableRow& row);
 /// Whether the run's error is below kMeasurable accuracies of its computed reference and therefore NaN.
 bool notMeasurableAt(const Table& table, const TableRow& row);
-/// The run's error; where it is not measurable, the bound below which it lies. NaN if neither is known.
+/// The run's largest error at its reference times, or, where that is unknown, its error at the end; where this is not
+/// measurable, the bound below which it lies. NaN if none is known.
 double errorBoundAt(const Table& table, const TableRow& row);
 
 }  // namespace irk

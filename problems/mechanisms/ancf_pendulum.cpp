@@ -45,7 +45,7 @@ SceneEntry ancfPendulumEntry() {
                          positiveParameter("rho", "kg/m^3", "density", "5540"),
                          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6)},
           .panels = {{"tip", {"tip_x", "tip_y"}}, {"path of the tip", {"tip_x:tip_y"}}},
-          .reference_cases = {{.times = "0.25 0.5"}, {.settings = "elements=4"}},
+          .reference_cases = {{.times = "0.1 0.2 0.25 0.3 0.4 0.5 0.6 0.7 0.8 0.9"}, {.settings = "elements=4"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

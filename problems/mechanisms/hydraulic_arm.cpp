@@ -183,8 +183,10 @@ SceneEntry hydraulicArmEntry() {
                              "m", "opening of the valve until it has changed sides, and how far the kinks are rounded",
                              "1e-4")},
           .panels = {{"angle", {"angle"}}, {"angular velocity", {"angle'"}}, {"pressures", {"p0", "p1"}, "MPa", 1e-6}},
-          .reference_cases = {{.times = "0.4 1", .tolerance = kManyDigits},
-                              {.settings = "reference=smooth", .times = "0.5 1", .tolerance = kManyDigits}},
+          .reference_cases = {{.times = "0.2 0.4 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits},
+                              {.settings = "reference=smooth",
+                               .times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8",
+                               .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -121,7 +121,7 @@ SceneEntry mechatronicCrankEntry() {
                      {"controller state", {"e"}},
                      {"slider", {"x3"}},
                      {"multiplier", {"lambda"}}},
-          .reference_cases = {{.times = "0.5"}},
+          .reference_cases = {{.times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

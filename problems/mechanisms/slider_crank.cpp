@@ -132,7 +132,7 @@ SceneEntry sliderCrankEntry() {
                  {"angular velocities", {"theta'", "phi'"}},
                  {"slider", {"x3"}},
                  {"multiplier", {"lambda"}}},
-      .reference_cases = {{.times = "0.3 1"},
+      .reference_cases = {{.times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.6 1.8"},
                           {.settings = "torque_off_at=0.5", .times = "1"},
                           {.settings = "torque_every=0.5 T2=0.05", .times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1"}},
       .make = make<double>,

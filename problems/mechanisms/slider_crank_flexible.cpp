@@ -216,7 +216,7 @@ SceneEntry sliderCrankFlexibleEntry() {
                      {"longitudinal modes", {"q3", "q4"}, "µm", 1e6},
                      {"multipliers", {"lambda1", "lambda2"}},
                      {"multiplier", {"lambda3"}}},
-          .reference_cases = {{.times = "0.025 0.05", .tolerance = kFewDigits},
+          .reference_cases = {{.times = "0.01 0.02 0.025 0.03 0.04 0.05 0.06 0.07 0.08 0.09", .tolerance = kFewDigits},
                               {.settings = "Fc=20",
                                .times = "0.005 0.01 0.015 0.02 0.025 0.03 0.035 0.04 0.045 0.05",
                                .tolerance = kFewDigits}},

@@ -49,7 +49,9 @@ SceneEntry hiresEntry() {
           .title = "HIRES, eight chemical reactions of plant physiology",
           .shows = "a moderately stiff ODE of the standard test sets",
           .parameters = {},
-          .reference_cases = {{.times = "5 80", .tolerance = kManyDigits}},
+          .reference_cases =
+              {{.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
+                .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

@@ -69,7 +69,7 @@ SceneEntry stickSlipLugreEntry() {
                          positiveParameter("Fs", "N", "largest sticking force", "1.5"),
                          positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc", "0.001")},
           .panels = {{"position", {"X"}}, {"velocity", {"X'"}}, {"deflection of the bristles", {"Z"}, "µm", 1e6}},
-          .reference_cases = {{.times = "5 15"}},
+          .reference_cases = {{.times = "2.5 5 7.5 10 12.5 15 17.5 20 22.5"}},
           .make = make<double>,
           .make_mp50 = make<mp50>};
 }

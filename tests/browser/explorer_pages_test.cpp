@@ -67,9 +67,12 @@ class ExplorerInBrowser : public testing::Test {
   void SetUp() override {
     IRK_NEEDS_CHROMIUM();
     if (!std::filesystem::exists(d3File())) GTEST_SKIP() << "no " << d3File() << ": apt-get install node-d3";
+    write(madeUpRuns());
+  }
+  void write(const Table& runs) {
     const auto results = folder_.path() / "results";
     std::filesystem::create_directories(results / "work_precision");
-    writeTable(results / "work_precision" / "runs.csv", madeUpRuns());
+    writeTable(results / "work_precision" / "runs.csv", runs);
     std::ostringstream err;
     const auto path = writeExplorer({results, IRK_SOURCE_DIR}, err);
     ASSERT_TRUE(path) << err.str();
@@ -133,6 +136,46 @@ TEST_F(ExplorerInBrowser, HasViewsByOneClick) {
   EXPECT_EQ(seen["fronts"], Json({9, 9}));
   // At the error 1e-4: 1e-3 s against 2e-3 s.
   EXPECT_EQ(seen["table"], Json({"radau_iia_5 (2.0)", "radau_iia_5 (2.0)"}));
+}
+
+// On robertson the other Radau IIA method is the cheaper one: both are there, in one hue with two marks.
+TEST_F(ExplorerInBrowser, TellsTheBestOfOneFamilyApart) {
+  Table runs = madeUpRuns();
+  for (auto& row : runs.rows) {
+    const bool best = textAt(runs, row, "scene") == "robertson" && textAt(runs, row, "method") == "radau_iia_3";
+    if (best) row[runs.column("cpu_s")] = "1e-5";
+  }
+  write(runs);
+  const Json seen = driven("view=best", R"(
+    const looks = new Map();
+    for (const mark of page.querySelectorAll("#panels .mark.right")) {
+      const path = mark.querySelector("path:not(.hit)");
+  looks.set(mark.dataset.solver, path.getAttribute("d") + path.getAttribute("fill"));
+}
+return {solvers : marksOf(page).solvers, looks : Object.fromEntries(looks)};)");
+  EXPECT_EQ(seen["solvers"], Json({"cvode_bdf", "gauss_3", "radau_iia_3", "radau_iia_5"}));
+EXPECT_NE(seen["looks"]["radau_iia_3"], seen["looks"]["radau_iia_5"]);
+}
+
+// The largest error at the reference times is the first choice, the error at the end the other one.
+TEST_F(ExplorerInBrowser, OffersBothErrors) {
+  Table runs = madeUpRuns();
+  for (auto& row : runs.rows) {
+    if (textAt(runs, row, "scene") != "van_der_pol") continue;  // robertson: no references at earlier times
+    row[runs.column("error_over_time")] = fmt::format("{}", 8 * numberAt(runs, row, "error"));
+  }
+  write(runs);
+  const Json seen = driven("view=all", R"(
+    const seen = { x: page.getElementById("x").value, all: marksOf(page).all };
+    const label = () => page.querySelector("#panels .mark.right").getAttribute("aria-label");
+    seen.over_time = label();
+    choose(page, "x", "error"); seen.at_end = label(); seen.all_at_end = marksOf(page).all;
+    return seen;)");
+  EXPECT_EQ(seen["x"], "error_over_time");
+  EXPECT_EQ(seen["all"], kRuns);
+  EXPECT_EQ(seen["all_at_end"], kRuns);
+  EXPECT_TRUE(containsAll(seen["over_time"], {"largest at the reference times"}));
+  EXPECT_FALSE(containsAll(seen["at_end"], {"largest at the reference times"}));
 }
 
 TEST_F(ExplorerInBrowser, KeepsTheChoiceInTheLink) {

@@ -196,12 +196,10 @@ Answer solverAnswer(const claims::ResultTables& tables) {
     answer.note =
         "4/4: reaches the error in 4 of 4 problems. Fastest: the solver that reaches the error in most problems, among "
         "equals the one with the least CPU time. Factor: CPU time over that of the fastest, geometric mean of the "
-        "problems "
-        "that both solve. Failed and wrong runs are those of the fastest solver at all tolerances; wrong: success with "
-        "an "
-        "error above 1000 tolerances. `variable`, `embedded` and `paper` are configurations of this suite; `variable` "
-        "is "
-        "Radau IIA of variable order.";
+        "problems that both solve. Failed and wrong runs are those of the fastest solver at all tolerances; wrong: "
+        "success with an error above 1000 tolerances. `variable` is Radau IIA of variable order, "
+        "`irk solve SCENE --configuration variable`; `embedded:radau_iia_5` is `--configuration embedded --method "
+        "radau_iia_5`, and so for others; what has no colon is an integrator of another library.";
     answer.links = {{"#profile", "performance profiles"}, {"#study_work_precision", "all diagrams"}};
   } catch (const claims::MissingResults& missing) {
     answer.sentences.push_back(missing.what());

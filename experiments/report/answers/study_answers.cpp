@@ -10,8 +10,10 @@
 #include "experiments/base/median.h"
 #include "experiments/report/answers/answer.h"
 #include "experiments/report/answers/failures.h"
+#include "experiments/report/answers/measured_answers.h"
 #include "experiments/report/answers/order_answer.h"
 #include "experiments/report/answers/solvers.h"
+#include "experiments/report/ratios_html.h"
 #include "experiments/runs/run_table.h"
 
 namespace irk::report {
@@ -92,8 +94,15 @@ std::vector<std::string> studyAnswers(std::string_view study, const claims::Resu
   }
   if (const Table* orders = tableIfAny(tables, study, "orders")) sentences.push_back(sentenceOf(checkOf(*orders)));
   if (study == "audit") sentences.push_back(wrongSentence(tables));
+  if (const Table* ratios = tableIfAny(tables, study, "ratios")) sentences.push_back(ratiosSentence(*ratios));
+  if (const Table* estimates = tableIfAny(tables, study, "estimates")) {
+    sentences.push_back(estimateSentence(*estimates));
+  }
+  if (const Table* slopes = tableIfAny(tables, study, "scaling_slopes")) sentences.push_back(scalingSentence(*slopes));
   if (const Table* runs = tableIfAny(tables, study, "runs")) {
     if (study == "drift") sentences.push_back(driftSentence(*runs));
+    if (study == "small_steps") sentences.push_back(smallStepsSentence(*runs));
+    if (study.starts_with("failure_")) sentences.push_back(familiesFailSentence(*runs));
     sentences.push_back(outcomeSentence(*runs));
   }
   std::erase(sentences, "");

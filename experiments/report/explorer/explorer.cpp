@@ -41,7 +41,9 @@ std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options,
     fmt::print(err, "the explorer is left out: no {}; install the package node-d3\n", library.string());
     return std::nullopt;
   }
-  std::string page = readInputFile(options.home / "plots" / "page" / "explore.html");
+  const auto plots = options.home / "plots" / "page";
+  std::string page = readInputFile(plots / "explore.html");
+  replacePlaceholder(page, "@COMMON@", readInputFile(plots / "common.css"));
   replacePlaceholder(page, "@DATE@", dateText());
   replacePlaceholder(
       page, "@BANNER@",

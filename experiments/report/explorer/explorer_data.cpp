@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study.h"
 #include "experiments/study/study_reader.h"
+#include "irk/statistics.h"
 
 namespace irk {
 namespace {
@@ -25,27 +27,12 @@ using Json = nlohmann::json;
 constexpr std::string_view kStudies[] = {"work_precision", "peers",   "beam",     "families",   "cpu_time",
                                          "discontinuity",  "control", "jacobian", "newton_rule"};
 
-// Columns of runs.csv that are drawn; of the errors, whatever the table has.
-constexpr std::string_view kQuantities[] = {"drift",
-                                            "invariant_change",
-                                            "h",
-                                            "cpu_s",
-                                            "cpu_median_s",
-                                            "residuals",
-                                            "dual_residuals",
-                                            "jacobians",
-                                            "factorizations",
-                                            "solves",
-                                            "newton_iterations",
-                                            "newton_restarts",
-                                            "steps_accepted",
-                                            "steps_rejected_error",
-                                            "steps_rejected_newton",
-                                            "switches"};
-
+// Columns of runs.csv that are drawn: errors (whatever the table has), counters, times.
 bool isQuantity(std::string_view column) {
-  return column.starts_with("error") ||
-         std::find(std::begin(kQuantities), std::end(kQuantities), column) != std::end(kQuantities);
+  bool counter = false;
+  Counters{}.forEach([&](const char* name, std::int64_t) { counter = counter || column == name; });
+  return counter || column.starts_with("error") || column == "drift" || column == "invariant_change" || column == "h" ||
+         column == "cpu_s" || column == "cpu_median_s";
 }
 
 // Four digits are more than a diagram shows; null for unknown.

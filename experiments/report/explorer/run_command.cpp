@@ -20,7 +20,7 @@ namespace {
 // These have places of their own in a command.
 constexpr std::string_view kPlaced[] = {"scene", "settings", "configuration", "method", "h", "rtol", "atol", "t_end"};
 // These do not tell solvers apart.
-constexpr std::string_view kLimits[] = {"max_steps", "time_limit", "threads", "reference"};
+constexpr std::string_view kLimits[] = {"max_steps", "time_limit", "threads", "reference", "reference_times"};
 
 template <class Names>
 bool isIn(const Names& names, std::string_view name) {

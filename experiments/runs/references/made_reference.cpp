@@ -16,4 +16,12 @@ bool needsReference(const RunSpec& resolved) {
   return errorsOf(scene, stored, end).reference == ReferenceKind::kNone;
 }
 
+std::vector<RunSpec> atReferenceTimes(const RunSpec& resolved) {
+  std::vector<RunSpec> runs(static_cast<std::size_t>(resolved.reference_times), resolved);
+  for (int k = 1; k < resolved.reference_times; ++k) {
+    runs[static_cast<std::size_t>(k - 1)].t_end = resolved.t_end * k / resolved.reference_times;
+  }
+  return runs;
+}
+
 }  // namespace irk

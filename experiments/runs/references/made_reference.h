@@ -20,4 +20,7 @@ struct MadeReference {
 /// solution nothing stored describes. Throws Misuse as makeScene.
 bool needsReference(const RunSpec& resolved);
 
+/// The runs to each of the times at which the errors of `resolved` are taken; the last is the run itself.
+std::vector<RunSpec> atReferenceTimes(const RunSpec& resolved);
+
 }  // namespace irk

@@ -59,12 +59,14 @@ TEST(FigureCurves, OverStep) {
   add("index3", "off", 2, "success");
   add("index2", "on", 3, "newton_failed");
   drawing.put("runs.csv", kRunColumns, rows);
-  const Svg svg = drawing.draw("over_step.gp", "quantities='error_z error_v iterations'");
+  const Svg svg = drawing.draw("over_step.gp", "quantities='error_z error_v iterations new_jacobians'");
   const auto expected = [&](const char* quantity, int from) {
     std::vector<SvgPoint> points;  // smooth unique: by ascending h
     for (int i = from + 2; i >= from; --i) {
       points.push_back({std::pow(0.1, i), quantity == std::string("iterations")
                                               ? numberOf("newton_iterations", i) / numberOf("steps_accepted", i)
+                                          : quantity == std::string("new_jacobians")
+                                              ? numberOf("jacobians", i) / numberOf("steps_accepted", i)
                                               : numberOf(quantity, i)});
     }
     return points;
@@ -73,6 +75,7 @@ TEST(FigureCurves, OverStep) {
   expectPoints(svg.marks('a', 2, kLog, kLog), expected("error_z", 2), "z, unscaled");
   expectPoints(svg.marks('b', 1, kLog, kLog), expected("error_v", 1), "v");
   expectPoints(svg.marks('c', 1, kLog, kLin), expected("iterations", 1), "iterations", 1e-2);
+  expectPoints(svg.marks('d', 1, kLog, kLog), expected("new_jacobians", 1), "Jacobians");
 }
 
 TEST(FigureCurves, Profile) {

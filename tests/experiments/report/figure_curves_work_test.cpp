@@ -96,16 +96,70 @@ TEST(FigureCurves, WorkByExplainsOnlyWhatIsDrawn) {
   EXPECT_EQ(svg.occurrences("<text>modified</text>"), 0) << "no run of it";
   EXPECT_EQ(svg.occurrences("<text>simplified</text>"), 1);
   EXPECT_EQ(svg.occurrences("<text>failed</text>"), 0);
-  EXPECT_EQ(svg.occurrences("tolerances</text>"), 0);
-  // Errors of 1e6 tolerances and of 1e4.
-  rows = {run(1, {{"scene", "pendulum"}, {"newton", "simplified"}, {"rtol", "1e-8"}, {"error", "1e-2"}}),
-          run(2, {{"scene", "pendulum"}, {"newton", "simplified"}, {"rtol", "1e-8"}, {"error", "1e-4"}})};
-  drawing.put("runs.csv", kRunColumns, rows);
-  const Svg loose = drawing.draw("work_by.gp", options);
-  EXPECT_EQ(loose.occurrences("tolerances</text>"), 1);
-  const auto rings = loose.marks('a', 3, kLog, kLog);
-  ASSERT_EQ(rings.size(), 1u);
-  EXPECT_NEAR(rings[0].x, 1e-2, 1e-4);
+  EXPECT_EQ(svg.occurrences("wrong success</text>"), 0);
+}
+
+// The bar of the audit, 1000 tolerances + 1e-9, for errors of u, v and x; with a fixed step there is no tolerance.
+TEST(FigureCurves, WorkMarksWrongSuccesses) {
+  Drawing drawing;
+  auto columns = kRunColumns;
+  columns.insert(columns.end(), {"control", "reference_accuracy"});
+  std::vector<Cells> rows;
+  const auto add = [&](int i, const Cells& judged) {
+    Cells cells{{"scene", "pendulum"}, {"family", "radau_iia"}, {"stages", "3"},      {"newton", "simplified"},
+                {"rtol", "1e-8"},      {"atol", "0"},           {"control", "paper"}, {"error_u", "1e-6"},
+                {"error_v", "1e-6"},   {"error_x", "nan"},      {"error_z", "1"}};
+    for (const auto& [column, text] : judged) cells[column] = text;
+    rows.push_back(run(i, cells));
+  };
+  add(1, {});
+  add(2, {{"error_v", "1.1e-5"}});
+  add(3, {{"error_u", "0.99e-5"}});
+  add(4, {{"error_x", "1.1e-5"}, {"atol", "1e-7"}});
+  add(5, {{"error_u", "1.1e-5"}, {"control", "fixed"}});
+  add(6, {{"error_u", "1.1e-5"}, {"reference_accuracy", "1e-5"}});  // too vague to judge
+  add(7, {{"error_u", "1.1e-5"}, {"outcome", "drift"}});
+  drawing.put("runs.csv", columns, rows);
+  for (const auto* options : {"variant='newton'; cases='pendulum'", "scene='pendulum'; family='radau_iia'"}) {
+    const bool by = std::string(options).starts_with("variant");
+    const Svg svg = drawing.draw(by ? "work_by.gp" : "work_precision.gp", options);
+    EXPECT_EQ(svg.occurrences("wrong success</text>"), 1) << options;
+    expectPoints(svg.marks('a', 3, kLog, kLog), {{numberOf("error", 2), numberOf("cpu_s", 2)}}, options);
+  }
+}
+
+// The largest error at the reference times is drawn where the table has it, else that at the end.
+TEST(FigureCurves, WorkOverTime) {
+  Drawing drawing;
+  auto columns = kRunColumns;
+  columns.insert(columns.end(), {"reference_times", "error_over_time", "error_u_over_time"});
+  std::vector<Cells> rows;
+  for (int i = 1; i < 4; ++i) {
+    rows.push_back(run(i, {{"scene", "pendulum"},
+                           {"family", "radau_iia"},
+                           {"stages", "3"},
+                           {"newton", "simplified"},
+                           {"reference_times", "10"},
+                           {"error_over_time", exact(3 * numberOf("error", i))},
+                           {"error_u_over_time", exact(5 * numberOf("error_u", i))}}));
+  }
+  rows.back()["error_over_time"] = "nan";
+  drawing.put("runs.csv", columns, rows);
+  for (const std::string script : {"work_by.gp", "work_precision.gp"}) {
+    const std::string one = script == "work_by.gp" ? "variant='newton'; cases='pendulum'" : "scene='pendulum'";
+    const Svg svg = drawing.draw(script, one);
+    expectPoints(svg.marks('a', 1, kLog, kLog),
+                 {{3 * numberOf("error", 1), numberOf("cpu_s", 1)},
+                  {3 * numberOf("error", 2), numberOf("cpu_s", 2)},
+                  {numberOf("error", 3), numberOf("cpu_s", 3)}},
+                 script);
+    EXPECT_EQ(svg.occurrences("error, largest at 10 times</text>"), 1) << script;
+    const Svg positions = drawing.draw(script, one + "; quantity='error_u'");
+    EXPECT_NEAR(positions.marks('a', 1, kLog, kLog).front().x, 5 * numberOf("error_u", 1), 1e-3);
+    const Svg end = drawing.draw(script, one + "; at_end=1");
+    expectPoints(end.marks('a', 1, kLog, kLog), runPoints("error", "cpu_s", 1, 4), script + ", at the end");
+    EXPECT_EQ(end.occurrences("largest at"), 0) << script;
+  }
 }
 
 const std::vector<std::string> kCostColumns = {"scene",        "settings", "family", "method",    "stages",

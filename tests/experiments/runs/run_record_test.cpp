@@ -27,6 +27,7 @@ RunRecord distinct() {
   record.outcome = "success";
   record.detail = "a, \"detail\"";
   record.errors = {.all = 0.125, .u = 0.25, .v = 0.375, .x = 0.5, .z = 0.625, .drift = 0.75};
+  record.errors_over_time = {.all = 1.125, .u = 1.25, .v = 1.375, .x = 1.5, .z = 1.625, .drift = 1.75};
   Counters& c = record.counters;
   c.residuals = 101;
   c.dual_residuals = 102;
@@ -73,6 +74,11 @@ TEST(RunRow, HoldsEveryNumberUnderItsName) {
                                                  {"error_x", 0.5},
                                                  {"error_z", 0.625},
                                                  {"drift", 0.75},
+                                                 {"error_over_time", 1.125},
+                                                 {"error_u_over_time", 1.25},
+                                                 {"error_v_over_time", 1.375},
+                                                 {"error_x_over_time", 1.5},
+                                                 {"error_z_over_time", 1.625},
                                                  {"residuals", 101},
                                                  {"dual_residuals", 102},
                                                  {"jacobians", 103},

@@ -1,0 +1,23 @@
+// The answers of studies that measure something else than the cost of an error.
+#pragma once
+
+#include <string>
+
+#include "experiments/tables/table.h"
+
+namespace irk::report {
+
+/// small_steps, of runs.csv: the multiplier's error and the Jacobians per step at the smallest step that all
+/// formulations have.
+std::string smallStepsSentence(const Table& runs);
+
+/// estimate, of estimates.csv: in how many steps the true error is larger than step doubling says.
+std::string estimateSentence(const Table& estimates);
+
+/// scaling, of scaling_slopes.csv: the powers of n with which the time of a step grows.
+std::string scalingSentence(const Table& slopes);
+
+/// The studies of failures, of runs.csv: the families that fail most and least often.
+std::string familiesFailSentence(const Table& runs);
+
+}  // namespace irk::report

@@ -1,0 +1,17 @@
+// What a study's choices cost over their first choice: ratios.csv as a table of the page and as a sentence.
+#pragma once
+
+#include <string>
+
+#include "experiments/base/html.h"
+#include "experiments/tables/table.h"
+
+namespace irk {
+
+/// One row for each choice on each scene: medians over the methods and the other choices of its block.
+HtmlTable ratiosHtml(const Table& ratios);
+
+/// How far the CPU times of the choices lie apart; empty without times.
+std::string ratiosSentence(const Table& ratios);
+
+}  // namespace irk
