@@ -6,6 +6,7 @@ namespace irk {
 Analysis ordersAnalysis();
 Analysis costAnalysis();
 Analysis profileAnalysis();
+Analysis robustnessAnalysis();
 Analysis estimatesAnalysis();
 Analysis scalingAnalysis();
 Analysis energyAnalysis();
@@ -13,8 +14,9 @@ Analysis phasesAnalysis();
 Analysis contractionsAnalysis();
 
 std::span<const Analysis> analyses() {
-  static const Analysis all[] = {ordersAnalysis(),  costAnalysis(),   profileAnalysis(), estimatesAnalysis(),
-                                 scalingAnalysis(), energyAnalysis(), phasesAnalysis(),  contractionsAnalysis()};
+  static const Analysis all[] = {ordersAnalysis(),     costAnalysis(),      profileAnalysis(),
+                                 robustnessAnalysis(), estimatesAnalysis(), scalingAnalysis(),
+                                 energyAnalysis(),     phasesAnalysis(),    contractionsAnalysis()};
   return all;
 }
 

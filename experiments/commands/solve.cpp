@@ -63,6 +63,12 @@ void printComponents(std::ostream& out, const RunRecord& record, const std::vect
   print("z", record.z);
 }
 
+// As the IVP test set counts them; without tolerances, or where all references are 0, one is not known.
+void printDigits(std::ostream& out, const RunErrors& errors) {
+  const auto text = [](double digits) { return std::isnan(digits) ? "unknown" : fmt::format("{:.2f}", digits); };
+  fmt::print(out, "digits: mescd {}, scd {}\n", text(errors.mescd()), text(errors.scd()));
+}
+
 void printRecord(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   const auto& spec = record.spec;
   fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method, idOf(spec.formulation));
@@ -70,6 +76,7 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   printComponents(out, record, names);
   if (!std::isnan(record.errors.all)) {
     fmt::print(out, "error {:.3e}\n", record.errors.all);
+    printDigits(out, record.errors);
   } else if (!record.errors.remark.empty()) {
     fmt::print(out, "{}\n", record.errors.remark);
   } else if (record.succeeded()) {

@@ -96,6 +96,8 @@ std::string solveJson(const RunRecord& record, int indent) {
   json["z"] = numbers(record, record.z, place);
   addNames(sceneOf<double>(record.spec), json);
   json["error"] = record.errors.all;
+  json["mescd"] = record.errors.mescd();
+  json["scd"] = record.errors.scd();
   json["drift"] = record.errors.drift;
   json["reference"] = referenceName(record.errors.reference);
   if (!std::isnan(record.errors.accuracy)) json["reference_accuracy"] = record.errors.accuracy;

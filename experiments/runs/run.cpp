@@ -187,10 +187,18 @@ class Prepared final : public PreparedRun {
     return all;
   }
 
+  // Constant steps have no tolerances.
+  ToleranceRatio toleranceRatio() const {
+    const Tolerances& tolerances = spec_.options.tolerances;
+    if (spec_.options.step.control == StepControl::kFixed || tolerances.rtol == 0) return {};
+    return {tolerances.atol / tolerances.rtol, toleranceScale(scene_, spec_, scene_.sizes())};
+  }
+
   RunErrors errorsAt(const State<Real>& state, const Watch& watch) const {
-    if (!needs_reference_ || !watch.reference) return errorsOf(scene_, references_, state);
+    const ToleranceRatio ratio = toleranceRatio();
+    if (!needs_reference_ || !watch.reference) return errorsOf(scene_, references_, state, ratio);
     const MadeReference made = watch.reference(spec_);
-    RunErrors errors = errorsByComputed(scene_, made.values, state);
+    RunErrors errors = errorsByComputed(scene_, made.values, state, ratio);
     if (errors.reference == ReferenceKind::kNone) errors.remark = made.problem;
     return errors;
   }

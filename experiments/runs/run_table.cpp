@@ -17,7 +17,8 @@ namespace {
 constexpr std::string_view kFirst[] = {"scene", "settings", "method"};
 constexpr std::string_view kDerived[] = {"family", "stages", "integrator"};
 constexpr std::string_view kAccuracy = "reference_accuracy";
-constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z", "drift", kAccuracy};
+constexpr std::string_view kErrors[] = {"error", "error_u", "error_v", "error_x", "error_z",
+                                        "drift", "mescd",   "scd",     kAccuracy};
 constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",   "cpu_spread",
                                        "cpu_runs", "cpu_all",     "cpu_environment"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
@@ -69,7 +70,8 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
-  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, e.accuracy}) row.push_back(numberText(error));
+  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, e.mescd(), e.scd(), e.accuracy})
+    row.push_back(numberText(error));
   record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
   row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "nan", "0", "", environment, detailOf(record),

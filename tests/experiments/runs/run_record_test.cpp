@@ -26,7 +26,7 @@ RunRecord distinct() {
   record.stages = 17;
   record.outcome = "success";
   record.detail = "a, \"detail\"";
-  record.errors = {.all = 0.125, .u = 0.25, .v = 0.375, .x = 0.5, .z = 0.625, .drift = 0.75};
+  record.errors = {.all = 0.125, .u = 0.25, .v = 0.375, .x = 0.5, .z = 0.625, .mixed = 1e-3, .relative = 1e-2, .drift = 0.75};
   Counters& c = record.counters;
   c.residuals = 101;
   c.dual_residuals = 102;
@@ -73,6 +73,8 @@ TEST(RunRow, HoldsEveryNumberUnderItsName) {
                                                  {"error_x", 0.5},
                                                  {"error_z", 0.625},
                                                  {"drift", 0.75},
+                                                 {"mescd", 3},
+                                                 {"scd", 2},
                                                  {"residuals", 101},
                                                  {"dual_residuals", 102},
                                                  {"jacobians", 103},
