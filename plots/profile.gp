@@ -2,15 +2,18 @@
 # ratio times that of the best solver. One panel per target error. The legend gives the number of problems given to
 # each solver and of all problems, over all errors.
 #   gnuplot -e "data='results/work_precision'; out='profile'; targets='-4 -8'" profile.gp
-# Reads profile.csv. Options: targets (powers of ten, or all), integrators (in this order).
+# Reads profile.csv. Options: collection (of scenes; all if not given), targets (powers of ten, or all), integrators (in
+# this order).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("targets")) targets = 'all'
 if (!exists("integrators")) integrators = ''
+if (!exists("collection")) collection = 'all'
 file = data.'/profile.csv'
 undefine N_*
 columns = words(targets)
-ofTarget(i) = word(targets, i) eq 'all' ? strcol("target_error") eq 'all' : strcol("target_error") ne 'all' && \
-  abs(log10(column("target_error")) - int(word(targets, i))) < 0.01
+isOurs(d) = strcol("collection") eq collection
+ofTarget(i) = isOurs(0) && (word(targets, i) eq 'all' ? strcol("target_error") eq 'all' : strcol("target_error") ne 'all' && \
+  abs(log10(column("target_error")) - int(word(targets, i))) < 0.01)
 array Rows[columns]
 tried = 0
 do for [i = 1 : columns] {
@@ -19,7 +22,7 @@ do for [i = 1 : columns] {
   Rows[i] = exists("N_sum") ? N_sum : 0
   tried = tried + Rows[i]
 }
-if (tried == 0) { eval absence(targets." in ".file) }
+if (tried == 0) { eval absence(collection.', '.targets." in ".file) }
 # The legend lists only solvers with a curve.
 in_data = ""
 do for [w in (words(integrators) == 0 ? collected : integrators)] { in_data = in_data.(position(collected, w) ? " ".w : "") }
@@ -32,7 +35,7 @@ at(i, k) = ofTarget(i) && strcol("integrator") eq word(integrators, k)
 targetTitle(i) = word(targets, i) eq 'all' ? 'all errors' : 'error 10^{'.word(targets, i).'}'
 # Over all errors: "45/60" for a solver that was given 45 of 60 problems.
 collected = ""
-stats file using (strcol("target_error") eq 'all' ? \
+stats file using (isOurs(0) && strcol("target_error") eq 'all' ? \
   (collect(strcol("integrator").'='.strcol("given").'/'.strcol("problems")), 1) : 0) name "N" nooutput
 givenOf(name, i) = i > words(collected) ? '' : word(collected, i)[1 : strlen(name) + 1] eq name.'=' ? \
   ' '.word(collected, i)[strlen(name) + 2 : *] : givenOf(name, i + 1)

@@ -7,6 +7,7 @@ Analysis ordersAnalysis();
 Analysis costAnalysis();
 Analysis profileAnalysis();
 Analysis ratiosAnalysis();
+Analysis robustnessAnalysis();
 Analysis estimatesAnalysis();
 Analysis scalingAnalysis();
 Analysis energyAnalysis();
@@ -14,9 +15,9 @@ Analysis phasesAnalysis();
 Analysis contractionsAnalysis();
 
 std::span<const Analysis> analyses() {
-  static const Analysis all[] = {ordersAnalysis(), costAnalysis(),      profileAnalysis(),
-                                 ratiosAnalysis(), estimatesAnalysis(), scalingAnalysis(),
-                                 energyAnalysis(), phasesAnalysis(),    contractionsAnalysis()};
+  static const Analysis all[] = {ordersAnalysis(),     costAnalysis(),        profileAnalysis(), ratiosAnalysis(),
+                                 robustnessAnalysis(), estimatesAnalysis(),   scalingAnalysis(), energyAnalysis(),
+                                 phasesAnalysis(),     contractionsAnalysis()};
   return all;
 }
 

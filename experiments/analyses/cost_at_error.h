@@ -13,6 +13,9 @@ inline constexpr std::string_view kNoReference = "no reference";
 /// The cause of a missing cost where errors lie below what a computed reference can tell: perhaps the error is reached.
 inline constexpr std::string_view kNotMeasurable = "below the reference's accuracy";
 
+/// The cause of a missing cost where the solver cannot be applied to the scene: it has not failed.
+inline constexpr std::string_view kNotApplicable = "no success: refused";
+
 struct CostPoint {
   double error;
   double cost;

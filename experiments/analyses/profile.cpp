@@ -6,12 +6,14 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "experiments/analyses/cost_at_error.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/analysis.h"
+#include "irk/collections.h"
 
 namespace irk {
 namespace {
@@ -34,7 +36,7 @@ std::map<std::string, double> bestTimes(const Costs& costs) {
   return best;
 }
 
-void appendProfile(const std::string& target, const Costs& costs, Table& table) {
+void appendProfile(const std::string& collection, const std::string& target, const Costs& costs, Table& table) {
   const auto best = bestTimes(costs);
   const std::string problems = std::to_string(best.size());
   for (const auto& [solver, times] : costs) {
@@ -50,7 +52,8 @@ void appendProfile(const std::string& target, const Costs& costs, Table& table) 
     std::sort(ratios.begin(), ratios.end());
     const auto addRow = [&](double ratio, std::size_t count) {
       const double fraction = static_cast<double>(count) / static_cast<double>(given);
-      table.rows.push_back({target, solver, numberText(ratio), numberText(fraction), std::to_string(given), problems});
+      table.rows.push_back(
+          {collection, target, solver, numberText(ratio), numberText(fraction), std::to_string(given), problems});
     };
     if (ratios.empty()) addRow(1, 0);
     for (std::size_t i = 0; i < ratios.size(); ++i) addRow(ratios[i], i + 1);
@@ -69,22 +72,26 @@ bool wasAsked(const Table& costs, const TableRow& row) {
 }  // namespace
 
 Table profileTable(const Table& costs) {
-  Table table{costs.head, {"target_error", "integrator", "ratio", "fraction", "given", "problems"}, {}};
-  std::map<std::string, Costs> by_target;
+  Table table{costs.head, {"collection", "target_error", "integrator", "ratio", "fraction", "given", "problems"}, {}};
+  std::map<std::pair<std::string, std::string>, Costs> curves;  // collection and target
   for (const auto& row : costs.rows) {
     const auto& target = textAt(costs, row, "target_error");
     const std::string problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
     const auto& solver = textAt(costs, row, "integrator");
     const auto& cause = textAt(costs, row, "cause");
-    if (cause == kNoReference || cause == kNotMeasurable || !wasAsked(costs, row)) continue;
+    if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable || !wasAsked(costs, row)) continue;
     const double cost = numberAt(costs, row, "cpu_s");
     const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
-    for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {
-      const auto [at, added] = by_target[key][solver].try_emplace(name, time);
-      if (!added) at->second = std::min(at->second, time);
+    auto collections = collectionsOf(textAt(costs, row, "scene"));
+    collections.emplace_back("all");
+    for (const auto& collection : collections) {
+      for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {
+        const auto [at, added] = curves[{collection, key}][solver].try_emplace(name, time);
+        if (!added) at->second = std::min(at->second, time);
+      }
     }
   }
-  for (const auto& [target, solvers] : by_target) appendProfile(target, solvers, table);
+  for (const auto& [key, solvers] : curves) appendProfile(key.first, key.second, solvers, table);
   return table;
 }
 

@@ -40,12 +40,16 @@ std::string sizesText(const SceneEntry& scene) {
   return text + "\n";
 }
 
+std::string sourceOf(const SceneEntry& scene) {
+  if (!scene.literature.empty()) return scene.literature;
+  return scene.source.empty() ? "this suite" : scene.source;
+}
+
 void printScene(const SceneEntry& scene, std::ostream& out) {
-  fmt::print(out, "{}\n    {}\n    kind: {}\n{}    shows: {}\n", scene.id, scene.title, meaningOf(scene.kind),
-             sizesText(scene), scene.shows);
-  const auto collections = collectionsOf(scene.id);
-  if (!collections.empty()) fmt::print(out, "    in: {}\n", fmt::join(collections, ", "));
-  if (const auto text = literatureOf(scene.id); !text.empty()) fmt::print(out, "    from: {}\n", text);
+  fmt::print(out, "{}\n    {}\n    kind: {}\n    index: {}\n{}    shows: {}\n", scene.id, scene.title,
+             meaningOf(scene.kind), indexOf(scene.kind), sizesText(scene), scene.shows);
+  if (!scene.collections.empty()) fmt::print(out, "    in: {}\n", fmt::join(scene.collections, ", "));
+  fmt::print(out, "    from: {}\n", sourceOf(scene));
   for (const auto& p : scene.parameters) {
     fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit, rangeText(p));
   }
@@ -66,9 +70,10 @@ Json sceneObject(const SceneEntry& scene) {
   Json object = {{"id", scene.id},
                  {"title", scene.title},
                  {"kind", meaningOf(scene.kind)},
+                 {"index", indexOf(scene.kind)},
                  {"shows", scene.shows},
-                 {"collections", collectionsOf(scene.id)},
-                 {"literature", literatureOf(scene.id)}};
+                 {"collections", scene.collections},
+                 {"literature", scene.literature}};
   if (scene.make && !scene.registered) {
     const Sizes n = makeScene<double>(scene, {}).sizes();
     object["sizes"] = {{"nu", n.nu}, {"nx", n.nx}, {"nz", n.nz}, {"switches", n.switches}};

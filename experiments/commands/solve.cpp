@@ -64,6 +64,12 @@ void printComponents(std::ostream& out, const RunRecord& record, const std::vect
   print("z", record.z);
 }
 
+// As the IVP test set counts them; without tolerances, or where all references are 0, one is not known.
+void printDigits(std::ostream& out, const RunErrors& errors) {
+  const auto text = [](double digits) { return std::isnan(digits) ? "unknown" : fmt::format("{:.2f}", digits); };
+  fmt::print(out, "digits: mescd {}, scd {}\n", text(errors.mescd()), text(errors.scd()));
+}
+
 void printRecord(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   const auto& spec = record.spec;
   fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method, idOf(spec.formulation));
@@ -74,6 +80,7 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
     if (spec.reference_times > 1 && !std::isnan(record.errors_over_time.all)) {
       fmt::print(out, "largest error at {} times {:.3e}\n", spec.reference_times, record.errors_over_time.all);
     }
+    printDigits(out, record.errors);
   } else if (!record.errors.remark.empty()) {
     fmt::print(out, "{}\n", record.errors.remark);
   } else if (record.succeeded()) {

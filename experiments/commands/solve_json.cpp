@@ -97,6 +97,8 @@ std::string solveJson(const RunRecord& record, int indent) {
   addNames(sceneOf<double>(record.spec), json);
   json["error"] = record.errors.all;
   if (record.spec.reference_times > 1) json["error_over_time"] = record.errors_over_time.all;
+  json["mescd"] = record.errors.mescd();
+  json["scd"] = record.errors.scd();
   json["drift"] = record.errors.drift;
   json["reference"] = referenceName(record.errors.reference);
   if (!std::isnan(record.errors.accuracy)) json["reference_accuracy"] = record.errors.accuracy;

@@ -190,11 +190,19 @@ class Prepared final : public PreparedRun {
     return all;
   }
 
+  // Constant steps have no tolerances.
+  ToleranceRatio toleranceRatio() const {
+    const Tolerances& tolerances = spec_.options.tolerances;
+    if (spec_.options.step.control == StepControl::kFixed || tolerances.rtol == 0) return {};
+    return {tolerances.atol / tolerances.rtol, toleranceScale(scene_, spec_, scene_.sizes())};
+  }
+
   // `spec` is that of a run to the state's time.
   RunErrors errorsAt(const State<Real>& state, const RunSpec& spec, const Watch& watch) const {
-    if (!watch.reference || !needsReference(spec)) return errorsOf(scene_, references_, state);
+    const ToleranceRatio ratio = toleranceRatio();
+    if (!watch.reference || !needsReference(spec)) return errorsOf(scene_, references_, state, ratio);
     const MadeReference made = watch.reference(spec);
-    RunErrors errors = errorsByComputed(scene_, made.values, state);
+    RunErrors errors = errorsByComputed(scene_, made.values, state, ratio);
     if (errors.reference == ReferenceKind::kNone) errors.remark = made.problem;
     return errors;
   }

@@ -19,11 +19,28 @@ void raise(double& largest, double error) {
   if (!std::isnan(error) && !(largest >= error)) largest = error;
 }
 
-template <class Real>
-double relativeError(const Real& value, const Real& reference, double scale) {
-  const double magnitude = std::max(std::abs(static_cast<double>(reference)), scale);
-  return std::abs(static_cast<double>(Real(value - reference))) / magnitude;
+// How far a component or output is from its reference.
+struct Deviation {
+  double distance;   // |y - ref|
+  double magnitude;  // |ref|
+  double scale;      // the magnitude below which errors are absolute
+  double ratio;      // atol / rtol
+
+  double error() const { return distance / std::max(magnitude, scale); }
+};
+
+void raise(RunErrors& errors, const Deviation& d) {
+  raise(errors.all, d.error());
+  raise(errors.mixed, d.distance / (d.ratio + d.magnitude));
+  if (d.magnitude > 0) raise(errors.relative, d.distance / d.magnitude);
 }
+
+template <class Real>
+double distanceOf(const Real& value, const Real& reference) {
+  return std::abs(static_cast<double>(Real(value - reference)));
+}
+
+double digitsOf(double error) { return 0 - std::log10(error); }
 
 // The most accurate reference of each component at time t.
 std::map<std::string, const Reference*> bestAt(const std::vector<Reference>& references, double t) {
@@ -45,51 +62,63 @@ double& group(RunErrors& errors, const Sizes& n, Index i) {
 
 double scaleOf(const Vec<double>& scale, Index i) { return i < scale.size() ? scale[i] : 1; }
 
+/// Compares the final state of a scene with references.
 template <class Real>
-void compareExact(const Scene<Real>& scene, const Sizes& n, const State<Real>& state, RunErrors& errors) {
-  const Vec<Real> y = components(state);
-  const Vec<Real> reference = components(scene.exact(state.t));
-  for (Index i = 0; i < std::min(y.size(), reference.size()); ++i) {
-    if (std::isnan(static_cast<double>(reference[i]))) continue;
-    const double error = relativeError(y[i], reference[i], scaleOf(scene.scale, i));
-    raise(group(errors, n, i), error);
-    raise(errors.all, error);
-  }
-}
+class Comparison {
+ public:
+  Comparison(const Scene<Real>& scene, const State<Real>& state, const ToleranceRatio& ratio)
+      : scene_(scene), n_(scene.sizes()), state_(state), y_(components(state)), ratio_(ratio) {}
 
-template <class Real>
-void compareReference(const Scene<Real>& scene, const Sizes& n, const State<Real>& state, const Reference& reference,
-                      RunErrors& errors, RunErrors& accuracies) {
-  const Real value = decimalNumber<Real>(reference.value);
-  const auto accuracy = [&](double scale) {
-    return reference.accuracy / std::max(std::abs(static_cast<double>(value)), scale);
-  };
-  const auto at = std::find(scene.names.begin(), scene.names.end(), reference.component);
-  if (at != scene.names.end()) {
-    const Index i = at - scene.names.begin();
-    const double scale = scaleOf(scene.scale, i);
-    const double error = relativeError(components(state)[i], value, scale);
-    raise(group(errors, n, i), error);
-    raise(errors.all, error);
-    raise(group(accuracies, n, i), accuracy(scale));
-    raise(accuracies.all, accuracy(scale));
-    return;
-  }
-  for (const auto& output : scene.outputs) {
-    if (output.name == reference.component) {
-      raise(errors.all, relativeError(output.value(state), value, 1));
-      raise(accuracies.all, accuracy(1));
+  RunErrors errors;
+  RunErrors accuracies;  ///< of the references, measured as the errors are
+
+  void withExact() {
+    const Vec<Real> reference = components(scene_.exact(state_.t));
+    for (Index i = 0; i < std::min(y_.size(), reference.size()); ++i) {
+      if (!std::isnan(static_cast<double>(reference[i]))) add(i, reference[i], 0);
     }
   }
-}
 
-// The errors by the most accurate references at the state's time, and the accuracies of these.
+  void with(const Reference& reference) {
+    const Real value = decimalNumber<Real>(reference.value);
+    const auto at = std::find(scene_.names.begin(), scene_.names.end(), reference.component);
+    if (at != scene_.names.end()) {
+      add(at - scene_.names.begin(), value, reference.accuracy);
+      return;
+    }
+    for (const auto& output : scene_.outputs) {
+      if (output.name != reference.component) continue;
+      Deviation d{distanceOf(output.value(state_), value), std::abs(static_cast<double>(value)), 1,
+                  ratio_.atol_over_rtol};
+      raise(errors, d);
+      d.distance = reference.accuracy;
+      raise(accuracies, d);
+    }
+  }
+
+ private:
+  void add(Index i, const Real& reference, double accuracy) {
+    Deviation d{distanceOf(y_[i], reference), std::abs(static_cast<double>(reference)), scaleOf(scene_.scale, i),
+                ratio_.atol_over_rtol * scaleOf(ratio_.scale, i)};
+    raise(group(errors, n_, i), d.error());
+    raise(errors, d);
+    d.distance = accuracy;
+    raise(group(accuracies, n_, i), d.error());
+    raise(accuracies, d);
+  }
+
+  const Scene<Real>& scene_;
+  Sizes n_;
+  const State<Real>& state_;
+  Vec<Real> y_;
+  const ToleranceRatio& ratio_;
+};
+
+// Compares with the most accurate references at the state's time.
 template <class Real>
-void compareReferences(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state,
-                       RunErrors& errors, RunErrors& accuracies) {
-  const Sizes n = scene.sizes();
+void compare(Comparison<Real>& comparison, const std::vector<Reference>& references, const State<Real>& state) {
   for (const auto& [component, reference] : bestAt(references, static_cast<double>(state.t))) {
-    compareReference(scene, n, state, *reference, errors, accuracies);
+    comparison.with(*reference);
   }
 }
 
@@ -142,27 +171,33 @@ Vec<Real> components(const State<Real>& s) {
   return y;
 }
 
+double RunErrors::mescd() const { return digitsOf(mixed); }
+double RunErrors::scd() const { return digitsOf(relative); }
+
 template <class Real>
-RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state) {
-  RunErrors errors;
-  const Sizes n = scene.sizes();
+RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state,
+                   const ToleranceRatio& ratio) {
+  Comparison<Real> comparison(scene, state, ratio);
+  RunErrors& errors = comparison.errors;
   errors.drift = driftOf(scene, state);
-  if (scene.exact) compareExact(scene, n, state, errors);
+  if (scene.exact) comparison.withExact();
   if (!std::isnan(errors.all)) {
     errors.reference = ReferenceKind::kExact;
     return errors;
   }
-  RunErrors ignored;
-  compareReferences(scene, references, state, errors, ignored);
+  compare(comparison, references, state);
   if (!std::isnan(errors.all)) errors.reference = ReferenceKind::kFile;
   return errors;
 }
 
 template <class Real>
-RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference>& computed, const State<Real>& state) {
-  RunErrors errors, accuracies;
+RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference>& computed, const State<Real>& state,
+                           const ToleranceRatio& ratio) {
+  Comparison<Real> comparison(scene, state, ratio);
+  RunErrors& errors = comparison.errors;
+  const RunErrors& accuracies = comparison.accuracies;
   errors.drift = driftOf(scene, state);
-  compareReferences(scene, computed, state, errors, accuracies);
+  compare(comparison, computed, state);
   if (std::isnan(errors.all)) return errors;
   errors.reference = ReferenceKind::kComputed;
   errors.accuracy = accuracies.all;
@@ -170,7 +205,8 @@ RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference
     errors.remark = fmt::format("error below {:.0e}, ten times the reference's accuracy: not measurable",
                                 kMeasurable * accuracies.all);
   }
-  for (auto error : {&RunErrors::all, &RunErrors::u, &RunErrors::v, &RunErrors::x, &RunErrors::z}) {
+  for (auto error : {&RunErrors::all, &RunErrors::u, &RunErrors::v, &RunErrors::x, &RunErrors::z, &RunErrors::mixed,
+                     &RunErrors::relative}) {
     if (errors.*error < kMeasurable * accuracies.*error) errors.*error = std::numeric_limits<double>::quiet_NaN();
   }
   return errors;
@@ -179,11 +215,17 @@ RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference
 template Vec<double> components(const State<double>&);
 template Vec<mp50> components(const State<mp50>&);
 template Vec<mp100> components(const State<mp100>&);
-template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&, const State<double>&);
-template RunErrors errorsByComputed(const Scene<double>&, const std::vector<Reference>&, const State<double>&);
-template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
-template RunErrors errorsByComputed(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&);
-template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&);
-template RunErrors errorsByComputed(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&);
+template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&, const State<double>&,
+                            const ToleranceRatio&);
+template RunErrors errorsByComputed(const Scene<double>&, const std::vector<Reference>&, const State<double>&,
+                                    const ToleranceRatio&);
+template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&,
+                            const ToleranceRatio&);
+template RunErrors errorsByComputed(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&,
+                                    const ToleranceRatio&);
+template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&,
+                            const ToleranceRatio&);
+template RunErrors errorsByComputed(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&,
+                                    const ToleranceRatio&);
 
 }  // namespace irk

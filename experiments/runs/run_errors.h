@@ -21,10 +21,13 @@ enum class ReferenceKind {
 std::string_view referenceName(ReferenceKind kind);
 
 /// The largest relative error |y - ref| / max(|ref|, scale) per group of components, and over all components and
-/// outputs with a reference. NaN without a reference.
+/// outputs with a reference. NaN without a reference. `mixed` and `relative` are the errors by which the IVP test set
+/// counts digits.
 struct RunErrors {
   double all = std::numeric_limits<double>::quiet_NaN();
   double u = all, v = all, x = all, z = all;
+  double mixed = all;     ///< the largest |y - ref| / (atol / rtol + |ref|); NaN without a ratio of tolerances, too
+  double relative = all;  ///< the largest |y - ref| / |ref| of those with ref != 0
   /// Largest |g| over the position constraints g(t, u) = 0 of the scene. NaN without constraints.
   double drift = all;
   ReferenceKind reference = ReferenceKind::kNone;
@@ -32,6 +35,16 @@ struct RunErrors {
   double accuracy = std::numeric_limits<double>::quiet_NaN();
   /// Why `all` is NaN although a reference was asked for, in one line; else empty.
   std::string remark = {};
+
+  /// The digits of `mixed` and of `relative` as the IVP test set counts them: -log10; infinite for an error of 0.
+  double mescd() const;
+  double scd() const;
+};
+
+/// What an absolute tolerance is in units of the relative one.
+struct ToleranceRatio {
+  double atol_over_rtol = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known, or without meaning
+  Vec<double> scale = {};  ///< of u, v, x, z: the magnitudes that atol is multiplied by; empty: 1, as for outputs
 };
 
 /// The larger errors of two times. Errors are unknown if there is no reference at one of the times; an error that is
@@ -48,11 +61,13 @@ Vec<Real> components(const State<Real>& s);
 /// Compares with Scene::exact if it knows any component at the state's time, else with the references at that time.
 /// The references must belong to the scene's settings.
 template <class Real>
-RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state);
+RunErrors errorsOf(const Scene<Real>& scene, const std::vector<Reference>& references, const State<Real>& state,
+                   const ToleranceRatio& ratio = {});
 
 /// Compares with computed values at the state's time only. Errors that are not measurable are NaN; `accuracy` and, if
 /// `all` is such an error, `remark` are set.
 template <class Real>
-RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference>& computed, const State<Real>& state);
+RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference>& computed, const State<Real>& state,
+                           const ToleranceRatio& ratio = {});
 
 }  // namespace irk

@@ -27,6 +27,8 @@ constexpr std::string_view kErrors[] = {"error",
                                         "error_z",
                                         "drift",
                                         kInvariant,
+                                        "mescd",
+                                        "scd",
                                         kAccuracy,
                                         "error_over_time",
                                         "error_u_over_time",
@@ -84,7 +86,8 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
   row.push_back(record.outcome);
   const RunErrors& e = record.errors;
-  for (const double error : {e.all, e.u, e.v, e.x, e.z, e.drift, largestChange(record.invariants), e.accuracy})
+  for (const double error :
+       {e.all, e.u, e.v, e.x, e.z, e.drift, largestChange(record.invariants), e.mescd(), e.scd(), e.accuracy})
     row.push_back(numberText(error));
   const RunErrors& largest = record.errors_over_time;
   for (const double error : {largest.all, largest.u, largest.v, largest.x, largest.z}) row.push_back(numberText(error));

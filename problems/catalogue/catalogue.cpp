@@ -74,18 +74,21 @@ std::deque<SceneEntry>& catalogue() {
 
 std::string sourceOf(const std::string& source) { return source.empty() ? "a scene of the program" : source; }
 
+void requireName(const std::string& what, const std::string& name, const std::string& source) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  if (!name.empty() && name.find_first_not_of(kAllowed) == std::string::npos) return;
+  throw Misuse(what + " '" + name + "' (" + sourceOf(source) + "): small letters, digits and '_' are allowed");
+}
+
 }  // namespace
 
 const std::deque<SceneEntry>& sceneCatalogue() { return catalogue(); }
 
 void registerScene(SceneEntry entry) {
-  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_";
   entry.registered = true;
   entry.source = registeringSource();
-  if (entry.id.empty() || entry.id.find_first_not_of(kAllowed) != std::string::npos) {
-    throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) +
-                 "): small letters, digits and '_' are allowed");
-  }
+  requireName("scene id", entry.id, entry.source);
+  for (const auto& name : entry.collections) requireName("collection", name, entry.source);
   for (const SceneEntry& other : catalogue()) {
     if (other.id != entry.id) continue;
     throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) + ") is taken by " + sourceOf(other.source));
@@ -100,6 +103,23 @@ const SceneEntry& findScene(std::string_view id) {
     known.push_back(entry.id);
   }
   throw Misuse(unknownName("scene", id, known));
+}
+
+int indexOf(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::kOde:
+    case SceneKind::kStiffTest:
+    case SceneKind::kSingularlyPerturbed:
+      return 0;
+    case SceneKind::kIndex1:
+      return 1;
+    case SceneKind::kIndex2:
+      return 2;
+    case SceneKind::kIndex3:
+    case SceneKind::kConstrained:
+      return 3;
+  }
+  return 0;
 }
 
 std::string_view meaningOf(SceneKind kind) {

@@ -47,6 +47,7 @@ SceneEntry ancfCantileverEntry() {
   return {.id = "ancf_cantilever",
           .title = "cantilever of ANCF cable elements under a stepped tip load",
           .shows = "large bending, constant M: the mass-derivative switches must change nothing",
+          .collections = {"multibody"},
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "2"),
                          positiveParameter("E", "Pa", "Young's modulus", "2.07e11"),
                          positiveParameter("A", "m^2", "area of the section", "0.01"),

@@ -37,6 +37,7 @@ SceneEntry ancfPendulumEntry() {
   return {.id = "ancf_pendulum",
           .title = "soft pendulum of ANCF cable elements",
           .shows = "large deformations with constant M; conserves its energy",
+          .collections = {"multibody"},
           .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "1.2"),
                          positiveParameter("A", "m^2", "area of the section", "0.0018"),

@@ -142,6 +142,7 @@ SceneEntry entry(const char* gap, const char* times) {
   return {.id = "",
           .title = "",
           .shows = "a flexible mechanism with contact and friction",
+          .collections = {"multibody", "switching"},
           .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
           .parameters = {elementsParameter("2"), positiveParameter("L", "m", "length", "1"),
                          positiveParameter("A", "m^2", "area of the section", "0.0018"),

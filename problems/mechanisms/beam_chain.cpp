@@ -167,6 +167,7 @@ SceneEntry beamChainEntry() {
   return {.id = "beam_chain",
           .title = "simply supported beam in finite differences, damped and driven",
           .shows = "cost against the number of unknowns; linear, sparse, exactly solvable",
+          .collections = {"multibody"},
           .size = {.parameter = "m", .unknowns = 1, .step = 1e-3},
           .parameters = {points, numberParameter("damping", "s", "stiffness-proportional damping", "1e-3", 0, 1e3)},
           .reference_cases = {{.times = "0.5 1"}},

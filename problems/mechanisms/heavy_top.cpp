@@ -319,6 +319,8 @@ SceneEntry heavyTopEntry() {
       .id = "heavy_top",
       .title = "heavy top in Euler parameters",
       .shows = "a singular mass matrix M(u), fast rotation in space; against elliptic functions",
+      .collections = {"multibody"},
+      .literature = "O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137",
       .kind = SceneKind::kConstrained,
       .parameters = {coordinates, positiveParameter("m", "kg", "mass", "15"),
                      positiveParameter("l", "m", "distance of the centre of mass from the fixed point", "1"),

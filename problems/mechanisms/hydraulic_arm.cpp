@@ -163,6 +163,7 @@ SceneEntry hydraulicArmEntry() {
   return {.id = "hydraulic_arm",
           .title = "rigid arm lifted by a hydraulic cylinder through a proportional valve",
           .shows = "stiff pressures with sign-switched flow and a kinked reference",
+          .collections = {"multibody", "switching"},
           .parameters = {wordParameter("reference",
                                        "wanted length of the cylinder: 1 - cos pi t with its ends "
                                        "cut off, or whole",

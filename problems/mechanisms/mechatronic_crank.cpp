@@ -113,6 +113,7 @@ SceneEntry mechatronicCrankEntry() {
   return {.id = "mechatronic_crank",
           .title = "slider-crank with motor, chopper, speed controller and friction",
           .shows = "a whole mechatronic system: u, x, z and two kinds of switches",
+          .collections = {"multibody", "switching"},
           .kind = SceneKind::kConstrained,
           .parameters = parameters(),
           .panels = {{"angles", {"theta", "phi"}},

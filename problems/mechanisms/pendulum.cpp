@@ -69,6 +69,8 @@ SceneEntry pendulumEntry() {
   return {.id = "pendulum",
           .title = "pendulum in Cartesian coordinates, one multiplier",
           .shows = "index 3, index 2 and GGL against an exact solution, multiplier included",
+          .collections = {"ivp", "multibody"},
+          .literature = "HW II (VII.1)",
           .kind = SceneKind::kConstrained,
           .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("l", "m", "length", "1"),
                          positiveParameter("g", "m/s^2", "gravity", "9.81")},

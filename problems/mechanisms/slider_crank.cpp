@@ -126,6 +126,7 @@ SceneEntry sliderCrankEntry() {
       .id = "slider_crank",
       .title = "rigid slider-crank driven by a constant torque",
       .shows = "M(u) with a constraint: every term of the Jacobian is alive",
+      .collections = {"multibody"},
       .kind = SceneKind::kConstrained,
       .parameters = parameters(),
       .panels = {{"angles", {"theta", "phi"}},

@@ -197,6 +197,8 @@ SceneEntry sliderCrankFlexibleEntry() {
   return {.id = "slider_crank_flexible",
           .title = "slider-crank with an elastic rod (Simeon; IVP test set 'crank')",
           .shows = "M(u), three multipliers and stiff elastic modes, against a published solution",
+          .collections = {"ivp", "multibody"},
+          .literature = "IVP test set, CRANK",
           .kind = SceneKind::kConstrained,
           .parameters = {positiveParameter("m2", "kg", "mass of the rod", "0.151104"),
                          positiveParameter("m3", "kg", "mass of the slider", "0.075552"),

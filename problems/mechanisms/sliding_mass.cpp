@@ -245,6 +245,8 @@ SceneEntry slidingMassEntry() {
   return {.id = "sliding_mass",
           .title = "mass that slides along an ANCF cantilever",
           .shows = "a joint that moves along a deforming body; the force jumps between elements",
+          .collections = {"multibody", "switching"},
+          .literature = "H. Sugiyama, J. L. Escalona, A. A. Shabana, Nonlinear Dyn. 31 (2003) 167-195",
           .kind = SceneKind::kConstrained,
           .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
           .parameters = parameters(),

@@ -246,6 +246,8 @@ SceneEntry spatialSliderCrankEntry() {
   return {.id = "spatial_slider_crank",
           .title = "slider-crank in space, a rod between two spherical joints",
           .shows = "a closed chain in three dimensions; four, one or no constraints for the same motion",
+          .collections = {"multibody"},
+          .literature = "E. J. Haug, Computer-Aided Kinematics and Dynamics, 1989",
           .kind = SceneKind::kConstrained,
           .parameters = parameters(),
           .panels = {{"crank", {"theta"}},

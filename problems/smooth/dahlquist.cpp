@@ -1,6 +1,4 @@
 // Dahlquist's equation y' = lambda y with complex lambda, written as two real equations.
-#include <cmath>
-
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -26,31 +24,24 @@ struct Dahlquist {
     s.w << re * s.x[0] - im * s.x[1], im * s.x[0] + re * s.x[1];
     return s;
   }
+  static Dahlquist with(const Settings& values) {
+    return {number<Real>(values, "lambda_re"), number<Real>(values, "lambda_im")};
+  }
+  SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{"y1"}, {"y2"}}}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const Dahlquist<Real> problem{number<Real>(settings, "lambda_re"), number<Real>(settings, "lambda_im")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.t_end = 1;
-  setComponents(scene, {}, {{"y1"}, {"y2"}});
-  scene.exact = [problem](const Real& t) { return problem.exact(t); };
-  scene.start = problem.exact(Real(0));
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry dahlquistEntry() {
-  return {.id = "dahlquist",
-          .title = "Dahlquist's equation y' = lambda y, lambda complex",
-          .shows = "the stability function R(h lambda) itself",
-          .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
-                         numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
-          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Dahlquist>(
+      {.id = "dahlquist",
+       .title = "Dahlquist's equation y' = lambda y, lambda complex",
+       .shows = "the stability function R(h lambda) itself",
+       .collections = {"probes"},
+       .literature = "HW II (IV.3)",
+       .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
+                      numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
+       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

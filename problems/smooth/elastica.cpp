@@ -114,6 +114,7 @@ SceneEntry elasticaEntry() {
   return {.id = "elastica",
           .title = "inextensible cantilever under a dead tip load, along its arc length",
           .shows = "large bending against elliptic integrals: the limit of ancf_cantilever at rest",
+          .collections = {"probes"},
           .parameters = {positiveParameter("L", "m", "length", "2"),
                          numberParameter("load", "", "f L^2 / EI, down", "3", 1e-2, 100)},
           .panels = {{"angle", {"theta"}}, {"shape", {"x:y"}}},

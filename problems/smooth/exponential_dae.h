@@ -55,8 +55,8 @@ struct ExponentialDae {
     return {.id = id(),
             .title = "nonlinear DAE of index " + index + ", exactly solvable",
             .shows = "orders of differential and algebraic unknowns, index " + index,
+            .collections = {"probes"},
             .kind = kind(),
-            .parameters = {},
             .reference_cases = {P::referenceCase()},
             .make = make<double>,
             .make_mp50 = make<mp50>};

@@ -1,5 +1,5 @@
 // HIRES: high irradiance responses of photomorphogenesis, Schaefer (1975). HW II (IV.10).
-#include "irk/scene_file.h"
+#include "problems/support/numbered.h"
 
 namespace irk {
 namespace {
@@ -25,35 +25,26 @@ struct Hires {
     r.x[6] = binding - c181 * y[6] - p.k[6];
     r.x[7] = c181 * y[6] - binding - p.k[7];
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, Hires<Real>{});
-  scene.start.x[0] = Real(1);
-  scene.start.x[7] = decimal<Real>("0.0057");
-  completeStart(scene);
-  scene.t_end = 321.8122;
+  void start(State<Real>& s) const {
+    s.x[0] = Real(1);
+    s.x[7] = decimal<Real>("0.0057");
+  }
   // As in HW II (IV.10): Atol = 1e-4 Rtol.
-  std::vector<Component> concentrations;
-  for (int i = 1; i <= 8; ++i) concentrations.push_back({"y" + std::to_string(i), "", 1e-4});
-  setComponents(scene, {}, concentrations);
-  return scene;
-}
+  SceneFrame<Real> frame() const { return {.t_end = 321.8122, .x = numbered(8, "y", "", 1e-4)}; }
+};
 
 }  // namespace
 
 SceneEntry hiresEntry() {
-  return {.id = "hires",
-          .title = "HIRES, eight chemical reactions of plant physiology",
-          .shows = "a moderately stiff ODE of the standard test sets",
-          .parameters = {},
-          .reference_cases =
-              {{.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
-                .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Hires>(
+      {.id = "hires",
+       .title = "HIRES, eight chemical reactions of plant physiology",
+       .shows = "a moderately stiff ODE of the standard test sets",
+       .collections = {"ivp"},
+       .literature = "IVP test set, HIRES; HW II (IV.10)",
+       .reference_cases = {
+           {.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
+            .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

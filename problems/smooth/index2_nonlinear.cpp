@@ -28,6 +28,10 @@ struct Index2Nonlinear {
 
 }  // namespace
 
-SceneEntry index2NonlinearEntry() { return ExponentialDae<Index2Nonlinear>::entry(); }
+SceneEntry index2NonlinearEntry() {
+  SceneEntry entry = ExponentialDae<Index2Nonlinear>::entry();
+  entry.literature = "E. Hairer, Ch. Lubich, M. Roche, LNM 1409, Springer 1989";
+  return entry;
+}
 
 }  // namespace irk

@@ -1,7 +1,5 @@
 // Kaps' problem: y1' = -(2 + 1/eps) y1 + y2^2 / eps, y2' = y1 - y2 - y2^2. The solution is y = (exp -2t, exp -t)
 // for every eps.
-#include <cmath>
-
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -18,40 +16,29 @@ struct Kaps {
     r.x[0] = (square - p.x[0]) / eps - 2 * p.x[0] - p.k[0];
     r.x[1] = p.x[0] - p.x[1] - square - p.k[1];
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const Kaps<Real> problem{number<Real>(settings, "eps")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.t_end = 1;
-  scene.time_unit = "";
-  setComponents(scene, {}, {{"y1"}, {"y2"}});
-  scene.exact = [problem](const Real& t) {
+  State<Real> exact(const Real& t) const {
     using std::exp;
-    State<Real> s(problem.sizes());
+    State<Real> s(sizes());
     s.t = t;
     s.x << exp(-2 * t), exp(-t);
     s.w << -2 * s.x[0], -s.x[1];
     return s;
-  };
-  scene.start = scene.exact(Real(0));
-  return scene;
-}
+  }
+  static Kaps with(const Settings& values) { return {number<Real>(values, "eps")}; }
+  SceneFrame<Real> frame() const { return {.t_end = 1, .time_unit = "", .x = {{"y1"}, {"y2"}}}; }
+};
 
 }  // namespace
 
 SceneEntry kapsEntry() {
-  return {.id = "kaps",
-          .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
-          .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
-          .kind = SceneKind::kSingularlyPerturbed,
-          .stiffness = {.parameter = "eps", .reciprocal = true},
-          .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Kaps>({.id = "kaps",
+                             .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
+                             .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
+                             .collections = {"probes"},
+                             .kind = SceneKind::kSingularlyPerturbed,
+                             .stiffness = {.parameter = "eps", .reciprocal = true},
+                             .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+                             .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

@@ -1,6 +1,4 @@
 // The planar two-body problem q'' = -q / |q|^3 with eccentricity e, started at the pericentre.
-#include <cmath>
-
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -53,35 +51,29 @@ struct Kepler {
     s.w = -s.u / (radius * radius * radius);
     return s;
   }
+  static Kepler with(const Settings& values) { return {number<Real>(values, "e")}; }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 62.83185307179586,  // ten revolutions
+            .time_unit = "",
+            .u = {{"q1"}, {"q2"}},
+            .outputs = {
+                {"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }, "", true},
+                {"angular_momentum", [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }, "",
+                 true}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const Kepler<Real> problem{number<Real>(settings, "e")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.t_end = 62.83185307179586;  // ten revolutions
-  scene.time_unit = "";
-  setComponents(scene, {{"q1"}, {"q2"}});
-  scene.exact = [problem](const Real& t) { return problem.exact(t); };
-  scene.start = problem.exact(Real(0));
-  scene.outputs = {
-      {"energy", [](const State<Real>& s) { return Real(s.v.squaredNorm() / 2 - 1 / s.u.norm()); }, "", true},
-      {"angular_momentum", [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }, "", true}};
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry keplerEntry() {
-  return {.id = "kepler",
-          .title = "Kepler's two-body problem",
-          .shows = "invariants: energy and angular momentum over many revolutions",
-          .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
-          .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
-          .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Kepler>(
+      {.id = "kepler",
+       .title = "Kepler's two-body problem",
+       .shows = "invariants: energy and angular momentum over many revolutions",
+       .collections = {"probes"},
+       .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
+       .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
+       .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

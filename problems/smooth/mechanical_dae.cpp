@@ -21,32 +21,22 @@ struct MechanicalDae {
   void constraints(const T&, const U& u, G&& g) const {
     g[0] = u[0] * u[0] + u[1] * u[1] * (1 + skew * u[0]) - 1;
   }
+  void start(State<Real>& s) const {
+    s.u[0] = Real(1);
+    s.v[1] = Real(0.5);
+  }
+  SceneFrame<Real> frame() const { return {.t_end = 1, .time_unit = "", .u = {{"x"}, {"y"}}, .z = {{"lambda"}}}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, MechanicalDae<Real>{});
-  scene.start.u[0] = Real(1);
-  scene.start.v[1] = Real(0.5);
-  completeStart(scene);
-  scene.t_end = 1;
-  scene.time_unit = "";
-  setComponents(scene, {{"x"}, {"y"}}, {}, {{"lambda"}});
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry mechanicalDaeEntry() {
-  return {.id = "mechanical_dae",
-          .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
-          .shows = "orders of q, v and lambda in every formulation",
-          .kind = SceneKind::kConstrained,
-          .parameters = {},
-          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<MechanicalDae>({.id = "mechanical_dae",
+                                      .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
+                                      .shows = "orders of q, v and lambda in every formulation",
+                                      .collections = {"probes"},
+                                      .kind = SceneKind::kConstrained,
+                                      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

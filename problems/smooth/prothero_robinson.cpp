@@ -1,7 +1,5 @@
 // Prothero & Robinson's problem: y' = lambda (y - phi) + phi' with phi = cos t. The solution is y = phi.
 // HW II (IV.15).
-#include <cmath>
-
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -18,40 +16,32 @@ struct ProtheroRobinson {
     using std::sin;
     r.x[0] = lambda * (p.x[0] - cos(p.t)) - sin(p.t) - p.k[0];
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const ProtheroRobinson<Real> problem{number<Real>(settings, "lambda")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.t_end = 1;
-  setComponents(scene, {}, {{"y"}});
-  scene.exact = [problem](const Real& t) {
+  State<Real> exact(const Real& t) const {
     using std::cos;
     using std::sin;
-    State<Real> s(problem.sizes());
+    State<Real> s(sizes());
     s.t = t;
     s.x[0] = cos(t);
     s.w[0] = -sin(t);
     return s;
-  };
-  scene.start = scene.exact(Real(0));
-  return scene;
-}
+  }
+  static ProtheroRobinson with(const Settings& values) { return {number<Real>(values, "lambda")}; }
+  SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{"y"}}}; }
+};
 
 }  // namespace
 
 SceneEntry protheroRobinsonEntry() {
-  return {.id = "prothero_robinson",
-          .title = "y' = lambda (y - cos t) - sin t",
-          .shows = "order reduction of stiff systems, one component, one parameter",
-          .kind = SceneKind::kStiffTest,
-          .stiffness = {.parameter = "lambda"},
-          .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
-          .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<ProtheroRobinson>(
+      {.id = "prothero_robinson",
+       .title = "y' = lambda (y - cos t) - sin t",
+       .shows = "order reduction of stiff systems, one component, one parameter",
+       .collections = {"probes"},
+       .literature = "A. Prothero, A. Robinson, Math. Comp. 28 (1974) 145-162",
+       .kind = SceneKind::kStiffTest,
+       .stiffness = {.parameter = "lambda"},
+       .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
+       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

@@ -45,7 +45,7 @@ SceneEntry riccatiTrackingEntry() {
   return {.id = "riccati_tracking",
           .title = "y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t",
           .shows = "the order of a scheme: no damaged tableau passes it",
-          .parameters = {},
+          .collections = {"probes"},
           .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
           .make = make<double>,
           .make_mp50 = make<mp50>,

@@ -1,5 +1,5 @@
 // Robertson's chemical kinetics to t = 1e11. HW II (IV.10), "ROBER".
-#include "irk/scene_file.h"
+#include "problems/support/numbered.h"
 
 namespace irk {
 namespace {
@@ -18,31 +18,22 @@ struct Robertson {
     r.x[1] = first - second - third - p.k[1];
     r.x[2] = third - p.k[2];
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, Robertson<Real>{});
-  scene.start.x << Real(1), Real(0), Real(0);
-  completeStart(scene);
-  scene.t_end = 1e11;
+  void start(State<Real>& s) const { s.x[0] = Real(1); }
   // As in HW II (IV.10): Atol = 1e-6 Rtol.
-  setComponents(scene, {}, {{"y1", "", 1e-6}, {"y2", "", 1e-6}, {"y3", "", 1e-6}});
-  return scene;
-}
+  SceneFrame<Real> frame() const { return {.t_end = 1e11, .x = numbered(3, "y", "", 1e-6)}; }
+};
 
 }  // namespace
 
 SceneEntry robertsonEntry() {
-  return {.id = "robertson",
-          .title = "Robertson's chemical kinetics to t = 1e11",
-          .shows = "eleven decades of time, a component that falls to 1e-13",
-          .parameters = {},
-          .reference_cases = {{.times = "0.4 4e3 1e7 1e10 2e10 3e10 4e10 5e10 6e10 7e10 8e10 9e10",
-                               .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Robertson>(
+      {.id = "robertson",
+       .title = "Robertson's chemical kinetics to t = 1e11",
+       .shows = "eleven decades of time, a component that falls to 1e-13",
+       .collections = {"ivp"},
+       .literature = "IVP test set, ROBER; HW II (IV.10)",
+       .reference_cases = {
+           {.times = "0.4 4e3 1e7 1e10 2e10 3e10 4e10 5e10 6e10 7e10 8e10 9e10", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

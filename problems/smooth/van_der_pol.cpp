@@ -15,33 +15,25 @@ struct VanDerPol {
     r.x[0] = p.x[1] - p.k[0];
     r.x[1] = ((1 - p.x[0] * p.x[0]) * p.x[1] - p.x[0]) / eps - p.k[1];
   }
+  static VanDerPol with(const Settings& values) { return {number<Real>(values, "eps")}; }
+  void start(State<Real>& s) const { s.x << Real(2), decimal<Real>("-0.66"); }
+  SceneFrame<Real> frame() const { return {.t_end = 2, .time_unit = "", .x = {{"y1"}, {"y2"}}}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  Scene<Real> scene;
-  setProblem(scene, VanDerPol<Real>{number<Real>(settings, "eps")});
-  scene.start.x << Real(2), decimal<Real>("-0.66");
-  completeStart(scene);
-  scene.t_end = 2;
-  scene.time_unit = "";
-  setComponents(scene, {}, {{"y1"}, {"y2"}});
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry vanDerPolEntry() {
-  return {.id = "van_der_pol",
-          .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
-          .shows = "stiffness with fast transitions: step control and Newton",
-          .kind = SceneKind::kSingularlyPerturbed,
-          .stiffness = {.parameter = "eps", .reciprocal = true},
-          .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-          .panels = {{"y1", {"y1"}}, {"y2", {"y2"}, "1e6", 1e-6}},
-          .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<VanDerPol>(
+      {.id = "van_der_pol",
+       .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
+       .shows = "stiffness with fast transitions: step control and Newton",
+       .collections = {"ivp"},
+       .literature = "IVP test set, VDPOL; HW II (IV.10)",
+       .kind = SceneKind::kSingularlyPerturbed,
+       .stiffness = {.parameter = "eps", .reciprocal = true},
+       .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+       .panels = {{"y1", {"y1"}}, {"y2", {"y2"}, "1e6", 1e-6}},
+       .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,18 @@ std::array<Real, N> decimals(const char* const (&texts)[N]) {
   return values;
 }
 
-/// y1, y2, ..., all with one unit and one scale.
-inline std::vector<Component> numbered(int count, const std::string& unit = "", double scale = 1) {
+/// Components with these names, all with one unit and the scale 1.
+inline std::vector<Component> named(const std::string& unit, std::initializer_list<const char*> names) {
   std::vector<Component> all;
-  for (int i = 1; i <= count; ++i) all.push_back({"y" + std::to_string(i), unit, scale});
+  for (const char* name : names) all.push_back({name, unit});
+  return all;
+}
+
+/// y1, y2, ... (or another name with numbers), all with one unit and one scale.
+inline std::vector<Component> numbered(int count, const std::string& name = "y", const std::string& unit = "",
+                                       double scale = 1) {
+  std::vector<Component> all;
+  for (int i = 1; i <= count; ++i) all.push_back({name + std::to_string(i), unit, scale});
   return all;
 }
 

@@ -64,6 +64,7 @@ SceneEntry bouncingMassEntry() {
   return {.id = "bouncing_mass",
           .title = "mass bouncing on an elastic floor",
           .shows = "contact: a stiffness that comes and goes",
+          .collections = {"switching"},
           .parameters = {positiveParameter("m", "kg", "mass", "0.25"),
                          positiveParameter("k", "N/m", "stiffness of the floor", "2e4"),
                          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),

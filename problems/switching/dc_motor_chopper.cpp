@@ -71,6 +71,7 @@ SceneEntry dcMotorChopperEntry() {
   return {.id = "dc_motor_chopper",
           .title = "DC motor behind a two-level chopper with hysteresis",
           .shows = "power electronics: a supply that switches by the current's own band",
+          .collections = {"switching"},
           .parameters = {positiveParameter("U", "V", "supply voltage", "24"),
                          numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
                          positiveParameter("L", "H", "inductance of the armature", "0.01"),

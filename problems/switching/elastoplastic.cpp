@@ -105,6 +105,7 @@ SceneEntry elastoplasticEntry() {
   return {.id = "elastoplastic",
           .title = "driven mass on a spring and an ideal-plastic slider in series",
           .shows = "plasticity: a memory, a rate that jumps, and a kink at every unloading",
+          .collections = {"switching"},
           .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "100"),
                          positiveParameter("Fy", "N", "yield force", "1"),
                          numberParameter("P0", "N", "amplitude of the load", "1.2", -1e15, 1e15),

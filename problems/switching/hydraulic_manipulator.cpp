@@ -280,6 +280,7 @@ SceneEntry hydraulicManipulatorEntry() {
           .shows =
               "M(u) with stiff pressures, a bulk modulus that depends on them, and ramps of "
               "a millisecond",
+          .collections = {"multibody", "switching"},
           .parameters = parameters(),
           .panels = {{"angles", {"theta1", "theta2"}},
                      {"angular velocities", {"theta1'", "theta2'"}},

@@ -71,6 +71,7 @@ SceneEntry sampledControlEntry() {
   return {.id = "sampled_control",
           .title = "oscillator under a sampled PD controller",
           .shows = "a digital controller: a discrete state that is set at fixed times",
+          .collections = {"switching"},
           .parameters = {positiveParameter("m", "kg", "mass", "1"),
                          numberParameter("d", "N s/m", "damping", "0.5", 0, 1e15),
                          numberParameter("c", "N/m", "spring", "20", 0, 1e15),

@@ -202,6 +202,7 @@ SceneEntry stickSlipEntry() {
           .shows =
               "set-valued friction against an exact solution: what each way to treat a "
               "discontinuity costs",
+          .collections = {"switching"},
           .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "1"),
                          positiveParameter("Fs", "N", "largest sticking force", "1.5"),
                          positiveParameter("Fd", "N", "slip force", "1"),

@@ -2,8 +2,6 @@
 //
 // u = X, position of the mass; x = Z, mean deflection of the bristles. The mass is pulled by a spring whose other end
 // moves at the speed vb.
-#include <cmath>
-
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -29,49 +27,44 @@ struct LuGre {
     r.u[0] = K * (vb * p.t - p.u[0]) - F_L - M * p.a[0];
     r.x[0] = Z_rate - p.k[0];
   }
+  static LuGre with(const Settings& values) {
+    using std::sqrt;
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Real sigma0 = value("sigma0");
+    return {.M = value("M"),
+            .K = value("K"),
+            .vb = value("vb"),
+            .sigma0 = sigma0,
+            .sigma1 = values.at("sigma1") == "sqrt(sigma0)" ? Real(sqrt(sigma0)) : value("sigma1"),
+            .sigma2 = value("sigma2"),
+            .Fc = value("Fc"),
+            .Fs = value("Fs"),
+            .Vs = value("Vs")};
+  }
+  SceneFrame<Real> frame() const {
+    const double bristle = static_cast<double>(Real(Fs / sigma0));
+    return {.t_end = 25, .u = {{"X", "m", 1, 0.1}}, .x = {{"Z", "m", bristle}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  using std::sqrt;
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Real sigma0 = value("sigma0");
-  const LuGre<Real> problem{.M = value("M"),
-                            .K = value("K"),
-                            .vb = value("vb"),
-                            .sigma0 = sigma0,
-                            .sigma1 = settings.at("sigma1") == "sqrt(sigma0)" ? Real(sqrt(sigma0)) : value("sigma1"),
-                            .sigma2 = value("sigma2"),
-                            .Fc = value("Fc"),
-                            .Fs = value("Fs"),
-                            .Vs = value("Vs")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  completeStart(scene);
-  scene.t_end = 25;
-  const double bristle = static_cast<double>(Real(problem.Fs / sigma0));
-  setComponents(scene, {{"X", "m", 1, 0.1}}, {{"Z", "m", bristle}});
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry stickSlipLugreEntry() {
-  return {.id = "stick_slip_lugre",
-          .title = "mass pulled over a surface with bristles (LuGre friction)",
-          .shows = "stick-slip without switches: smooth and very stiff",
-          .parameters = {positiveParameter("M", "kg", "mass", "1"), positiveParameter("K", "N/m", "spring", "2"),
-                         numberParameter("vb", "m/s", "speed of the spring's other end", "0.1", -1e3, 1e3),
-                         positiveParameter("sigma0", "N/m", "stiffness of the bristles", "1e5"),
-                         numberParameter("sigma1", "N s/m", "damping of the bristles", "sqrt(sigma0)", 0, 1e15),
-                         numberParameter("sigma2", "N s/m", "viscous friction", "0.4", 0, 1e15),
-                         positiveParameter("Fc", "N", "Coulomb friction", "1"),
-                         positiveParameter("Fs", "N", "largest sticking force", "1.5"),
-                         positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc", "0.001")},
-          .panels = {{"position", {"X"}}, {"velocity", {"X'"}}, {"deflection of the bristles", {"Z"}, "µm", 1e6}},
-          .reference_cases = {{.times = "2.5 5 7.5 10 12.5 15 17.5 20 22.5"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<LuGre>(
+      {.id = "stick_slip_lugre",
+       .title = "mass pulled over a surface with bristles (LuGre friction)",
+       .shows = "stick-slip without switches: smooth and very stiff",
+       .collections = {"switching"},
+       .parameters = {positiveParameter("M", "kg", "mass", "1"), positiveParameter("K", "N/m", "spring", "2"),
+                      numberParameter("vb", "m/s", "speed of the spring's other end", "0.1", -1e3, 1e3),
+                      positiveParameter("sigma0", "N/m", "stiffness of the bristles", "1e5"),
+                      numberParameter("sigma1", "N s/m", "damping of the bristles", "sqrt(sigma0)", 0, 1e15),
+                      numberParameter("sigma2", "N s/m", "viscous friction", "0.4", 0, 1e15),
+                      positiveParameter("Fc", "N", "Coulomb friction", "1"),
+                      positiveParameter("Fs", "N", "largest sticking force", "1.5"),
+                      positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc", "0.001")},
+       .panels = {{"position", {"X"}}, {"velocity", {"X'"}}, {"deflection of the bristles", {"Z"}, "µm", 1e6}},
+       .reference_cases = {{.times = "2.5 5 7.5 10 12.5 15 17.5 20 22.5"}}});
 }
 
 }  // namespace irk

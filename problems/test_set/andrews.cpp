@@ -1,6 +1,4 @@
 // Andrews' squeezing mechanism: seven rigid bodies in three loops. IVP test set, ANDREWS; HW II (VII.7).
-#include <cmath>
-
 #include "irk/scene_file.h"
 
 namespace irk {
@@ -95,40 +93,34 @@ struct Andrews {
     g[4] = x - zf * cos(sum3) - u * sin(q[6]) - xa;
     g[5] = y - zf * sin(sum3) + u * cos(q[6]) - ya;
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, Andrews<Real>{});
-  std::vector<Component> angles, multipliers;
-  for (const char* name : kAngles) angles.push_back({name, "rad"});
-  for (int i = 1; i <= 6; ++i) multipliers.push_back({"lambda" + std::to_string(i), "N"});
-  setComponents(scene, angles, {}, multipliers);
-  scene.t_end = 0.03;
   // Digits of the test set; the constraints determine all of them, Theta is 0.
-  scene.start.u << Real(-0.0617138900142765), Real(0), Real(0.455279819163070), Real(0.222668390165886),
-      Real(0.487364979543843), Real(-0.222668390165886), Real(1.23054744454982);
-  completeStart(scene, {"beta", "gamma", "Phi", "delta", "Omega", "epsilon"});
-  for (Index i = 0; i < 7; ++i) {
-    scene.outputs.push_back(
-        {std::string(kAngles[i]) + "''", [i](const State<Real>& s) { return Real(s.w[i]); }, "rad/s^2"});
+  void start(State<Real>& s) const {
+    s.u << Real(-0.0617138900142765), Real(0), Real(0.455279819163070), Real(0.222668390165886),
+        Real(0.487364979543843), Real(-0.222668390165886), Real(1.23054744454982);
   }
-  return scene;
-}
+  SceneFrame<Real> frame() const {
+    SceneFrame<Real> frame{.t_end = 0.03, .unknown = {"beta", "gamma", "Phi", "delta", "Omega", "epsilon"}};
+    for (const char* name : kAngles) frame.u.push_back({name, "rad"});
+    for (int i = 1; i <= 6; ++i) frame.z.push_back({"lambda" + std::to_string(i), "N"});
+    for (Index i = 0; i < 7; ++i) {
+      const auto acceleration = [i](const State<Real>& s) { return Real(s.w[i]); };
+      frame.outputs.push_back({std::string(kAngles[i]) + "''", acceleration, "rad/s^2"});
+    }
+    return frame;
+  }
+};
 
 }  // namespace
 
 SceneEntry andrewsEntry() {
-  return {.id = "andrews",
-          .title = "Andrews' squeezing mechanism: seven bodies, six multipliers",
-          .shows = "index 3 with M(u): many coupled loops, fast rotation",
-          .kind = SceneKind::kConstrained,
-          .parameters = {},
-          .panels = {{"angles", {"beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"}}},
-          .reference_cases = {{.tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Andrews>({.id = "andrews",
+                                .title = "Andrews' squeezing mechanism: seven bodies, six multipliers",
+                                .shows = "index 3 with M(u): many coupled loops, fast rotation",
+                                .collections = {"ivp", "multibody"},
+                                .literature = "IVP test set, ANDREWS; HW II (VII.7)",
+                                .kind = SceneKind::kConstrained,
+                                .panels = {{"angles", {"beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"}}},
+                                .reference_cases = {{.tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

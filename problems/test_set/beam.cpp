@@ -4,7 +4,7 @@
 // beside, D has -sin(theta_l - theta_l+-1) beside its diagonal.
 #include <array>
 
-#include "irk/scene_file.h"
+#include "problems/support/numbered.h"
 
 namespace irk {
 namespace {
@@ -62,32 +62,20 @@ struct Beam {
       r.u[i] = diagonal(l) * v[l] + apply(c, l, v, 1) + apply(s, l, u, -1) - p.a[i];
     }
   }
+  void start(State<Real>& s) const { s.d[0] = Real(1.5); }
+  SceneFrame<Real> frame() const { return {.t_end = 5, .u = numbered(static_cast<int>(kLinks), "theta", "rad")}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, Beam<Real>{});
-  scene.start.d[0] = Real(1.5);
-  completeStart(scene);
-  scene.t_end = 5;
-  std::vector<Component> angles;
-  for (std::size_t l = 1; l <= kLinks; ++l) angles.push_back({"theta" + std::to_string(l), "rad"});
-  setComponents(scene, angles);
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry beamEntry() {
-  return {.id = "beam",
-          .title = "elastic beam of 40 links",
-          .shows = "stiff oscillations of second order; a force that ends at t = pi",
-          .parameters = {},
-          .panels = {{"angle of the free end", {"theta40"}}},
-          .reference_cases = {{.tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Beam>({.id = "beam",
+                             .title = "elastic beam of 40 links",
+                             .shows = "stiff oscillations of second order; a force that ends at t = pi",
+                             .collections = {"ivp", "multibody"},
+                             .literature = "IVP test set, BEAM; HW II (IV.10)",
+                             .panels = {{"angle of the free end", {"theta40"}}},
+                             .reference_cases = {{.tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

@@ -1,7 +1,5 @@
 // The axis of a car on a bumpy road (Schneider). IVP test set, CARAXIS.
-#include <cmath>
-
-#include "irk/scene_file.h"
+#include "problems/support/numbered.h"
 
 namespace irk {
 namespace {
@@ -42,32 +40,26 @@ struct CarAxis {
     c[0] = -(u[0] * xb(t) + u[1] * yb(t));
     c[1] = 1 - (dx * dx + dy * dy);
   }
+  void start(State<Real>& s) const {
+    s.u << Real(0), Real(0.5), Real(1), Real(0.5);
+    s.v << Real(-0.5), Real(0), Real(-0.5), Real(0);
+  }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 3, .u = named("m", {"xl", "yl", "xr", "yr"}), .z = {{"lambda1"}, {"lambda2"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, CarAxis<Real>{});
-  scene.start.u << Real(0), Real(0.5), Real(1), Real(0.5);
-  scene.start.v << Real(-0.5), Real(0), Real(-0.5), Real(0);
-  completeStart(scene);
-  scene.t_end = 3;
-  setComponents(scene, {{"xl", "m"}, {"yl", "m"}, {"xr", "m"}, {"yr", "m"}}, {}, {{"lambda1"}, {"lambda2"}});
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry caraxisEntry() {
-  return {.id = "caraxis",
-          .title = "axis of a car on a bumpy road",
-          .shows = "constraints that depend on time, a small mass between stiff springs",
-          .kind = SceneKind::kConstrained,
-          .parameters = {},
-          .panels = {{"heights of the ends", {"yl", "yr"}}},
-          .reference_cases = {{.tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<CarAxis>({.id = "caraxis",
+                                .title = "axis of a car on a bumpy road",
+                                .shows = "constraints that depend on time, a small mass between stiff springs",
+                                .collections = {"ivp", "multibody"},
+                                .literature = "IVP test set, CARAXIS",
+                                .kind = SceneKind::kConstrained,
+                                .panels = {{"heights of the ends", {"yl", "yr"}}},
+                                .reference_cases = {{.tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

@@ -1,6 +1,4 @@
 // The chemical Akzo Nobel problem: two substances are mixed under a flow of carbon dioxide. IVP test set, CHEMAKZO.
-#include <cmath>
-
 #include "problems/support/numbered.h"
 
 namespace irk {
@@ -27,30 +25,23 @@ struct ChemicalAkzo {
     r.x[4] = r2 - r3 + r5 - p.k[4];
     r.z[0] = Ks * (y1 * y4) - y6;
   }
+  void start(State<Real>& s) const {
+    s.x << decimal<Real>("0.444"), decimal<Real>("0.00123"), Real(0), decimal<Real>("0.007"), Real(0);
+  }
+  SceneFrame<Real> frame() const { return {.t_end = 180, .x = numbered(5), .z = {{"y6"}}}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, ChemicalAkzo<Real>{});
-  scene.start.x << decimal<Real>("0.444"), decimal<Real>("0.00123"), Real(0), decimal<Real>("0.007"), Real(0);
-  completeStart(scene);
-  scene.t_end = 180;
-  setComponents(scene, {}, numbered(5), {{"y6"}});
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry chemakzoEntry() {
-  return {.id = "chemakzo",
-          .title = "chemical Akzo Nobel: five reactions, one equilibrium",
-          .shows = "an algebraic row; a square root that ends where a concentration is negative",
-          .kind = SceneKind::kIndex1,
-          .parameters = {},
-          .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<ChemicalAkzo>(
+      {.id = "chemakzo",
+       .title = "chemical Akzo Nobel: five reactions, one equilibrium",
+       .shows = "an algebraic row; a square root that ends where a concentration is negative",
+       .collections = {"ivp"},
+       .literature = "IVP test set, CHEMAKZO",
+       .kind = SceneKind::kIndex1,
+       .reference_cases = {{.times = "20", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

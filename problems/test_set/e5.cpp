@@ -26,30 +26,23 @@ struct E5 {
     r.x[2] = first - C * y4 - p.k[2];
     r.z[0] = y3 + y4 - y2;
   }
+  void start(State<Real>& s) const { s.x[0] = decimal<Real>("1.76e-3"); }
+  SceneFrame<Real> frame() const {
+    return {
+        .t_end = 1e13, .x = {{"y1", "", kScale}, {"y3", "", kScale}, {"y4", "", kScale}}, .z = {{"y2", "", kScale}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, E5<Real>{});
-  scene.start.x[0] = decimal<Real>("1.76e-3");
-  completeStart(scene);
-  scene.t_end = 1e13;
-  setComponents(scene, {}, {{"y1", "", kScale}, {"y3", "", kScale}, {"y4", "", kScale}}, {{"y2", "", kScale}});
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry e5Entry() {
-  return {.id = "e5",
-          .title = "E5: chemical pyrolysis to t = 1e13",
-          .shows = "components down to 1e-22 over thirteen decades of time, cancellation",
-          .kind = SceneKind::kIndex1,
-          .parameters = {},
-          .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<E5>({.id = "e5",
+                           .title = "E5: chemical pyrolysis to t = 1e13",
+                           .shows = "components down to 1e-22 over thirteen decades of time, cancellation",
+                           .collections = {"ivp"},
+                           .literature = "IVP test set, E5; HW II (IV.10)",
+                           .kind = SceneKind::kIndex1,
+                           .reference_cases = {{.times = "10 1e5 1e9 1e11"}}});
 }
 
 }  // namespace irk

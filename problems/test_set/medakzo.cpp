@@ -30,24 +30,19 @@ struct MedicalAkzo {
       r.x[2 * j - 1] = -reaction - p.k[2 * j - 1];
     }
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const MedicalAkzo<Real> problem{static_cast<Index>(number<double>(settings, "N"))};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  for (Index j = 1; j <= problem.N; ++j) scene.start.x[2 * j - 1] = Real(1);
-  scene.start.d[0] = Real(2);
-  completeStart(scene);
-  scene.t_end = 20;
-  std::vector<Component> x;
-  for (Index j = 1; j <= problem.N; ++j) {
-    for (const char* name : {"u", "v"}) x.push_back({name + std::to_string(j)});
+  static MedicalAkzo with(const Settings& values) { return {static_cast<Index>(number<double>(values, "N"))}; }
+  void start(State<Real>& s) const {
+    for (Index j = 1; j <= N; ++j) s.x[2 * j - 1] = Real(1);
+    s.d[0] = Real(2);
   }
-  setComponents(scene, {}, x);
-  return scene;
-}
+  SceneFrame<Real> frame() const {
+    SceneFrame<Real> frame{.t_end = 20};
+    for (Index j = 1; j <= N; ++j) {
+      for (const char* name : {"u", "v"}) frame.x.push_back({name + std::to_string(j)});
+    }
+    return frame;
+  }
+};
 
 }  // namespace
 
@@ -55,15 +50,15 @@ SceneEntry medakzoEntry() {
   Parameter points = numberParameter("N", "", "points of the grid", "200", 3, 20000);
   points.whole = true;
   points.audit_max = 40;
-  return {.id = "medakzo",
-          .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
-          .shows = "400 unknowns in a band; an input that jumps at t = 5",
-          .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
-          .parameters = {points},
-          .panels = {{"concentrations", {"u3", "v3"}}},
-          .reference_cases = {{.times = "5", .tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<MedicalAkzo>({.id = "medakzo",
+                                    .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
+                                    .shows = "400 unknowns in a band; an input that jumps at t = 5",
+                                    .collections = {"ivp"},
+                                    .literature = "IVP test set, MEDAKZO",
+                                    .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
+                                    .parameters = {points},
+                                    .panels = {{"concentrations", {"u3", "v3"}}},
+                                    .reference_cases = {{.times = "5", .tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

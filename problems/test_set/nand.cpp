@@ -1,6 +1,4 @@
 // A NAND gate of three field-effect transistors (Guenther, Rentrop): C(y) y' = f(t, y). IVP test set, NAND.
-#include <cmath>
-
 #include "problems/support/numbered.h"
 
 namespace irk {
@@ -89,39 +87,33 @@ struct NandGate {
     r.x[12] = iB(y(13)) - bulk(13) - C(y(13)) * k(13);
     r.x[13] = i14 - bulk(14) - q14;
   }
+  static NandGate with(const Settings& values) {
+    const auto c = [](const char* text) { return decimal<Real>(text); };
+    return {.D = {c("-2.43"), c("0.2"), c("1.28"), c("5.35e-4"), c("5.35e-4")},
+            .E = {c("0.2"), c("0.035"), c("1.01"), c("1.748e-3"), number<Real>(values, "beta_back")}};
+  }
+  void start(State<Real>& s) const {
+    const Real high = 5, low = -2.5, middle = decimal<Real>("3.62385");
+    s.x << high, high, low, low, high, middle, high, low, low, middle, Real(0), middle, low, low;
+  }
+  SceneFrame<Real> frame() const { return {.t_end = 80, .time_unit = "ns", .x = numbered(14, "y", "V")}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto c = [](const char* text) { return decimal<Real>(text); };
-  const Transistor<Real> D{c("-2.43"), c("0.2"), c("1.28"), c("5.35e-4"), c("5.35e-4")};
-  const Transistor<Real> E{c("0.2"), c("0.035"), c("1.01"), c("1.748e-3"), number<Real>(settings, "beta_back")};
-  Scene<Real> scene;
-  setProblem(scene, NandGate<Real>{.D = D, .E = E});
-  auto& y = scene.start.x;
-  const Real high = 5, low = -2.5, middle = c("3.62385");
-  y << high, high, low, low, high, middle, high, low, low, middle, Real(0), middle, low, low;
-  completeStart(scene);
-  scene.t_end = 80;
-  scene.time_unit = "ns";
-  setComponents(scene, {}, numbered(14, "V"));
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry nandEntry() {
-  return {.id = "nand",
-          .title = "NAND gate of three field-effect transistors",
-          .shows = "capacities that depend on y; fifteen kinks of the inputs at known times",
-          .parameters = {numberParameter("beta_back", "mA/V^2",
-                                         "of an enhancement transistor's current from source to drain; 1.748e-3 in the "
-                                         "test set's report, but not in its program",
-                                         "1.748e-4", 0, 1)},
-          .panels = {{"output", {"y5"}}},
-          .reference_cases = {{.tolerance = kFewDigits}, {.settings = "beta_back=1.748e-3", .tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<NandGate>(
+      {.id = "nand",
+       .title = "NAND gate of three field-effect transistors",
+       .shows = "capacities that depend on y; fifteen kinks of the inputs at known times",
+       .collections = {"ivp"},
+       .literature = "IVP test set, NAND",
+       .parameters = {numberParameter("beta_back", "mA/V^2",
+                                      "of an enhancement transistor's current from source to drain; 1.748e-3 in the "
+                                      "test set's report, but not in its program",
+                                      "1.748e-4", 0, 1)},
+       .panels = {{"output", {"y5"}}},
+       .reference_cases = {{.tolerance = kFewDigits}, {.settings = "beta_back=1.748e-3", .tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

@@ -16,29 +16,19 @@ struct Oregonator {
     r.x[1] = (y3 - y2 - y1 * y2) / s - p.k[1];
     r.x[2] = w * (y1 - y3) - p.k[2];
   }
+  void start(State<Real>& state) const { state.x << Real(1), Real(2), Real(3); }
+  SceneFrame<Real> frame() const { return {.t_end = 360, .x = numbered(3)}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, Oregonator<Real>{});
-  scene.start.x << Real(1), Real(2), Real(3);
-  completeStart(scene);
-  scene.t_end = 360;
-  setComponents(scene, {}, numbered(3));
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry oregoEntry() {
-  return {.id = "orego",
-          .title = "Oregonator: an oscillating chemical reaction",
-          .shows = "steps over ten decades: slow drifts and fast transitions",
-          .parameters = {},
-          .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Oregonator>({.id = "orego",
+                                   .title = "Oregonator: an oscillating chemical reaction",
+                                   .shows = "steps over ten decades: slow drifts and fast transitions",
+                                   .collections = {"ivp"},
+                                   .literature = "IVP test set, OREGO; HW II (IV.10)",
+                                   .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

@@ -64,35 +64,28 @@ struct Pollution {
     r.x[19] = -w[25] + w[24];
     r.x -= p.k;
   }
+  void start(State<Real>& s) const {
+    const auto set = [&](Index i, const char* value) { s.x[i - 1] = decimal<Real>(value); };
+    set(2, "0.2");
+    set(4, "0.04");
+    set(7, "0.1");
+    set(8, "0.3");
+    set(9, "0.01");
+    set(17, "0.007");
+  }
+  SceneFrame<Real> frame() const { return {.t_end = 60, .x = numbered(20)}; }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, Pollution<Real>{});
-  auto& y = scene.start.x;
-  y[1] = decimal<Real>("0.2");
-  y[3] = decimal<Real>("0.04");
-  y[6] = decimal<Real>("0.1");
-  y[7] = decimal<Real>("0.3");
-  y[8] = decimal<Real>("0.01");
-  y[16] = decimal<Real>("0.007");
-  completeStart(scene);
-  scene.t_end = 60;
-  setComponents(scene, {}, numbered(20));
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry pollutionEntry() {
-  return {.id = "pollution",
-          .title = "air pollution, 25 reactions of 20 substances",
-          .shows = "moderate stiffness, components from 1e-18 to 1",
-          .parameters = {},
-          .reference_cases = {{.times = "1", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<Pollution>(
+      {.id = "pollution",
+       .title = "air pollution, 25 reactions of 20 substances",
+       .shows = "moderate stiffness, components from 1e-18 to 1",
+       .collections = {"ivp"},
+       .literature = "IVP test set, POLLU; J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250",
+       .reference_cases = {{.times = "1", .tolerance = kManyDigits}}});
 }
 
 }  // namespace irk

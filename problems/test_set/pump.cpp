@@ -3,9 +3,7 @@
 // In ns, V, pC, pF, mA instead of the test set's s, V, C, F, A: all numbers are about 1. Its y2' + y3' = 0 and
 // y4' + y5' = 0 are rows for the sums of charges x[1] and x[2]. The input has slopes of 2 V/ns as in the test set's
 // program; its report prints 20.
-#include <cmath>
-
-#include "irk/scene_file.h"
+#include "problems/support/numbered.h"
 
 namespace irk {
 namespace {
@@ -87,35 +85,28 @@ struct ChargePump {
     r.z[4] = y4 - CD * y8;
     r.z[5] = p.x[2] - y4 - channel;
   }
+  void start(State<Real>& s) const { s.x[0] = gateWithoutChannel(Real(0)); }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 1200,
+            .time_unit = "ns",
+            .x = named("pC", {"y1", "y2+y3", "y4+y5"}),
+            .z = {{"y2", "pC"}, {"y4", "pC"}, {"y6", "V"}, {"y7", "V"}, {"y8", "V"}, {"y9", "mA"}},
+            .outputs = {{"y3", [](const State<Real>& s) { return Real(s.x[1] - s.z()[0]); }, "pC"},
+                        {"y5", [](const State<Real>& s) { return Real(s.x[2] - s.z()[1]); }, "pC"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, ChargePump<Real>{});
-  scene.start.x[0] = ChargePump<Real>{}.gateWithoutChannel(Real(0));
-  completeStart(scene);
-  scene.t_end = 1200;
-  scene.time_unit = "ns";
-  setComponents(scene, {}, {{"y1", "pC"}, {"y2+y3", "pC"}, {"y4+y5", "pC"}},
-                {{"y2", "pC"}, {"y4", "pC"}, {"y6", "V"}, {"y7", "V"}, {"y8", "V"}, {"y9", "mA"}});
-  scene.outputs = {{"y3", [](const State<Real>& s) { return Real(s.x[1] - s.z()[0]); }, "pC"},
-                   {"y5", [](const State<Real>& s) { return Real(s.x[2] - s.z()[1]); }, "pC"}};
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry pumpEntry() {
-  return {.id = "pump",
-          .title = "charge pump: a transistor and two capacitors",
-          .shows = "index 2; kinks at known times and where the transistor changes its region",
-          .kind = SceneKind::kIndex2,
-          .parameters = {},
-          .panels = {{"voltages", {"y6", "y7", "y8"}}, {"charges", {"y1", "y2", "y4"}}},
-          .reference_cases = {{.tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<ChargePump>({.id = "pump",
+                                   .title = "charge pump: a transistor and two capacitors",
+                                   .shows = "index 2; kinks at known times and where the transistor changes its region",
+                                   .collections = {"ivp", "switching"},
+                                   .literature = "IVP test set, PUMP",
+                                   .kind = SceneKind::kIndex2,
+                                   .panels = {{"voltages", {"y6", "y7", "y8"}}, {"charges", {"y1", "y2", "y4"}}},
+                                   .reference_cases = {{.tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

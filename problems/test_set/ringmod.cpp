@@ -47,34 +47,27 @@ struct RingModulator {
     r.x[row(15)] = (-y(2) - (Rc + Rg1) * y(15)) / Ls1;
     r.x -= p.k;
   }
-};
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const RingModulator<Real> problem{.Cs = number<Real>(settings, "Cs")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  completeStart(scene);
-  scene.t_end = 1e-3;
-  auto x = numbered(15), z = decltype(x)();
-  if (problem.algebraic()) {
-    z.assign(x.begin() + 2, x.begin() + 6);
-    x.erase(x.begin() + 2, x.begin() + 6);
+  static RingModulator with(const Settings& values) { return {.Cs = number<Real>(values, "Cs")}; }
+  SceneFrame<Real> frame() const {
+    SceneFrame<Real> frame{.t_end = 1e-3, .x = numbered(15)};
+    if (!algebraic()) return frame;
+    frame.z.assign(frame.x.begin() + 2, frame.x.begin() + 6);
+    frame.x.erase(frame.x.begin() + 2, frame.x.begin() + 6);
+    return frame;
   }
-  setComponents(scene, {}, x, z);
-  return scene;
-}
+};
 
 }  // namespace
 
 SceneEntry ringmodEntry() {
-  return {.id = "ringmod",
-          .title = "ring modulator: four diodes mix two signals",
-          .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
-          .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
-          .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<RingModulator>(
+      {.id = "ringmod",
+       .title = "ring modulator: four diodes mix two signals",
+       .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
+       .collections = {"ivp"},
+       .literature = "IVP test set, RINGMOD",
+       .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
+       .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

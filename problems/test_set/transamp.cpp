@@ -2,9 +2,7 @@
 //
 // The test set writes M y' = f with a singular M, whose rows are currents of five capacitors. Here x has the voltages
 // of the capacitors, z the other voltages, and the sums of two rows without y' are algebraic: the same equations.
-#include <cmath>
-
-#include "irk/scene_file.h"
+#include "problems/support/numbered.h"
 
 namespace irk {
 namespace {
@@ -35,36 +33,34 @@ struct TransistorAmplifier {
     r.z[1] = f4 + (2 * y5 - Ub) / R + (1 - alpha) * g2;
     r.z[2] = f7 + y8 / R;
   }
+  void start(State<Real>& s) const {
+    s.x << Real(-3), Real(3), Real(3), Real(3), Real(6);
+    s.z() << Real(3), Real(3), Real(0);
+  }
+  // y_i, the sum of a capacitor's voltage and another one.
+  static auto sum(const char* name, Index capacitor, Index other) {
+    const auto value = [=](const State<Real>& s) { return Real(s.x[capacitor] + s.z()[other]); };
+    return typename Scene<Real>::Output{name, value, "V"};
+  }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 0.2,
+            .x = named("V", {"y1-y2", "y3", "y4-y5", "y6", "y7-y8"}),
+            .z = named("V", {"y2", "y5", "y8"}),
+            .outputs = {sum("y1", 0, 0), sum("y4", 2, 1), sum("y7", 4, 2)}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings&) {
-  Scene<Real> scene;
-  setProblem(scene, TransistorAmplifier<Real>{});
-  scene.start.x << Real(-3), Real(3), Real(3), Real(3), Real(6);
-  scene.start.z() << Real(3), Real(3), Real(0);
-  completeStart(scene);
-  scene.t_end = 0.2;
-  setComponents(scene, {}, {{"y1-y2", "V"}, {"y3", "V"}, {"y4-y5", "V"}, {"y6", "V"}, {"y7-y8", "V"}},
-                {{"y2", "V"}, {"y5", "V"}, {"y8", "V"}});
-  scene.outputs = {{"y1", [](const State<Real>& s) { return Real(s.x[0] + s.z()[0]); }, "V"},
-                   {"y4", [](const State<Real>& s) { return Real(s.x[2] + s.z()[1]); }, "V"},
-                   {"y7", [](const State<Real>& s) { return Real(s.x[4] + s.z()[2]); }, "V"}};
-  return scene;
-}
 
 }  // namespace
 
 SceneEntry transampEntry() {
-  return {.id = "transamp",
-          .title = "amplifier with two transistors",
-          .shows = "M y' = f with a singular M; exponentials, Newton near round-off",
-          .kind = SceneKind::kIndex1,
-          .parameters = {},
-          .panels = {{"input and output", {"y1", "y8"}}},
-          .reference_cases = {{.tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
+  return sceneEntryOf<TransistorAmplifier>({.id = "transamp",
+                                            .title = "amplifier with two transistors",
+                                            .shows = "M y' = f with a singular M; exponentials, Newton near round-off",
+                                            .collections = {"ivp"},
+                                            .literature = "IVP test set, TRANSAMP; HW II (VI.1)",
+                                            .kind = SceneKind::kIndex1,
+                                            .panels = {{"input and output", {"y1", "y8"}}},
+                                            .reference_cases = {{.tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

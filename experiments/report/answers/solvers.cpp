@@ -6,8 +6,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "experiments/analyses/cost_at_error.h"
+#include "experiments/audit/row_judgement.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -20,24 +22,33 @@ constexpr const char* kStudy = "work_precision";
 constexpr const char* kQuestion = "Which solver should I use?";
 constexpr double kAskedErrors[] = {1e-4, 1e-8, 1e-11};
 
-std::string kindOf(const Table& table, const TableRow& row) {
-  const auto& blocks = textAt(table, row, kBlockColumn);
-  return blocks.substr(0, blocks.find_first_of("_ "));
+// A block of the study holds a collection with a part of the solvers: ivp_variable. A run can be in several blocks.
+std::vector<std::string> kindsOf(const Table& table, const TableRow& row) {
+  std::vector<std::string> kinds;
+  std::istringstream blocks(textAt(table, row, kBlockColumn));
+  for (std::string block; blocks >> block;) kinds.push_back(block.substr(0, block.find('_')));
+  return kinds;
+}
+
+bool isOfKind(const Table& table, const TableRow& row, const std::string& kind) {
+  const auto kinds = kindsOf(table, row);
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
 std::string kindTitle(const std::string& kind) {
-  if (kind == "stiff") return "stiff ODEs";
-  if (kind == "smooth") return "smooth ODEs";
-  if (kind == "mechanisms") return "mechanisms with constraints or elastic parts";
+  if (kind == "ivp") return "the IVP test set";
+  if (kind == "multibody") return "mechanisms";
   if (kind == "switching") return "systems with switches";
+  if (kind == "probes") return "small problems with one difficulty each";
   return kind;
 }
 
 std::vector<std::string> kindsOf(const Table& table) {
   std::vector<std::string> kinds;
   for (const auto& row : table.rows) {
-    const auto kind = kindOf(table, row);
-    if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+    for (const auto& kind : kindsOf(table, row)) {
+      if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+    }
   }
   return kinds;
 }
@@ -58,21 +69,15 @@ struct Outcomes {
   int runs = 0, failed = 0, wrong = 0;
 };
 
-bool isWrong(const Table& runs, const TableRow& row) {
-  const double asked = std::fmax(numberAt(runs, row, "rtol"), numberAt(runs, row, "atol"));
-  double error = 0;
-  for (const auto* column : {"error_u", "error_v", "error_x"}) error = std::fmax(error, numberAt(runs, row, column));
-  return error > 1000 * asked + 1e-9;
-}
-
 Outcomes outcomesOf(const Table& runs, const std::string& kind, const std::string& solver) {
   Outcomes count;
   for (const auto& row : runs.rows) {
-    if (textAt(runs, row, "integrator") != solver || kindOf(runs, row) != kind) continue;
+    if (textAt(runs, row, "integrator") != solver || !isOfKind(runs, row, kind)) continue;
+    if (textAt(runs, row, "outcome") == "refused") continue;
     ++count.runs;
     if (!succeededAt(runs, row)) {
       ++count.failed;
-    } else if (isWrong(runs, row)) {
+    } else if (audit::judgeRow(runs, row) == audit::Judgement::kWrong) {
       ++count.wrong;
     }
   }
@@ -95,7 +100,7 @@ bool isPeer(const std::string& solver) { return findPeer(solver) != nullptr; }
 Choice choiceOf(const Table& costs, const Table& runs, const std::string& kind, double error) {
   Choice choice{.kind = kind, .error = error};
   const Costs found = costsOf(costs, "integrator", [&](const TableRow& row) {
-    return kindOf(costs, row) == kind && std::abs(numberAt(costs, row, "target_error") / error - 1) < 1e-9;
+    return isOfKind(costs, row, kind) && std::abs(numberAt(costs, row, "target_error") / error - 1) < 1e-9;
   });
   choice.problems = solvable(found);
   const auto ranked = ranking(found);
@@ -162,7 +167,7 @@ Costs costsOf(const Table& costs, std::string_view solver, const std::function<b
   Costs found;
   for (const auto& row : costs.rows) {
     const auto& cause = textAt(costs, row, "cause");
-    if (cause == kNoReference || cause == kNotMeasurable || !choose(row)) continue;
+    if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable || !choose(row)) continue;
     const std::string problem =
         fmt::format("{} {} {} {}", textAt(costs, row, "scene"), textAt(costs, row, "settings"),
                     costs.hasColumn("t_end") ? textAt(costs, row, "t_end") : "", textAt(costs, row, "target_error"));

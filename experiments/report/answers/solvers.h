@@ -10,7 +10,7 @@
 
 namespace irk::report {
 
-/// By kind of problem, the first word of a block's name (`stiff_variable`), and error: the fastest solver (ranking.h),
+/// By collection, the first word of a block's name (`ivp_variable`), and error: the fastest solver (ranking.h),
 /// its factor over the next one and over the best of other libraries, and how many of its runs fail or are wrong: end
 /// as success with an error in u, v or x above the audit's bar, 1000 tolerance + 1e-9.
 Answer solverAnswer(const claims::ResultTables& tables);
@@ -18,6 +18,7 @@ Answer solverAnswer(const claims::ResultTables& tables);
 /// The costs of the rows of cpu_at_error.csv that `choose` accepts, by the solver that the column `solver` names. A
 /// problem is a scene with its settings, its end and an error; the cheapest of several rows of a solver counts. Rows
 /// without a reference, or with errors below its accuracy, are left out: they cannot be judged.
+/// So are scenes to which a solver cannot be applied.
 Costs costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose);
 
 }  // namespace irk::report

@@ -75,6 +75,22 @@ std::string driftSentence(const Table& runs) {
   return parts.empty() ? "" : fmt::format("The median drift of all runs is {}.", listText(parts));
 }
 
+// How the runs of each solver end over all scenes and tolerances.
+std::string robustnessSentence(const Table& counts) {
+  std::vector<std::string> parts;
+  for (const auto& row : counts.rows) {
+    if (textAt(counts, row, "collection") != "all" || textAt(counts, row, "tolerance") != "all") continue;
+    const double runs = numberAt(counts, row, "runs");
+    parts.push_back(fmt::format("`{}` {:.0f} % ({})", textAt(counts, row, "integrator"),
+                                100 * numberAt(counts, row, "right") / runs, textAt(counts, row, "wrong")));
+  }
+  if (parts.empty()) return {};
+  return fmt::format(
+      "Of the runs that a solver can be asked for, these shares are right (in brackets the number of "
+      "wrong successes): {}.",
+      listText(parts));
+}
+
 // nullptr without the table.
 const Table* tableIfAny(const claims::ResultTables& tables, std::string_view study, std::string_view name) {
   try {
@@ -92,6 +108,7 @@ std::vector<std::string> studyAnswers(std::string_view study, const claims::Resu
     const Table* costs = comparison_of.study == study ? tableIfAny(tables, study, "cpu_at_error") : nullptr;
     if (costs) sentences.push_back(sentenceOf(comparison_of, *costs));
   }
+  if (const Table* counts = tableIfAny(tables, study, "robustness")) sentences.push_back(robustnessSentence(*counts));
   if (const Table* orders = tableIfAny(tables, study, "orders")) sentences.push_back(sentenceOf(checkOf(*orders)));
   if (study == "audit") sentences.push_back(wrongSentence(tables));
   if (const Table* ratios = tableIfAny(tables, study, "ratios")) sentences.push_back(ratiosSentence(*ratios));

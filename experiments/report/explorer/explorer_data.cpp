@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/analyses/results.h"
-#include "experiments/audit/judge.h"
+#include "experiments/audit/row_judgement.h"
 #include "experiments/base/numbers.h"
 #include "experiments/report/explorer/run_command.h"
 #include "experiments/report/own_figures.h"
@@ -24,8 +24,8 @@ namespace {
 using Json = nlohmann::json;
 
 // Of the built-in studies those that compare errors with costs.
-constexpr std::string_view kStudies[] = {"work_precision", "peers",   "beam",     "families",   "cpu_time",
-                                         "discontinuity",  "control", "jacobian", "newton_rule"};
+constexpr std::string_view kStudies[] = {"work_precision", "robustness",    "peers",   "beam",     "families",
+                                         "cpu_time",       "discontinuity", "control", "jacobian", "newton_rule"};
 
 // Columns of runs.csv that are drawn: errors (whatever the table has), counters, times.
 bool isQuantity(std::string_view column) {
@@ -34,6 +34,8 @@ bool isQuantity(std::string_view column) {
   return counter || column.starts_with("error") || column == "drift" || column == "invariant_change" || column == "h" ||
          column == "cpu_s" || column == "cpu_median_s";
 }
+
+bool isDigits(std::string_view column) { return column == "mescd" || column == "scd"; }
 
 // Four digits are more than a diagram shows; null for unknown.
 Json rounded(double x) {
@@ -45,24 +47,6 @@ std::string titleOf(const std::filesystem::path& results, const std::string& stu
   const auto own = ownStudies(results);
   if (std::find(own.begin(), own.end(), study) != own.end()) return keptFigures(results, study).title;
   return loadStudy(study, StudyVariant::kQuick).title;
-}
-
-double toleranceOf(const Table& runs, const TableRow& row) {
-  if (textAt(runs, row, "control") == "fixed") return std::nan("");
-  return std::max(numberAt(runs, row, "rtol"), numberAt(runs, row, "atol"));
-}
-
-// A run of a study has no perturbed twins: systems that multiply errors are not set aside as an audit does.
-bool isWrong(const Table& runs, const TableRow& row) {
-  audit::Evidence evidence{.success = succeededAt(runs, row), .tolerance = toleranceOf(runs, row)};
-  if (std::isnan(evidence.tolerance)) return false;
-  for (const auto* column : {"error_u", "error_v", "error_x"}) {
-    evidence.error = std::fmax(evidence.error, numberAt(runs, row, column));
-  }
-  const double accuracy = runs.hasColumn("reference_accuracy") ? numberAt(runs, row, "reference_accuracy") : 0;
-  evidence.accuracy = std::isnan(accuracy) ? 0 : accuracy;
-  evidence.kappa = 1;
-  return audit::judge(evidence) == audit::Judgement::kWrong;
 }
 
 class Collector {
@@ -102,11 +86,13 @@ class Collector {
     put("outcome", word("outcome", textAt(table, row, "outcome")));
     put("detail", word("detail", textAt(table, row, "detail")));
     put("swept", word("swept", sweptOptions(table, row)));
-    put("tolerance", rounded(toleranceOf(table, row)));
-    put("wrong", isWrong(table, row) ? 1 : 0);
+    put("tolerance", rounded(audit::toleranceOf(table, row)));
+    put("wrong", audit::judgeRow(table, row) == audit::Judgement::kWrong ? 1 : 0);
     for (const auto& column : table.columns) {
       const bool refused = times_refused_ && column.starts_with("cpu_");
       if (isQuantity(column) && !refused) put(column, rounded(numberAt(table, row, column)));
+      // Digits as the errors that they count, which are drawn over the same logarithmic axes as all others.
+      if (isDigits(column)) put("error_" + column, rounded(std::pow(10, -numberAt(table, row, column))));
     }
     ++count_;
     for (auto& [name, values] : runs.items()) {

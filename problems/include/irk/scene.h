@@ -69,6 +69,9 @@ enum class SceneKind {
   kIndex3,               ///< y' = f(y, w), w' = k(y, w, z), 0 = g(y); x is (y, w)
   kConstrained,          ///< M u'' = f - G^T z, 0 = g(u): orders depend on the formulation
 };
+/// The index of the equations of a kind as they are written: 0 for ordinary differential equations, 3 for position
+/// constraints.
+int indexOf(SceneKind kind);
 /// The meaning of a kind in one line, for lists: `index 2: x' = f(x, z), 0 = g(x)`.
 std::string_view meaningOf(SceneKind kind);
 
@@ -106,18 +109,21 @@ struct ReferenceCase {
 /// The description of a scene in the catalogue. Programs and figures take all that they know of a scene from it.
 struct SceneEntry {
   std::string id;
-  std::string title;                 ///< one line: what the scene is
-  std::string shows;                 ///< one line: what the scene demonstrates
+  std::string title;  ///< one line: what the scene is
+  std::string shows;  ///< one line: what the scene demonstrates
+  /// The collections that the scene is in (irk/collections.h): small letters, digits and '_'.
+  std::vector<std::string> collections = {};
+  std::string literature = {};       ///< one line: where the problem is described; empty: made for this suite
   SceneKind kind = SceneKind::kOde;  ///< with the default parameters
   Stiffness stiffness = {};
   SizeParameter size = {};
-  std::vector<Parameter> parameters;
+  std::vector<Parameter> parameters = {};
   std::vector<Panel> panels = {};                   ///< empty: one panel per component
   std::vector<ReferenceCase> reference_cases = {};  ///< including the case of the default parameters
   /// Build the scene from complete, checked settings; users call makeScene. An empty function: the scene does not
   /// offer this scalar.
-  std::function<Scene<double>(const Settings&)> make;
-  std::function<Scene<mp50>(const Settings&)> make_mp50;
+  std::function<Scene<double>(const Settings&)> make = {};
+  std::function<Scene<mp50>(const Settings&)> make_mp50 = {};
   /// Needed only if orders from 20 on are measured with the scene.
   std::function<Scene<mp100>(const Settings&)> make_mp100 = {};
   /// Set by registerScene: that it is not one of the library's, and the file that it comes from, if the program loaded
@@ -130,7 +136,8 @@ struct SceneEntry {
 const std::deque<SceneEntry>& sceneCatalogue();
 
 /// Adds a scene; from then on it is one like all others. Throws Misuse for an id that is taken, naming both sources,
-/// and for an id that is not made of small letters, digits and '_'. Not while other threads use the catalogue.
+/// and for an id or a collection that is not made of small letters, digits and '_'. Not while other threads use the
+/// catalogue.
 void registerScene(SceneEntry entry);
 
 /// The entry of a scene; it lives as long as the program. Throws Misuse for an unknown id, naming the nearest one.

@@ -1,21 +1,25 @@
 // What a scene's file needs: parameters from settings, names, systems, consistent starts, and IRK_SCENE.
 //
-// A scene outside the tree is one file. It is a struct template over the scalar, a problem as in irk/problem.h, with
-// two more functions:
+// A scene is a struct template over the scalar: a problem as in irk/problem.h, and what a scene says of it.
 //
 //   template <class Real>
 //   struct FourBar {
-//     static SceneEntry entry();                       // id, title, parameters, ...; without its makers
-//     static Scene<Real> make(const Settings& values);  // with the parameters' values
-//     ...
+//     ...                                             // constants, sizes, equations
+//     static FourBar with(const Settings& values);    // the problem with these parameters; only if it has some
+//     void start(State<Real>& s) const;               // fills u, v, x, d where they are not 0, and guesses of z
+//     State<Real> exact(const Real& t) const;         // the exact solution, if it is known
+//     SceneFrame<Real> frame() const;                 // end, names, units
+//     static SceneEntry entry();                      // id, title, parameters, ...; without its makers
 //   };
 //   IRK_SCENE(FourBar)
 //
-// `irk new scene four_bar.cpp` writes a complete one. The program compiles such a file when it is named
-// (`irk solve four_bar.cpp`). The same file linked with irk::program is a program with all verbs, which knows the
-// scene.
+// Such a file outside the tree is complete: `irk new scene four_bar.cpp` writes one. The program compiles it when it is
+// named (`irk solve four_bar.cpp`). The same file linked with irk::program is a program with all verbs, which knows the
+// scene. A scene that has more to say makes itself: `static Scene<Real> make(const Settings& values)` instead of
+// `with`, `start`, `exact` and `frame`.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -100,21 +104,73 @@ void completeStart(Scene<Real>& scene);
 template <class Real>
 void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown);
 
-/// The entry of a scene's struct with the makers of the scalars that this file is compiled for: double and mp50, or
-/// with IRK_DIGITS set to 16, 50 or 100 the one that it names.
+/// What a scene says of its problem besides the equations and the start.
+template <class Real>
+struct SceneFrame {
+  double t_end = 1;
+  std::string time_unit = "s";  ///< empty: the scene has no units
+  std::vector<Component> u = {}, x = {}, z = {};
+  std::vector<typename Scene<Real>::Output> outputs = {};
+  std::vector<std::string> unknown = {};  ///< components of the start that the constraints determine: completeStart
+};
+
+/// The scene of a problem P with `frame`. Its start is that of `start`, completed; without `start` the exact solution
+/// at t = 0, or zeros, completed. Throws Misuse as completeStart.
+template <class Real, class P>
+Scene<Real> framedScene(const P& problem) {
+  Scene<Real> scene;
+  setProblem(scene, problem);
+  SceneFrame<Real> frame = problem.frame();
+  scene.t_end = frame.t_end;
+  scene.time_unit = std::move(frame.time_unit);
+  scene.outputs = std::move(frame.outputs);
+  setComponents(scene, frame.u, frame.x, frame.z);
+  constexpr bool kStarts = requires { problem.start(scene.start); };
+  if constexpr (requires { problem.exact(scene.start.t); }) {
+    scene.exact = [problem](const Real& t) { return problem.exact(t); };
+    if (!kStarts) scene.start = problem.exact(Real(0));
+    if (!kStarts) return scene;
+  }
+  if constexpr (kStarts) problem.start(scene.start);
+  if (frame.unknown.empty()) {
+    completeStart(scene);
+  } else {
+    completeStart(scene, frame.unknown);
+  }
+  return scene;
+}
+
+/// The scene of the struct P with these values of its parameters.
+template <class Real, class P>
+Scene<Real> sceneWith(const Settings& values) {
+  if constexpr (requires { P::make(values); }) {
+    return P::make(values);
+  } else if constexpr (requires { P::with(values); }) {
+    return framedScene<Real>(P::with(values));
+  } else {
+    return framedScene<Real>(P{});
+  }
+}
+
+/// Completes the entry of a scene's struct by the makers of the scalars that this file is compiled for: double and
+/// mp50, or with IRK_DIGITS set to 16, 50 or 100 the one that it names.
 template <template <class> class S>
-SceneEntry sceneEntryOf() {
-  SceneEntry entry = S<double>::entry();
+SceneEntry sceneEntryOf(SceneEntry entry) {
 #if !defined(IRK_DIGITS) || IRK_DIGITS == 16
-  entry.make = S<double>::make;
+  entry.make = sceneWith<double, S<double>>;
 #endif
 #if !defined(IRK_DIGITS) || IRK_DIGITS == 50
-  entry.make_mp50 = S<mp50>::make;
+  entry.make_mp50 = sceneWith<mp50, S<mp50>>;
 #endif
 #if defined(IRK_DIGITS) && IRK_DIGITS == 100
-  entry.make_mp100 = S<mp100>::make;
+  entry.make_mp100 = sceneWith<mp100, S<mp100>>;
 #endif
   return entry;
+}
+/// The same for a struct that has its entry itself.
+template <template <class> class S>
+SceneEntry sceneEntryOf() {
+  return sceneEntryOf<S>(S<double>::entry());
 }
 
 }  // namespace irk

@@ -79,5 +79,31 @@ TEST(Profile, AnErrorBelowTheSmallestToleranceWasNotAskedFor) {
                                                        {"all steps", "1"}}));
 }
 
+// hires is of the collection ivp, pendulum of ivp and multibody, "mine" of none. A solver that cannot be applied to a
+// scene has not failed there.
+TEST(Profile, OfEveryCollectionAndOfAllScenes) {
+  Table costs;
+  costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};
+  costs.rows = {
+      {"hires", "", "variable", "1e-4", "1", ""},     {"pendulum", "", "variable", "1e-4", "3", ""},
+      {"mine", "", "variable", "1e-4", "1", ""},      {"hires", "", "cvode_bdf", "1e-4", "2", ""},
+      {"pendulum", "", "cvode_bdf", "1e-4", "1", ""}, {"mine", "", "cvode_bdf", "1e-4", "nan", "no success: refused"}};
+  const Table profile = profileTable(costs);
+  std::map<std::string, std::string> first, given;  // the part of the problems solved as fast as by the best
+  for (const auto& row : profile.rows) {
+    const std::string curve = textAt(profile, row, "collection") + " " + textAt(profile, row, "integrator");
+    if (textAt(profile, row, "target_error") == "all" || numberAt(profile, row, "ratio") != 1) continue;
+    first[curve] = textAt(profile, row, "fraction");
+    given[curve] = textAt(profile, row, "given");
+  }
+  EXPECT_EQ(first, (std::map<std::string, std::string>{{"all cvode_bdf", "0.5"},
+                                                       {"all variable", "0.6666666666666666"},
+                                                       {"ivp cvode_bdf", "0.5"},
+                                                       {"ivp variable", "0.5"},
+                                                       {"multibody cvode_bdf", "1"}}));
+  EXPECT_EQ(given["all variable"], "3");
+  EXPECT_EQ(given["all cvode_bdf"], "2");
+}
+
 }  // namespace
 }  // namespace irk

@@ -28,7 +28,7 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(keysOf(json),
             (std::set<std::string>{"schema", "version", "outcome", "t", "u", "v", "x", "z", "names", "units", "error",
-                                   "drift", "reference", "steps", "counters", "cpu_s", "spec"}));
+                                   "mescd", "scd", "drift", "reference", "steps", "counters", "cpu_s", "spec"}));
   EXPECT_EQ(json["reference"], "file");
   EXPECT_EQ(keysOf(json["steps"]), (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),
@@ -226,7 +226,7 @@ TEST(Cli, ListsTheScenesOfACollection) {
   const auto ivp = program({"list", "scenes", "--collection", "ivp"});
   EXPECT_EQ(ivp.status, 0) << ivp.err;
   EXPECT_TRUE(containsAll(ivp.out, {"andrews\n", "unknowns: 7 second-order, 0 first-order, 6 algebraic",
-                                    "in: ivp, multibody", "from: IVP test set, ANDREWS"}));
+                                    "index: 3", "in: ivp, multibody", "from: IVP test set, ANDREWS"}));
   EXPECT_EQ(ivp.out.find("stick_slip"), std::string::npos);
   const auto json = program({"list", "scenes", "--collection", "probes", "--json"});
   EXPECT_TRUE(containsAll(json.out, {"\"id\": \"kepler\"", "\"nu\": 2", "\"collections\""}));

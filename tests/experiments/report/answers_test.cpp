@@ -83,22 +83,22 @@ claims::ResultTables solverTables(double library_time = 4) {
   claims::ResultTables tables;
   tables.put(
       "work_precision", "cpu_at_error",
-      tableOf(columns, {cost("robertson", "variable", "1e-8", "1", "stiff_variable"),
-                        cost("robertson", "embedded:radau_iia_5", "1e-8", "2", "stiff_embedded"),
-                        cost("robertson", "cvode_bdf", "1e-8", std::to_string(library_time), "stiff_peers"),
-                        cost("robertson", "ida_bdf", "1e-8", "nan", "stiff_peers", "not accurate enough"),
-                        cost("hires", "cvode_bdf", "1e-8", "nan", "stiff_peers", "no reference"),
+      tableOf(columns, {cost("robertson", "variable", "1e-8", "1", "ivp_variable"),
+                        cost("robertson", "embedded:radau_iia_5", "1e-8", "2", "ivp_embedded"),
+                        cost("robertson", "cvode_bdf", "1e-8", std::to_string(library_time), "ivp_peers"),
+                        cost("robertson", "ida_bdf", "1e-8", "nan", "ivp_peers", "not accurate enough"),
+                        cost("hires", "cvode_bdf", "1e-8", "nan", "ivp_peers", "no reference"),
                         cost("stick_slip", "variable", "1e-8", "nan", "switching_variable", "no success: timeout"),
-                        cost("robertson", "variable", "1e-11", "3", "stiff_variable")}));
+                        cost("robertson", "variable", "1e-11", "3", "ivp_variable")}));
   const auto run = [](const char* solver, const char* outcome, const char* error, const char* block) {
     return Cells{{"integrator", solver}, {"outcome", outcome}, {"rtol", "1e-8"},   {"atol", "1e-8"},
                  {"error_u", "nan"},     {"error_v", "nan"},   {"error_x", error}, {"block", block}};
   };
   tables.put("work_precision", "runs",
              tableOf({"integrator", "outcome", "rtol", "atol", "error_u", "error_v", "error_x", "block"},
-                     {run("variable", "success", "1e-6", "stiff_variable"),
-                      run("variable", "success", "1e-3", "stiff_variable"),
-                      run("variable", "max_steps", "nan", "stiff_variable"),
+                     {run("variable", "success", "1e-6", "ivp_variable"),
+                      run("variable", "success", "1e-3", "ivp_variable"),
+                      run("variable", "max_steps", "nan", "ivp_variable"),
                       run("variable", "timeout", "nan", "switching_variable")}));
   return tables;
 }
@@ -106,7 +106,7 @@ claims::ResultTables solverTables(double library_time = 4) {
 TEST(SolverAnswer, NamesTheFastestByKindAndError) {
   const Answer answer = solverAnswer(solverTables());
   ASSERT_EQ(answer.table.rows.size(), 4u) << "two kinds, two errors";
-  EXPECT_EQ(cell(answer.table, 0, "kind"), "stiff");
+  EXPECT_EQ(cell(answer.table, 0, "kind"), "ivp");
   EXPECT_EQ(cell(answer.table, 0, "solver"), "variable");
   EXPECT_EQ(cell(answer.table, 0, "problems"), "1") << "a problem without a reference does not count";
   EXPECT_EQ(cell(answer.table, 0, "next"), "embedded:radau_iia_5");
@@ -119,7 +119,7 @@ TEST(SolverAnswer, NamesTheFastestByKindAndError) {
   EXPECT_EQ(cell(answer.table, 2, "kind"), "switching");
   EXPECT_EQ(cell(answer.table, 2, "solver"), "") << "nobody reaches the error";
   EXPECT_TRUE(containsAll(answer.sentences.at(0),
-                          {"For an error of 1e-8", "`variable` for stiff ODEs",
+                          {"For an error of 1e-8", "`variable` for the IVP test set",
                            "2.0 times as fast as `embedded:radau_iia_5`", "no solver for systems with switches"}));
 }
 

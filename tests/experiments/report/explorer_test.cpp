@@ -149,6 +149,20 @@ Table madeUp() {
   return runs;
 }
 
+// Digits are drawn as the errors that they count.
+TEST(ExplorerData, HasTheDigitsOfTheIvpTestSet) {
+  const TemporaryFolder folder;
+  Table runs = madeUp();
+  runs.rows[0][runs.column("mescd")] = "2";
+  runs.rows[0][runs.column("scd")] = "1.5";
+  std::filesystem::create_directories(folder.path() / "peers");
+  writeTable(folder.path() / "peers" / "runs.csv", runs);
+  const Json data = Json::parse(explorerData(folder.path()))["runs"];
+  EXPECT_DOUBLE_EQ(data["error_mescd"][0].get<double>(), 0.01);
+  EXPECT_DOUBLE_EQ(data["error_scd"][0].get<double>(), 0.03162);
+  EXPECT_TRUE(data["error_mescd"][1].is_null());
+}
+
 TEST(ExplorerData, HasNoTimesOfSeveralProcessors) {
   const TemporaryFolder folder;
   Table runs = madeUp();

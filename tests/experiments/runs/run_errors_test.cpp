@@ -101,6 +101,45 @@ TEST(RunErrors, OfNothingAreUnknown) {
   EXPECT_FALSE(std::isnan(none.drift)) << "needs no reference";
 }
 
+// The distances of off() are 0.002 of 0.8 in u2, 0.24 of 8 in v1, 0.1 of 0.5 in x, 5 of 100 in z. With atol / rtol =
+// 0.01 and the scales 1 (x: 10) the mixed error is that of x, 0.1 / (0.1 + 0.5); the relative one is 0.1 / 0.5.
+TEST(RunErrors, AreCountedInDigitsAsTheIvpTestSetDoes) {
+  Scene<double> known = scene();
+  known.exact = [](const double&) { return exactState(); };
+  const RunErrors errors = errorsOf(known, {}, off(), {0.01, known.scale});
+  EXPECT_NEAR(errors.mescd(), 0.778151250383644, 1e-12) << "log10 6";
+  EXPECT_NEAR(errors.scd(), 0.698970004336019, 1e-12) << "log10 5";
+  expectGroups(errors);
+  // With atol / rtol = 10 that of v1 is the largest one but for x, whose scale is 10: 0.24 / 18, 0.1 / 100.5, 5 / 110.
+  EXPECT_NEAR(errorsOf(known, {}, off(), {10, known.scale}).mescd(), 1.342422680822206, 1e-12) << "log10 22, of z";
+  // Without tolerances there is no mixed error.
+  const RunErrors constant = errorsOf(known, {}, off());
+  EXPECT_TRUE(std::isnan(constant.mescd()));
+  EXPECT_NEAR(constant.scd(), 0.698970004336019, 1e-12);
+}
+
+// A reference of 0 has no relative error; no error has infinitely many digits.
+TEST(RunErrors, OfAReferenceThatIsZeroOrMet) {
+  State<double> state = off();
+  state.u[0] = 0.003;
+  const RunErrors zero = errorsOf(scene(), {{2, "u1", "0", 1e-9, ""}}, state, {1, {}});
+  EXPECT_TRUE(std::isnan(zero.scd()));
+  EXPECT_NEAR(zero.mescd(), 2.522878745280338, 1e-12) << "-log10 0.003";
+  const RunErrors met = errorsOf(scene(), {{2, "v2", "6", 1e-9, ""}}, off(), {1, {}});
+  EXPECT_EQ(met.scd(), std::numeric_limits<double>::infinity());
+  // An output counts with the scale 1: |1.402 - 1| / (0.01 + 1).
+  const RunErrors output = errorsOf(scene(), {{2, "sum", "1.0", 1e-9, ""}}, off(), {0.01, scene().scale});
+  EXPECT_NEAR(output.mescd(), -std::log10(0.402 / 1.01), 1e-12);
+}
+
+TEST(RunErrors, DigitsAreKnownOnlyAboveTheAccuracyOfAComputedReference) {
+  const auto by = [](double accuracy) {
+    return errorsByComputed(scene(), {{2, "x", "0.5", accuracy, ""}}, off(), {1, {}});
+  };
+  EXPECT_NEAR(by(0.0099).mescd(), -std::log10(0.1 / 1.5), 1e-12);
+  EXPECT_TRUE(std::isnan(by(0.0101).mescd()) && std::isnan(by(0.0101).scd())) << "ten times the accuracy is 0.101";
+}
+
 // Errors as in off(): u 2e-3, v 3e-2, x 1e-2, z 5e-2. The accuracies of u and x are too low for theirs.
 TEST(RunErrors, BelowTenAccuraciesOfAComputedReferenceAreNotMeasurable) {
   const auto by = [](double u, double v, double x, double z) {

@@ -26,7 +26,8 @@ RunRecord distinct() {
   record.stages = 17;
   record.outcome = "success";
   record.detail = "a, \"detail\"";
-  record.errors = {.all = 0.125, .u = 0.25, .v = 0.375, .x = 0.5, .z = 0.625, .drift = 0.75};
+  record.errors = {
+      .all = 0.125, .u = 0.25, .v = 0.375, .x = 0.5, .z = 0.625, .mixed = 1e-3, .relative = 1e-2, .drift = 0.75};
   record.errors_over_time = {.all = 1.125, .u = 1.25, .v = 1.375, .x = 1.5, .z = 1.625, .drift = 1.75};
   Counters& c = record.counters;
   c.residuals = 101;
@@ -79,6 +80,8 @@ TEST(RunRow, HoldsEveryNumberUnderItsName) {
                                                  {"error_v_over_time", 1.375},
                                                  {"error_x_over_time", 1.5},
                                                  {"error_z_over_time", 1.625},
+                                                 {"mescd", 3},
+                                                 {"scd", 2},
                                                  {"residuals", 101},
                                                  {"dual_residuals", 102},
                                                  {"jacobians", 103},

@@ -36,6 +36,29 @@ TEST(Run, ErrorsAgainstAClosedForm) {
   EXPECT_EQ(run.errors.x, run.errors.all);
 }
 
+// y = 1.5 + sin 2 at the end, |error| = errors.all y.
+TEST(Run, DigitsReferToTheTolerancesOfTheRun) {
+  const double y = 1.5 + std::sin(2.0);
+  const auto run = [&](const char* more) {
+    return execute(spec((std::string("scene=riccati_tracking;method=radau_iia_3;") + more).c_str())).errors;
+  };
+  const auto digits = [&](const RunErrors& e, double atol_over_rtol) {
+    return -std::log10(e.all * y / (atol_over_rtol + y));
+  };
+  const RunErrors equal = run("rtol=1e-6;atol=1e-6");
+  EXPECT_NEAR(equal.mescd(), digits(equal, 1), 1e-6);
+  EXPECT_NEAR(equal.scd(), digits(equal, 0), 1e-6);
+  const RunErrors loose = run("rtol=1e-6;atol=1e-5");
+  EXPECT_NEAR(loose.mescd(), digits(loose, 10), 1e-6);
+  const RunErrors of_component = run("rtol=1e-6;atol=1e-5;atol_of=y=1e-3");
+  EXPECT_NEAR(of_component.mescd(), digits(of_component, 1000), 1e-6);
+  const RunErrors peer = execute(spec("scene=riccati_tracking;method=cvode_bdf;rtol=1e-6;atol=1e-5")).errors;
+  EXPECT_NEAR(peer.mescd(), digits(peer, 10), 1e-6);
+  const RunErrors constant = run("h=0.25;control=fixed;estimate=none");
+  EXPECT_TRUE(std::isnan(constant.mescd())) << "no tolerances";
+  EXPECT_NEAR(constant.scd(), digits(constant, 0), 1e-6);
+}
+
 TEST(Run, ErrorsAgainstReferences) {
   const RunRecord run = execute(spec("scene=slider_crank;t_end=1;method=radau_iia_5;rtol=1e-10;atol=1e-10"));
   ASSERT_TRUE(run.succeeded()) << run.detail;

@@ -11,7 +11,11 @@ namespace irk::test {
 namespace {
 
 TEST(Collections, EverySceneBelongsToOne) {
-  for (const SceneEntry& entry : sceneCatalogue()) EXPECT_FALSE(collectionsOf(entry.id).empty()) << entry.id;
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    EXPECT_FALSE(entry.collections.empty()) << entry.id;
+    EXPECT_TRUE(std::is_sorted(entry.collections.begin(), entry.collections.end())) << entry.id;
+    EXPECT_EQ(collectionsOf(entry.id), entry.collections);
+  }
   EXPECT_EQ(collections(), (std::vector<std::string>{"ivp", "multibody", "probes", "switching"}));
 }
 
@@ -47,6 +51,30 @@ TEST(Collections, NameTheNearest) {
     EXPECT_NE(std::string(misuse.what()).find("'ivp'"), std::string::npos) << misuse.what();
   }
   EXPECT_TRUE(collectionsOf("no_scene").empty());
+}
+
+// The scenes of the test set name it, and their index is that of their equations.
+TEST(Collections, ScenesSayWhereTheyAreDescribed) {
+  for (const std::string& id : scenesOf("ivp")) EXPECT_FALSE(findScene(id).literature.empty()) << id;
+  const auto index = [](const char* id) { return indexOf(findScene(id).kind); };
+  EXPECT_EQ(index("orego"), 0);
+  EXPECT_EQ(index("van_der_pol"), 0);
+  EXPECT_EQ(index("transamp"), 1);
+  EXPECT_EQ(index("pump"), 2);
+  EXPECT_EQ(index("index3_nonlinear"), 3);
+  EXPECT_EQ(index("andrews"), 3);
+}
+
+TEST(Collections, RefuseNamesThatCannotBeWritten) {
+  SceneEntry entry = findScene("kepler");
+  entry.id = "not_registered";
+  entry.collections = {"mine", "My scenes"};
+  try {
+    registerScene(entry);
+    FAIL();
+  } catch (const Misuse& misuse) {
+    EXPECT_NE(std::string(misuse.what()).find("collection 'My scenes'"), std::string::npos) << misuse.what();
+  }
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
 
 #include "irk/integrator.h"
 #include "irk/misuse.h"
@@ -79,6 +82,51 @@ TEST(Reference, EverySceneHasItsEnd) {
           << entry.id << " " << name;
     }
   }
+}
+
+// scene,settings,t,component,value,accuracy,source
+struct StoredRow {
+  std::string scene, settings, t, component, value, accuracy;
+};
+
+std::vector<StoredRow> rowsOf(const std::string& file) {
+  std::ifstream in(std::string(IRK_SOURCE_DIR) + "/problems/reference/" + file);
+  std::vector<StoredRow> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line.starts_with("#") || line.starts_with("scene,")) continue;
+    std::istringstream cells(line);
+    StoredRow row;
+    for (auto* cell : {&row.scene, &row.settings, &row.t, &row.component, &row.value, &row.accuracy}) {
+      std::getline(cells, *cell, ',');
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// The values in test_set.csv come from other programs; the ones with more digits that take their place agree with them
+// to the digits that they state.
+TEST(Reference, ComputedValuesAgreeWithThoseOfOtherPrograms) {
+  std::map<std::string, int> compared;
+  std::map<std::string, std::vector<Reference>> known;
+  for (const StoredRow& other : rowsOf("test_set.csv")) {
+    Settings settings;
+    if (const auto equals = other.settings.find('='); equals != std::string::npos) {
+      settings[other.settings.substr(0, equals)] = other.settings.substr(equals + 1);
+    }
+    const auto [at, added] = known.try_emplace(other.scene + " " + other.settings);
+    if (added) at->second = references(other.scene, settings);
+    for (const Reference& best : at->second) {
+      if (best.component != other.component || best.t != std::strtod(other.t.c_str(), nullptr)) continue;
+      if (best.value == other.value) continue;  // itself
+      const double allowed = std::strtod(other.accuracy.c_str(), nullptr) + best.accuracy;
+      EXPECT_LE(abs(mp50(best.value) - mp50(other.value)), mp50(allowed))
+          << other.scene << " " << other.component << " at " << other.t;
+      ++compared[other.scene];
+    }
+  }
+  EXPECT_EQ(compared["chemakzo"], 6);
+  EXPECT_EQ(compared["pollution"], 20);
 }
 
 // Two independent computations agree to 25 digits: closed form and integration share only the equation.

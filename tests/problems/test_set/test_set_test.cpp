@@ -37,14 +37,24 @@ std::map<std::string, std::pair<double, double>> valuesOf(const Scene<double>& s
 // Local errors accumulate: at most this many tolerances at the end.
 constexpr double kGrowth = 1e3;
 
+// An estimate that costs one solve, and a Jacobian that lasts.
+IntegratorOptions cheapest(double tolerance) {
+  IntegratorOptions options;
+  options.tolerances.rtol = options.tolerances.atol = tolerance;
+  options.step.estimate = ErrorEstimate::kEmbedded;
+  options.solver = StageSolverKind::kEigen;
+  options.jacobian_point = JacobianPoint::kPredicted;
+  options.newton.kind = NewtonKind::kBroyden;
+  return options;
+}
+
 class TestSet : public testing::TestWithParam<TestSetCase> {};
 
 TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
   const TestSetCase& c = GetParam();
   const auto scene = makeScene<double>(c.id, c.settings());
   const auto system = scene.system({});
-  IntegratorOptions options;
-  options.tolerances.rtol = options.tolerances.atol = c.tolerance;
+  const IntegratorOptions options = cheapest(c.tolerance);
   Integrator<double> integrator(system, makeTableau<double>("radau_iia_5"), options, scene.scale);
   State<double> state = scene.start;
   int compared = 0;

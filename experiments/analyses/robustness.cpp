@@ -1,0 +1,87 @@
+#include "experiments/analyses/robustness.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "experiments/audit/row_judgement.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/study/analysis.h"
+#include "irk/collections.h"
+
+namespace irk {
+namespace {
+
+struct Counts {
+  std::map<audit::Judgement, int> judged;
+  std::map<std::string, int> failures;  // outcome -> runs
+};
+
+// Of one row of the table; `all` tolerances are -1, before the others.
+using Group = std::tuple<std::string, std::string, double>;
+
+std::string failuresText(const std::map<std::string, int>& failures) {
+  std::string text;
+  for (const auto& [outcome, count] : failures) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", outcome, count);
+  }
+  return text;
+}
+
+}  // namespace
+
+Table robustnessTable(const Table& runs) {
+  std::map<Group, Counts> groups;
+  for (const auto& row : runs.rows) {
+    const double tolerance = audit::toleranceOf(runs, row);
+    const auto& outcome = textAt(runs, row, "outcome");
+    if (outcome == "refused" || std::isnan(tolerance)) continue;
+    const auto judgement = audit::judgeRow(runs, row);
+    auto collections = collectionsOf(textAt(runs, row, "scene"));
+    collections.emplace_back("all");
+    for (const auto& collection : collections) {
+      for (const double part : {-1.0, tolerance}) {
+        Counts& counts = groups[{collection, textAt(runs, row, "integrator"), part}];
+        ++counts.judged[judgement];
+        if (judgement == audit::Judgement::kFailed) ++counts.failures[outcome];
+      }
+    }
+  }
+  Table table{runs.head,
+              {"collection", "integrator", "tolerance", "runs", "right", "failed", "wrong", "unjudged", "outcomes"},
+              {}};
+  for (auto& [group, counts] : groups) {
+    const auto& [collection, integrator, tolerance] = group;
+    using audit::Judgement;
+    const std::array numbers = {counts.judged[Judgement::kRight], counts.judged[Judgement::kFailed],
+                                counts.judged[Judgement::kWrong],
+                                counts.judged[Judgement::kUnjudged] + counts.judged[Judgement::kIllConditioned]};
+    TableRow row{collection, integrator, tolerance < 0 ? "all" : numberText(tolerance)};
+    int sum = 0;
+    for (const int number : numbers) sum += number;
+    row.push_back(std::to_string(sum));
+    for (const int number : numbers) row.push_back(std::to_string(number));
+    row.push_back(failuresText(counts.failures));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Analysis robustnessAnalysis() {
+  return {.id = "robustness",
+          .key = "robustness",
+          .meaning = "how many runs are right, fail, or are wrong, by collection, solver and tolerance",
+          .reads = "runs.csv",
+          .writes = "robustness.csv",
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+            writeTable(in.folder / "robustness.csv", robustnessTable(in.runs));
+            return {};
+          }};
+}
+
+}  // namespace irk
