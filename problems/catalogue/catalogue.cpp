@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <type_traits>
 
 #include "core/base/text.h"
@@ -82,6 +86,14 @@ void registerScene(SceneEntry entry) {
   if (entry.id.empty() || entry.id.find_first_not_of(kAllowed) != std::string::npos) {
     throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) +
                  "): small letters, digits and '_' are allowed");
+  }
+  for (const Parameter& p : entry.parameters) {
+    char* end = nullptr;
+    const double value = std::strtod(p.default_value.c_str(), &end);
+    const bool is_number = p.choices.empty() && !p.text && end != p.default_value.c_str() && *end == '\0';
+    if (!is_number || !std::isfinite(value) || p.min >= p.max || (value >= p.min && value <= p.max)) continue;
+    throw Misuse(fmt::format("scene {} ({}): the default {} of the parameter {} is not in [{}, {}]", entry.id,
+                             sourceOf(entry.source), p.default_value, p.name, p.min, p.max));
   }
   for (const SceneEntry& other : catalogue()) {
     if (other.id != entry.id) continue;
