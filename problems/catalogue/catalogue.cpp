@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <type_traits>
 
 #include "core/base/text.h"
@@ -80,6 +84,16 @@ void requireName(const std::string& what, const std::string& name, const std::st
   throw Misuse(what + " '" + name + "' (" + sourceOf(source) + "): small letters, digits and '_' are allowed");
 }
 
+// A default that is a number lies in the parameter's range.
+void requireDefault(const Parameter& p, const SceneEntry& entry) {
+  char* end = nullptr;
+  const double value = std::strtod(p.default_value.c_str(), &end);
+  const bool is_number = p.choices.empty() && !p.text && end != p.default_value.c_str() && *end == '\0';
+  if (!is_number || !std::isfinite(value) || p.min >= p.max || (value >= p.min && value <= p.max)) return;
+  throw Misuse(fmt::format("scene {} ({}): the default {} of the parameter {} is not in [{}, {}]", entry.id,
+                           sourceOf(entry.source), p.default_value, p.name, p.min, p.max));
+}
+
 }  // namespace
 
 const std::deque<SceneEntry>& sceneCatalogue() { return catalogue(); }
@@ -89,6 +103,7 @@ void registerScene(SceneEntry entry) {
   entry.source = registeringSource();
   requireName("scene id", entry.id, entry.source);
   for (const auto& name : entry.collections) requireName("collection", name, entry.source);
+  for (const Parameter& p : entry.parameters) requireDefault(p, entry);
   for (const SceneEntry& other : catalogue()) {
     if (other.id != entry.id) continue;
     throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) + ") is taken by " + sourceOf(other.source));

@@ -80,11 +80,15 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   write("broken.cpp", replaced("lift.cpp", "p.v[0]", "p.velocity[0]"));
   write("taken.cpp", replaced("lift.cpp", "\"lift\"", "\"pendulum\""));
   write("id.cpp", replaced("lift.cpp", "\"lift\"", "\"My Lift\""));
+  write("default.cpp", replaced("lift.cpp", "\"mass\", \"1\"", "\"mass\", \"-1\""));
+  write("undeclared.cpp", replaced("lift.cpp", "number<Real>(values, \"k\")", "number<Real>(values, \"q\")"));
   write("empty.cpp", "int unused = 0;\n");
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
       {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp: it does not compile"}},
       {"taken.cpp", {"'pendulum' (taken.cpp) is taken by a scene of the program"}},
       {"id.cpp", {"'My Lift' (id.cpp)", "small letters"}},
+      {"default.cpp", {"scene lift (default.cpp)", "the default -1 of the parameter m", "1e-15"}},
+      {"undeclared.cpp", {"scene lift", "parameter 'q'"}},
       {"empty.cpp", {"empty.cpp: it registers nothing"}},
       {"missing.cpp", {"'missing.cpp' cannot be read"}}};
   for (const auto& [file, parts] : cases) {
@@ -108,6 +112,20 @@ TEST_F(OwnFiles, ACrashIsExplainedAndChecksNameThePlace) {
   EXPECT_EQ(checked.status, 1) << checked.text;
   EXPECT_NE(checked.text.find("Assertion"), std::string::npos) << checked.text;
   EXPECT_NE(checked.text.find("crashed while it ran code of oscillator.cpp"), std::string::npos) << checked.text;
+}
+
+TEST_F(OwnFiles, AnUnknownMethodHasANearestOne) {
+  for (const auto& [given, nearest] : {std::pair{"cvode", "'cvode_bdf'"}, {"radu_iia_5", "'radau_iia_5'"}}) {
+    const Ran ran = irk(std::string("solve van_der_pol --tol 1e-5 --method ") + given);
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_TRUE(containsAll(ran.text, {given, nearest})) << ran.text;
+  }
+  write("wrong.toml", "[[block]]\nscene = 'van_der_pol'\nmethods = ['cvode']\n");
+  EXPECT_TRUE(containsAll(irk("run wrong.toml").text, {"wrong.toml:3", "'cvode_bdf'"}));
+  write("no_library.so", "text");
+  const Ran library = irk("solve van_der_pol --method ./no_library.so");
+  EXPECT_EQ(library.status, 2);
+  EXPECT_TRUE(containsAll(library.text, {"no_library.so: it cannot be loaded: ", "too short"})) << library.text;
 }
 
 TEST_F(OwnFiles, ASolverIsAMethod) {

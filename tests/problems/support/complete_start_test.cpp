@@ -1,0 +1,50 @@
+// Starts whose rates follow from the equations.
+#include <gtest/gtest.h>
+
+#include "irk/misuse.h"
+#include "irk/scene_file.h"
+
+namespace irk {
+namespace {
+
+// A capacitor between two nodes: its matrix in front of k is singular, and the sum of the rows is an algebraic
+// equation.
+struct Circuit {
+  Sizes sizes() const { return {.nu = 0, .nx = 2, .nz = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.k[1] - p.k[0] + 1 - p.x[0];
+    r.x[1] = p.k[0] - p.k[1] - p.x[1];
+  }
+};
+
+template <class Real>
+Scene<Real> circuit(double x0, double x1) {
+  Scene<Real> scene;
+  setProblem(scene, Circuit{});
+  scene.start.x << Real(x0), Real(x1);
+  return scene;
+}
+
+TEST(CompleteStart, TakesTheLeastRatesOfASingularMatrix) {
+  auto scene = circuit<double>(0.25, 0.75);
+  completeStart(scene);
+  EXPECT_NEAR(scene.start.w[0], 0.375, 1e-14);
+  EXPECT_NEAR(scene.start.w[1], -0.375, 1e-14);
+  auto digits = circuit<mp50>(0.25, 0.75);
+  completeStart(digits);
+  EXPECT_LT(abs(mp50(digits.start.w[0] - 0.375)), mp50("1e-48"));
+}
+
+TEST(CompleteStart, RefusesAStartThatTheEquationsContradict) {
+  auto scene = circuit<double>(0.5, 0.75);
+  try {
+    completeStart(scene);
+    FAIL() << "0.5 + 0.75 is not 1";
+  } catch (const Misuse& misuse) {
+    EXPECT_NE(std::string(misuse.what()).find("its start"), std::string::npos) << misuse.what();
+  }
+}
+
+}  // namespace
+}  // namespace irk
