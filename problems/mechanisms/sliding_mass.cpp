@@ -71,32 +71,40 @@ struct Slide {
   std::string switchName(Index i) const { return i == kNext ? "next element" : "previous element"; }
 };
 
-/// u = (beam, x, y, s), z = force of the mass on the beam: 0 = (x, y) - r(s, q). The coordinate s has no mass; its row
-/// says that the force is normal to the beam. The element is that at s, not at d, since constraints see u only: a step
-/// that ends at the switch has all of its stages in one element.
+/// u = (beam, x, y, s, begin), z = force of the mass on the beam: 0 = (x, y) - r(s, q). The coordinate s has no mass;
+/// its row says that the force is normal to the beam. Constraints see u only and must not change inside a step, so that
+/// the place where the element begins is a coordinate, too: it rests, and jumps at a switch.
 template <class Real>
 struct Joint : Slide<Real> {
   Sizes sizes() const {
-    return {.nu = this->beamUnknowns() + 3, .nz = 2, .constraints = 2, .discrete = 1, .switches = 2};
+    return {.nu = this->beamUnknowns() + 4, .nz = 2, .constraints = 2, .discrete = 1, .switches = 2};
   }
   Index x() const { return this->beamUnknowns(); }
   Index s() const { return this->beamUnknowns() + 2; }
+  Index begin() const { return this->beamUnknowns() + 3; }
+  template <class T>
+  Index elementFrom(const T& begin) const {
+    Index element = 0;
+    while (element < this->last() && begin > T(this->startOf(element) + this->beam.elementLength() / 2)) ++element;
+    return element;
+  }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     this->beam.residual(p, r);
-    const Index element = this->elementAt(p.u[s()]);
+    const Index element = elementFrom(p.u[begin()]);
     const T xi = this->inside(p.u[s()], element);
     const auto slope = this->sum(this->beam.template firstDerivatives<T>(xi), p.u, element);
     this->push(this->beam.template shapes<T>(xi), p.z[0], p.z[1], element, r);
     r.u[x()] = -this->m * p.a[x()] - p.z[0];
     r.u[x() + 1] = -this->m * (p.a[x() + 1] + this->g) - p.z[1];
     r.u[s()] = slope[0] * p.z[0] + slope[1] * p.z[1];
+    r.u[begin()] = -p.a[begin()];
   }
   template <class T, class U, class G>
   void constraints(const T&, const U& u, G&& c) const {
     const auto at = u[s()];
     using V = std::decay_t<decltype(at)>;
-    const Index element = this->elementAt(at);
+    const Index element = elementFrom(V(u[begin()]));
     const auto r = this->template sum<V>(this->beam.template shapes<V>(this->inside(at, element)), u, element);
     c[0] = u[x()] - r[0];
     c[1] = u[x() + 1] - r[1];
@@ -108,6 +116,10 @@ struct Joint : Slide<Real> {
   template <class T>
   void onSwitch(Index i, const Point<T>&, T* d) const {
     this->change(i, d);
+  }
+  template <class T>
+  void jump(Index, const Point<T>& p, T* u, T*, T*) const {
+    u[begin()] = T(this->startOf(this->elementOf(p.d[0])));
   }
 };
 
@@ -162,10 +174,10 @@ template <class Real>
 void setUp(const Joint<Real>& problem, const Real& s0, const Real& v0, double speed, Scene<Real>& scene) {
   setProblem(scene, problem);
   auto u = problem.beam.coordinates(speed);
-  for (const char* name : {"x", "y", "s"}) u.push_back({name, "m", 1, speed});
+  for (const char* name : {"x", "y", "s", "begin"}) u.push_back({name, "m", 1, speed});
   setComponents(scene, u, {}, {{"lambda_x", "N", kForce}, {"lambda_y", "N", kForce}});
-  scene.start.u.tail(3) << s0, Real(0), s0;
-  scene.start.v.tail(3) << v0, Real(0), v0;
+  scene.start.u.tail(4) << s0, Real(0), s0, problem.startOf(problem.elementAt(s0));
+  scene.start.v.tail(4) << v0, Real(0), v0, Real(0);
   const auto energy = [problem](const State<Real>& s) {
     const Real x = s.v[problem.x()], y = s.v[problem.x() + 1];
     return Real(problem.beam.energy(s.u, s.v) + problem.m * ((x * x + y * y) / 2 + problem.g * s.u[problem.x() + 1]));

@@ -102,16 +102,17 @@ struct Mode {
   Vec<double> d;
 };
 
-/// All modes frozen; for the start also the implied and, if it exists, the regularised law.
+/// All modes frozen; for the start also the implied and the regularised law, if they exist.
 inline std::vector<Mode> modesToTest(const Scene<double>& scene) {
   std::vector<Mode> modes;
   for (const Vec<double>& d : modesOf(scene)) modes.push_back({Discontinuity::kLocate, d});
   if (scene.sizes().switches == 0) return modes;
-  modes.push_back({Discontinuity::kIgnore, scene.start.d});
-  try {
-    scene.system({.discontinuity = Discontinuity::kSmooth});
-    modes.push_back({Discontinuity::kSmooth, scene.start.d});
-  } catch (const Misuse&) {  // no regularisation
+  for (const Discontinuity treatment : {Discontinuity::kIgnore, Discontinuity::kSmooth}) {
+    try {
+      scene.system({.discontinuity = treatment});
+      modes.push_back({treatment, scene.start.d});
+    } catch (const Misuse&) {  // a state that jumps, no regularisation
+    }
   }
   return modes;
 }
