@@ -94,7 +94,11 @@ do for [format in formats] {
       unset arrow; unset label
       do for [s in scalars] { if (position(round_offs, s) && 100 * roundOff(s) > y_min && roundOff(s) < y_max && rows > 0) {
         set arrow from graph 0, first roundOff(s) to graph 1, first roundOff(s) nohead dt 2 lw 1 lc rgb 0x888888 back
-        set label 'round-off, '.s at graph 0.02, first roundOff(s) left offset 0,-0.6 font ',9' textcolor rgb 0x666666 } }
+        if (log10(roundOff(s) / y_min) > 0.1 * log10(y_max / y_min)) {
+          set label 'round-off, '.s at graph 0.02, first roundOff(s) left offset 0,-0.6 font ',9' textcolor rgb 0x666666
+        } else {   # below it stand the labels of the axis
+          set label 'round-off, '.s at graph 0.98, first roundOff(s) right offset 0,0.6 font ',9' textcolor rgb 0x666666
+        } } }
       plot for [k in fittedIn(i, words(methods))] file using "h":(predicted(slot(i, number(k)), f, method(number(k)))) \
              smooth unique with lines lw 4 lc rgb 0xD0D0D0 notitle, \
            for [k in linesIn(i, words(methods))] file using "h":(row(f, method(number(k))) ? error(0) : NaN) \
