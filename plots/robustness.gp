@@ -45,8 +45,8 @@ solver_tics = solver_tics.") nomirror scale 0 noenhanced textcolor rgb ink"
 
 columns = panels == 1 ? 1 : 2
 lines = (panels + columns - 1) / columns
-height = 70 + lines * (60 + 22 * words(solvers))
-margin_left = columns == 1 ? 0.28 : 0.17; margin_right = 0.02; margin_top = 0.06; margin_bottom = 84.0 / height
+height = 100 + lines * (60 + 22 * words(solvers))
+margin_left = columns == 1 ? 0.3 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = 84.0 / height
 gap_x = 0.03; gap_y = 50.0 / height
 do for [format in formats] {
   eval open(format, columns == 1 ? 640 : 1080, height)
@@ -61,7 +61,7 @@ do for [format in formats] {
     set xlabel when(i > panels - columns, 'tolerance') offset 0,0.3
     plot for [k = 1 : 4] file using (left(i, below(k))):(line(i)):(left(i, below(k))):(left(i, upTo(k))):(line(i) - 0.38):(line(i) + 0.38) \
         with boxxyerror fs solid noborder lc rgb colour(k) notitle, \
-      file using (column("wrong") > 0 ? left(i, 0.5) : outside):(line(i)):(sprintf("%d", column("wrong"))) \
+      file using (column("wrong") > 0 ? left(i, 0.06) : outside):(line(i)):(sprintf("%d", column("wrong"))) \
         with labels textcolor rgb colour(3) font ',11' notitle
   }
   eval legend(34.0 / height)

@@ -39,6 +39,9 @@ void appendAnalyses(const Study& study, std::vector<FigureTable>& figures) {
   }
   for (const Analysis* analysis : study.analyses) {
     if (analysis->id == "profile") add("profile", "Performance profiles over all scenes", {{"targets", {"all"}}});
+    if (analysis->id == "robustness") {
+      add("robustness", "Right, failed or wrong, by solver and tolerance", {{"collections", {"all"}}});
+    }
     if (analysis->id == "estimates") add("estimate_ratio", "True error of a step over its estimate");
     if (analysis->id != "phases" && analysis->id != "scaling") continue;
     const bool phases = analysis->id == "phases";

@@ -94,12 +94,12 @@ claims::ResultTables solverTables(double library_time = 4) {
     return Cells{{"integrator", solver}, {"outcome", outcome}, {"rtol", "1e-8"},   {"atol", "1e-8"},
                  {"error_u", "nan"},     {"error_v", "nan"},   {"error_x", error}, {"block", block}};
   };
-  tables.put("work_precision", "runs",
-             tableOf({"integrator", "outcome", "rtol", "atol", "error_u", "error_v", "error_x", "block"},
-                     {run("variable", "success", "1e-6", "ivp_variable"),
-                      run("variable", "success", "1e-3", "ivp_variable"),
-                      run("variable", "max_steps", "nan", "ivp_variable"),
-                      run("variable", "timeout", "nan", "switching_variable")}));
+  tables.put(
+      "work_precision", "runs",
+      tableOf({"integrator", "outcome", "rtol", "atol", "error_u", "error_v", "error_x", "block"},
+              {run("variable", "success", "1e-6", "ivp_variable"), run("variable", "success", "1e-3", "ivp_variable"),
+               run("variable", "max_steps", "nan", "ivp_variable"),
+               run("variable", "timeout", "nan", "switching_variable")}));
   return tables;
 }
 

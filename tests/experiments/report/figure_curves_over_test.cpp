@@ -81,8 +81,10 @@ TEST(FigureCurves, OverStep) {
 TEST(FigureCurves, Profile) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* target, const char* integrator, double ratio, double fraction) {
-    rows.push_back({{"target_error", target},
+  const auto add = [&](const char* target, const char* integrator, double ratio, double fraction,
+                       const char* collection = "all") {
+    rows.push_back({{"collection", collection},
+                    {"target_error", target},
                     {"integrator", integrator},
                     {"ratio", exact(ratio)},
                     {"fraction", exact(fraction)},
@@ -94,11 +96,14 @@ TEST(FigureCurves, Profile) {
   add("1e-4", "cvode_bdf", 50, 0.9);
   add("1e-8", "variable", 3, 0.3);
   add("1e-8", "variable", 30, 0.6);
-  drawing.put("profile.csv", {"target_error", "problems", "integrator", "ratio", "fraction"}, rows);
+  add("1e-4", "variable", 4, 0.7, "ivp");
+  drawing.put("profile.csv", {"collection", "target_error", "problems", "integrator", "ratio", "fraction"}, rows);
   const Svg svg = drawing.draw("profile.gp", "targets='-4 -8'");
   expectPoints(svg.line('a', 1, kLog, kLin), {{1, 0.5}, {10, 0.5}, {10, 0.8}}, "variable", 2e-2);
   expectPoints(svg.line('a', 2, kLog, kLin), {{2, 0.2}, {50, 0.2}, {50, 0.9}}, "cvode", 2e-2);
   expectPoints(svg.line('b', 1, kLog, kLin), {{3, 0.3}, {30, 0.3}, {30, 0.6}}, "1e-8", 2e-2);
+  const Svg of_collection = drawing.draw("profile.gp", "targets='-4'; collection='ivp'");
+  expectPoints(of_collection.line('a', 1, kLog, kLin), {{4, 0.7}}, "variable on ivp", 2e-2);
 }
 
 TEST(FigureCurves, Scaling) {

@@ -56,6 +56,26 @@ TEST(Figures, FailureMapsShowDigitsAndCauses) {
   EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
 }
 
+TEST(Figures, RobustnessShowsTheCollectionsAndSolversOfTheTable) {
+  const TemporaryFolder folder;
+  Table counts{{}, {"collection", "integrator", "tolerance", "runs", "right", "failed", "wrong", "unjudged"}, {}};
+  for (const char* collection : {"all", "ivp"}) {
+    for (const char* tolerance : {"all", "1e-4"}) {
+      counts.rows.push_back({collection, "variable", tolerance, "10", "7", "2", "1", "0"});
+    }
+  }
+  writeTable(folder.path() / "robustness.csv", counts);
+  const auto out = folder.path() / "robustness";
+  std::ostringstream err;
+  ASSERT_TRUE(drawFigure("robustness.gp", "data='" + folder.path().string() + "'; out='" + out.string() + "'",
+                         IRK_SOURCE_DIR, err))
+      << err.str();
+  std::ifstream in(out.string() + ".svg");
+  const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_TRUE(containsAll(svg, {"ivp", "variable", "honest failure", "tolerance"}));
+  EXPECT_EQ(svg.find("multibody"), svg.npos) << "only collections with runs";
+}
+
 // All runs of every built-in study can be prepared, or are refused with a reason.
 TEST(Figures, StudiesHaveRunsThatResolve) {
   for (const auto& entry : builtinStudies()) {

@@ -126,6 +126,8 @@ TEST(Reference, ComputedValuesAgreeWithThoseOfOtherPrograms) {
     }
   }
   EXPECT_EQ(compared["chemakzo"], 6);
+  EXPECT_EQ(compared["caraxis"], 10);
+  EXPECT_EQ(compared["orego"], 36);
   EXPECT_EQ(compared["pollution"], 20);
 }
 

@@ -34,7 +34,10 @@ struct Plain {
 };
 
 SceneEntry plainEntry() {
-  return sceneEntryOf<Plain>({.id = "plain", .parameters = {numberParameter("k", "1/s^2", "stiffness", "10", 0, 100)}});
+  return sceneEntryOf<Plain>({.id = "plain",
+                              .title = "",
+                              .shows = "",
+                              .parameters = {numberParameter("k", "1/s^2", "stiffness", "10", 0, 100)}});
 }
 
 TEST(SceneFrame, FillsTheScene) {
@@ -83,7 +86,7 @@ struct Decay {
 };
 
 TEST(SceneFrame, StartsWithTheExactSolution) {
-  const auto scene = makeScene<double>(sceneEntryOf<Decay>({.id = "decay"}), {});
+  const auto scene = makeScene<double>(sceneEntryOf<Decay>({.id = "decay", .title = "", .shows = ""}), {});
   EXPECT_EQ(scene.start.x[0], 2);
   EXPECT_EQ(scene.start.w[0], -2);
   ASSERT_TRUE(scene.exact);
@@ -108,7 +111,7 @@ struct OnCircle {
 };
 
 TEST(SceneFrame, FindsTheComponentsThatTheConstraintsDetermine) {
-  const auto scene = makeScene<double>(sceneEntryOf<OnCircle>({.id = "on_circle"}), {});
+  const auto scene = makeScene<double>(sceneEntryOf<OnCircle>({.id = "on_circle", .title = "", .shows = ""}), {});
   EXPECT_NEAR(scene.start.u[0], 0.8, 1e-15);
   EXPECT_EQ(scene.start.u[1], 0.6);
   EXPECT_NEAR(scene.start.z()[0], -0.6, 1e-14) << "x x'' + y y'' = -lambda - y = 0";
@@ -125,7 +128,7 @@ struct Maker : Decay<Real> {
 };
 
 TEST(SceneFrame, AStructMayMakeItsSceneItself) {
-  EXPECT_EQ(makeScene<double>(sceneEntryOf<Maker>({.id = "maker"}), {}).t_end, 99);
+  EXPECT_EQ(makeScene<double>(sceneEntryOf<Maker>({.id = "maker", .title = "", .shows = ""}), {}).t_end, 99);
 }
 
 }  // namespace
