@@ -195,16 +195,12 @@ class Program {
     }
   }
   void addLoad(CLI::App& sub) {
-    sub.add_option(
-           "--load", load_,
-           "A file of your own with scenes, integrators or strategies: FILE.cpp, or LIBRARY.so with an integrator.")
+    sub.add_option("--load", load_, "Your scenes, integrators, strategies: FILE.cpp, or LIBRARY.so, an integrator.")
         ->take_all()
         ->expected(1)
         ->type_name("FILE");
   }
-  void loadFiles() const {
-    for (const auto& file : load_) loadOwn(file);
-  }
+  void loadFiles() const { std::for_each(load_.begin(), load_.end(), loadOwn); }
 
   int solve(Streams streams) {
     loadFiles();

@@ -1,6 +1,4 @@
 // Commands that the program prints for runs of a user's files: pasted into a shell, they make the same run.
-#include <algorithm>
-
 #include "experiments/report/explorer/run_command.h"
 #include "experiments/runs/run_table.h"
 #include "tests/experiments/own/own_files.h"
@@ -61,18 +59,6 @@ TEST_F(OwnCommands, OfTheProgramsOwnPartsNameNoFile) {
   const Table table = runs("mine");
   EXPECT_EQ(textAt(table, table.rows.at(0), "files"), "");
   EXPECT_EQ(seriesCommand(table, table.rows[0]).text.find("--load"), std::string::npos);
-}
-
-TEST_F(OwnCommands, OfAnAuditMakeTheSameRun) {
-  ASSERT_EQ(irk("new scene lift.cpp").status, 0);
-  write("judge.toml", "load = 'lift.cpp'\n[audit]\nruns = 60\n");
-  ASSERT_EQ(irk("run judge.toml --jobs 2").status, 0);
-  const Table table = readTable(folder_.path() / "results" / "judge" / "audit.csv");
-  const auto of_lift = std::find_if(table.rows.begin(), table.rows.end(),
-                                    [&](const auto& row) { return textAt(table, row, "scene") == "lift"; });
-  ASSERT_NE(of_lift, table.rows.end()) << "the first 60 runs of the audit draw no run of the scene";
-  const Ran again = paste(textAt(table, *of_lift, "command") + " --json");
-  EXPECT_TRUE(containsAll(again.text, {"\"outcome\": \"" + textAt(table, *of_lift, "outcome") + "\""})) << again.text;
 }
 
 TEST_F(OwnCommands, LoadALibrary) {
