@@ -153,7 +153,7 @@ TEST(FigureCurves, WorkOverTime) {
                   {3 * numberOf("error", 2), numberOf("cpu_s", 2)},
                   {numberOf("error", 3), numberOf("cpu_s", 3)}},
                  script);
-    EXPECT_EQ(svg.occurrences("error, largest at 10 times</text>"), 1) << script;
+    EXPECT_EQ(svg.occurrences("error, largest at 10 times"), 1) << script;
     const Svg positions = drawing.draw(script, one + "; quantity='error_u'");
     EXPECT_NEAR(positions.marks('a', 1, kLog, kLog).front().x, 5 * numberOf("error_u", 1), 1e-3);
     const Svg end = drawing.draw(script, one + "; at_end=1");

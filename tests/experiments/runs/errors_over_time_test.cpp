@@ -93,8 +93,11 @@ TEST(ErrorsOverTime, AskForTheReferenceOfEachTime) {
 }
 
 TEST(LargerErrors, LeaveOutWhatIsNotMeasurable) {
-  const RunErrors known{.all = 1e-3, .u = 1e-3, .reference = ReferenceKind::kComputed, .accuracy = 1e-9};
-  const RunErrors small{.reference = ReferenceKind::kComputed, .accuracy = 1e-8};
+  RunErrors known, small;
+  known.all = known.u = 1e-3;
+  known.accuracy = 1e-9;
+  small.accuracy = 1e-8;
+  known.reference = small.reference = ReferenceKind::kComputed;
   for (const auto& larger : {largerErrors(known, small), largerErrors(small, known)}) {
     EXPECT_EQ(larger.all, 1e-3);
     EXPECT_EQ(larger.u, 1e-3);
