@@ -16,7 +16,8 @@ constexpr std::size_t kShown = 10;
 
 // The columns whose values the code alone determines.
 std::vector<std::string> decidedColumns() {
-  std::vector<std::string> columns{"outcome", "error", "error_u", "error_v", "error_x", "error_z", "drift", "mescd", "scd"};
+  std::vector<std::string> columns{"outcome", "error", "error_u", "error_v", "error_x",
+                                   "error_z", "drift", "mescd",   "scd"};
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
   return columns;
 }
