@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/fields.h"

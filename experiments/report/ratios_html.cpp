@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "experiments/analyses/ratios.h"
+#include "experiments/analyses/costs/ratios.h"
 #include "experiments/base/median.h"
 #include "experiments/runs/run_table.h"
 

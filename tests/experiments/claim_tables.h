@@ -70,7 +70,8 @@ class RunTable {
     for (const double error : {1e-2, 1e-4, 1e-6, 1e-8, 1e-11}) {
       cells["rtol"] = text(error);
       for (const char* column : {"error", "error_u", "error_v", "error_z"}) cells[column] = text(error);
-      for (const char* column : {"cpu_s", "newton_iterations", "jacobians"}) cells[column] = text(scale * std::pow(error, -0.25));
+      for (const char* column : {"cpu_s", "newton_iterations", "jacobians"})
+        cells[column] = text(scale * std::pow(error, -0.25));
       addTimes(cells);
     }
   }

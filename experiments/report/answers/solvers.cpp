@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/audit/row_judgement.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/study_runs.h"

@@ -1,4 +1,4 @@
-#include "experiments/analyses/profile.h"
+#include "experiments/analyses/costs/profile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Ratios of costs, from tables whose ratios are known.
-#include "experiments/analyses/ratios.h"
+#include "experiments/analyses/costs/ratios.h"
 
 #include <gtest/gtest.h>
 

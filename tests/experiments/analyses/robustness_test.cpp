@@ -1,4 +1,4 @@
-#include "experiments/analyses/robustness.h"
+#include "experiments/analyses/costs/robustness.h"
 
 #include <gtest/gtest.h>
 

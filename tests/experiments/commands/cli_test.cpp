@@ -225,8 +225,8 @@ TEST(Cli, ListsNameEverything) {
 TEST(Cli, ListsTheScenesOfACollection) {
   const auto ivp = program({"list", "scenes", "--collection", "ivp"});
   EXPECT_EQ(ivp.status, 0) << ivp.err;
-  EXPECT_TRUE(containsAll(ivp.out, {"andrews\n", "unknowns: 7 second-order, 0 first-order, 6 algebraic",
-                                    "index: 3", "in: ivp, multibody", "from: IVP test set, ANDREWS"}));
+  EXPECT_TRUE(containsAll(ivp.out, {"andrews\n", "unknowns: 7 second-order, 0 first-order, 6 algebraic", "index: 3",
+                                    "in: ivp, multibody", "from: IVP test set, ANDREWS"}));
   EXPECT_EQ(ivp.out.find("stick_slip"), std::string::npos);
   const auto json = program({"list", "scenes", "--collection", "probes", "--json"});
   EXPECT_TRUE(containsAll(json.out, {"\"id\": \"kepler\"", "\"nu\": 2", "\"collections\""}));

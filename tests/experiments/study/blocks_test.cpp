@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/analyses/orders/orders.h"
 #include "experiments/report/report.h"
 #include "experiments/study/builtin_studies.h"

@@ -1,4 +1,4 @@
-#include "experiments/analyses/profile.h"
+#include "experiments/analyses/costs/profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"

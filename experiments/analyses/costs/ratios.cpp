@@ -1,4 +1,4 @@
-#include "experiments/analyses/ratios.h"
+#include "experiments/analyses/costs/ratios.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/base/median.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"

@@ -1,4 +1,4 @@
-#include "experiments/analyses/cost_at_error.h"
+#include "experiments/analyses/costs/cost_at_error.h"
 
 #include <algorithm>
 #include <cmath>
