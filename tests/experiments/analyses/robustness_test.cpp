@@ -34,10 +34,10 @@ TEST(Robustness, CountsRunsByCollectionSolverAndTolerance) {
     counts[textAt(table, row, "collection") + " " + textAt(table, row, "tolerance")] =
         numbers + textAt(table, row, "outcomes");
   }
-  EXPECT_EQ(counts, (std::map<std::string, std::string>{{"all 0.0001", "4 1 2 1 0 max_steps 1; timeout 1"},
+  EXPECT_EQ(counts, (std::map<std::string, std::string>{{"all 1e-04", "4 1 2 1 0 max_steps 1; timeout 1"},
                                                         {"all 1e-06", "2 1 0 0 1 "},
                                                         {"all all", "6 2 2 1 1 max_steps 1; timeout 1"},
-                                                        {"ivp 0.0001", "3 1 1 1 0 timeout 1"},
+                                                        {"ivp 1e-04", "3 1 1 1 0 timeout 1"},
                                                         {"ivp all", "3 1 1 1 0 timeout 1"}}));
   EXPECT_EQ(textAt(table, table.rows[0], "integrator"), "variable");
 }

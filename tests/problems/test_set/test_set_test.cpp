@@ -37,10 +37,11 @@ std::map<std::string, std::pair<double, double>> valuesOf(const Scene<double>& s
 // Local errors accumulate: at most this many tolerances at the end.
 constexpr double kGrowth = 1e3;
 
-// An estimate that costs one solve, and a Jacobian that lasts.
-IntegratorOptions cheapest(double tolerance) {
+// The two scenes that take most of the time get an estimate that costs one solve, and a Jacobian that lasts.
+IntegratorOptions optionsOf(const TestSetCase& c) {
   IntegratorOptions options;
-  options.tolerances.rtol = options.tolerances.atol = tolerance;
+  options.tolerances.rtol = options.tolerances.atol = c.tolerance;
+  if (c.id != std::string_view("beam") && c.id != std::string_view("ringmod")) return options;
   options.step.estimate = ErrorEstimate::kEmbedded;
   options.solver = StageSolverKind::kEigen;
   options.jacobian_point = JacobianPoint::kPredicted;
@@ -54,7 +55,7 @@ TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
   const TestSetCase& c = GetParam();
   const auto scene = makeScene<double>(c.id, c.settings());
   const auto system = scene.system({});
-  const IntegratorOptions options = cheapest(c.tolerance);
+  const IntegratorOptions options = optionsOf(c);
   Integrator<double> integrator(system, makeTableau<double>("radau_iia_5"), options, scene.scale);
   State<double> state = scene.start;
   int compared = 0;
