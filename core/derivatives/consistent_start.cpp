@@ -68,7 +68,7 @@ void ConsistentStart<Real>::solve() {
     dense_lu_.matrixLU().template triangularView<Eigen::UnitLower>().solveInPlace(dw_);
     dense_lu_.matrixLU().template triangularView<Eigen::Upper>().solveInPlace(dw_);
     r_.noalias() = dense_lu_.permutationQ() * dw_;
-    dw_.swap(r_);
+    dw_ = r_;
   } else {
     dw_ = r_;
     lu_.solve(dw_);
