@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/input_file.h"
@@ -88,14 +89,18 @@ std::vector<std::string> headerFolders() {
   return folders;
 }
 
-// The prerequisites in a rule of make.
+// The prerequisites in a rule of make, which puts a backslash before a blank in a name and before the end of a line.
 std::vector<std::string> prerequisites(const fs::path& rule) {
   std::ifstream in(rule);
   std::vector<std::string> files;
-  std::string word;
+  std::string word, name;
   in >> word;  // the target
   while (in >> word) {
-    if (word != "\\") files.push_back(word);
+    const bool goes_on = word.back() == '\\';
+    if (goes_on) word.back() = ' ';
+    if (word == " ") continue;
+    name += word;
+    if (!goes_on) files.push_back(std::exchange(name, ""));
   }
   return files;
 }

@@ -42,6 +42,7 @@ Table madeUpRuns() {
         const auto put = [&](const char* column, const std::string& text) { row[runs.column(column)] = text; };
         put("scene", scene);
         put("settings", "");
+        put("files", "");
         put("method", solver.method);
         put("family", solver.family);
         put("integrator", solver.integrator);

@@ -65,13 +65,14 @@ TEST_F(Completion, InFish) {
   const auto words = [&](const std::string& line) {
     return '\n' + outputOf("cd " + folder_.path().string() +
                            " && HOME=$PWD XDG_CONFIG_HOME=$PWD fish --no-config -c \"source " + script +
-                           "; complete -C '" + line + "' | string replace -r '\\t.*' ''\"");
+                           "; complete -C '" + line + "' | string replace -r '\\t.*' ''; true\"");
   };
   EXPECT_TRUE(containsAll(words("irk "), {"\nsolve\n", "\nrun\n", "\ntableau\n"}));
   EXPECT_EQ(words("irk sol"), "\nsolve\n");
   EXPECT_TRUE(containsAll(words("irk solve sli"), {"\nslider_crank\n"}));
   EXPECT_TRUE(containsAll(words("irk solve kepler --newton "), {"\nsimplified\n", "\nfull\n"}));
-  EXPECT_EQ(words("irk solve kepler --newton m"), "\nmodified\nmodified_only\n");
+  EXPECT_EQ(words("irk solve kepler --newton m"),
+            "\nmodified\nmodified_each_step\nmodified_only\nmodified_step_change\n");
   EXPECT_TRUE(containsAll(words("irk solve kepler --method "), {"\nradau_iia_5\n", "\ncvode_bdf\n", "\nmy.txt\n"}));
   EXPECT_EQ(words("irk solve kepler --tol "), "\n") << "a number";
   EXPECT_TRUE(containsAll(words("irk solve kepler --po"), {"\n--points\n"}));

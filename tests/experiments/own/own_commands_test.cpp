@@ -74,7 +74,7 @@ TEST_F(OwnCommands, LoadALibrary) {
 
 TEST_F(OwnFiles, AReferenceOfASceneIsItsEndWithItsDefaults) {
   ASSERT_EQ(irk("new scene lift.cpp").status, 0);
-  write("lift.cpp", replaced("lift.cpp", "scene.t_end = 5", "scene.t_end = 0.1"));
+  write("lift.cpp", replaced("lift.cpp", ".t_end = 5", ".t_end = 0.1"));
   const Ran made = irk("reference lift.cpp --out mine");
   EXPECT_EQ(made.status, 0) << made.text;
   EXPECT_TRUE(containsAll(made.text, {"lift: 4 values, fewest digits"})) << made.text;

@@ -97,13 +97,14 @@ TEST(FigureCurves, Profile) {
   add("1e-8", "variable", 3, 0.3);
   add("1e-8", "variable", 30, 0.6);
   add("1e-4", "variable", 4, 0.7, "ivp");
+  add("1e-4", "variable", 40, 0.9, "ivp");
   drawing.put("profile.csv", {"collection", "target_error", "problems", "integrator", "ratio", "fraction"}, rows);
   const Svg svg = drawing.draw("profile.gp", "targets='-4 -8'");
   expectPoints(svg.line('a', 1, kLog, kLin), {{1, 0.5}, {10, 0.5}, {10, 0.8}}, "variable", 2e-2);
   expectPoints(svg.line('a', 2, kLog, kLin), {{2, 0.2}, {50, 0.2}, {50, 0.9}}, "cvode", 2e-2);
   expectPoints(svg.line('b', 1, kLog, kLin), {{3, 0.3}, {30, 0.3}, {30, 0.6}}, "1e-8", 2e-2);
   const Svg of_collection = drawing.draw("profile.gp", "targets='-4'; collection='ivp'");
-  expectPoints(of_collection.line('a', 1, kLog, kLin), {{4, 0.7}}, "variable on ivp", 2e-2);
+  expectPoints(of_collection.line('a', 1, kLog, kLin), {{4, 0.7}, {40, 0.7}, {40, 0.9}}, "variable on ivp", 2e-2);
 }
 
 TEST(FigureCurves, Scaling) {

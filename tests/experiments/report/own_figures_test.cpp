@@ -47,8 +47,8 @@ testing::AssertionResult says(const Svg& svg, const std::vector<std::string>& pa
 TEST_F(OwnFigures, ScriptsSayWhatTheyTake) {
   const Script script = readScript(IRK_SOURCE_DIR, "work_by");
   const std::set<std::string> options(script.options.begin(), script.options.end());
-  EXPECT_EQ(options,
-            (std::set<std::string>{"variant", "variants", "cases", "titles", "costs", "quantity", "only", "columns"}));
+  EXPECT_EQ(options, (std::set<std::string>{"at_end", "variant", "variants", "cases", "titles", "costs", "quantity",
+                                            "only", "columns"}));
   EXPECT_EQ(script.tables, std::vector<std::string>{"runs.csv"});
   // Every built-in figure has legal options only.
   for (const auto& figure : readFigures(std::filesystem::path(IRK_SOURCE_DIR) / "plots" / "figures.txt")) {
