@@ -102,9 +102,21 @@ template <class Id>
 Catalogue<Id>& catalogue();
 
 /// Adds a strategy to its axis: from then on options, `parseId` and `named` know it as they know those of the library.
-/// Throws Misuse for an id that is taken. Not while other threads use the axis.
+/// Throws Misuse for an id that is taken or has other characters than small letters, digits and '_', for an empty
+/// meaning, and where it cannot be made in double. Not while other threads use the axis.
 template <class Id>
 void registerStrategy(Strategy<Id> entry) {
+  const auto require = [&entry](bool given, const char* what) {
+    if (!given) throw Misuse(std::string(axisName<Id>()) + " '" + std::string(entry.id.id) + "': " + what);
+  };
+  const bool named = entry.id.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string_view::npos;
+  require(named && !entry.id.id.empty(), "an id has small letters, digits and '_'");
+  require(!entry.meaning.empty(), "`meaning` is empty: say in a sentence what it is");
+  if constexpr (requires { entry.make.in_double; }) {
+    require(static_cast<bool>(entry.make.in_double), "`make` is empty for double");
+  } else if constexpr (requires { static_cast<bool>(entry.make); }) {
+    require(static_cast<bool>(entry.make), "`make` is empty");
+  }
   catalogue<Id>().add(std::move(entry));
 }
 

@@ -128,10 +128,6 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
   }
   for (const auto& id : knownIds()) {
     if (before.contains(id)) continue;
-    if (id.second.empty() || id.second.find_first_of(" ;=,\n") != std::string::npos) {
-      throw Misuse(
-          fmt::format("{}: {} '{}': an id has no blanks and none of ; = ,", given.string(), id.first, id.second));
-    }
     hashes()[id] = compiled.hash;
   }
   if (!registers && loaded.scene.empty()) {

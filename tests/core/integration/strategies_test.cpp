@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/control/controller.h"
 #include "core/stages/start_values.h"
@@ -107,6 +108,28 @@ TEST(Strategies, ATakenIdIsRefusedNamingBoth) {
   EXPECT_EQ(refusal([] { pendulum(withBoth(1e-4)); }), "not refused");
   const std::string twice = refusal([] { registerStrategy(zero()); });
   EXPECT_NE(twice.find("taken"), std::string::npos) << twice;
+}
+
+TEST(Strategies, WhatCannotBeUsedIsRefused) {
+  const auto why = [](const std::function<void(Strategy<StepControl>&)>& damage) {
+    Strategy<StepControl> entry = steady();
+    entry.id = {{"steady_too"}};
+    damage(entry);
+    return refusal([&] { registerStrategy(entry); });
+  };
+  EXPECT_EQ(why([](auto& entry) { entry.make = nullptr; }), "control 'steady_too': `make` is empty");
+  EXPECT_EQ(why([](auto& entry) { entry.id = {{"steady too"}}; }),
+            "control 'steady too': an id has small letters, digits and '_'");
+  EXPECT_EQ(why([](auto& entry) { entry.id = {{""}}; }), "control '': an id has small letters, digits and '_'");
+  EXPECT_EQ(why([](auto& entry) { entry.meaning.clear(); }),
+            "control 'steady_too': `meaning` is empty: say in a sentence what it is");
+  EXPECT_EQ(refusal([] {
+              Strategy<Predictor> entry = zero();
+              entry.id = {{"zero_too"}};
+              entry.make = {};
+              registerStrategy(entry);
+            }),
+            "predictor 'zero_too': `make` is empty for double");
 }
 
 TEST(Strategies, UnknownIdsAreRefusedWithTheNearest) {
