@@ -56,7 +56,7 @@ int reportException(std::ostream& err) {
   } catch (const std::exception& error) {
     printErrorLine(err, fmt::format("internal error: {}", error.what()));
   } catch (...) {
-    printErrorLine(err, "internal error");
+    printErrorLine(err, "internal error: an exception without text, as a user's file may throw it");
   }
   return kFailedStatus;
 }

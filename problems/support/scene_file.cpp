@@ -127,7 +127,13 @@ Real number(const Settings& settings, const std::string& name) {
   if (found == settings.end()) {
     throw Misuse(fmt::format("it asks for the parameter '{}', which its entry does not declare", name));
   }
-  return decimal<Real>(found->second.c_str());
+  const char* const text = found->second.c_str();
+  char* end = nullptr;
+  static_cast<void>(std::strtod(text, &end));
+  if (end == text || *end != '\0') {
+    throw Misuse(fmt::format("the parameter {} = '{}' is not a number", name, found->second));
+  }
+  return decimal<Real>(text);
 }
 
 template <class Real>

@@ -1,6 +1,8 @@
 // The frame of a problem's struct: parameters, start, end, names, exact solution.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "irk/misuse.h"
 #include "irk/scene_file.h"
 
@@ -129,6 +131,18 @@ struct Maker : Decay<Real> {
 
 TEST(SceneFrame, AStructMayMakeItsSceneItself) {
   EXPECT_EQ(makeScene<double>(sceneEntryOf<Maker>({.id = "maker", .title = "", .shows = ""}), {}).t_end, 99);
+}
+
+TEST(SceneFrame, AParameterThatIsNoNumberIsRefused) {
+  for (const char* value : {"abc", "", "3 m", "1e"}) {
+    try {
+      static_cast<void>(number<double>({{"k", value}}, "k"));
+      ADD_FAILURE() << "'" << value << "' is taken";
+    } catch (const Misuse& misuse) {
+      EXPECT_EQ(misuse.what(), "the parameter k = '" + std::string(value) + "' is not a number");
+    }
+  }
+  EXPECT_EQ(number<double>({{"k", "-2.5e-3"}}, "k"), -2.5e-3);
 }
 
 }  // namespace

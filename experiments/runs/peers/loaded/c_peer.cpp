@@ -158,12 +158,16 @@ PeerEntry cPeer(const std::shared_ptr<const SharedLibrary>& library, const std::
   }
   const auto* description = library->get<decltype(irk_peer_describe)>("irk_peer_describe")();
   if (!description) library->refuse("irk_peer_describe() = NULL");
+  const bool has_index = description->form != IRK_PEER_ODE;
+  if (has_index && (description->max_index < 1 || description->max_index > 3)) {
+    library->refuse(fmt::format("irk_peer_describe()->max_index = {}: 1, 2 or 3 is allowed", description->max_index));
+  }
   const auto mutex = description->concurrent ? nullptr : std::make_shared<std::mutex>();
   const Functions functions{library, library->get<decltype(irk_peer_solve)>("irk_peer_solve"), mutex};
   return {.id = id,
           .title = description->title ? description->title : "",
           .form = formOf(*library, description->form),
-          .max_index = description->form == IRK_PEER_ODE ? 1 : description->max_index,
+          .max_index = has_index ? description->max_index : 1,
           .finds_roots = description->finds_roots != 0,
           .make = [functions](const PeerSetup& setup) { return std::make_unique<CPeer>(functions, setup); }};
 }
