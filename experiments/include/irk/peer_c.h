@@ -8,6 +8,7 @@
 #ifndef IRK_PEER_C_H
 #define IRK_PEER_C_H
 
+/* Names as C libraries have them: NOLINTBEGIN(readability-identifier-naming) */
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -98,5 +99,6 @@ int irk_peer_solve(const irk_peer_problem* problem, double t, double t_end, doub
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif
