@@ -45,14 +45,7 @@ class ProblemSystem final : public System<Real> {
           "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
           "switches: steps go on over them; use 'locate'");
     }
-    const std::vector<Real> times = this->times();
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      using std::isfinite;
-      if (!isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
-        throw Misuse("a problem's times: number " + std::to_string(i) +
-                     " is not finite, or not later than the one before");
-      }
-    }
+    if constexpr (kHasTimes) requireAscending(problem_.times());
     const int index = constraintIndex();
     const auto all = [](Index n, int power) { return std::vector<int>(static_cast<std::size_t>(n), power); };
     row_powers_ = all(sizes_.n(), 0);
@@ -99,7 +92,7 @@ class ProblemSystem final : public System<Real> {
     }
   }
   std::vector<Real> times() const override {
-    if constexpr (requires { problem_.times(); }) return problem_.times();
+    if constexpr (kHasTimes) return problem_.times();
     return {};
   }
   void onTime(Index i, State<Real>& state) const override {
@@ -169,6 +162,18 @@ class ProblemSystem final : public System<Real> {
   static constexpr bool kHasSmoothed = requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.smoothed(p, out);
   };
+
+  static constexpr bool kHasTimes = requires(const P& problem) { problem.times(); };
+
+  static void requireAscending(const std::vector<Real>& times) {
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      using std::isfinite;
+      if (!isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
+        throw Misuse("a problem's times: number " + std::to_string(i) +
+                     " is not finite, or not later than the one before");
+      }
+    }
+  }
 
   // Calls f(p, d) for the state and the discrete states that it is to change.
   template <class F>

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/ensemble/lane_newton.h"
+#include "core/ensemble/lane_run.h"
+#include "core/ensemble/lane_rules.h"
+#include "core/estimates/embedded.h"
+
+namespace irk {
+
+/// Steps all lanes in turn: one attempt of each, then the decisions of each, then new members for those that are over.
+class LaneIntegrator::Run {
+ public:
+  Run(const Tableau<double>& tableau, const IntegratorOptions& options)
+      : options_(legalInLanes(options)), scheme_(tableau) {
+    requireLaneMethod(scheme_);
+    mu_ = EmbeddedEstimate<double>::weight(tableau);
+    const EstimateUse use(scheme_);
+    for (std::size_t i = 0; i < kLanes; ++i) runs_.emplace_back(use, options_);
+  }
+
+  void integrate(const Ensemble& ensemble, const Next& next, const Done& done, const std::function<Outcome()>& stop) {
+    ensemble_ = &ensemble;
+    next_ = &next;
+    done_ = &done;
+    vectors_.reset();
+    active_ = {};
+    for (std::size_t i = 0; i < kLanes; ++i) load(i);
+    while (active_.any()) {
+      const Outcome stopped = stop ? stop() : Outcome::kSuccess;
+      if (stopped != Outcome::kSuccess) return forEachLane(active_, [&](std::size_t i) { end(i, stopped); });
+      plan();
+      if (active_.any()) attempt();
+    }
+  }
+
+ private:
+  // What depends on the sizes of the systems.
+  struct Vectors {
+    Vectors(const Scheme<double>& scheme, const System<double>& system, const IntegratorOptions& options, double mu)
+        : sizes(system.sizes()),
+          error_powers(system.errorPowers()),
+          from(sizes),
+          to(sizes),
+          norm(sizes, error_powers, options.tolerances),
+          stages(scheme, sizes, system.rowPowers(), mu),
+          newton(scheme, sizes, system.rowPowers(), options, mu),
+          W(static_cast<std::size_t>(sizes.n() * scheme.s)) {}
+    Sizes sizes;
+    ErrorPowers error_powers;
+    LaneState from, to;
+    LaneNorm norm;
+    LaneStages stages;
+    LaneNewton newton;
+    std::vector<Lanes> W;
+  };
+
+  State<double> state(std::size_t i) const { return vectors_->from.get(i, vectors_->sizes); }
+
+  // Puts the next member that can begin into lane i. A lane without one keeps its numbers, which nobody reads.
+  void load(std::size_t i) {
+    active_.set(i, false);
+    past_.set(i, false);
+    while (const std::optional<std::size_t> index = (*next_)()) {
+      LaneRun& run = runs_[i];
+      EnsembleMember member = ensemble_->member(*index);
+      requireLaneSystem(*member.system, vectors_ ? &vectors_->sizes : nullptr);
+      if (!vectors_) vectors_.emplace(scheme_, *member.system, options_, mu_);
+      const Outcome outcome = run.begin(*index, std::move(member));
+      if (outcome != Outcome::kSuccess) {
+        (*done_)(*index, run.failure(outcome, run.start()));
+      } else if (run.isOver(run.start().t)) {
+        (*done_)(*index, run.success(run.start()));
+      } else {
+        return begin(i);
+      }
+    }
+  }
+  void begin(std::size_t i) {
+    const LaneRun& run = runs_[i];
+    active_.set(i, true);
+    changed_ = true;
+    at_[i] = run.index();
+    vectors_->from.set(i, run.start());
+    vectors_->norm.setScale(i, run.member().scale);
+    vectors_->newton.restart(i);
+  }
+  // Lanes that have no member repeat the equations of one that has.
+  void assemble() {
+    if (!changed_) return;
+    changed_ = false;
+    std::size_t first = 0;
+    while (!active_[first]) ++first;
+    std::array<std::size_t, kLanes> at = at_;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (!active_[i]) at[i] = at_[first];
+    }
+    system_ = ensemble_->lanes(at);
+    vectors_->stages.use(*system_);
+  }
+
+  void end(std::size_t i, Outcome outcome) {
+    LaneRun& run = runs_[i];
+    counters_.moveTo(i, run.counters());
+    const std::size_t index = run.index();
+    active_.set(i, false);
+    (*done_)(index, outcome == Outcome::kSuccess ? run.success(state(i)) : run.failure(outcome, state(i)));
+  }
+
+  // The next step of each lane; lanes that have none get another member.
+  void plan() {
+    forEachLane(active_, [this](std::size_t i) {
+      while (active_[i]) {
+        const Outcome outcome = runs_[i].plan(vectors_->from.t[i]);
+        if (outcome == Outcome::kSuccess) break;
+        end(i, outcome);
+        load(i);
+      }
+    });
+    if (active_.any()) assemble();
+  }
+
+  void attempt() {
+    auto& [sizes, powers, from, to, norm, stages, newton, W] = *vectors_;
+    const Lanes h = Lanes::each([this](std::size_t i) { return active_[i] ? runs_[i].h() : 1.0; });
+    norm.update(from, h);
+    stages.begin(from, h);
+    stages.predict(past_, W);
+    const LaneSolved solved = newton.solve(stages, norm, from, h, active_, W, counters_);
+    stages.finish(W, to);
+    stages.keep(solved.solved, W);
+    past_ = solved.solved;
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const Lanes again = Lanes::each([&](std::size_t i) { return runs_[i].filtersAgain() ? 1.0 : kNever; });
+    const Lanes error = stages.estimate(W, norm, newton.matrix(), again, solved.solved, counters_);
+    LaneMask accepted;
+    forEachLane(active_, [&](std::size_t i) {
+      const bool known = solved.solved[i] && std::isfinite(error[i]);
+      if (known) {
+        if (runs_[i].decide(error[i], from.t[i], solved.round_off[i])) accepted.set(i, true);
+      } else {
+        runs_[i].failed(solved.solved[i] ? Outcome::kNotFinite : solved.outcome[i]);
+        past_.set(i, false);
+      }
+    });
+    newton.forget(active_ & ~past_);
+    commit(accepted);
+  }
+
+  void commit(const LaneMask& accepted) {
+    LaneState &from = vectors_->from, &to = vectors_->to;
+    from.t = select(accepted, to.t, from.t);
+    assign(accepted, to.y.data(), from.y.data(), from.y.size());
+    assign(accepted, to.w.data(), from.w.data(), from.w.size());
+    assign(accepted, to.carry.data(), from.carry.data(), from.carry.size());
+    forEachLane(accepted, [&](std::size_t i) {
+      from.t.set(i, runs_[i].newTime(from.t[i]));
+      const Outcome outcome = runs_[i].afterStep();
+      if (outcome == Outcome::kSuccess && !runs_[i].isOver(from.t[i])) return;
+      end(i, outcome);
+      load(i);
+    });
+  }
+
+  IntegratorOptions options_;
+  Scheme<double> scheme_;
+  double mu_ = 0;
+  std::vector<LaneRun> runs_;
+  const Ensemble* ensemble_ = nullptr;
+  const Next* next_ = nullptr;
+  const Done* done_ = nullptr;
+  std::optional<Vectors> vectors_;
+  std::shared_ptr<const System<Lanes>> system_;
+  std::array<std::size_t, kLanes> at_{};  // the members of the lanes
+  bool changed_ = false;                  // since system_ was made
+  LaneMask active_, past_;                // lanes with a member; whose last attempt was solved
+  LaneCounters counters_;
+};
+
+LaneIntegrator::LaneIntegrator(const Tableau<double>& tableau, const IntegratorOptions& options)
+    : run_(std::make_unique<Run>(tableau, options)) {}
+LaneIntegrator::~LaneIntegrator() = default;
+LaneIntegrator::LaneIntegrator(LaneIntegrator&&) noexcept = default;
+
+void LaneIntegrator::integrate(const Ensemble& ensemble, const Next& next, const Done& done,
+                               const std::function<Outcome()>& stop) {
+  run_->integrate(ensemble, next, done, stop);
+}
+
+}  // namespace irk

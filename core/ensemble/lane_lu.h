@@ -1,0 +1,127 @@
+// LU factors of eight small dense matrices side by side, real or complex, with pivots of their own.
+#pragma once
+
+#include <vector>
+
+#include "core/ensemble/lane_mask.h"
+#include "irk/scalar.h"
+
+namespace irk {
+
+/// Eight complex numbers.
+struct ComplexLanes {
+  Lanes re, im;
+
+  friend ComplexLanes operator*(const ComplexLanes& a, const ComplexLanes& b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  ComplexLanes& operator-=(const ComplexLanes& b) { return re -= b.re, im -= b.im, *this; }
+};
+
+namespace detail {
+
+inline Lanes magnitude(const Lanes& a) { return abs(a); }
+inline Lanes magnitude(const ComplexLanes& a) { return abs(a.re) + abs(a.im); }
+inline Lanes inverse(const Lanes& a) { return 1.0 / a; }
+inline ComplexLanes inverse(const ComplexLanes& a) {
+  const Lanes f = 1.0 / (a.re * a.re + a.im * a.im);
+  return {a.re * f, -a.im * f};
+}
+inline Lanes choose(const LaneMask& mask, const Lanes& yes, const Lanes& no) { return select(mask, yes, no); }
+inline ComplexLanes choose(const LaneMask& mask, const ComplexLanes& yes, const ComplexLanes& no) {
+  return {select(mask, yes.re, no.re), select(mask, yes.im, no.im)};
+}
+
+}  // namespace detail
+
+/// What a factorization came to, by lanes.
+struct LaneFactors {
+  LaneMask singular, not_finite;
+  LaneMask failed() const { return singular | not_finite; }
+};
+
+/// Value: Lanes or ComplexLanes. Owns factors and scratch.
+template <class Value>
+class LaneLu {
+ public:
+  explicit LaneLu(Index n) : n_(n), work_(size(n * n)), lu_(size(n * n)), pivots_(size(n)), swaps_(size(n)) {}
+
+  /// Entry (i, j) of the matrices that are factorized next; overwritten by `factorize`.
+  Value& at(Index i, Index j) { return work_[size(i + j * n_)]; }
+
+  /// Factorizes; only the lanes of `which` replace the factors they have.
+  LaneFactors factorize(const LaneMask& which) {
+    LaneFactors result;
+    Lanes sum;
+    for (const Value& a : work_) sum += detail::magnitude(a);
+    result.not_finite = ~finite(sum) & which;
+    for (Index k = 0; k < n_; ++k) {
+      result.singular = result.singular | (equal(pivot(k, which), 0.0) & which);
+      eliminate(k);
+    }
+    for (std::size_t i = 0; i < lu_.size(); ++i) lu_[i] = detail::choose(which, work_[i], lu_[i]);
+    return result;
+  }
+
+  /// In place, n entries.
+  void solve(Value* y) const {
+    for (Index k = 0; k < n_; ++k) {
+      if (!swaps_[size(k)]) continue;
+      for (Index i = k + 1; i < n_; ++i) swap(equal(pivots_[size(k)], static_cast<double>(i)), y[k], y[i]);
+    }
+    for (Index k = 0; k < n_; ++k) subtractColumn(k, k + 1, n_, y);
+    for (Index k = n_; k-- > 0;) {
+      y[k] = y[k] * lu_[size(k + k * n_)];
+      subtractColumn(k, 0, k, y);
+    }
+  }
+
+ private:
+  static std::size_t size(Index n) { return static_cast<std::size_t>(n); }
+  static void swap(const LaneMask& mask, Value& a, Value& b) {
+    const Value before = a;
+    a = detail::choose(mask, b, a);
+    b = detail::choose(mask, before, b);
+  }
+  void subtractColumn(Index k, Index first, Index last, Value* y) const {
+    const Value* const column = lu_.data() + k * n_;
+    const Value f = y[k];
+    for (Index i = first; i < last; ++i) y[i] -= column[i] * f;
+  }
+
+  // Brings the largest entry of column k to row k, lane by lane; returns its size.
+  Lanes pivot(Index k, const LaneMask& which) {
+    Lanes most = detail::magnitude(at(k, k)), row = static_cast<double>(k);
+    for (Index i = k + 1; i < n_; ++i) {
+      const Lanes here = detail::magnitude(at(i, k));
+      const LaneMask larger = less(most, here);
+      most = select(larger, here, most);
+      row = select(larger, static_cast<double>(i), row);
+    }
+    for (Index i = k + 1; i < n_; ++i) {
+      const LaneMask rows = equal(row, static_cast<double>(i));
+      if (!rows.any()) continue;
+      for (Index j = 0; j < n_; ++j) swap(rows, at(k, j), at(i, j));
+    }
+    Lanes& kept = pivots_[size(k)];
+    kept = select(which, row, kept);
+    swaps_[size(k)] = (~equal(kept, static_cast<double>(k))).any();
+    return most;
+  }
+  void eliminate(Index k) {
+    const Value inverse = detail::inverse(at(k, k));
+    for (Index i = k + 1; i < n_; ++i) at(i, k) = at(i, k) * inverse;
+    for (Index j = k + 1; j < n_; ++j) {
+      const Value f = at(k, j);
+      for (Index i = k + 1; i < n_; ++i) at(i, j) -= at(i, k) * f;
+    }
+    at(k, k) = inverse;
+  }
+
+  Index n_;
+  std::vector<Value> work_, lu_;  // by columns; on the diagonal the inverse pivots
+  std::vector<Lanes> pivots_;     // rows
+  std::vector<char> swaps_;       // whether a lane changes row k
+};
+
+}  // namespace irk

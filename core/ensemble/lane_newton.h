@@ -1,0 +1,66 @@
+// Simplified Newton for the stage equations of eight systems (core/newton/simplified_newton.cpp).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/ensemble/lane_stages.h"
+#include "irk/outcome.h"
+
+namespace irk {
+
+/// What the stages of a step came to, by lanes.
+struct LaneSolved {
+  LaneMask solved;
+  std::array<Outcome, kLanes> outcome{};  ///< of the lanes that were asked for and are not solved
+  Lanes round_off;                        ///< in tolerances, see NewtonResult
+};
+
+/// Each lane has its own Jacobian, factors, contraction and iterations: a lane that has converged, or failed, keeps its
+/// numbers while others go on. Owns scratch.
+class LaneNewton {
+ public:
+  LaneNewton(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers,
+             const IntegratorOptions& options, double mu);
+
+  /// A new system in lane i.
+  void restart(std::size_t i);
+  /// Lanes whose last attempt failed: nothing of it is of use.
+  void forget(const LaneMask& which);
+
+  /// One step of size h from the states `from`, in the lanes of `which`. W: start values in, solutions out.
+  LaneSolved solve(LaneStages& stages, const LaneNorm& norm, const LaneState& from, const Lanes& h,
+                   const LaneMask& which, std::vector<Lanes>& W, LaneCounters& counters);
+
+  const LaneMatrix& matrix() const { return matrix_; }
+
+ private:
+  struct Context {
+    LaneStages& stages;
+    const LaneNorm& norm;
+    const LaneState& from;
+    Lanes h;
+    std::vector<Lanes>& W;
+    LaneCounters& counters;
+    LaneSolved& result;
+  };
+  void differentiate(Context& c, const LaneMask& which);
+  LaneMask prepare(Context& c, const LaneMask& which);
+  void iterate(Context& c, const LaneMask& which);
+  Lanes update(Context& c, LaneMask& running);
+  LaneMask isRoundOff(Context& c, const LaneMask& which, const Lanes& norm);
+  void fail(Context& c, const LaneMask& which, Outcome outcome);
+
+  Index s_;
+  double kappa_, round_off_, keep_below_;
+  int limit_;
+  LaneJacobian jacobian_, new_jacobian_;
+  LaneMatrix matrix_;
+  LaneMask stale_, differentiated_, factorized_;
+  Lanes jacobian_t_, factors_h_;  // where these come from
+  Lanes eta_;    // of the last solved step, see SimplifiedNewton
+  Lanes theta_;  // the last contraction
+  std::vector<Lanes> W0_, R_, R0_, change_, moved_;
+};
+
+}  // namespace irk

@@ -1,0 +1,161 @@
+#include "core/ensemble/lane_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "core/derivatives/consistent_start.h"
+#include "core/estimates/embedded.h"
+#include "core/integration/constraint_check.h"
+#include "core/system/counting.h"
+#include "irk/system_check.h"
+
+namespace irk {
+namespace {
+
+// As of VariableOrder::Member.
+constexpr int kMaxAccumulating = 4;
+
+}  // namespace
+
+EstimateUse::EstimateUse(const Scheme<double>& scheme)
+    : order(EmbeddedEstimate<double>::order(scheme.tableau)),
+      accumulates(scheme.tableau.order <= std::min(order + 1, kMaxAccumulating) || !dampsStiffErrors(scheme)),
+      adds(scheme.tableau.order <= order),
+      caution(stiffCaution(scheme)) {}
+
+LaneRun::LaneRun(const EstimateUse& use, const IntegratorOptions& options)
+    : use_(use),
+      options_(options),
+      controller_(makeController(options.step, use.order)),
+      accumulation_(use.caution, options.tolerances),
+      error_sum_(options.tolerances) {}
+
+Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
+  index_ = index;
+  member_ = std::move(member);
+  counters_ = {};
+  detail_.clear();
+  requireStart(*member_.system, member_.start, member_.t_end);
+  start_ = member_.system->fromScene(member_.start);
+  const std::string not_finite = notFinite(member_.start);
+  if (!not_finite.empty()) {
+    detail_ = "at the start: " + not_finite;
+    return Outcome::kNotFinite;
+  }
+  const CountingSystem<double> counted(*member_.system, counters_);
+  ConsistentStart<double> consistent(counted, options_.derivatives, false, &counters_);
+  const StartReport report = consistent.apply(start_);
+  detail_ = report.detail;
+  if (report.outcome != Outcome::kSuccess) return report.outcome;
+  length_ = member_.t_end - start_.t;
+  controller_ = makeController(options_.step, use_.order);
+  accumulation_.begin();
+  error_sum_.begin();
+  stall_.begin(start_.t);
+  attempts_ = steps_ = 0;
+  sum_ = round_off_ = 0;
+  again_ = true;
+  too_small_ = Outcome::kStepTooSmall;
+  h_ = std::min(firstStep(), options_.step.h_max);
+  return Outcome::kSuccess;
+}
+
+// HW I (II.4), first guess: the solution moves by a hundredth of its size (Integrator).
+double LaneRun::firstStep() const {
+  if (options_.step.h > 0) return std::min(options_.step.h, length_);
+  const double y = start_.u.norm() + start_.v.norm() + start_.x.norm();
+  const double dy = start_.v.norm() + start_.a().norm() + start_.k().norm();
+  const double h = y > 1e-5 && dy > 1e-5 ? 0.01 * y / dy : 1e-4 * length_;
+  return std::min(h, 0.1 * length_);
+}
+
+// Below 16 eps t + c_i h no longer resolves the stages.
+double LaneRun::smallest(double t) const {
+  const double resolved = 16 * std::numeric_limits<double>::epsilon() * std::abs(t);
+  return std::max({options_.step.h_min, resolved, std::numeric_limits<double>::min()});
+}
+
+Outcome LaneRun::plan(double t) {
+  const std::int64_t left = options_.step.max_steps - attempts_;
+  if (left == 0) return Outcome::kMaxSteps;
+  if (h_ < smallest(t)) return too_small_;
+  if (attempts_ > 0 && stall_.attempted(t, h_, member_.t_end, left)) return Outcome::kStalled;
+  ++attempts_;
+  last_ = h_ * (1 + 1e-10) >= member_.t_end - t;
+  size_ = last_ ? member_.t_end - t : h_;
+  return Outcome::kSuccess;
+}
+
+void LaneRun::failed(Outcome outcome) {
+  ++counters_.steps_rejected_newton;
+  too_small_ = outcome == Outcome::kNewtonFailed ? Outcome::kStepTooSmall : outcome;
+  again_ = true;
+  h_ = controller_->afterFailure(size_);
+}
+
+bool LaneRun::decide(double estimate, double t, double round_off) {
+  const double factor = accumulation_.factor(use_.accumulates ? steps_ : 0, sum_);
+  const double error = accumulation_.asked(estimate, factor, t, size_);
+  again_ = !(error <= 1);
+  const StepDecision decision = controller_->decide(error, size_);
+  // A last step cut short says nothing against the size that was asked for.
+  h_ = std::min(last_ && decision.accept ? std::max(h_, decision.h) : decision.h, options_.step.h_max);
+  if (!decision.accept) {
+    ++counters_.steps_rejected_error;
+    too_small_ = Outcome::kStepTooSmall;
+    return false;
+  }
+  ++counters_.steps_accepted;
+  ++steps_;
+  sum_ += estimate;
+  round_off_ = std::max(round_off_, round_off);
+  error_sum_.add(use_.adds ? estimate : 0);
+  return true;
+}
+
+double LaneRun::newTime(double t_by_lanes) {
+  if (last_) return member_.t_end;
+  const double resolved = std::max(16 * std::numeric_limits<double>::epsilon() * std::abs(t_by_lanes),
+                                   std::numeric_limits<double>::min());
+  return t_by_lanes < member_.t_end && member_.t_end - t_by_lanes < resolved ? member_.t_end : t_by_lanes;
+}
+
+Solution<double> LaneRun::success(State<double> state) {
+  const System<double>& system = *member_.system;
+  const CountingSystem<double> counted(system, counters_);
+  Outcome outcome = Outcome::kSuccess;
+  std::string note;
+  if (system.sizes().constraints > 0) {
+    ErrorNorm<double> norm(system, options_.tolerances, member_.scale);
+    norm.update(state);
+    note = ConstraintCheck<double>(counted, norm, options_.tolerances).violation(state);
+    if (!note.empty()) outcome = Outcome::kDrift;
+  }
+  if (outcome == Outcome::kSuccess && options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {
+    note = ConsistentStart<double>(counted, options_.derivatives, false, &counters_).applyAtEnd(state);
+  }
+  if (outcome == Outcome::kSuccess && round_off_ > 0) {
+    std::ostringstream text;
+    text.precision(2);
+    text << (note.empty() ? "" : "; ") << "Newton's corrections end in round-off of the residual, up to " << round_off_
+         << " tolerances";
+    note += text.str();
+  }
+  return {outcome, note, system.toScene(state), counters_};
+}
+
+Solution<double> LaneRun::failure(Outcome outcome, State<double> state) const {
+  std::ostringstream text;
+  text.precision(6);
+  if (detail_.empty()) {
+    text << "at t = " << state.t << ", h = " << h_ << " (" << counters_.steps_accepted
+         << " accepted, rejected by the error " << counters_.steps_rejected_error << ", by Newton "
+         << counters_.steps_rejected_newton << ")";
+  }
+  return {outcome, detail_ + text.str(), member_.system->toScene(state), counters_};
+}
+
+}  // namespace irk

@@ -1,0 +1,78 @@
+// What one lane of an ensemble decides for itself: step sizes, the end of its run, its result.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/control/controller.h"
+#include "core/control/stall_detector.h"
+#include "core/estimates/accumulation.h"
+#include "core/stages/scheme.h"
+#include "irk/ensemble.h"
+
+namespace irk {
+
+/// How an estimate of a method is read; the same for all lanes (core/estimates/variable_order.h).
+struct EstimateUse {
+  EstimateUse(const Scheme<double>& scheme);
+  int order;         ///< of the estimate
+  bool accumulates;  ///< errors of many steps add up
+  bool adds;         ///< the estimate is of the order of the error
+  double caution;
+};
+
+/// The decisions of one system's run, as those of Integrator and Trajectory for the configuration `embedded`.
+class LaneRun {
+ public:
+  LaneRun(const EstimateUse& use, const IntegratorOptions& options);
+
+  /// Begins a new run from a consistent state. Returns kSuccess, or why it ends before its first step.
+  Outcome begin(std::size_t index, EnsembleMember member);
+  /// Of the run that has begun: the state in its system's unknowns.
+  const State<double>& start() const { return start_; }
+
+  /// Whether the run may make one more attempt; if so, `h()` is its step.
+  Outcome plan(double t);
+  double h() const { return size_; }
+  bool filtersAgain() const { return again_; }
+
+  /// The attempt failed: Newton's method or its matrix.
+  void failed(Outcome outcome);
+  /// The attempt has this estimate. Returns whether the step is accepted; then `newTime` is the time at its end.
+  bool decide(double estimate, double t, double round_off);
+  double newTime(double t_by_lanes);
+  /// Why an accepted step ends the run; kSuccess: it goes on, or is over if t is the end.
+  Outcome afterStep() const { return error_sum_.aboveBar() ? Outcome::kInaccurate : Outcome::kSuccess; }
+  bool isOver(double t) const { return !(t < member_.t_end); }
+
+  /// The result of a run that has reached its end with `state`, or has failed before.
+  Solution<double> success(State<double> state);
+  Solution<double> failure(Outcome outcome, State<double> state) const;
+
+  std::size_t index() const { return index_; }
+  const EnsembleMember& member() const { return member_; }
+  Counters& counters() { return counters_; }
+
+ private:
+  double firstStep() const;
+  double smallest(double t) const;
+
+  EstimateUse use_;
+  const IntegratorOptions& options_;
+  std::size_t index_ = 0;
+  EnsembleMember member_;
+  State<double> start_;
+  std::string detail_;  // of a start that is not consistent
+  Counters counters_;
+  std::unique_ptr<StepController> controller_;
+  Accumulation accumulation_;
+  ErrorSum error_sum_;
+  StallDetector stall_;
+  std::int64_t attempts_ = 0, steps_ = 0;
+  double length_ = 0, sum_ = 0, round_off_ = 0;
+  double h_ = 0, size_ = 0;  // asked for; of the attempt
+  bool last_ = false, again_ = true;
+  Outcome too_small_ = Outcome::kStepTooSmall;  // what a step below the smallest is called
+};
+
+}  // namespace irk

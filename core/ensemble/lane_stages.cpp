@@ -1,0 +1,278 @@
+#include "core/ensemble/lane_stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace irk {
+namespace {
+
+// As in core/stages/stage_equations.cpp, start_values.cpp and newton/simplified_newton.cpp.
+constexpr double kInner = 0.6;
+constexpr double kAmplificationLimit = 1e4;
+constexpr double kLastDigits = 4;
+
+std::size_t count(Index n) { return static_cast<std::size_t>(n); }
+
+Index innerStage(const Scheme<double>& scheme) {
+  Index inner = 0;
+  for (Index i = 0; i < scheme.s; ++i) {
+    if (std::abs(scheme.c[i] - kInner) < std::abs(scheme.c[inner] - kInner)) inner = i;
+  }
+  return inner;
+}
+
+// y1 = y0 + (y1 + carry0), where y1 comes in as the increment (core/stages/stage_equations.cpp).
+void addCompensated(const Lanes& y0, const Lanes& carry0, Lanes& y1, Lanes& carry1) {
+  const Lanes b = y1 + carry0;
+  const Lanes sum = y0 + b;
+  const Lanes rounded = sum - y0;
+  carry1 = (y0 - (sum - rounded)) + (b - rounded);
+  y1 = sum;
+}
+
+// P_0, P_1, ... at x, orthonormal on [0, 1]: core/base/legendre.h.
+void legendreLanes(const Lanes& x, Index s, Lanes* p) {
+  const Lanes X = 2.0 * x - 1.0;
+  Lanes now = 1.0, before = 0.0;
+  for (Index k = 0; k < s; ++k) {
+    const auto j = static_cast<double>(k);
+    if (k > 0) {
+      const Lanes next = ((2 * j - 1) / j) * X * now - ((j - 1) / j) * before;
+      before = now;
+      now = next;
+    }
+    p[k] = std::sqrt(2 * j + 1) * now;
+  }
+}
+
+}  // namespace
+
+LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers, double mu)
+    : scheme_(scheme),
+      sizes_(sizes),
+      n_(sizes.n()),
+      s_(scheme.s),
+      inner_(innerStage(scheme)),
+      nu_(count(sizes.nu)),
+      nx_(count(sizes.nx)),
+      nz_(count(sizes.nz)),
+      row_powers_(row_powers),
+      mu_(mu),
+      start_(scheme.start),
+      integrals_(scheme.A_transposed * scheme.start),
+      b_(scheme.b),
+      bA_(scheme.bA),
+      t_(count(s_)),
+      U_(nu_ * t_.size()),
+      V_(U_.size()),
+      X_(nx_ * t_.size()),
+      scales_(count(n_), 1.0),
+      past_W_(count(n_ * s_)),
+      basis_(count(s_ * s_)),
+      weights_(basis_.size()),
+      dual_(sizes),
+      defect_(count(n_)),
+      slip_(nu_),
+      at_(2 * nu_ + nx_),
+      error_(at_.size() + nz_),
+      e_(count(n_)) {}
+
+void LaneStages::begin(const LaneState& from, const Lanes& h) {
+  from_ = &from;
+  h_ = h;
+  for (Index i = 0; i < s_; ++i) t_[count(i)] = from.t + scheme_.c[i] * h;
+  for (std::size_t i = 0; i < scales_.size(); ++i) {
+    if (row_powers_[i] > 0) scales_[i] = powerOf(1.0 / h, row_powers_[i]);
+  }
+}
+
+void LaneStages::scaleRows(Lanes* r) const {
+  for (std::size_t i = 0; i < scales_.size(); ++i) {
+    if (row_powers_[i] > 0) r[i] *= scales_[i];
+  }
+}
+
+// As StartValues: the weights of the past stages in stage i are column i.
+void LaneStages::predict(const LaneMask& past, std::vector<Lanes>& W) {
+  const Lanes offset = (from_->t - past_t_) / past_h_, ratio = h_ / past_h_;
+  const Mat<double>& to_stages = scheme_.legendre_inverse_transposed;
+  Lanes amplification;
+  for (Index i = 0; i < s_; ++i) {
+    Lanes* const basis = basis_.data() + i * s_;
+    legendreLanes(offset + ratio * scheme_.c[i], s_, basis);
+    for (Index m = 0; m < s_; ++m) {
+      Lanes sum = to_stages(m, 0) * basis[0];
+      for (Index k = 1; k < s_; ++k) sum += to_stages(m, k) * basis[k];
+      weights_[count(i * s_ + m)] = sum;
+      if (i == s_ - 1) amplification += abs(sum);
+    }
+  }
+  const LaneMask too_large = ~lessOrEqual(amplification, kAmplificationLimit) & past;
+  if (too_large.any()) shortenPolynomial(too_large, basis_, weights_);
+  for (Index i = 0; i < s_; ++i) {
+    const Lanes* const c = weights_.data() + i * s_;
+    for (Index r = 0; r < n_; ++r) {
+      Lanes sum = c[0] * past_W_[count(r)];
+      for (Index m = 1; m < s_; ++m) sum += c[m] * past_W_[count(r + m * n_)];
+      W[count(r + i * n_)] = select(past, sum, from_->w[count(r)]);
+    }
+  }
+}
+
+// Without the polynomial's highest coefficients, from the first on whose amplification is above the limit.
+void LaneStages::shortenPolynomial(const LaneMask& where, const std::vector<Lanes>& basis,
+                                   std::vector<Lanes>& weights) const {
+  const Mat<double>& to_stages = scheme_.legendre_inverse_transposed;
+  std::vector<Lanes> sum(weights.size()), next(weights.size());
+  LaneMask open = where;
+  for (Index k = 0; k < s_ && open.any(); ++k) {
+    Lanes amplification;
+    for (Index i = 0; i < s_; ++i) {
+      for (Index m = 0; m < s_; ++m) {
+        const auto at = count(i * s_ + m);
+        next[at] = sum[at] + basis[count(i * s_ + k)] * to_stages(m, k);
+        if (i == s_ - 1) amplification += abs(next[at]);
+      }
+    }
+    if (k > 0) open = open & lessOrEqual(amplification, kAmplificationLimit);
+    assign(open, next.data(), sum.data(), sum.size());
+  }
+  assign(where, sum.data(), weights.data(), weights.size());
+}
+
+void LaneStages::keep(const LaneMask& which, const std::vector<Lanes>& W) {
+  assign(which, W.data(), past_W_.data(), W.size());
+  past_t_ = select(which, from_->t, past_t_);
+  past_h_ = select(which, h_, past_h_);
+}
+
+// V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a, X = x0 + h A k.
+void LaneStages::place(const std::vector<Lanes>& W) {
+  const Lanes *const u = from_->y.data(), *const v = u + nu_, *const x = v + nu_;
+  if (nu_ > 0) {
+    laneProduct(W.data(), sizes_.nu, n_, scheme_.A_transposed, V_.data());
+    laneProduct(W.data(), sizes_.nu, n_, scheme_.A2_transposed, U_.data());
+    const Lanes hh = h_ * h_;
+    for (std::size_t j = 0; j < t_.size(); ++j) {
+      const Lanes h1 = h_ * scheme_.A1[static_cast<Index>(j)];
+      for (std::size_t i = 0; i < nu_; ++i) {
+        U_[j * nu_ + i] = hh * U_[j * nu_ + i] + (u[i] + h1 * v[i]);
+        V_[j * nu_ + i] = h_ * V_[j * nu_ + i] + v[i];
+      }
+    }
+  }
+  if (nx_ == 0) return;
+  laneProduct(W.data() + nu_, sizes_.nx, n_, scheme_.A_transposed, X_.data());
+  for (std::size_t j = 0; j < t_.size(); ++j) {
+    for (std::size_t i = 0; i < nx_; ++i) X_[j * nx_ + i] = h_ * X_[j * nx_ + i] + x[i];
+  }
+}
+
+LaneMask LaneStages::residual(const std::vector<Lanes>& W, std::vector<Lanes>& R) {
+  place(W);
+  const StagePoints<Lanes> at{sizes_, t_.data(), U_.data(), V_.data(), X_.data(), W.data(), nullptr};
+  system_->evaluateStages(at, 0, s_, R.data());
+  Lanes sum;
+  for (Index j = 0; j < s_; ++j) scaleRows(R.data() + j * n_);
+  for (const Lanes& r : R) sum += r * 0.0;
+  return equal(sum, 0.0);
+}
+
+Index LaneStages::dualEvaluations() const {
+  const auto chunk = static_cast<Index>(kChunk);
+  return (n_ + 2 * sizes_.nu + sizes_.nx + chunk - 1) / chunk;
+}
+
+void LaneStages::differentiate(const std::vector<Lanes>& W, LaneJacobian& jacobian) {
+  place(W);
+  const StagePoints<Lanes> all{sizes_, t_.data(), U_.data(), V_.data(), X_.data(), W.data(), nullptr};
+  dual_.copy(all[inner_]);
+  const Index rates = sizes_.nu + sizes_.nx, directions = n_ + rates + sizes_.nu;
+  const auto along = [&](Index i) -> Direction {
+    if (i < n_) return {0, i};
+    return i < n_ + rates ? Direction{1, i - n_} : Direction{2, i - n_ - rates};
+  };
+  constexpr auto kChunkSize = static_cast<Index>(kChunk);
+  for (Index first = 0; first < directions; first += kChunkSize) {
+    const Index last = std::min(first + kChunkSize, directions);
+    for (Index i = first; i < last; ++i) dual_.component(along(i)).d[count(i - first)] = 1.0;
+    system_->evaluate(Level::kFormulated, dual_.at(t_[count(inner_)]), dual_.residual());
+    for (Index i = first; i < last; ++i) {
+      const Direction direction = along(i);
+      auto& matrix = direction.matrix == 0 ? jacobian.d0 : direction.matrix == 1 ? jacobian.d1 : jacobian.d2;
+      for (Index r = 0; r < n_; ++r) matrix[count(r + direction.column * n_)] = dual_.r[r].d[count(i - first)];
+      dual_.component(direction).d[count(i - first)] = 0.0;
+    }
+  }
+}
+
+void LaneStages::lastDigits(const std::vector<Lanes>& W, std::vector<Lanes>& change) const {
+  const double eps = kLastDigits * std::numeric_limits<double>::epsilon();
+  const Lanes *const u = from_->y.data(), *const v = u + nu_, *const x = v + nu_;
+  for (std::size_t j = 0; j < t_.size(); ++j) {
+    for (std::size_t i = 0; i < count(n_); ++i) {
+      const std::size_t at = j * count(n_) + i;
+      Lanes size = abs(W[at]);
+      if (i < nu_) size += abs(v[i]) / h_ + abs(u[i]) / (h_ * h_);
+      if (i >= nu_ && i < nu_ + nx_) size += abs(x[i - nu_]) / h_;
+      change[at] = ((i + j) % 2 == 0 ? eps : -eps) * size;
+    }
+  }
+}
+
+void LaneStages::finish(const std::vector<Lanes>& W, LaneState& to) const {
+  const Lanes *const u = from_->y.data(), *const v = u + nu_;
+  to.t = from_->t + h_;
+  laneProduct(W.data(), sizes_.nu, n_, bA_, to.y.data());
+  laneProduct(W.data(), sizes_.nu + sizes_.nx, n_, b_, to.y.data() + nu_);
+  for (std::size_t i = 0; i < nu_; ++i) to.y[i] = (h_ * h_) * to.y[i] + h_ * v[i];
+  for (std::size_t i = nu_; i < to.y.size(); ++i) to.y[i] *= h_;
+  for (std::size_t i = 0; i < to.y.size(); ++i) addCompensated(from_->y[i], from_->carry[i], to.y[i], to.carry[i]);
+  std::copy_n(W.end() - n_, n_, to.w.begin());
+}
+
+// HW II (IV.8.19-20), see EmbeddedEstimate.
+Lanes LaneStages::filter(const LaneNorm& norm, const LaneMatrix& matrix) {
+  const Point<Lanes> at{from_->t,
+                        {at_.data(), sizes_.nu},
+                        {at_.data() + nu_, sizes_.nu},
+                        {at_.data() + 2 * nu_, sizes_.nx},
+                        {defect_.data(), sizes_.nu},
+                        {defect_.data() + nu_, sizes_.nx},
+                        {defect_.data() + nu_ + nx_, sizes_.nz}};
+  system_->evaluate(Level::kFormulated, at, VecView<Lanes>(e_.data(), n_));
+  scaleRows(e_.data());
+  matrix.solveFilter(e_.data());
+  const Lanes step = h_ * mu_;
+  for (std::size_t i = 0; i < nu_; ++i) {
+    error_[nu_ + i] = -(step * e_[i]);
+    error_[i] = slip_[i] + step * error_[nu_ + i];
+  }
+  for (std::size_t i = 0; i < nx_; ++i) error_[2 * nu_ + i] = -(step * e_[nu_ + i]);
+  for (std::size_t i = 0; i < nz_; ++i) error_[at_.size() + i] = -e_[nu_ + nx_ + i];
+  return norm.magnitude(error_.data(), error_.data() + at_.size());
+}
+
+Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, const LaneMatrix& matrix,
+                           const Lanes& again_above, const LaneMask& which, LaneCounters& counters) {
+  laneProduct(W.data(), n_, n_, start_, defect_.data());
+  laneProduct(W.data(), sizes_.nu, n_, integrals_, slip_.data());
+  for (Lanes& slip : slip_) slip *= -mu_ * (h_ * h_);
+  for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = i < nu_ ? from_->y[i] + slip_[i] : from_->y[i];
+  const Lanes error = filter(norm, matrix);
+  counters.residuals.add(which);
+  counters.solves.add(which);
+  const LaneMask again = less(again_above, error) & which;
+  if (!again.any()) return error;
+  for (std::size_t i = 0; i < nu_; ++i) slip_[i] += (h_ * mu_) * error_[nu_ + i];
+  for (std::size_t i = 0; i < at_.size(); ++i) {
+    at_[i] = from_->y[i] + error_[i];
+    if (i < nu_) at_[i] += slip_[i];
+  }
+  counters.residuals.add(again);
+  counters.solves.add(again);
+  return select(again, filter(norm, matrix), error);
+}
+
+}  // namespace irk

@@ -1,0 +1,70 @@
+// The stage equations of eight systems: start values, residuals, derivatives, end of the step, error estimate.
+#pragma once
+
+#include <vector>
+
+#include "core/derivatives/point_buffers.h"
+#include "core/ensemble/lane_matrix.h"
+#include "core/ensemble/lane_norm.h"
+#include "core/ensemble/lane_state.h"
+#include "core/stages/scheme.h"
+
+namespace irk {
+
+/// Does for all lanes at once what StageEquations, StartValues, Differentiator and EmbeddedEstimate do for one system.
+/// W and R are n x s, stage by stage. Owns scratch; keeps references to the scheme and to the systems in use.
+class LaneStages {
+ public:
+  LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers, double mu);
+
+  /// The systems whose equations are meant from now on.
+  void use(const System<Lanes>& system) { system_ = &system; }
+
+  /// A step of each lane from `from`, which has to live as long as the step.
+  void begin(const LaneState& from, const Lanes& h);
+
+  /// W from the polynomial through the stages of the last solved step, in the lanes of `past`; elsewhere (a, k, z) at
+  /// the start.
+  void predict(const LaneMask& past, std::vector<Lanes>& W);
+  /// The lanes of `which` have solved this step: their stages are the next step's past.
+  void keep(const LaneMask& which, const std::vector<Lanes>& W);
+
+  /// R(W), rows scaled; returns where it is finite.
+  LaneMask residual(const std::vector<Lanes>& W, std::vector<Lanes>& R);
+  /// The derivatives at an inner stage of W.
+  void differentiate(const std::vector<Lanes>& W, LaneJacobian& jacobian);
+  Index dualEvaluations() const;
+  /// Changes of W in the last digits of what it is added to, see SimplifiedNewton.
+  void lastDigits(const std::vector<Lanes>& W, std::vector<Lanes>& change) const;
+
+  /// The states at the step's end.
+  void finish(const std::vector<Lanes>& W, LaneState& to) const;
+  /// The embedded estimate of the step that W solves; filtered twice where it is above `again_above`.
+  Lanes estimate(const std::vector<Lanes>& W, const LaneNorm& norm, const LaneMatrix& matrix, const Lanes& again_above,
+                 const LaneMask& which, LaneCounters& counters);
+
+ private:
+  void place(const std::vector<Lanes>& W);
+  void scaleRows(Lanes* r) const;
+  Lanes filter(const LaneNorm& norm, const LaneMatrix& matrix);
+  void shortenPolynomial(const LaneMask& where, const std::vector<Lanes>& basis, std::vector<Lanes>& weights) const;
+
+  const Scheme<double>& scheme_;
+  Sizes sizes_;
+  Index n_, s_, inner_;
+  std::size_t nu_, nx_, nz_;
+  std::vector<int> row_powers_;
+  double mu_;
+  Mat<double> start_, integrals_, b_, bA_;  // s x 1
+  const System<Lanes>* system_ = nullptr;
+  const LaneState* from_ = nullptr;
+  Lanes h_;
+  std::vector<Lanes> t_, U_, V_, X_;       // of the stages
+  std::vector<Lanes> scales_;              // h^-power of the rows
+  Lanes past_t_, past_h_;                  // of the last solved step
+  std::vector<Lanes> past_W_, basis_, weights_;
+  PointBuffers<Dual<Lanes>> dual_;
+  std::vector<Lanes> defect_, slip_, at_, error_, e_;  // of the estimate
+};
+
+}  // namespace irk

@@ -1,0 +1,108 @@
+// Lanes: eight numbers side by side in a vector register, as the scalar of a problem.
+//
+// A problem over Lanes is eight problems with eight sets of parameters; one instruction evaluates all of them
+// (irk/ensemble.h). Lanes have no comparisons: a residual that branches on a value has no meaning for eight values at
+// once, and the compiler refuses it. Functions beyond arithmetic and sqrt are computed lane by lane.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "irk/dual.h"
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+namespace irk {
+
+inline constexpr std::size_t kLanes = 8;
+
+// NOLINTBEGIN(google-explicit-constructor): a number is eight equal lanes.
+struct Lanes {
+  using Vector = double __attribute__((vector_size(kLanes * sizeof(double))));
+  Vector v;
+
+  Lanes() : v{} {}
+  template <class S>
+  requires std::is_arithmetic_v<S> Lanes(S x) : v(static_cast<double>(x) - Vector{}) {}
+  explicit Lanes(const Vector& lanes) : v(lanes) {}
+
+  double operator[](std::size_t i) const { return v[i]; }
+  void set(std::size_t i, double x) { v[i] = x; }
+
+  Lanes& operator+=(const Lanes& b) { return v += b.v, *this; }
+  Lanes& operator-=(const Lanes& b) { return v -= b.v, *this; }
+  Lanes& operator*=(const Lanes& b) { return v *= b.v, *this; }
+  Lanes& operator/=(const Lanes& b) { return v /= b.v, *this; }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.v + b.v); }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.v - b.v); }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.v * b.v); }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v); }
+  friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
+
+  /// f of each lane.
+  template <class F>
+  static Lanes each(F&& f) {
+    Lanes r;
+    for (std::size_t i = 0; i < kLanes; ++i) r.v[i] = f(i);
+    return r;
+  }
+  friend Lanes sqrt(const Lanes& a) {
+#ifdef __AVX512F__
+    return Lanes(_mm512_maskz_sqrt_pd(0xff, a.v));
+#else
+    return each([&a](std::size_t i) { return std::sqrt(a.v[i]); });
+#endif
+  }
+#define IRK_LANES_FUNCTION(f)                                        \
+  friend Lanes f(const Lanes& a) {                                   \
+    return each([&a](std::size_t i) { return std::f(a.v[i]); });     \
+  }
+  IRK_LANES_FUNCTION(cbrt)
+  IRK_LANES_FUNCTION(exp)
+  IRK_LANES_FUNCTION(expm1)
+  IRK_LANES_FUNCTION(log)
+  IRK_LANES_FUNCTION(log1p)
+  IRK_LANES_FUNCTION(sin)
+  IRK_LANES_FUNCTION(cos)
+  IRK_LANES_FUNCTION(tan)
+  IRK_LANES_FUNCTION(asin)
+  IRK_LANES_FUNCTION(acos)
+  IRK_LANES_FUNCTION(atan)
+  IRK_LANES_FUNCTION(sinh)
+  IRK_LANES_FUNCTION(cosh)
+  IRK_LANES_FUNCTION(tanh)
+#undef IRK_LANES_FUNCTION
+  friend Lanes pow(const Lanes& a, const Lanes& b) {
+    return each([&](std::size_t i) { return std::pow(a.v[i], b.v[i]); });
+  }
+  friend Lanes atan2(const Lanes& y, const Lanes& x) {
+    return each([&](std::size_t i) { return std::atan2(y.v[i], x.v[i]); });
+  }
+  friend Lanes hypot(const Lanes& a, const Lanes& b) {
+    return each([&](std::size_t i) { return std::hypot(a.v[i], b.v[i]); });
+  }
+};
+// NOLINTEND(google-explicit-constructor)
+
+/// Whether all lanes are 0 (irk/vanishes.h): a residual may then leave out what it would multiply by them.
+inline bool vanishes(const Lanes& x) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (!(x.v[i] == 0)) return false;
+  }
+  return true;
+}
+
+}  // namespace irk
+
+namespace Eigen {
+template <>
+struct NumTraits<irk::Lanes> : GenericNumTraits<irk::Lanes> {
+  // NOLINTNEXTLINE(readability-identifier-naming): the names are Eigen's.
+  enum { RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};
+}  // namespace Eigen
