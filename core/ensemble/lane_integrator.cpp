@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/ensemble/lane_newton.h"
-#include "core/ensemble/lane_run.h"
 #include "core/ensemble/lane_rules.h"
+#include "core/ensemble/lane_run.h"
 #include "core/estimates/embedded.h"
 
 namespace irk {

@@ -32,7 +32,12 @@ void laneProduct(const Lanes* in, Index rows, Index leading, const Mat<double>& 
 }
 
 LaneMatrix::LaneMatrix(const Sizes& sizes, const std::vector<int>& row_powers, const Mat<double>& A, double filter)
-    : n_(sizes.n()), s_(A.rows()), row_powers_(row_powers), filter_mu_(filter), own_filter_(true), y_(count(n_ * s_)),
+    : n_(sizes.n()),
+      s_(A.rows()),
+      row_powers_(row_powers),
+      filter_mu_(filter),
+      own_filter_(true),
+      y_(count(n_ * s_)),
       eta_(count(n_)) {
   const BlockForm<double> form = eigenForm(A);
   to_basis_ = form.Q_inverse.transpose();

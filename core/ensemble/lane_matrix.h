@@ -61,7 +61,8 @@ inline Lanes powerOf(const Lanes& h, int power) {
   return f;
 }
 
-/// out := in C for n x s `in` and `out` (not aliased) by columns: column j of `out` is the sum of C(m, j) times column m.
+/// out := in C for n x s `in` and `out` (not aliased) by columns: column j of `out` is the sum of C(m, j) times column
+/// m.
 void laneProduct(const Lanes* in, Index rows, Index leading, const Mat<double>& C, Lanes* out);
 
 }  // namespace irk

@@ -58,8 +58,8 @@ class LaneNewton {
   LaneMatrix matrix_;
   LaneMask stale_, differentiated_, factorized_;
   Lanes jacobian_t_, factors_h_;  // where these come from
-  Lanes eta_;    // of the last solved step, see SimplifiedNewton
-  Lanes theta_;  // the last contraction
+  Lanes eta_;                     // of the last solved step, see SimplifiedNewton
+  Lanes theta_;                   // the last contraction
   std::vector<Lanes> W0_, R_, R0_, change_, moved_;
 };
 

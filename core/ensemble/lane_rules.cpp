@@ -17,9 +17,7 @@ void requireSame(E given, E needed) {
                "': lanes have '" + std::string(idOf(needed)) + "' only");
 }
 
-[[noreturn]] void refuseSystem(const std::string& what) {
-  throw Misuse("an ensemble in lanes with " + what);
-}
+[[noreturn]] void refuseSystem(const std::string& what) { throw Misuse("an ensemble in lanes with " + what); }
 
 }  // namespace
 

@@ -118,8 +118,8 @@ bool LaneRun::decide(double estimate, double t, double round_off) {
 
 double LaneRun::newTime(double t_by_lanes) {
   if (last_) return member_.t_end;
-  const double resolved = std::max(16 * std::numeric_limits<double>::epsilon() * std::abs(t_by_lanes),
-                                   std::numeric_limits<double>::min());
+  const double resolved =
+      std::max(16 * std::numeric_limits<double>::epsilon() * std::abs(t_by_lanes), std::numeric_limits<double>::min());
   return t_by_lanes < member_.t_end && member_.t_end - t_by_lanes < resolved ? member_.t_end : t_by_lanes;
 }
 

@@ -59,9 +59,9 @@ class LaneStages {
   const System<Lanes>* system_ = nullptr;
   const LaneState* from_ = nullptr;
   Lanes h_;
-  std::vector<Lanes> t_, U_, V_, X_;       // of the stages
-  std::vector<Lanes> scales_;              // h^-power of the rows
-  Lanes past_t_, past_h_;                  // of the last solved step
+  std::vector<Lanes> t_, U_, V_, X_;  // of the stages
+  std::vector<Lanes> scales_;         // h^-power of the rows
+  Lanes past_t_, past_h_;             // of the last solved step
   std::vector<Lanes> past_W_, basis_, weights_;
   PointBuffers<Dual<Lanes>> dual_;
   std::vector<Lanes> defect_, slip_, at_, error_, e_;  // of the estimate

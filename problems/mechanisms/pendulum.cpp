@@ -22,6 +22,10 @@ struct Pendulum {
     c[0] = (u[0] * u[0] + u[1] * u[1] - l * l) * 0.5;
   }
 
+  static Pendulum with(const Settings& values) {
+    return {number<Real>(values, "m"), number<Real>(values, "l"), number<Real>(values, "g")};
+  }
+
   // theta is the angle from the lower equilibrium, with amplitude pi/2: sin(theta/2) = k cd(omega t), k^2 = 1/2,
   // cos(theta/2) = k' / dn, theta' = -2 k k' omega sn / dn, k k' = 1/2.
   State<Real> exact(const Real& t) const {
@@ -45,7 +49,7 @@ struct Pendulum {
 
 template <class Real>
 Scene<Real> make(const Settings& settings) {
-  const Pendulum<Real> problem{number<Real>(settings, "m"), number<Real>(settings, "l"), number<Real>(settings, "g")};
+  const auto problem = Pendulum<Real>::with(settings);
   Scene<Real> scene;
   setProblem(scene, problem);
   scene.t_end = 10;
@@ -77,7 +81,8 @@ SceneEntry pendulumEntry() {
           .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
           .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
           .make = make<double>,
-          .make_mp50 = make<mp50>};
+          .make_mp50 = make<mp50>,
+          .make_lanes = lanesOf<Pendulum>};
 }
 
 }  // namespace irk

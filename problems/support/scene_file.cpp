@@ -7,6 +7,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "core/base/text.h"
@@ -121,6 +122,13 @@ mp100 decimal<mp100>(const char* text) {
   return mp100(text);
 }
 
+template <>
+Lanes decimal<Lanes>(const char* text) {
+  Lanes all = std::strtod(text, nullptr);
+  for (std::size_t i = 1; (text = std::strchr(text, ';')) && i < kLanes; ++i) all.set(i, std::strtod(++text, nullptr));
+  return all;
+}
+
 template <class Real>
 Real number(const Settings& settings, const std::string& name) {
   const auto found = settings.find(name);
@@ -130,7 +138,7 @@ Real number(const Settings& settings, const std::string& name) {
   const char* const text = found->second.c_str();
   char* end = nullptr;
   static_cast<void>(std::strtod(text, &end));
-  if (end == text || *end != '\0') {
+  if (end == text || (*end != '\0' && !(std::is_same_v<Real, Lanes> && *end == ';'))) {
     throw Misuse(fmt::format("the parameter {} = '{}' is not a number", name, found->second));
   }
   return decimal<Real>(text);
@@ -139,6 +147,10 @@ Real number(const Settings& settings, const std::string& name) {
 template <class Real>
 Real piOf() {
   return boost::math::constants::pi<Real>();
+}
+template <>
+Lanes piOf<Lanes>() {
+  return piOf<double>();
 }
 
 namespace {
@@ -272,6 +284,7 @@ void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) 
 template double number<double>(const Settings&, const std::string&);
 template mp50 number<mp50>(const Settings&, const std::string&);
 template mp100 number<mp100>(const Settings&, const std::string&);
+template Lanes number<Lanes>(const Settings&, const std::string&);
 template double piOf<double>();
 template mp50 piOf<mp50>();
 template mp100 piOf<mp100>();

@@ -2,7 +2,8 @@
 //
 // Each lane takes its own steps: its step size, convergence, Jacobian, error and counters are those of a single run of
 // its system, and do not depend on its neighbours (bit for bit). A lane that ends takes the next system. The algorithm
-// is that of the configuration `embedded` with newton `simplified`; results equal those of single runs but for rounding.
+// is that of the configuration `embedded` with newton `simplified`; results equal those of single runs but for
+// rounding.
 #pragma once
 
 #include <array>

@@ -58,9 +58,9 @@ struct Lanes {
     return each([&a](std::size_t i) { return std::sqrt(a.v[i]); });
 #endif
   }
-#define IRK_LANES_FUNCTION(f)                                        \
-  friend Lanes f(const Lanes& a) {                                   \
-    return each([&a](std::size_t i) { return std::f(a.v[i]); });     \
+#define IRK_LANES_FUNCTION(f)                                    \
+  friend Lanes f(const Lanes& a) {                               \
+    return each([&a](std::size_t i) { return std::f(a.v[i]); }); \
   }
   IRK_LANES_FUNCTION(cbrt)
   IRK_LANES_FUNCTION(exp)
