@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/small_size.h"
 #include "core/ensemble/lane_mask.h"
 #include "irk/scalar.h"
 
@@ -69,24 +70,27 @@ class LaneLu {
       if (!swaps_[size(k)]) continue;
       for (Index i = k + 1; i < n_; ++i) swap(equal(pivots_[size(k)], static_cast<double>(i)), y[k], y[i]);
     }
-    for (Index k = 0; k < n_; ++k) subtractColumn(k, k + 1, n_, y);
-    for (Index k = n_; k-- > 0;) {
-      y[k] = y[k] * lu_[size(k + k * n_)];
-      subtractColumn(k, 0, k, y);
-    }
+    withSize<kUnrolled>(n_, [y, lu = lu_.data()](auto n) {
+      const auto subtractColumn = [&](Index k, Index first, Index last) {
+        const Value f = y[k];
+        for (Index i = first; i < last; ++i) y[i] -= lu[i + k * n] * f;
+      };
+      for (Index k = 0; k < n; ++k) subtractColumn(k, k + 1, n);
+      for (Index k = n; k-- > 0;) {
+        y[k] = y[k] * lu[k + k * n];
+        subtractColumn(k, 0, k);
+      }
+    });
   }
 
  private:
+  static constexpr Index kUnrolled = 8;  // sizes up to this one have loops of their own
+
   static std::size_t size(Index n) { return static_cast<std::size_t>(n); }
   static void swap(const LaneMask& mask, Value& a, Value& b) {
     const Value before = a;
     a = detail::choose(mask, b, a);
     b = detail::choose(mask, before, b);
-  }
-  void subtractColumn(Index k, Index first, Index last, Value* y) const {
-    const Value* const column = lu_.data() + k * n_;
-    const Value f = y[k];
-    for (Index i = first; i < last; ++i) y[i] -= column[i] * f;
   }
 
   // Brings the largest entry of column k to row k, lane by lane; returns its size.
@@ -98,24 +102,29 @@ class LaneLu {
       most = select(larger, here, most);
       row = select(larger, static_cast<double>(i), row);
     }
-    for (Index i = k + 1; i < n_; ++i) {
+    Lanes& kept = pivots_[size(k)];
+    kept = select(which, row, kept);
+    const LaneMask stays = equal(row, static_cast<double>(k));
+    swaps_[size(k)] = (~equal(kept, static_cast<double>(k))).any();
+    for (Index i = k + 1; i < n_ && (~stays).any(); ++i) {
       const LaneMask rows = equal(row, static_cast<double>(i));
       if (!rows.any()) continue;
       for (Index j = 0; j < n_; ++j) swap(rows, at(k, j), at(i, j));
     }
-    Lanes& kept = pivots_[size(k)];
-    kept = select(which, row, kept);
-    swaps_[size(k)] = (~equal(kept, static_cast<double>(k))).any();
     return most;
   }
   void eliminate(Index k) {
-    const Value inverse = detail::inverse(at(k, k));
-    for (Index i = k + 1; i < n_; ++i) at(i, k) = at(i, k) * inverse;
-    for (Index j = k + 1; j < n_; ++j) {
-      const Value f = at(k, j);
-      for (Index i = k + 1; i < n_; ++i) at(i, j) -= at(i, k) * f;
-    }
-    at(k, k) = inverse;
+    withSize<kUnrolled>(n_, [k, a = work_.data()](auto n) {
+      Value* const column = a + k * n;
+      const Value inverse = detail::inverse(column[k]);
+      for (Index i = k + 1; i < n; ++i) column[i] = column[i] * inverse;
+      for (Index j = k + 1; j < n; ++j) {
+        Value* const to = a + j * n;
+        const Value f = to[k];
+        for (Index i = k + 1; i < n; ++i) to[i] -= column[i] * f;
+      }
+      column[k] = inverse;
+    });
   }
 
   Index n_;

@@ -38,7 +38,6 @@ LaneNewton::LaneNewton(const Scheme<double>& scheme, const Sizes& sizes, const s
       keep_below_(options.newton.keep_jacobian_below),
       limit_(options.newton.max_iterations),
       jacobian_(sizes),
-      new_jacobian_(sizes),
       matrix_(sizes, row_powers, scheme.A, mu),
       eta_(1.0),
       theta_(1.0),
@@ -63,11 +62,7 @@ void LaneNewton::forget(const LaneMask& which) {
 // All lanes are differentiated: the arithmetic is the same for one.
 void LaneNewton::differentiate(Context& c, const LaneMask& which) {
   if (!which.any()) return;
-  c.stages.differentiate(c.W, new_jacobian_);
-  const std::size_t n = jacobian_.d0.size();
-  assign(which, new_jacobian_.d0.data(), jacobian_.d0.data(), n);
-  assign(which, new_jacobian_.d1.data(), jacobian_.d1.data(), n);
-  assign(which, new_jacobian_.d2.data(), jacobian_.d2.data(), n);
+  c.stages.differentiate(c.W, which, jacobian_);
   c.counters.jacobians.add(which);
   c.counters.dual_residuals.add(which, c.stages.dualEvaluations());
   jacobian_t_ = select(which, c.from.t, jacobian_t_);

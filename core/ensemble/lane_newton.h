@@ -54,7 +54,7 @@ class LaneNewton {
   Index s_;
   double kappa_, round_off_, keep_below_;
   int limit_;
-  LaneJacobian jacobian_, new_jacobian_;
+  LaneJacobian jacobian_;
   LaneMatrix matrix_;
   LaneMask stale_, differentiated_, factorized_;
   Lanes jacobian_t_, factors_h_;  // where these come from

@@ -184,10 +184,13 @@ Index LaneStages::dualEvaluations() const {
   return (n_ + 2 * sizes_.nu + sizes_.nx + chunk - 1) / chunk;
 }
 
-void LaneStages::differentiate(const std::vector<Lanes>& W, LaneJacobian& jacobian) {
+void LaneStages::differentiate(const std::vector<Lanes>& W, const LaneMask& which, LaneJacobian& jacobian) {
   place(W);
-  const StagePoints<Lanes> all{sizes_, t_.data(), U_.data(), V_.data(), X_.data(), W.data(), nullptr};
-  dual_.copy(all[inner_]);
+  const auto inner = count(inner_);
+  for (std::size_t i = 0; i < nu_; ++i) dual_.u[static_cast<Index>(i)].value = U_[inner * nu_ + i];
+  for (std::size_t i = 0; i < nu_; ++i) dual_.v[static_cast<Index>(i)].value = V_[inner * nu_ + i];
+  for (std::size_t i = 0; i < nx_; ++i) dual_.x[static_cast<Index>(i)].value = X_[inner * nx_ + i];
+  for (Index i = 0; i < n_; ++i) dual_.w[i].value = W[count(i + inner_ * n_)];
   const Index rates = sizes_.nu + sizes_.nx, directions = n_ + rates + sizes_.nu;
   const auto along = [&](Index i) -> Direction {
     if (i < n_) return {0, i};
@@ -197,11 +200,12 @@ void LaneStages::differentiate(const std::vector<Lanes>& W, LaneJacobian& jacobi
   for (Index first = 0; first < directions; first += kChunkSize) {
     const Index last = std::min(first + kChunkSize, directions);
     for (Index i = first; i < last; ++i) dual_.component(along(i)).d[count(i - first)] = 1.0;
-    system_->evaluate(Level::kFormulated, dual_.at(t_[count(inner_)]), dual_.residual());
+    system_->evaluate(Level::kFormulated, dual_.at(t_[inner]), dual_.residual());
     for (Index i = first; i < last; ++i) {
       const Direction direction = along(i);
       auto& matrix = direction.matrix == 0 ? jacobian.d0 : direction.matrix == 1 ? jacobian.d1 : jacobian.d2;
-      for (Index r = 0; r < n_; ++r) matrix[count(r + direction.column * n_)] = dual_.r[r].d[count(i - first)];
+      Lanes* const column = matrix.data() + direction.column * n_;
+      for (Index r = 0; r < n_; ++r) column[r] = select(which, dual_.r[r].d[count(i - first)], column[r]);
       dual_.component(direction).d[count(i - first)] = 0.0;
     }
   }

@@ -31,8 +31,8 @@ class LaneStages {
 
   /// R(W), rows scaled; returns where it is finite.
   LaneMask residual(const std::vector<Lanes>& W, std::vector<Lanes>& R);
-  /// The derivatives at an inner stage of W.
-  void differentiate(const std::vector<Lanes>& W, LaneJacobian& jacobian);
+  /// The derivatives at an inner stage of W, in the lanes of `which`.
+  void differentiate(const std::vector<Lanes>& W, const LaneMask& which, LaneJacobian& jacobian);
   Index dualEvaluations() const;
   /// Changes of W in the last digits of what it is added to, see SimplifiedNewton.
   void lastDigits(const std::vector<Lanes>& W, std::vector<Lanes>& change) const;

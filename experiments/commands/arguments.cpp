@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/number_text.h"
 #include "core/base/text.h"
 #include "irk/misuse.h"
 
@@ -56,6 +57,48 @@ const char* valueName(FieldKind kind) {
       break;
   }
   return "TEXT";
+}
+
+std::string numberHelp(std::string_view meaning, const Range& range, std::string_view value) {
+  return std::string(meaning) + " [" + range.text() + "; default " + std::string(value) + "]";
+}
+
+int integer(std::string_view name, std::string_view text, const Range& range) {
+  return static_cast<int>(parseInteger(name, text, range));
+}
+
+void addSolveOptions(CLI::App& sub, SolveOptions& run) {
+  sub.add_option(
+         "--tol", run.tol,
+         "Sets both rtol and atol. A list of values, of this or of any option, makes all combinations. [0 < x < 1]")
+      ->type_name("NUMBER");
+  sub.add_flag("--json", run.json, "Print one JSON object.");
+  sub.add_option("--plot", run.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
+      ->type_name("FILE");
+  sub.add_option(
+         "--out", run.out,
+         "Write the solution over time to FILE.csv or, as JSON lines, to FILE.jsonl: components, outputs, steps, "
+         "and a row before and after each located switch. A run that fails leaves what it has computed.")
+      ->type_name("FILE");
+  sub.add_option(
+         "--points", run.points,
+         "So many equally spaced times in --out, both ends included [2 .. 1000000; default: the accepted steps]")
+      ->type_name("INTEGER");
+}
+
+void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble) {
+  sub.add_option("--tol", run.tol, "Sets both rtol and atol. [0 < x < 1]")->type_name("NUMBER");
+  sub.add_option(
+         "--start", ensemble.starts,
+         "component=VALUES: a component of u, v or x at the start. VALUES, also of --set: items with ',' between; "
+         "A..B:N are N numbers from A to B, A..B:N:log with equal ratios. All combinations are run.")
+      ->take_all()
+      ->expected(1)
+      ->type_name("TEXT");
+  sub.add_option("--out", run.out, "Write the rows to FILE.csv instead of standard output.")->type_name("FILE");
+  sub.add_flag("--json", run.json, "Print rows as JSON objects, one per line.");
+  sub.add_flag("--single", ensemble.single,
+               "A loop of single runs instead of eight in the lanes of a vector register.");
 }
 
 }  // namespace irk

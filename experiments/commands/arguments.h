@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/range.h"
+#include "experiments/commands/commands.h"
 #include "experiments/runs/fields.h"
 
 namespace irk {
@@ -22,5 +24,15 @@ std::string helpOf(const std::vector<std::string>& arguments);
 
 /// What a value is called in the help: ID, NUMBER, INTEGER, TEXT.
 const char* valueName(FieldKind kind);
+
+/// The help of a number: meaning, range and default.
+std::string numberHelp(std::string_view meaning, const Range& range, std::string_view value);
+/// Reads an integer; throws Misuse as parseInteger.
+int integer(std::string_view name, std::string_view text, const Range& range);
+
+/// The options of `irk solve` that no field of a run has.
+void addSolveOptions(CLI::App& sub, SolveOptions& run);
+/// The same of `irk ensemble`.
+void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble);
 
 }  // namespace irk

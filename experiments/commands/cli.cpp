@@ -25,14 +25,6 @@ using Action = std::function<int(Streams)>;
 
 constexpr Range kJobs = Range::integers(0, 1024), kDigits = Range::integers(1, 75);
 
-std::string numberHelp(std::string_view meaning, const Range& range, std::string_view value) {
-  return std::string(meaning) + " [" + range.text() + "; default " + std::string(value) + "]";
-}
-
-int integer(std::string_view name, std::string_view text, const Range& range) {
-  return static_cast<int>(parseInteger(name, text, range));
-}
-
 /// The verbs, their options and the function that each verb calls.
 class Program {
  public:
@@ -42,6 +34,7 @@ class Program {
     addPaper();
     addRun();
     addSolve();
+    addEnsemble();
     addNew();
     addList();
     addTableau();
@@ -153,24 +146,19 @@ class Program {
   }
 
   void addSolve() {
-    auto* sub = verb(app_, "solve", "one integration", [this](Streams s) { return solve(s); });
-    sub->add_option(
-           "--tol", solve_.tol,
-           "Sets both rtol and atol. A list of values, of this or of any option, makes all combinations. [0 < x < 1]")
-        ->type_name("NUMBER");
+    auto* sub =
+        verb(app_, "solve", "one integration", [this](Streams s) { return takeFields(), solveCommand(solve_, s); });
+    addSolveOptions(*sub, solve_);
     addLoad(*sub);
-    sub->add_flag("--json", solve_.json, "Print one JSON object.");
-    sub->add_option("--plot", solve_.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
-        ->type_name("FILE");
-    sub->add_option(
-           "--out", solve_.out,
-           "Write the solution over time to FILE.csv or, as JSON lines, to FILE.jsonl: components, outputs, steps, "
-           "and a row before and after each located switch. A run that fails leaves what it has computed.")
-        ->type_name("FILE");
-    sub->add_option(
-           "--points", solve_.points,
-           "So many equally spaced times in --out, both ends included [2 .. 1000000; default: the accepted steps]")
-        ->type_name("INTEGER");
+    for (const auto& field : specFields()) addField(*sub, field);
+  }
+
+  void addEnsemble() {
+    auto* sub = verb(app_, "ensemble", "a small scene over a grid of parameters or starts, eight runs at a time",
+                     [this](Streams s) { return takeFields(), ensembleCommand(ensemble_, s); });
+    addEnsembleOptions(*sub, solve_, ensemble_);
+    addLoad(*sub);
+    addJobs(*sub, "Threads; 0 = one per processor.");
     for (const auto& field : specFields()) addField(*sub, field);
   }
 
@@ -202,12 +190,13 @@ class Program {
   }
   void loadFiles() const { std::for_each(load_.begin(), load_.end(), loadOwn); }
 
-  int solve(Streams streams) {
+  void takeFields() {
     loadFiles();
     for (const auto& [field, value] : fields_) {
       if (!value.empty()) solve_.fields.emplace_back(field, value);
     }
-    return solveCommand(solve_, streams);
+    ensemble_.run = solve_;
+    ensemble_.jobs = parseJobs();
   }
 
   void addNew() {
@@ -326,6 +315,7 @@ class Program {
   std::vector<std::string> folders_, methods_, load_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
+  EnsembleArguments ensemble_;
   CompareOptions compare_;
   ReferenceOptions reference_;
 };

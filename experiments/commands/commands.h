@@ -51,6 +51,16 @@ Sweep sweepOf(const SolveOptions& options);
 /// a run failed.
 int solveSweep(const Sweep& sweep, Streams streams);
 
+struct EnsembleArguments {
+  SolveOptions run;                 ///< its settings may have lists and ranges (gridAxis); json: JSON lines
+  std::vector<std::string> starts;  ///< component=VALUES, likewise
+  bool single = false;              ///< a loop of single runs instead of lanes
+  int jobs = 0;                     ///< threads; 0 = one per processor
+};
+/// Prints a row per member of a grid, or writes it to `run.out`: values, outcome, final state, counters. Returns 1 if a
+/// run failed.
+int ensembleCommand(const EnsembleArguments& arguments, Streams streams);
+
 struct RunOptions {
   std::string study;  ///< id or file
   StudyVariant variant = StudyVariant::kFull;

@@ -248,6 +248,9 @@ std::string examplesOf(const std::string& verb) {
        "  irk solve kepler --set e=0.1,0.5,0.9 --tol 1e-4,1e-8     all combinations, a line per run"},
       {"run", "  irk run order --quick\n  irk run my_study.toml --jobs 4"},
       {"paper", "  irk paper --quick"},
+      {"ensemble",
+       "  irk ensemble van_der_pol --set eps=1e-6..1e-3:1000:log --tol 1e-6 --out vdp.csv\n"
+       "  irk ensemble robertson --start y2=0,1e-6 --start y1=0.5..1:50   all combinations, a row per run"},
       {"list", "  irk list scenes\n  irk list methods"},
       {"status", "  irk status order"},
       {"plot", "  irk plot order"},

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 #include "problems/support/elliptic.h"
 
 namespace irk {
@@ -81,8 +82,9 @@ SceneEntry pendulumEntry() {
           .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
           .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
           .make = make<double>,
-          .make_mp50 = make<mp50>,
-          .make_lanes = lanesOf<Pendulum>};
+          .make_mp50 = make<mp50>};
 }
+
+LanesMaker pendulumLanes() { return lanesOf<Pendulum>; }
 
 }  // namespace irk

@@ -1,5 +1,6 @@
 // Dahlquist's equation y' = lambda y with complex lambda, written as two real equations.
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 namespace {
@@ -41,8 +42,9 @@ SceneEntry dahlquistEntry() {
        .literature = "HW II (IV.3)",
        .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
                       numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
-       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<Dahlquist>});
+       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
+
+LanesMaker dahlquistLanes() { return lanesOf<Dahlquist>; }
 
 }  // namespace irk

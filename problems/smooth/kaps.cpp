@@ -1,6 +1,7 @@
 // Kaps' problem: y1' = -(2 + 1/eps) y1 + y2^2 / eps, y2' = y1 - y2 - y2^2. The solution is y = (exp -2t, exp -t)
 // for every eps.
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 namespace {
@@ -38,8 +39,9 @@ SceneEntry kapsEntry() {
                              .kind = SceneKind::kSingularlyPerturbed,
                              .stiffness = {.parameter = "eps", .reciprocal = true},
                              .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-                             .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-                             .make_lanes = lanesOf<Kaps>});
+                             .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
+
+LanesMaker kapsLanes() { return lanesOf<Kaps>; }
 
 }  // namespace irk

@@ -1,6 +1,7 @@
 // A small mechanical system with gyroscopic and nonlinear forces, for measuring the orders of q, v and lambda:
 // M = diag(1, 2), constraint x^2 + y^2 (1 + 0.3 x) = 1.
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 namespace {
@@ -36,8 +37,9 @@ SceneEntry mechanicalDaeEntry() {
                                       .shows = "orders of q, v and lambda in every formulation",
                                       .collections = {"probes"},
                                       .kind = SceneKind::kConstrained,
-                                      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-                                      .make_lanes = lanesOf<MechanicalDae>});
+                                      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
+
+LanesMaker mechanicalDaeLanes() { return lanesOf<MechanicalDae>; }
 
 }  // namespace irk

@@ -1,6 +1,7 @@
 // Prothero & Robinson's problem: y' = lambda (y - phi) + phi' with phi = cos t. The solution is y = phi.
 // HW II (IV.15).
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 namespace {
@@ -41,8 +42,9 @@ SceneEntry protheroRobinsonEntry() {
        .kind = SceneKind::kStiffTest,
        .stiffness = {.parameter = "lambda"},
        .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
-       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<ProtheroRobinson>});
+       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
 }
+
+LanesMaker protheroRobinsonLanes() { return lanesOf<ProtheroRobinson>; }
 
 }  // namespace irk

@@ -1,4 +1,5 @@
 // Robertson's chemical kinetics to t = 1e11. HW II (IV.10), "ROBER".
+#include "irk/scene_lanes.h"
 #include "problems/support/numbered.h"
 
 namespace irk {
@@ -32,9 +33,10 @@ SceneEntry robertsonEntry() {
        .shows = "eleven decades of time, a component that falls to 1e-13",
        .collections = {"ivp"},
        .literature = "IVP test set, ROBER; HW II (IV.10)",
-       .reference_cases = {{.times = "0.4 4e3 1e7 1e10 2e10 3e10 4e10 5e10 6e10 7e10 8e10 9e10",
-                            .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<Robertson>});
+       .reference_cases = {
+           {.times = "0.4 4e3 1e7 1e10 2e10 3e10 4e10 5e10 6e10 7e10 8e10 9e10", .tolerance = kManyDigits}}});
 }
+
+LanesMaker robertsonLanes() { return lanesOf<Robertson>; }
 
 }  // namespace irk

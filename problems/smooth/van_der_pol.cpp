@@ -1,6 +1,7 @@
 // Van der Pol's equation, singularly perturbed: y1' = y2, eps y2' = (1 - y1^2) y2 - y1. HW II
 // (IV.10).
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 namespace {
@@ -33,8 +34,9 @@ SceneEntry vanDerPolEntry() {
        .stiffness = {.parameter = "eps", .reciprocal = true},
        .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
        .panels = {{"y1", {"y1"}}, {"y2", {"y2"}, "1e6", 1e-6}},
-       .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<VanDerPol>});
+       .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}}});
 }
+
+LanesMaker vanDerPolLanes() { return lanesOf<VanDerPol>; }
 
 }  // namespace irk

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/differentiator.h"
+#include "irk/lanes.h"
 #include "irk/misuse.h"
 
 namespace irk {

@@ -1,4 +1,5 @@
 // The axis of a car on a bumpy road (Schneider). IVP test set, CARAXIS.
+#include "irk/scene_lanes.h"
 #include "problems/support/numbered.h"
 
 namespace irk {
@@ -59,8 +60,9 @@ SceneEntry caraxisEntry() {
                                 .literature = "IVP test set, CARAXIS",
                                 .kind = SceneKind::kConstrained,
                                 .panels = {{"heights of the ends", {"yl", "yr"}}},
-                                .reference_cases = {{.tolerance = kFewDigits}},
-                                .make_lanes = lanesOf<CarAxis>});
+                                .reference_cases = {{.tolerance = kFewDigits}}});
 }
+
+LanesMaker caraxisLanes() { return lanesOf<CarAxis>; }
 
 }  // namespace irk

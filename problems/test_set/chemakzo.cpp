@@ -1,4 +1,5 @@
 // The chemical Akzo Nobel problem: two substances are mixed under a flow of carbon dioxide. IVP test set, CHEMAKZO.
+#include "irk/scene_lanes.h"
 #include "problems/support/numbered.h"
 
 namespace irk {
@@ -41,8 +42,9 @@ SceneEntry chemakzoEntry() {
        .collections = {"ivp"},
        .literature = "IVP test set, CHEMAKZO",
        .kind = SceneKind::kIndex1,
-       .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<ChemicalAkzo>});
+       .reference_cases = {{.times = "20", .tolerance = kManyDigits}}});
 }
+
+LanesMaker chemakzoLanes() { return lanesOf<ChemicalAkzo>; }
 
 }  // namespace irk

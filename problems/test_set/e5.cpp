@@ -4,6 +4,7 @@
 // sum of all increments would leave it an error of 1e-26, 1e-4 of what y2 falls to. The end values that are printed in
 // the IVP test set are wrong from the third digit on: they contradict this integral.
 #include "irk/scene_file.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 namespace {
@@ -42,8 +43,9 @@ SceneEntry e5Entry() {
                            .collections = {"ivp"},
                            .literature = "IVP test set, E5; HW II (IV.10)",
                            .kind = SceneKind::kIndex1,
-                           .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
-                           .make_lanes = lanesOf<E5>});
+                           .reference_cases = {{.times = "10 1e5 1e9 1e11"}}});
 }
+
+LanesMaker e5Lanes() { return lanesOf<E5>; }
 
 }  // namespace irk

@@ -1,4 +1,5 @@
 // The Oregonator: the Belousov-Zhabotinskii reaction (Field, Noyes). IVP test set, OREGO; HW II (IV.10).
+#include "irk/scene_lanes.h"
 #include "problems/support/numbered.h"
 
 namespace irk {
@@ -28,8 +29,9 @@ SceneEntry oregoEntry() {
                                    .shows = "steps over ten decades: slow drifts and fast transitions",
                                    .collections = {"ivp"},
                                    .literature = "IVP test set, OREGO; HW II (IV.10)",
-                                   .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
-                                   .make_lanes = lanesOf<Oregonator>});
+                                   .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}}});
 }
+
+LanesMaker oregoLanes() { return lanesOf<Oregonator>; }
 
 }  // namespace irk

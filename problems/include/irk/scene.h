@@ -5,12 +5,10 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "irk/lanes.h"
 #include "irk/multiprecision.h"
 #include "irk/problem.h"
 
@@ -128,9 +126,6 @@ struct SceneEntry {
   std::function<Scene<mp50>(const Settings&)> make_mp50 = {};
   /// Needed only if orders from 20 on are measured with the scene.
   std::function<Scene<mp100>(const Settings&)> make_mp100 = {};
-  /// Eight systems side by side for ensembles (irk/ensemble.h); users call makeLanes. lanesOf in irk/scene_file.h makes
-  /// it of a struct whose residual does not branch on values. An empty function: the scene is integrated alone.
-  std::function<std::shared_ptr<const System<Lanes>>(const Settings&, const SystemOptions&)> make_lanes = {};
   /// Set by registerScene: that it is not one of the library's, and the file that it comes from, if the program loaded
   /// it.
   bool registered = false;
@@ -156,15 +151,6 @@ Scene<Real> makeScene(std::string_view id, const Settings& settings = {});
 /// The same for an entry that need not be in the catalogue.
 template <class Real>
 Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings);
-
-/// Throws Misuse, with the reason, for a scene that lanes cannot integrate, and for settings of which lanes cannot have
-/// several: words and texts.
-void requireLanes(const SceneEntry& entry, std::span<const Settings> settings);
-
-/// The scene's systems with kLanes settings, of which each is checked (completedSettings), side by side: lane i has
-/// those of settings[i]. Throws Misuse as requireLanes.
-std::shared_ptr<const System<Lanes>> makeLanes(const SceneEntry& entry, std::span<const Settings> settings,
-                                               const SystemOptions& options);
 
 /// A reference value of problems/reference/*.csv.
 struct Reference {

@@ -55,8 +55,7 @@ Parameter textParameter(std::string name, std::string meaning, std::string defau
 /// its range.
 Settings completedSettings(std::string_view scene, const std::vector<Parameter>& parameters, const Settings& given);
 
-/// A completed setting as a number, with all digits of its text; as Lanes one number, or kLanes with ';' between.
-/// Throws Misuse for a parameter that the entry lacks.
+/// A completed setting as a number, with all digits of its text. Throws Misuse for a parameter that the entry lacks.
 template <class Real>
 Real number(const Settings& settings, const std::string& name);
 
@@ -172,18 +171,6 @@ SceneEntry sceneEntryOf(SceneEntry entry) {
 template <template <class> class S>
 SceneEntry sceneEntryOf() {
   return sceneEntryOf<S>(S<double>::entry());
-}
-
-/// For SceneEntry::make_lanes: the struct over eight values of its parameters. The compiler refuses a residual that
-/// branches on values (irk/lanes.h).
-template <template <class> class S>
-std::shared_ptr<const System<Lanes>> lanesOf(const Settings& values, const SystemOptions& options) {
-  using P = S<Lanes>;
-  if constexpr (requires { P::with(values); }) {
-    return std::make_shared<const ProblemSystem<P, Lanes>>(P::with(values), options);
-  } else {
-    return std::make_shared<const ProblemSystem<P, Lanes>>(P{}, options);
-  }
 }
 
 }  // namespace irk
