@@ -134,7 +134,8 @@ class LaneIntegrator::Run {
     past_ = solved.solved;
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const Lanes again = Lanes::each([&](std::size_t i) { return runs_[i].filtersAgain() ? 1.0 : kNever; });
-    const Lanes error = stages.estimate(W, norm, newton.matrix(), again, solved.solved, counters_);
+    const Lanes error =
+        stages.estimate(W, norm, newton.filterMatrix(solved.solved, counters_), again, solved.solved, counters_);
     LaneMask accepted;
     forEachLane(active_, [&](std::size_t i) {
       const bool known = solved.solved[i] && std::isfinite(error[i]);

@@ -30,6 +30,8 @@ class LaneMatrix {
   void solve(Lanes* r);
   /// In place, n entries: with the matrix of the error estimate.
   void solveFilter(Lanes* r) const { real_[filter_].solve(r); }
+  /// Whether A has no such eigenvalue.
+  bool hasOwnFilter() const { return own_filter_; }
 
  private:
   struct Block {

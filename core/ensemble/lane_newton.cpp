@@ -79,12 +79,19 @@ LaneMask LaneNewton::prepare(Context& c, const LaneMask& which) {
   c.counters.factorizations.add(wanted);
   factors_h_ = select(wanted, c.h, factors_h_);
   factorized_ = (factorized_ | wanted) & ~factors.failed();
+  new_filter_ = new_filter_ | wanted;
   if (!factors.failed().any()) return which;
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (factors.singular[i]) c.result.outcome[i] = Outcome::kSingular;
     if (factors.not_finite[i]) c.result.outcome[i] = Outcome::kNotFinite;
   }
   return which & ~factors.failed();
+}
+
+const LaneMatrix& LaneNewton::filterMatrix(const LaneMask& which, LaneCounters& counters) {
+  if (matrix_.hasOwnFilter()) counters.factorizations.add(which & new_filter_);
+  new_filter_ = new_filter_ & ~which;
+  return matrix_;
 }
 
 void LaneNewton::fail(Context& c, const LaneMask& which, Outcome outcome) {

@@ -32,7 +32,9 @@ class LaneNewton {
   LaneSolved solve(LaneStages& stages, const LaneNorm& norm, const LaneState& from, const Lanes& h,
                    const LaneMask& which, std::vector<Lanes>& W, LaneCounters& counters);
 
-  const LaneMatrix& matrix() const { return matrix_; }
+  /// For the error estimate of the lanes of `which`. A matrix of its own counts as one more factorization where it is
+  /// new, as it does in a single run.
+  const LaneMatrix& filterMatrix(const LaneMask& which, LaneCounters& counters);
 
  private:
   struct Context {
@@ -57,6 +59,7 @@ class LaneNewton {
   LaneJacobian jacobian_;
   LaneMatrix matrix_;
   LaneMask stale_, differentiated_, factorized_;
+  LaneMask new_filter_;           // whose factors no estimate has used
   Lanes jacobian_t_, factors_h_;  // where these come from
   Lanes eta_;                     // of the last solved step, see SimplifiedNewton
   Lanes theta_;                   // the last contraction

@@ -80,9 +80,9 @@ std::string jsonLine(const TableRow& columns, const TableRow& cells) {
 }
 
 /// Writes the rows in the order of the grid, each as soon as those before it are known.
-class Rows {
+class MemberRows {
  public:
-  Rows(const EnsembleScene& scene, const RunSpec& spec, const EnsembleArguments& arguments, std::ostream& out)
+  MemberRows(const EnsembleScene& scene, const RunSpec& spec, const EnsembleArguments& arguments, std::ostream& out)
       : scene_(scene), columns_(columnsOf(scene)), json_(arguments.run.json), out_(out) {
     if (!arguments.run.out.empty()) {
       if (json_) throw Misuse("--out with --json: the file is CSV; leave one of them out");
@@ -136,7 +136,7 @@ int ensembleCommand(const EnsembleArguments& arguments, Streams streams) {
   const EnsembleScene scene(spec, gridOf(arguments), t_end);
   if (!arguments.single) static_cast<void>(LaneIntegrator(makeTableau<double>(spec.method), spec.options));
   if (!arguments.single) static_cast<void>(scene.lanes());
-  Rows rows(scene, spec, arguments, streams.out);
+  MemberRows rows(scene, spec, arguments, streams.out);
   const InterruptScope interrupts;
   const double seconds = runEnsemble(scene, spec, {!arguments.single, threadCount(arguments.jobs), &interruptFlag()},
                                      [&](std::size_t i, const Solution<double>& solution) { rows.add(i, solution); });
