@@ -40,7 +40,7 @@ void appendRange(const std::string& place, std::string_view text, std::vector<st
   for (std::int64_t i = 0; i < count; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(count - 1);
     const double inside = logarithmic ? first * std::pow(last / first, part) : first + (last - first) * part;
-    values.push_back(numberText(i == 0 ? first : i + 1 == count ? last : inside));
+    values.push_back(i == 0 ? numberText(first) : i + 1 == count ? numberText(last) : fmt::format("{:.15g}", inside));
   }
 }
 
