@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/text.h"
+#include "core/ensemble/lane_rules.h"
 #include "experiments/base/clock.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/setup.h"
@@ -104,6 +105,7 @@ std::vector<Settings> EnsembleScene::everyValue() const {
 
 Ensemble EnsembleScene::lanes() const {
   requireLanes(entry_, everyValue());
+  requireLaneSystem(*first_.system(system_options_), nullptr);
   Ensemble ensemble;
   ensemble.member = [this](std::size_t i) { return member(i); };
   if (system_) {
