@@ -35,7 +35,8 @@ struct Ensemble {
 };
 
 /// Integrates members of ensembles with one method and one set of options. Use one object per thread; several may
-/// share an ensemble whose functions allow it. The constructor and each new member allocate; steps do not.
+/// share an ensemble whose functions allow it. The constructor and each new member allocate; steps do
+/// not, except where extrapolated start values are cut to a lower degree (many stages, growing steps).
 class LaneIntegrator {
  public:
   /// Names the next member, as long as there is one.
