@@ -17,11 +17,33 @@ StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
   return {Mat<Real>::Constant(1, 1, mu), nullptr, system.rowPowers(), system.sizes()};
 }
 
+// The stage is at the step's start: there it sees of an input what the start itself sees.
+template <class Real>
+bool beginsAtStart(const Vec<Real>& c) {
+  constexpr double kNone = 1e-10;
+  return std::abs(static_cast<double>(c[0])) < kNone;
+}
+
+// The polynomial through all stages that are not at the start: its weights there.
+template <class Real>
+Vec<Real> extrapolationToStart(const Vec<Real>& c) {
+  const Index first = beginsAtStart(c) ? 1 : 0;
+  Vec<Real> weights = Vec<Real>::Zero(c.size());
+  for (Index j = first; j < c.size(); ++j) {
+    weights[j] = Real(1);
+    for (Index i = first; i < c.size(); ++i) {
+      if (i != j) weights[j] *= c[i] / (c[i] - c[j]);
+    }
+  }
+  return weights;
+}
+
 }  // namespace
 
 template <class Real>
 int EmbeddedEstimate<Real>::order(const Tableau<Real>& tableau) {
-  return std::min(static_cast<int>(tableau.stages()), tableau.stage_order + 1);
+  const int stages = static_cast<int>(tableau.stages()) - (beginsAtStart(tableau.c) ? 1 : 0);
+  return std::min(stages, tableau.stage_order + 1);
 }
 
 template <class Real>
@@ -49,7 +71,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       row_powers_(system.rowPowers()),
       scales_(sizes_.n()),
       basis_(scheme.s),
-      start_{scheme.start, scheme.A_transposed * scheme.start},
+      start_{scheme.start, {}},
       lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
       defect_(sizes_.n()),
       slip_(sizes_.nu),
@@ -57,7 +79,10 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       error_(sizes_),
       zero_(sizes_),
       ones_(Vec<double>::Ones(sizes_.components())),
-      e_(sizes_.n(), 1) {}
+      e_(sizes_.n(), 1) {
+  if (beginsAtStart(scheme.c)) start_.weights = extrapolationToStart(scheme.c);
+  start_.integrals = scheme.A_transposed * start_.weights;
+}
 
 template <class Real>
 Index EmbeddedEstimate<Real>::worstComponent() const {
@@ -125,7 +150,8 @@ template <class Real>
 auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q)
     -> Result {
   legendre<Real>(Real(0), basis_);
-  lower_.weights.noalias() = scheme_.legendre_inverse.topRows(q).transpose() * basis_.head(q);
+  const Index terms = beginsAtStart(scheme_.c) ? std::max<Index>(q - 1, 1) : q;
+  lower_.weights.noalias() = scheme_.legendre_inverse.topRows(terms).transpose() * basis_.head(terms);
   lower_.integrals.noalias() = scheme_.A_transposed * lower_.weights;
   return estimate(from, stages, lower_, std::numeric_limits<double>::infinity());
 }

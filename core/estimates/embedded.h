@@ -1,4 +1,4 @@
-// The embedded error estimate: a method of order s in the same stages, filtered by one real system.
+// The embedded error estimate: a method of order s (or s - 1) in the same stages, filtered by one real system.
 #pragma once
 
 #include "core/newton/newton_matrix.h"
@@ -13,6 +13,8 @@ namespace irk {
 /// mu: e = -(D0 + h mu D1 + h^2 mu^2 D2)^-1 r(t0; u0 + h mu (v0 - V(0)), v0, x0; K(0)), and u, v, x
 /// err by h mu (v0 - V(0) + h mu e_a), h mu e_a, h mu e_k. mu: the real eigenvalue of A or, for even
 /// s, the s-th root of det A. Multipliers of index 2 and 3 count as the error norm weighs them.
+/// A first stage at the start, as in Radau IA and Lobatto IIIC and IIID, is left out of K, and the order is s - 1: of
+/// y' = f(t) it has k0 itself, so that a polynomial through it has no defect at the start whatever the error is.
 /// Owns scratch and a real system of its own, which it factorizes only where the stages' solver, whose
 /// reference it keeps, has not the same.
 template <class Real>
@@ -31,7 +33,7 @@ class EmbeddedEstimate {
   /// Of the solved step from `from`. An estimate above `again_above` is filtered a second time, HW
   /// II (IV.8.21): in a first step and after a rejection; else infinity.
   [[nodiscard]] Result evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above);
-  /// What the estimate would be with q < s stages: of the polynomial of degree q - 1 in K. After
+  /// What the estimate would be with q < s stages: of the polynomial of degree q - 1 (q - 2) in K. After
   /// `evaluate` of the same step.
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q);
 
@@ -40,7 +42,8 @@ class EmbeddedEstimate {
   /// The component of (u, v, x, z) with the largest part in the last estimate.
   Index worstComponent() const;
   double mu() const { return static_cast<double>(mu_); }
-  /// p of the estimate's error h^(p+1): s, or one more than the stage order where that is less.
+  /// p of the estimate's error h^(p+1): s (s - 1 with a stage at the start), or one more than the stage order where
+  /// that is less.
   static int order(const Tableau<Real>& tableau);
   /// mu of this method.
   static Real weight(const Tableau<Real>& tableau);

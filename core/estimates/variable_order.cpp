@@ -247,7 +247,7 @@ IRK_INSTANTIATE_CLASS(VariableOrder)
 
 Strategy<ErrorEstimate> embeddedEstimate() {
   return {.id = ErrorEstimate::kEmbedded,
-          .meaning = "an embedded method of order s: one real solve, HW II (IV.8)",
+          .meaning = "an embedded method of order s, or s - 1 with a stage at the start: one real solve, HW II (IV.8)",
           .needs = {.invertible_matrix = true,
                     .stage_order = true,
                     .kept_jacobian = true,

@@ -10,6 +10,9 @@
 namespace irk {
 namespace {
 
+// The system may be at rest: the error in tolerances is below, and the step's part of the whole time above.
+constexpr double kMovesLittle = 0.1;
+constexpr double kLong = 0.01;
 // Of switches at one time that make others due by the (a, k, z) which follow from them.
 constexpr int kRounds = 5;
 
@@ -60,6 +63,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
       start_(system, options.derivatives, schemes[start].first > 0, &counters),
       constraints_(system, norm_, options.tolerances),
+      rest_(system, norm_, start_),
       switches_(system),
       inside_(system),
       state_(system.sizes()),
@@ -111,7 +115,11 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
 
 template <class Real>
 StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
-  const StepDecision decision = controller_->decide(result.error, h);
+  StepDecision decision = controller_->decide(result.error, h);
+  if (decision.accept && result.error < kMovesLittle && h > kLong * length_) {
+    const double asleep = rest_.error(state_, next_, h);
+    if (asleep > 1) decision = controller_->decide(asleep, h);
+  }
   if (!decision.accept) last_rejection_ = "the error";
   return decision;
 }

@@ -11,6 +11,7 @@
 #include "core/estimates/step_attempt.h"
 #include "core/integration/constraint_check.h"
 #include "core/integration/inside_attempt.h"
+#include "core/integration/rest_check.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
 #include "irk/monitor.h"
@@ -78,6 +79,7 @@ class Trajectory {
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;
   ConstraintCheck<Real> constraints_;
+  RestCheck<Real> rest_;
   /// Index 3: positions and velocities obey their constraints to the error of a step only, of which the short
   /// steps after a restart would make velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;

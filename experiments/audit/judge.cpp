@@ -26,6 +26,10 @@ Judgement judge(const Evidence& e) {
   return e.error > bar(e.tolerance) ? Judgement::kWrong : Judgement::kRight;
 }
 
+double accumulated(double steps, double kappa, double tolerance) {
+  return std::isnan(kappa) ? kappa : steps * std::max(kappa, 1.0) * tolerance;
+}
+
 double scaledDifference(const Vec<double>& y, const Vec<double>& reference, const Vec<double>& scale, Index first,
                         Index last) {
   double largest = std::numeric_limits<double>::quiet_NaN();

@@ -14,6 +14,11 @@
 //   unjudged          a success whose reference is unknown, or known less accurately than a tenth of the bar.
 //   wrong             a success with an error above the bar, 1000 tolerance + 1e-9.
 //   right             a success with an error up to the bar.
+//
+// Reported beside the judgement, since 2026-11-23, and not judged:
+//   accumulated       steps max(kappa, 1) tolerance: what errors of one tolerance in each step can add up to. A wrong
+//                     success above it has a step whose error was not seen; below it, the method keeps its word in each
+//                     step, and nothing but an estimate of the global error could tell.
 #pragma once
 
 #include <limits>
@@ -45,6 +50,9 @@ struct Evidence {
 double bar(double tolerance);
 
 Judgement judge(const Evidence& evidence);
+
+/// The error that local errors of one tolerance each can add up to; NaN where kappa is unknown.
+double accumulated(double steps, double kappa, double tolerance);
 
 /// The largest |y - reference| / max(|reference|, scale) over the components first <= i < last; missing scales are 1.
 /// Components without a reference (NaN) are skipped. Returns infinity if y is not finite, and NaN if no component has

@@ -109,7 +109,16 @@ std::string summaryText(const Table& audit, const Table& summary, std::size_t wo
   print("configuration", "by configuration");
   print("bar", "the same, switches by default or located");
   const auto wrong = wrongOnes(audit);
-  if (!wrong.empty()) text += "the worst successes that are wrong:\n";
+  if (!wrong.empty()) {
+    const auto unseen = std::count_if(wrong.begin(), wrong.end(), [&](const TableRow* row) {
+      return !(numberAt(audit, *row, "error") <= numberAt(audit, *row, "accumulated"));
+    });
+    text += fmt::format(
+        "{} of {} wrong successes are off by more than steps x kappa x tolerance, what local errors of one tolerance "
+        "can "
+        "add up to\nthe worst successes that are wrong:\n",
+        unseen, wrong.size());
+  }
   for (std::size_t i = 0; i < std::min(worst, wrong.size()); ++i) {
     text +=
         fmt::format("  error {:.1e}  {}\n", numberAt(audit, *wrong[i], "error"), textAt(audit, *wrong[i], "command"));

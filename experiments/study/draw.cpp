@@ -147,14 +147,17 @@ void set(RunSpec& spec, std::string_view field, std::string_view value) {
 /// Draws the runs of one audit. Caches what the draws of a scene share.
 class Drawer {
  public:
-  explicit Drawer(const AuditOptions& options) : options_(options) {}
+  explicit Drawer(const AuditOptions& options) : options_(options) {
+    for (const auto& id : options.scenes) scenes_.push_back(&findScene(id));
+    if (!scenes_.empty()) return;
+    for (const auto& scene : sceneCatalogue()) {
+      if (!scene.registered) scenes_.push_back(&scene);
+    }
+  }
 
   DrawnRun run(int number) {
-    // Those of the library, which come first: the draws do not depend on what users add.
-    const auto& scenes = sceneCatalogue();
-    const auto count = std::count_if(scenes.begin(), scenes.end(), [](const auto& scene) { return !scene.registered; });
     Dice dice(fmt::format("{} run {}", options_.seed, number));
-    const auto& scene = scenes[static_cast<std::size_t>(dice.below(count))];
+    const auto& scene = *scenes_[static_cast<std::size_t>(dice.below(static_cast<Index>(scenes_.size())))];
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       if (auto run = drawn(dice, scene)) return *run;
     }
@@ -245,6 +248,7 @@ class Drawer {
   }
 
   AuditOptions options_;
+  std::vector<const SceneEntry*> scenes_;
   std::map<std::string, Variant> variants_;
   std::map<std::string, bool> legal_;
 };

@@ -23,7 +23,8 @@ struct DrawnRun {
 /// longer one. Values that a run leaves at their defaults are not drawn: after a change of a default the same runs
 /// are drawn, with the new default.
 ///
-/// Scenes are drawn with equal probability; then settings (the defaults half of the time, else one of
+/// Scenes are drawn with equal probability, among options.scenes (Misuse for an unknown one) or else those of the
+/// library, never those that users add; then settings (the defaults half of the time, else one of
 /// `options.variants` drawn variants of the scene), configuration, treatment of switches, formulation, method and
 /// tolerance. A combination that is refused is drawn again.
 std::vector<DrawnRun> drawnRuns(const AuditOptions& options);

@@ -41,10 +41,11 @@ struct TimingOptions {
 
 /// An audit: its runs are drawn at random instead of listed in blocks (experiments/study/draw.h).
 struct AuditOptions {
-  int runs = 12000;        ///< > 0
-  std::uint64_t seed = 1;  ///< of the draw
-  int variants = 40;       ///< > 0. Drawn settings per scene: runs with equal settings share a reference
-  double time_limit = 2;   ///< > 0, CPU seconds of each run
+  int runs = 12000;                      ///< > 0
+  std::uint64_t seed = 1;                ///< of the draw
+  int variants = 40;                     ///< > 0. Drawn settings per scene: runs with equal settings share a reference
+  double time_limit = 2;                 ///< > 0, CPU seconds of each run
+  std::vector<std::string> scenes = {};  ///< those drawn among; none: all of the library
 };
 
 struct Study {

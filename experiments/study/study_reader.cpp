@@ -255,7 +255,8 @@ AuditOptions auditOptions(const StudyKeys& keys) {
   audit.seed = static_cast<std::uint64_t>(integer(keys, "audit.seed", 1, 0, kLargestSeed));
   audit.variants = static_cast<int>(integer(keys, "audit.variants", audit.variants, 1, kMax));
   audit.time_limit = number(keys, "audit.time_limit", audit.time_limit, kPositive);
-  refuseUnknown(keys, "audit", {"runs", "seed", "variants", "time_limit"});
+  refuseUnknown(keys, "audit", {"runs", "seed", "variants", "time_limit", "scene"});
+  if (const auto* scenes = find(keys, "audit.scene")) audit.scenes = sceneIds(*scenes);
   return audit;
 }
 
@@ -317,7 +318,7 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
     return study;
   }
   for (auto& block : text.blocks) {
-    expandCollections(block);
+    expandCollections(block.find("scene")->second);
     const std::size_t first = study.series.size();
     appendBlock(block, study.series);
     refuseVariableOrder(study, block, first);

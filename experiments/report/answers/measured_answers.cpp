@@ -111,4 +111,69 @@ std::string familiesFailSentence(const Table& runs) {
                      most->second.failed, most->second.runs, least->first, least->second.failed, least->second.runs);
 }
 
+std::string phasesSentence(const Table& phases) {
+  constexpr std::string_view kParts[] = {"residual", "jacobian", "factorization", "solve", "update", "step", "start"};
+  // By solver and number of unknowns, the shares of each part.
+  std::map<std::string, std::map<double, std::map<std::string_view, std::vector<double>>>> shares;
+  for (const auto& row : phases.rows) {
+    auto& here = shares[textAt(phases, row, "solver")][numberAt(phases, row, "n")];
+    for (const auto part : kParts) here[part].push_back(numberAt(phases, row, fmt::format("share_{}", part)));
+  }
+  const auto largest = [](const auto& by_part) {
+    std::pair<std::string_view, double> found{"", -1};
+    for (const auto& [part, values] : by_part) {
+      if (const double share = median(values); share > found.second) found = {part, share};
+    }
+    return found;
+  };
+  std::vector<std::string> texts;
+  for (const auto& [solver, by_size] : shares) {
+    const auto first = largest(by_size.begin()->second), last = largest(by_size.rbegin()->second);
+    const double n = by_size.begin()->first, most = by_size.rbegin()->first;
+    std::string text = fmt::format("`{}` {} ({:.0f} %) at n = {}", solver, first.first, 100 * first.second, n);
+    if (most > n) text += fmt::format(", {} ({:.0f} %) at n = {}", last.first, 100 * last.second, most);
+    texts.push_back(text);
+  }
+  return texts.empty() ? "" : fmt::format("The part with the largest median share: {}.", fmt::join(texts, "; "));
+}
+
+std::string energySentence(const Table& energy) {
+  std::map<std::string, std::map<std::string, double>> largest;  // by scene and summation
+  for (const auto& row : energy.rows) {
+    double& error = largest[textAt(energy, row, "scene")][textAt(energy, row, "summation")];
+    error = std::max(error, numberAt(energy, row, "largest"));
+  }
+  std::vector<std::string> texts;
+  for (const auto& [scene, by_summation] : largest) {
+    std::vector<std::string> errors;
+    for (const auto& [summation, error] : by_summation)
+      errors.push_back(fmt::format("{:.0e} with `{}`", error, summation));
+    texts.push_back(fmt::format("{} on {}", listText(errors), scene));
+  }
+  return texts.empty() ? "" : fmt::format("The largest relative error of the energy: {}.", fmt::join(texts, "; "));
+}
+
+std::string stepsSentence(const Table& runs) {
+  struct Found {
+    std::vector<double> accepted;
+    double rejected = 0, all = 0;
+  };
+  std::map<std::string, Found> found;
+  for (const auto& row : runs.rows) {
+    if (!succeededAt(runs, row)) continue;
+    const double accepted = numberAt(runs, row, "steps_accepted");
+    const double rejected = numberAt(runs, row, "steps_rejected_error") + numberAt(runs, row, "steps_rejected_newton");
+    Found& of = found[textAt(runs, row, "method")];
+    of.accepted.push_back(accepted);
+    of.rejected += rejected;
+    of.all += accepted + rejected;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [method, of] : found) {
+    texts.push_back(fmt::format("{:.0f} with `{}`, {} of all tries rejected", median(of.accepted), method,
+                                percentText(of.rejected / of.all)));
+  }
+  return texts.empty() ? "" : fmt::format("Steps, as a median: {}.", fmt::join(texts, "; "));
+}
+
 }  // namespace irk::report

@@ -20,4 +20,13 @@ std::string scalingSentence(const Table& slopes);
 /// The studies of failures, of runs.csv: the families that fail most and least often.
 std::string familiesFailSentence(const Table& runs);
 
+/// phases, of phases.csv: the part with the largest share of the time, at the smallest and the largest n.
+std::string phasesSentence(const Table& phases);
+
+/// round_off, of energy.csv: the largest error of the energy by summation.
+std::string energySentence(const Table& energy);
+
+/// steps, of runs.csv: how many steps the methods take, and how many tries are rejected.
+std::string stepsSentence(const Table& runs);
+
 }  // namespace irk::report

@@ -115,9 +115,12 @@ std::vector<std::string> studyAnswers(std::string_view study, const claims::Resu
   if (const Table* estimates = tableIfAny(tables, study, "estimates")) {
     sentences.push_back(estimateSentence(*estimates));
   }
+  if (const Table* phases = tableIfAny(tables, study, "phases")) sentences.push_back(phasesSentence(*phases));
+  if (const Table* energy = tableIfAny(tables, study, "energy")) sentences.push_back(energySentence(*energy));
   if (const Table* slopes = tableIfAny(tables, study, "scaling_slopes")) sentences.push_back(scalingSentence(*slopes));
   if (const Table* runs = tableIfAny(tables, study, "runs")) {
     if (study == "drift") sentences.push_back(driftSentence(*runs));
+    if (study == "steps") sentences.push_back(stepsSentence(*runs));
     if (study == "small_steps") sentences.push_back(smallStepsSentence(*runs));
     if (study.starts_with("failure_")) sentences.push_back(familiesFailSentence(*runs));
     sentences.push_back(outcomeSentence(*runs));

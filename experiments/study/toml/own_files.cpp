@@ -38,6 +38,8 @@ void loadOwnFiles(StudyFile& study, const std::string& study_file) {
     findFiles(files->second, study_file);
     load(files->second);
   }
+  const auto drawn = study.study.find("audit.scene");
+  if (drawn != study.study.end()) findFiles(drawn->second, study_file);
   for (auto& block : study.blocks) {
     for (const auto* key : {"scene", "methods"}) {
       const auto at = block.find(key);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/runs/fields.h"
 #include "irk/collections.h"
 #include "irk/misuse.h"
 
@@ -19,15 +20,29 @@ std::vector<std::string> scenesNamed(const std::string& item, const std::string&
 
 }  // namespace
 
-void expandCollections(StudyKeys& keys) {
-  StudyValue& scene = keys.find("scene")->second;
+void expandCollections(StudyValue& scenes) {
   std::vector<std::string> ids;
-  for (const auto& item : scene.items) {
-    for (const auto& id : scenesNamed(item, scene.place)) {
+  for (const auto& item : scenes.items) {
+    for (const auto& id : scenesNamed(item, scenes.place)) {
       if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
     }
   }
-  scene.items = std::move(ids);
+  scenes.items = std::move(ids);
+}
+
+std::vector<std::string> sceneIds(StudyValue scenes) {
+  expandCollections(scenes);
+  std::vector<std::string> ids;
+  for (const auto& scene : scenes.items) {
+    RunSpec spec;
+    try {
+      findField("scene").set(spec, scene);
+    } catch (const Misuse& misuse) {
+      throw Misuse(scenes.place + ": scene: " + misuse.what());
+    }
+    ids.push_back(spec.scene);
+  }
+  return ids;
 }
 
 }  // namespace irk

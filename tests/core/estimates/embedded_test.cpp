@@ -57,6 +57,7 @@ class OneStep {
 
   const Mat<double>& stages() const { return stepper_.stages().W; }
   const Scheme<double>& scheme() const { return scheme_; }
+  const State<double>& end() const { return end_; }
   double mu() const { return estimate_.mu(); }
   double error(bool again = false) {
     const double again_above = again ? 1 : std::numeric_limits<double>::infinity();
@@ -103,7 +104,7 @@ TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
 }
 
 // y1^ = y0 + h (mu f0 + sum b^_i k_i) with sum b^_i c_i^(k-1) = 1/k - mu delta_k1, k = 1..s, and
-// err = (1 - h mu J)^-1 (y1^ - y1).
+// err = (1 - h mu J)^-1 (y1^ - y1). If c_1 = 0: k = 1..s - 1 and b^_1 = b_1.
 double hairerWanner(const Scheme<double>& scheme, const Mat<double>& k, double mu, double f0, double J, double h) {
   const Index s = scheme.s;
   Mat<double> powers(s, s);
@@ -112,14 +113,18 @@ double hairerWanner(const Scheme<double>& scheme, const Mat<double>& k, double m
     powers.row(i) = scheme.c.transpose().array().pow(static_cast<double>(i));
     right[i] = 1.0 / static_cast<double>(i + 1) - (i == 0 ? mu : 0);
   }
+  if (scheme.c[0] == 0) {
+    powers.row(s - 1) = Vec<double>::Unit(s, 0).transpose();
+    right[s - 1] = scheme.b[0];
+  }
   const Vec<double> b_hat = powers.fullPivLu().solve(right);
   const double difference = h * (mu * f0 + (k.row(0) * (b_hat - scheme.b))(0, 0));
   return std::abs(difference / (1 - h * mu * J));
 }
 
 TEST(EmbeddedEstimate, IsHairerAndWannersForAnOrdinaryEquation) {
-  for (const char* method :
-       {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "gauss_4", "lobatto_iiic_3", "lobatto_iiic_4"}) {
+  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "gauss_4", "lobatto_iiic_3",
+                             "lobatto_iiid_4", "radau_ia_3"}) {
     for (const double h : {0.5, 0.05}) {
       OneStep step(Riccati{}, movingRiccati(), method, h);
       const double f0 = std::cos(0.7), J = -2 * (1.5 + std::sin(0.7));  // f and df/dy = -2 y
@@ -166,15 +171,35 @@ TEST(EmbeddedEstimate, SecondOrderSystemsHaveTheEstimateOfTheirFirstOrderForm) {
 
 TEST(EmbeddedEstimate, HasOrderS) {
   const auto start = movingRiccati();
-  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "lobatto_iiic_3"}) {
+  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "lobatto_iiic_3", "radau_ia_4"}) {
     std::vector<double> steps, errors;
     for (const double h : {0.08, 0.06, 0.04, 0.03}) {
       OneStep step(Riccati{}, start, method, h);
       steps.push_back(h);
       errors.push_back(step.error());
     }
-    const double s = static_cast<double>(makeTableau<double>(method).stages());
-    EXPECT_NEAR(slope(steps, errors), s + 1, 0.3) << method;
+    const auto tableau = makeTableau<double>(method);
+    const double order = static_cast<double>(tableau.stages()) - (tableau.c[0] == 0 ? 1 : 0);
+    EXPECT_NEAR(slope(steps, errors), order + 1, 0.3) << method;
+    EXPECT_EQ(EmbeddedEstimate<double>::order(tableau), order) << method;
+  }
+}
+
+/// x' = cos(20 t): nothing but an input.
+struct Input {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    r.x[0] = cos(20.0 * p.t) - p.k[0];
+  }
+};
+
+// A polynomial through a stage at the start would have no defect there.
+TEST(EmbeddedEstimate, SeesAnInputAlsoWithAStageAtTheStart) {
+  for (const char* method : {"radau_iia_3", "gauss_3", "radau_ia_3", "lobatto_iiic_3", "lobatto_iiid_3"}) {
+    OneStep step(Input{}, State<double>(Input{}.sizes()), method, 0.3);
+    EXPECT_GT(step.error() * 1e-12, std::abs(step.end().x[0] - std::sin(6.0) / 20)) << method;
   }
 }
 

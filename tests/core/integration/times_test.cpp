@@ -138,5 +138,37 @@ TEST(Times, KinksNeedNoModeInAnyFormulation) {
   }
 }
 
+/// x' = sin^2(pi (t - 1) / 4) from t = 1 to 9, else 0: x(10) = 4. The input vanishes at 1, 5 and 9, which are the nodes
+/// of a step of length 8 with three Lobatto stages.
+struct Asleep {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    const T s = sin((3.14159265358979323846 / 4) * (p.t - 1.0));
+    r.x[0] = p.d[0] * s * s - p.k[0];
+  }
+  std::vector<double> times() const { return {1, 9}; }
+  template <class T>
+  void onTime(Index i, const Point<T>&, T* d) const {
+    d[0] = i == 0 ? 1.0 : 0.0;
+  }
+};
+
+TEST(Times, AnInputThatVanishesAtAllNodesIsSeen) {
+  for (const char* method : {"lobatto_iiid_3", "lobatto_iiic_3", "lobatto_iiic_2", "radau_ia_3", "radau_iia_3"}) {
+    for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kDoubling, ErrorEstimate::kEmbedded}) {
+      IntegratorOptions options;
+      options.step.estimate = estimate;
+      options.tolerances = {1e-6, 1e-6};
+      options.step.h = 10;
+      Integrator<double> integrator(makeSystem<double>(Asleep{}), makeTableau<double>(method), options);
+      const auto solution = integrator.integrate(State<double>(Asleep{}.sizes()), 10);
+      ASSERT_EQ(solution.outcome, Outcome::kSuccess) << method << ' ' << solution.detail;
+      EXPECT_NEAR(solution.state.x[0], 4, 4e-4) << method;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace irk::test

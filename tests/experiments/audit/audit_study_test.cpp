@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
 #include "experiments/study/study_reader.h"
+#include "irk/collections.h"
 #include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"
 
@@ -36,6 +38,25 @@ TEST(Audit, StudyDrawsInsteadOfBlocks) {
       containsAll(misuseOf([&] { study("[audit]\nrun = 3\n", StudyVariant::kFull); }), {"audit.toml", "run", "runs"}));
   EXPECT_TRUE(
       containsAll(misuseOf([&] { study("[audit]\n[[block]]\nscene='hires'\n", StudyVariant::kFull); }), {"[[block]]"}));
+}
+
+TEST(Audit, DrawsAmongTheScenesThatAreAskedFor) {
+  const auto study = [](const std::string& scenes) {
+    return parseStudy("[audit]\nruns = 40\nscene = " + scenes + "\n", "audit.toml", StudyVariant::kFull);
+  };
+  const auto drawn = [&](const std::string& scenes) {
+    std::set<std::string> ids;
+    for (const auto& series : study(scenes).series) ids.insert(series.runs[0].scene);
+    return ids;
+  };
+  EXPECT_EQ(drawn("'pendulum'"), std::set<std::string>{"pendulum"});
+  EXPECT_EQ(drawn("['pendulum', 'kepler']"), (std::set<std::string>{"pendulum", "kepler"}));
+  for (const auto& id : drawn("'@switching'")) {
+    const auto scenes = scenesOf("switching");
+    EXPECT_NE(std::find(scenes.begin(), scenes.end(), id), scenes.end()) << id;
+  }
+  EXPECT_TRUE(containsAll(misuseOf([&] { study("['pendulum', 'pendulun']"); }), {"audit.toml:3", "pendulun"}));
+  EXPECT_TRUE(containsAll(misuseOf([&] { study("'@nosuch'"); }), {"audit.toml:3", "nosuch"}));
 }
 
 constexpr const char* kSmall = "title = 'small'\n[audit]\nruns = 60\ntime_limit = 0.5\n";

@@ -168,20 +168,26 @@ TEST(Run, IntegratesFromAnotherStart) {
 
 // A table of synthetic judgements.
 Table judgements(const std::vector<std::vector<std::string>>& rows) {
-  return {
-      {},
-      {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command"},
-      rows};
+  return {{},
+          {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command",
+           "accumulated"},
+          rows};
+}
+
+TEST(AuditJudge, ErrorsAddUpOverStepsAndGrowWithKappa) {
+  EXPECT_DOUBLE_EQ(accumulated(100, 5, 1e-6), 5e-4);
+  EXPECT_DOUBLE_EQ(accumulated(100, 0.01, 1e-6), 1e-4) << "a step's own error does not shrink below a tolerance";
+  EXPECT_TRUE(std::isnan(accumulated(100, kUnknown, 1e-6)));
 }
 
 TEST(AuditSummary, CountsAndSortsByExcess) {
   const Table audit = judgements({
-      {"default", "default", "hires", "gauss", "index2", "right", "0", "1e-3", "a"},
-      {"default", "ignore", "hires", "gauss", "index2", "wrong", "9", "1e-3", "nine times the bar"},
-      {"default", "locate", "kaps", "gauss", "index2", "wrong", "5e-3", "1e-6", "five times"},
-      {"paper", "no switches", "kaps", "radau_ia", "ggl", "unjudged", "nan", "1e-6", "d"},
-      {"paper", "smooth", "kaps", "radau_ia", "ggl", "ill_conditioned", "nan", "1e-6", "e"},
-      {"paper", "iterate", "kaps", "radau_ia", "ggl", "failed", "nan", "1e-6", "f"},
+      {"default", "default", "hires", "gauss", "index2", "right", "0", "1e-3", "a", "1"},
+      {"default", "ignore", "hires", "gauss", "index2", "wrong", "9", "1e-3", "nine times the bar", "8"},
+      {"default", "locate", "kaps", "gauss", "index2", "wrong", "5e-3", "1e-6", "five times", "6e-3"},
+      {"paper", "no switches", "kaps", "radau_ia", "ggl", "unjudged", "nan", "1e-6", "d", "nan"},
+      {"paper", "smooth", "kaps", "radau_ia", "ggl", "ill_conditioned", "nan", "1e-6", "e", "nan"},
+      {"paper", "iterate", "kaps", "radau_ia", "ggl", "failed", "nan", "1e-6", "f", "nan"},
   });
   const Table summary = summaryTable(audit);
   const auto row = [&](const std::string& by, const std::string& group) {
@@ -199,6 +205,7 @@ TEST(AuditSummary, CountsAndSortsByExcess) {
   EXPECT_EQ(row("formulation", "ggl"), (TableRow{"3", "0", "1", "0", "1", "1"}));
   const std::string text = summaryText(audit, summary, 2);
   ASSERT_NE(text.find("five times"), text.npos);
+  EXPECT_NE(text.find("1 of 2 wrong successes are off by more"), text.npos) << text;
   EXPECT_LT(text.find("nine times the bar"), text.find("five times"));
   EXPECT_EQ(summaryText(audit, summary, 1).find("five times"), std::string::npos);
 }

@@ -49,5 +49,48 @@ TEST(StudySentences, FailuresNameTheFamilies) {
   EXPECT_EQ(familiesFailSentence(runs), "No run fails.");
 }
 
+TEST(StudySentences, PhasesNameTheLargestPartOfSmallAndLargeSystems) {
+  const std::vector<std::string> columns{
+      "solver",       "n",          "share_residual", "share_jacobian", "share_factorization", "share_solve",
+      "share_update", "share_step", "share_start"};
+  const Table phases{{},
+                     columns,
+                     {{"coupled_dense", "200", "0.1", "0", "0.9", "0", "0", "0", "0"},
+                      {"coupled_dense", "3", "0.5", "0", "0.2", "0", "0", "0", "0.3"},
+                      {"coupled_dense", "3", "0.3", "0", "0.2", "0", "0", "0", "0.5"},
+                      {"coupled_dense", "3", "0.6", "0", "0.2", "0", "0", "0", "0.2"},
+                      {"schur", "3", "0.1", "0", "0.2", "0.6", "0", "0", "0.1"}}};
+  EXPECT_EQ(
+      phasesSentence(phases),
+      "The part with the largest median share: `coupled_dense` residual (50 %) at n = 3, factorization (90 %) at n = "
+      "200; `schur` solve (60 %) at n = 3.");
+  EXPECT_EQ(phasesSentence({{}, columns, {}}), "");
+}
+
+TEST(StudySentences, EnergyIsComparedBySummation) {
+  const Table energy{{},
+                     {"scene", "summation", "largest"},
+                     {{"kepler", "plain", "3e-14"},
+                      {"kepler", "compensated", "6e-16"},
+                      {"kepler", "plain", "2e-13"},
+                      {"pendulum", "plain", "1e-12"}}};
+  EXPECT_EQ(
+      energySentence(energy),
+      "The largest relative error of the energy: 6e-16 with `compensated` and 2e-13 with `plain` on kepler; 1e-12 with "
+      "`plain` on pendulum.");
+}
+
+TEST(StudySentences, StepsCountTriesOfSuccessfulRuns) {
+  const Table runs{{},
+                   {"method", "outcome", "steps_accepted", "steps_rejected_error", "steps_rejected_newton"},
+                   {{"radau_iia_2", "success", "900", "50", "50"},
+                    {"radau_iia_2", "newton_failed", "5", "9", "9"},
+                    {"radau_iia_5", "success", "30", "5", "5"}}};
+  EXPECT_EQ(stepsSentence(runs),
+            "Steps, as a median: 900 with `radau_iia_2`, 10 % of all tries rejected; 30 with `radau_iia_5`, 25 % of "
+            "all tries "
+            "rejected.");
+}
+
 }  // namespace
 }  // namespace irk::report
