@@ -9,6 +9,7 @@
 #include "core/derivatives/consistent_start.h"
 #include "core/estimates/embedded.h"
 #include "core/integration/constraint_check.h"
+#include "core/integration/rest_check.h"
 #include "core/system/counting.h"
 #include "irk/system_check.h"
 
@@ -96,9 +97,20 @@ void LaneRun::failed(Outcome outcome) {
   h_ = controller_->afterFailure(size_);
 }
 
-bool LaneRun::decide(double estimate, double t, double round_off) {
+double LaneRun::asleep(const State<double>& from, const State<double>& to) {
+  const CountingSystem<double> counted(*member_.system, counters_);
+  ConsistentStart<double> consistent(counted, options_.derivatives, false, &counters_);
+  ErrorNorm<double> norm(*member_.system, options_.tolerances, member_.scale);
+  norm.update(from);
+  return RestCheck<double>(counted, norm, consistent).error(from, to, size_);
+}
+
+bool LaneRun::decide(double estimate, double t, double round_off, const StateOf& from, const StateOf& to) {
   const double factor = accumulation_.factor(use_.accumulates ? steps_ : 0, sum_);
-  const double error = accumulation_.asked(estimate, factor, t, size_);
+  double error = accumulation_.asked(estimate, factor, t, size_);
+  if (mayRest(error, size_, length_)) {
+    if (const double at_rest = asleep(from(), to()); at_rest > 1) error = at_rest;
+  }
   again_ = !(error <= 1);
   const StepDecision decision = controller_->decide(error, size_);
   // A last step cut short says nothing against the size that was asked for.

@@ -1,6 +1,7 @@
 // What one lane of an ensemble decides for itself: step sizes, the end of its run, its result.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -39,7 +40,9 @@ class LaneRun {
   /// The attempt failed: Newton's method or its matrix.
   void failed(Outcome outcome);
   /// The attempt has this estimate. Returns whether the step is accepted; then `newTime` is the time at its end.
-  bool decide(double estimate, double t, double round_off);
+  /// `from` and `to`: the states that it leads from and to, asked for where the system may be at rest.
+  using StateOf = std::function<State<double>()>;
+  bool decide(double estimate, double t, double round_off, const StateOf& from, const StateOf& to);
   double newTime(double t_by_lanes);
   /// Why an accepted step ends the run; kSuccess: it goes on, or is over if t is the end.
   Outcome afterStep() const { return error_sum_.aboveBar() ? Outcome::kInaccurate : Outcome::kSuccess; }
@@ -56,6 +59,7 @@ class LaneRun {
  private:
   double firstStep() const;
   double smallest(double t) const;
+  double asleep(const State<double>& from, const State<double>& to);
 
   EstimateUse use_;
   const IntegratorOptions& options_;

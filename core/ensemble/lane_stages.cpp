@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/estimates/embedded.h"
+
 namespace irk {
 namespace {
 
@@ -59,8 +61,8 @@ LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const s
       nz_(count(sizes.nz)),
       row_powers_(row_powers),
       mu_(mu),
-      start_(scheme.start),
-      integrals_(scheme.A_transposed * scheme.start),
+      start_(EmbeddedEstimate<double>::atStart(scheme)),
+      integrals_(scheme.A_transposed * EmbeddedEstimate<double>::atStart(scheme)),
       b_(scheme.b),
       bA_(scheme.bA),
       t_(count(s_)),

@@ -24,14 +24,13 @@ bool beginsAtStart(const Vec<Real>& c) {
   return std::abs(static_cast<double>(c[0])) < kNone;
 }
 
-// The polynomial through all stages that are not at the start: its weights there.
+// The polynomial through all stages but the first: its weights at the start.
 template <class Real>
-Vec<Real> extrapolationToStart(const Vec<Real>& c) {
-  const Index first = beginsAtStart(c) ? 1 : 0;
+Vec<Real> withoutFirst(const Vec<Real>& c) {
   Vec<Real> weights = Vec<Real>::Zero(c.size());
-  for (Index j = first; j < c.size(); ++j) {
+  for (Index j = 1; j < c.size(); ++j) {
     weights[j] = Real(1);
-    for (Index i = first; i < c.size(); ++i) {
+    for (Index i = 1; i < c.size(); ++i) {
       if (i != j) weights[j] *= c[i] / (c[i] - c[j]);
     }
   }
@@ -44,6 +43,11 @@ template <class Real>
 int EmbeddedEstimate<Real>::order(const Tableau<Real>& tableau) {
   const int stages = static_cast<int>(tableau.stages()) - (beginsAtStart(tableau.c) ? 1 : 0);
   return std::min(stages, tableau.stage_order + 1);
+}
+
+template <class Real>
+Vec<Real> EmbeddedEstimate<Real>::atStart(const Scheme<Real>& scheme) {
+  return beginsAtStart(scheme.c) ? withoutFirst(scheme.c) : scheme.start;
 }
 
 template <class Real>
@@ -71,7 +75,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       row_powers_(system.rowPowers()),
       scales_(sizes_.n()),
       basis_(scheme.s),
-      start_{scheme.start, {}},
+      start_{atStart(scheme), scheme.A_transposed * atStart(scheme)},
       lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
       defect_(sizes_.n()),
       slip_(sizes_.nu),
@@ -79,10 +83,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       error_(sizes_),
       zero_(sizes_),
       ones_(Vec<double>::Ones(sizes_.components())),
-      e_(sizes_.n(), 1) {
-  if (beginsAtStart(scheme.c)) start_.weights = extrapolationToStart(scheme.c);
-  start_.integrals = scheme.A_transposed * start_.weights;
-}
+      e_(sizes_.n(), 1) {}
 
 template <class Real>
 Index EmbeddedEstimate<Real>::worstComponent() const {

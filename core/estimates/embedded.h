@@ -45,6 +45,8 @@ class EmbeddedEstimate {
   /// p of the estimate's error h^(p+1): s (s - 1 with a stage at the start), or one more than the stage order where
   /// that is less.
   static int order(const Tableau<Real>& tableau);
+  /// Weights of the stages in the polynomial K at the step's start.
+  static Vec<Real> atStart(const Scheme<Real>& scheme);
   /// mu of this method.
   static Real weight(const Tableau<Real>& tableau);
 

@@ -13,7 +13,12 @@ constexpr double kRest = 0.1;
 // Of the step: the golden section and its square, far from all fractions with small denominators.
 constexpr double kLooks[] = {0.6180339887498949, 0.3819660112501051};
 
+constexpr double kLong = 0.01;
+constexpr double kHardly = 0.1;
+
 }  // namespace
+
+bool mayRest(double error, double h, double length) { return error < kHardly && h > kLong * length; }
 
 template <class Real>
 RestCheck<Real>::RestCheck(const System<Real>& system, const ErrorNorm<Real>& norm, ConsistentStart<Real>& start)

@@ -6,6 +6,10 @@
 
 namespace irk {
 
+/// Whether a step of size h with this error, in tolerances, is worth a RestCheck: a part of at least a hundredth of the
+/// whole time, and hardly an error.
+bool mayRest(double error, double h, double length);
+
 /// A method sees the equations at its nodes. A system at rest takes long steps, and an input may vanish at all nodes of
 /// one: Lobatto's of three stages, 0, 1/2 and 1, in a step of the length of a sine. Estimates see nothing either, as
 /// all stages agree. Such steps are rare, so that they can afford two more looks. Owns scratch; keeps references.

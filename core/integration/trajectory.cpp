@@ -10,9 +10,6 @@
 namespace irk {
 namespace {
 
-// The system may be at rest: the error in tolerances is below, and the step's part of the whole time above.
-constexpr double kMovesLittle = 0.1;
-constexpr double kLong = 0.01;
 // Of switches at one time that make others due by the (a, k, z) which follow from them.
 constexpr int kRounds = 5;
 
@@ -115,11 +112,11 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
 
 template <class Real>
 StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
-  StepDecision decision = controller_->decide(result.error, h);
-  if (decision.accept && result.error < kMovesLittle && h > kLong * length_) {
-    const double asleep = rest_.error(state_, next_, h);
-    if (asleep > 1) decision = controller_->decide(asleep, h);
+  double error = result.error;
+  if (mayRest(error, h, length_)) {
+    if (const double asleep = rest_.error(state_, next_, h); asleep > 1) error = asleep;
   }
+  const StepDecision decision = controller_->decide(error, h);
   if (!decision.accept) last_rejection_ = "the error";
   return decision;
 }
