@@ -159,7 +159,7 @@ Solution<double> LaneRun::success(State<double> state) {
   return {outcome, note, system.toScene(state), counters_};
 }
 
-Solution<double> LaneRun::failure(Outcome outcome, State<double> state) const {
+Solution<double> LaneRun::failure(Outcome outcome, const State<double>& state) const {
   std::ostringstream text;
   text.precision(6);
   if (detail_.empty()) {

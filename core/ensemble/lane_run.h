@@ -50,7 +50,7 @@ class LaneRun {
 
   /// The result of a run that has reached its end with `state`, or has failed before.
   Solution<double> success(State<double> state);
-  Solution<double> failure(Outcome outcome, State<double> state) const;
+  Solution<double> failure(Outcome outcome, const State<double>& state) const;
 
   std::size_t index() const { return index_; }
   const EnsembleMember& member() const { return member_; }
