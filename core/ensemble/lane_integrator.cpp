@@ -140,9 +140,9 @@ class LaneIntegrator::Run {
     forEachLane(active_, [&](std::size_t i) {
       const bool known = solved.solved[i] && std::isfinite(error[i]);
       if (known) {
-        const auto before = [&] { return from.get(i, sizes); };
-        const auto after = [&] { return to.get(i, sizes); };
-        if (runs_[i].decide(error[i], from.t[i], solved.round_off[i], before, after)) accepted.set(i, true);
+        const auto before = [&] { return vectors_->from.get(i, vectors_->sizes); };
+        const auto after = [&] { return vectors_->to.get(i, vectors_->sizes); };
+        if (runs_[i].decide(error[i], vectors_->from.t[i], solved.round_off[i], before, after)) accepted.set(i, true);
       } else {
         runs_[i].failed(solved.solved[i] ? Outcome::kNotFinite : solved.outcome[i]);
         past_.set(i, false);
