@@ -114,6 +114,7 @@ Ensemble EnsembleScene::lanes() const {
   } else {
     ensemble.lanes = [this](const std::array<std::size_t, kLanes>& at) {
       std::vector<Settings> settings;
+      settings.reserve(at.size());
       for (const std::size_t i : at) settings.push_back(settingsOf(i));
       return makeLanes(entry_, settings, system_options_);
     };
