@@ -35,7 +35,7 @@ inline ComplexLanes choose(const LaneMask& mask, const ComplexLanes& yes, const 
 
 }  // namespace detail
 
-/// What a factorization came to, by lanes.
+/// The result of a factorization, by lanes.
 struct LaneFactors {
   LaneMask singular, not_finite;
   LaneMask failed() const { return singular | not_finite; }

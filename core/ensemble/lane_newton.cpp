@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/newton/newton_base.h"
-
 namespace irk {
 namespace {
 
@@ -22,10 +20,8 @@ Lanes power(Lanes x, int n) {
   return result;
 }
 
-double kappaOf(const IntegratorOptions& options, double stages, double floor) {
-  const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
-  const double kappa = options.newton.kappa;
-  return std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (stages - 1) / (stages + 1))));
+Lanes etaOf(const Lanes& theta) {
+  return select(less(theta, 1.0), theta / (1.0 - theta), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
@@ -33,7 +29,7 @@ double kappaOf(const IntegratorOptions& options, double stages, double floor) {
 LaneNewton::LaneNewton(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers,
                        const IntegratorOptions& options, double mu)
     : s_(scheme.s),
-      kappa_(kappaOf(options, static_cast<double>(scheme.s), kRoundOffUnits * unitRoundOff<double>(options))),
+      stop_(incrementLimit<double>(options, scheme.s)),
       round_off_(unitRoundOff<double>(options)),
       keep_below_(options.newton.keep_jacobian_below),
       limit_(options.newton.max_iterations),
@@ -52,11 +48,13 @@ void LaneNewton::restart(std::size_t i) {
   factorized_.set(i, false);
   eta_.set(i, 1);
   theta_.set(i, 1);
+  slowest_.set(i, 0);
 }
 
 void LaneNewton::forget(const LaneMask& which) {
   eta_ = select(which, 1.0, eta_);
   theta_ = select(which, 1.0, theta_);
+  slowest_ = select(which, 0.0, slowest_);
 }
 
 // All lanes are differentiated: the arithmetic is the same for one.
@@ -128,17 +126,19 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
     LaneMask ends;
     if (m == 0) {
       const Lanes eta = largest(eta_, roundOff<double>());
-      const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / kappa_, 5), 1.0);
+      const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / stop_.kappa, 5), 1.0);
       done = (done | small) & running;
       forEachLane(done, [&](std::size_t i) { eta_.set(i, std::pow(eta[i], 0.8)); });
     } else {
       const Lanes theta = select(less(0.0, previous), norm / previous, 0.0);
       theta_ = select(running, theta, theta_);
       ends = running & lessOrEqual(0.5, theta) & lessOrEqual(norm, kStagnationUnits * round_off_);
-      const Lanes eta = select(less(theta, 1.0), theta / (1.0 - theta), std::numeric_limits<double>::infinity());
-      const LaneMask slow = less(kappa_, power(theta, limit_ - 1 - m) * eta * norm);
+      Lanes eta = etaOf(theta);
+      const LaneMask slow = less(stop_.kappa, power(theta, limit_ - 1 - m) * eta * norm);
       const LaneMask hopeless = running & ~ends & (lessOrEqual(0.99, theta) | slow);
-      done = (done | lessOrEqual(eta * norm, kappa_)) & running & ~ends & ~hopeless;
+      if (stop_.by_round_off) eta = etaOf(largest(theta, slowest_));
+      if (m > 1) slowest_ = select(running & ~ends & ~hopeless, theta, slowest_);
+      done = (done | lessOrEqual(eta * norm, stop_.kappa)) & running & ~ends & ~hopeless;
       eta_ = select(done, eta, eta_);
       if (hopeless.any()) {
         const LaneMask rounded = isRoundOff(c, hopeless, norm);

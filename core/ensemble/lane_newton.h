@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "core/ensemble/lane_stages.h"
+#include "core/newton/newton_base.h"
 #include "irk/outcome.h"
 
 namespace irk {
 
-/// What the stages of a step came to, by lanes.
+/// The result of solving the stages of a step, by lanes.
 struct LaneSolved {
   LaneMask solved;
   std::array<Outcome, kLanes> outcome{};  ///< of the lanes that were asked for and are not solved
@@ -25,7 +26,7 @@ class LaneNewton {
 
   /// A new system in lane i.
   void restart(std::size_t i);
-  /// Lanes whose last attempt failed: nothing of it is of use.
+  /// Lanes whose last attempt failed: forgets this attempt.
   void forget(const LaneMask& which);
 
   /// One step of size h from the states `from`, in the lanes of `which`. W: start values in, solutions out.
@@ -54,7 +55,8 @@ class LaneNewton {
   void fail(Context& c, const LaneMask& which, Outcome outcome);
 
   Index s_;
-  double kappa_, round_off_, keep_below_;
+  IncrementLimit stop_;
+  double round_off_, keep_below_;
   int limit_;
   LaneJacobian jacobian_;
   LaneMatrix matrix_;
@@ -63,6 +65,7 @@ class LaneNewton {
   Lanes jacobian_t_, factors_h_;  // where these come from
   Lanes eta_;                     // of the last solved step, see SimplifiedNewton
   Lanes theta_;                   // the last contraction
+  Lanes slowest_;                 // see SimplifiedNewton
   std::vector<Lanes> W0_, R_, R0_, change_, moved_;
 };
 

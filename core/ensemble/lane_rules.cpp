@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/estimates/accumulation.h"
+#include "core/options/fixed_steps.h"
 #include "irk/ensemble.h"
 #include "irk/system_check.h"
 
@@ -48,7 +49,7 @@ IntegratorOptions legalInLanes(const IntegratorOptions& options) {
   requireSame(options.order, lanes.order);
   requireSame(options.step.estimate, lanes.step.estimate);
   requireSame(options.tolerances.norm, lanes.tolerances.norm);
-  if (options.step.control == StepControl::kFixed) {
+  if (hasFixedSteps(options.step)) {
     throw Misuse("an ensemble in lanes with control 'fixed': lanes choose their steps by the error estimate");
   }
   return lanes;

@@ -1,4 +1,4 @@
-// What lanes can integrate. Each function throws Misuse that names the option, the method or the property.
+// The limits of lanes. Each function throws Misuse that names the option, the method or the property.
 #pragma once
 
 #include "core/stages/scheme.h"

@@ -113,7 +113,7 @@ bool LaneRun::decide(double estimate, double t, double round_off, const StateOf&
   }
   again_ = !(error <= 1);
   const StepDecision decision = controller_->decide(error, size_);
-  // A last step cut short says nothing against the size that was asked for.
+  // A last step that was cut short does not reduce the size of the next one.
   h_ = std::min(last_ && decision.accept ? std::max(h_, decision.h) : decision.h, options_.step.h_max);
   if (!decision.accept) {
     ++counters_.steps_rejected_error;

@@ -1,23 +1,15 @@
 // The Newton methods that come with the library.
-#include "core/newton/residual_newton.h"
-#include "core/newton/simplified_newton.h"
-#include "core/newton/step_reuse.h"
+#include "core/newton/newton.h"
+#include "core/options/entries.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 
 IRK_STRATEGIES(NewtonKind, "newton")
 
-template <>
-Catalogue<NewtonKind>& catalogue<NewtonKind>() {
-  static Catalogue<NewtonKind> all([] {
-    std::vector<Strategy<NewtonKind>> entries{simplifiedNewton(),   broydenNewton(),   modifiedNewton(),
-                                              modifiedOnlyNewton(), paperRuleNewton(), fullNewton()};
-    for (auto& entry : newtonWithReuseByStep()) entries.push_back(std::move(entry));
-    return entries;
-  }());
-  return all;
-}
+IRK_CATALOGUE(NewtonKind, simplifiedNewton(), broydenNewton(), modifiedNewton(), modifiedOnlyNewton(),
+              paperRuleNewton(), fullNewton(), modifiedNewtonEachStep(), modifiedNewtonAtStepChange(),
+              broydenNewtonEachStep(), broydenNewtonAtStepChange())
 
 template <class Real>
 std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,

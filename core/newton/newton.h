@@ -43,7 +43,7 @@ class Newton {
   /// W (n x s): start values in, solution out (unspecified after a failure). The columns of explicit
   /// stages are not touched.
   [[nodiscard]] virtual NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) = 0;
-  /// What was learnt of the contraction says nothing of the next step: a start, a failure, a new mode.
+  /// Forgets the contraction, which says nothing about the next step after a start, a failure or a new mode.
   virtual void forget() {}
 };
 

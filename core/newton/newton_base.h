@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/newton/broyden.h"
 #include "core/newton/newton.h"
@@ -22,6 +23,22 @@ inline constexpr double kStagnationUnits = 1e4;
 template <class Real>
 double unitRoundOff(const IntegratorOptions& options) {
   return roundOff<Real>() / std::max(options.tolerances.rtol, options.tolerances.atol);
+}
+
+/// What eta |dw| has to fall below, HW II (IV.8), in tolerances.
+struct IncrementLimit {
+  double kappa;
+  bool by_round_off;  ///< less would be wanted, but increments do not become smaller than round-off
+};
+/// kappa shrinks with s: at high order a loose stage equation spoils the step.
+template <class Real>
+IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
+  const double floor = kRoundOffUnits * unitRoundOff<Real>(options);
+  const double s = static_cast<double>(stages);
+  const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
+  const double kappa = options.newton.kappa;
+  const double wanted = kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1)));
+  return {std::max(floor, wanted), floor > wanted};
 }
 
 /// Iterations that share their pieces: residual, solve, update.

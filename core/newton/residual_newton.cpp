@@ -105,7 +105,7 @@ class ModifiedNewton : public ResidualNewton<Real> {
   bool full_at_last_;
 };
 
-/// The modified method alone: what it cannot solve fails.
+/// The modified method without its last resort: a step that it cannot solve fails.
 template <class Real>
 class ModifiedOnlyNewton final : public ModifiedNewton<Real> {
  public:

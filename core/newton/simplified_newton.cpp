@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/newton/newton_base.h"
+#include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -21,41 +22,40 @@ double power(double x, int n) {
   return result;
 }
 
-// Round-off up to this many tolerances is accepted, and told; increments up to so many times the measured
-// round-off are round-off.
+// Round-off up to kMaxRoundOff tolerances is accepted and reported. Increments up to kMeasuredRoundOff times the
+// measured round-off count as round-off.
 constexpr double kMaxRoundOff = 0.3;
 constexpr double kMeasuredRoundOff = 10;
-// The change of the last digits that shows round-off, in units of it.
+// To measure round-off, numbers are changed by this many units of it.
 constexpr double kLastDigits = 4;
 
 // Broyden's updates cost dot products: below this contraction of the last step there are too few
 // iterations for them.
 constexpr double kWorthUpdates = 0.1;
-// And for fewer unknowns an iteration costs less than they do (van_der_pol: a tenth of the run).
+// With fewer unknowns an iteration costs less than the updates (van_der_pol: a tenth of the run).
 constexpr Index kUpdatesFrom = 3;
 
-// Fixed steps iterate to round-off and cannot be shortened: slow convergence is waited for.
+// Fixed steps cannot be shortened: Newton's method gets this many times the iterations.
 constexpr int kFixedStepFactor = 4;
 
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
 /// The last step's eta, raised to 0.8, stands in for the first iteration, where theta is unknown.
 /// With Broyden's updates the theta that is reported is the first one, the matrix' own.
+///
+/// The first theta tells how fast the error of the start values goes, which need not contain what the matrix solves
+/// worst: that shows from the third increment on. Where kappa is limited by round-off (tight tolerances, fixed steps)
+/// the theta of the last step's last increment counts as well: what is left of each step's stage equations has the same
+/// sign in many steps, and no error estimate sees it.
 template <class Real>
 class SimplifiedNewton : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
 
  public:
   SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : Base(options, sizes, scheme) {
-    // kappa shrinks with s: at high order a loose stage equation spoils the step.
-    const double floor = kRoundOffUnits * this->round_off_;
-    const double s = static_cast<double>(scheme.s);
-    const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
-    const double kappa = options.newton.kappa;
-    kappa_ = std::max(floor, kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1))));
-    adaptive_ = options.step.control != StepControl::kFixed;
-  }
+      : Base(options, sizes, scheme),
+        limit_(incrementLimit<Real>(options, scheme.s)),
+        adaptive_(!hasFixedSteps(options.step)) {}
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     auto& shared = c.matrix.shared();
@@ -76,7 +76,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
     }
     return result;
   }
-  void forget() override { eta_ = theta_ = 1; }
+  void forget() override {
+    eta_ = theta_ = 1;
+    slowest_ = 0;
+  }
 
  protected:
   std::optional<BroydenUpdates<Real>> updates_;
@@ -101,15 +104,17 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (!updates_ || m == 1) result.theta = theta_ = theta;
         // At round-off increments no longer contract; above it this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
-        eta = theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
-        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa_;
+        eta = etaOf(theta);
+        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > limit_.kappa;
         if (theta >= 0.99 || slow) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
           return result;
         }
+        if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
+        if (m > 1) slowest_ = theta;
       }
-      if (eta * norm <= kappa_ || norm <= kRoundOffUnits * this->round_off_) {
+      if (eta * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = eta;
         return result;
       }
@@ -117,6 +122,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (updates_) updates_->learn(this->implicit(), this->row_weights_);
     }
     return fail(result, Outcome::kNewtonFailed);
+  }
+  static double etaOf(double theta) {
+    return theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
   }
   // Whether an increment that no longer contracts is round-off of the residual: the part of the increment
   // that is not explained by a change of w in the last digits of what it is added to. A residual with a
@@ -155,9 +163,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
     return result;
   }
 
-  double kappa_;
+  IncrementLimit limit_;
   bool adaptive_;
   double eta_ = 1, theta_ = 1;
+  double slowest_ = 0;  // theta of the last step's third or later increment
 };
 
 /// With Broyden's updates of the matrix.

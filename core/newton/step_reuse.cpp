@@ -1,5 +1,5 @@
-#include "core/newton/step_reuse.h"
-
+// Newton methods that keep their Jacobian for another step by rule, whatever the contraction is: they measure what
+// reuse gains.
 #include <optional>
 #include <utility>
 
@@ -15,8 +15,8 @@ enum class Reuse {
   kAcrossStepChange,  ///< unless its size is not that of the attempt before
 };
 
-/// Another Newton method that is told when its Jacobian is stale. What does not converge with a kept one begins again
-/// with a new one, as it always does. Half steps keep the Jacobian of their attempt.
+/// Tells another Newton method when its Jacobian is stale. A solve that does not converge with a kept Jacobian begins
+/// again with a new one, as usual. Half steps keep the Jacobian of their attempt.
 template <class Real>
 class ReuseByStep final : public Newton<Real> {
  public:
@@ -60,20 +60,24 @@ Strategy<NewtonKind> withReuse(Strategy<NewtonKind> method, std::string_view id,
   return method;
 }
 
+Strategy<NewtonKind> eachStep(Strategy<NewtonKind> method, std::string_view id, const std::string& whose) {
+  return withReuse(std::move(method), id, Reuse::kNever, whose + " with a new Jacobian in every step");
+}
+
+Strategy<NewtonKind> atStepChange(Strategy<NewtonKind> method, std::string_view id, const std::string& whose) {
+  return withReuse(std::move(method), id, Reuse::kAcrossStepChange,
+                   whose + " with a Jacobian that is kept only where the step size changes");
+}
+
 }  // namespace
 
-std::vector<Strategy<NewtonKind>> newtonWithReuseByStep() {
-  const auto never = [](Strategy<NewtonKind> method, std::string_view id, const std::string& whose) {
-    return withReuse(std::move(method), id, Reuse::kNever, whose + " with a new Jacobian in every step");
-  };
-  const auto across = [](Strategy<NewtonKind> method, std::string_view id, const std::string& whose) {
-    return withReuse(std::move(method), id, Reuse::kAcrossStepChange,
-                     whose + " with a Jacobian that is kept only where the step size changes");
-  };
-  return {never(modifiedNewton(), "modified_each_step", "modified"),
-          across(modifiedNewton(), "modified_step_change", "modified"),
-          never(broydenNewton(), "broyden_each_step", "broyden"),
-          across(broydenNewton(), "broyden_step_change", "broyden")};
+Strategy<NewtonKind> modifiedNewtonEachStep() { return eachStep(modifiedNewton(), "modified_each_step", "modified"); }
+Strategy<NewtonKind> modifiedNewtonAtStepChange() {
+  return atStepChange(modifiedNewton(), "modified_step_change", "modified");
+}
+Strategy<NewtonKind> broydenNewtonEachStep() { return eachStep(broydenNewton(), "broyden_each_step", "broyden"); }
+Strategy<NewtonKind> broydenNewtonAtStepChange() {
+  return atStepChange(broydenNewton(), "broyden_step_change", "broyden");
 }
 
 }  // namespace irk

@@ -1,4 +1,4 @@
-// What is known of a step that was tried.
+// The result of a step that was tried.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@ struct StepResult {
   Index switched = -1;   ///< the last switch done at the step's end, or the one to blame
   /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
-  /// Of a step in which a switch becomes due, in the error norm: what the wrong mode does over the
+  /// Of a step in which a switch becomes due, in the error norm: the effect of the wrong mode over the
   /// whole step. `iterate`: the difference between the step in its first mode and in its last; where
   /// the switch comes and goes inside the step, h times the change of (a, k) that it makes. `ignore`
   /// and `smooth` with an estimate that sees switches: h times the largest change of (a, k) in the step.
@@ -25,8 +25,8 @@ struct StepResult {
 
 /// With its error estimate.
 struct AttemptResult : StepResult {
-  /// Estimate in the error norm, accepted up to 1; NaN without one. Of variable order: times what is
-  /// asked of the member.
+  /// Estimate in the error norm, accepted up to 1; NaN without one. With variable order it is multiplied
+  /// by the member's strictness (core/control/order_controller.h).
   double error = 0;
   /// What an accepted step adds to the error of the result, in tolerances; 0 where it is far below the estimate.
   double added = 0;

@@ -10,6 +10,7 @@
 #include "irk/integrator.h"
 #include "irk/problem.h"
 #include "irk/tableaus.h"
+#include "tests/core/problems.h"
 
 namespace irk::test {
 
@@ -25,23 +26,6 @@ struct ForcedOscillator {
     r.x[1] = mu * ((1 - p.x[0] * p.x[0]) * p.x[1] - p.x[0]) + cos(p.t) - p.k[1];
   }
   static void start(State<double>& s, double) { s.x << 1.5, 0; }
-};
-
-/// A pendulum in Cartesian coordinates whose length is its parameter.
-template <class Real>
-struct LongPendulum {
-  Real l;
-  Sizes sizes() const { return {.nu = 2, .nz = 1, .constraints = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = -p.a[0] - p.u[0] * p.z[0];
-    r.u[1] = -p.a[1] - 9.81 - p.u[1] * p.z[0];
-  }
-  template <class T, class U, class G>
-  void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] - l * l) * 0.5;
-  }
-  static void start(State<double>& s, double l) { s.u << l, 0; }
 };
 
 /// y' = c y^2 with y(0) = 1: infinite at t = 1 / c.
