@@ -1,4 +1,4 @@
-// What an error estimate is multiplied by before it is compared with the tolerance.
+// Factors by which error estimates are multiplied before they are compared with the tolerance.
 #pragma once
 
 #include <algorithm>
@@ -27,11 +27,11 @@ double stiffCaution(const Scheme<Real>& scheme) {
   return as_accurate && dampsStiffErrors(scheme) ? 1 : kCaution;
 }
 
-/// Errors of many steps add up: `caution` in the first kFree steps, then more, so that the errors of N steps
-/// add up to kFree (1 + log(N / kFree)) tolerances instead of N; but no more than the errors of the steps so far ask
-/// for: where they are far below the tolerance anyway, they are not made smaller still. For estimates of higher order
-/// than the step's own nothing is needed: there the true error is far below them. At most kMax, and not below kFinest:
-/// there round-off begins.
+/// A factor for the errors of many steps, which add up. It is `caution` in the first kFree steps and then grows, so
+/// that the errors of N steps add up to kFree (1 + log(N / kFree)) tolerances instead of N. It grows only as far as the
+/// errors of the steps so far require: errors far below the tolerance are not made smaller. Steps of a higher order
+/// than their estimate need no such factor: their true error is far below the estimate. The factor is at most kMax, and
+/// it asks for no error below kFinest, where round-off begins.
 class Accumulation {
  public:
   Accumulation(double caution, const Tolerances& tolerances)
@@ -65,7 +65,8 @@ class Accumulation {
 };
 
 /// The estimated errors of all steps, added up: where errors of stiff components decay the result is better, where
-/// the motion amplifies them it is worse. Above the bar nothing speaks for the result.
+/// the motion amplifies them it is worse. Above the bar nothing speaks for the result. A success should be right to
+/// 1000 tolerances and 1e-9; the bar is a fifth of that, since a motion amplifies errors a few times as a rule.
 class ErrorSum {
  public:
   explicit ErrorSum(const Tolerances& tolerances)
@@ -76,7 +77,7 @@ class ErrorSum {
   bool aboveBar() const { return sum_ > bar_; }
 
  private:
-  static constexpr double kBar = 1000, kRoundOff = 1e-9;  // tolerances; absolute
+  static constexpr double kBar = 200, kRoundOff = 2e-10;  // tolerances; absolute
   double bar_, sum_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "core/estimates/accumulation.h"
 #include "core/integration/rules.h"
 #include "core/integration/trajectory.h"
+#include "core/options/fixed_steps.h"
 #include "core/system/counting.h"
 #include "core/system/first_order.h"
 #include "irk/multiprecision.h"
@@ -29,7 +30,7 @@ IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, c
                         std::size_t start) {
   validate(options);
   requireLegal(options);
-  if (options.step.control == StepControl::kFixed) {
+  if (hasFixedSteps(options.step)) {
     options.step.estimate = ErrorEstimate::kNone;
     options.tolerances = {1, 1, NormKind::kMixed};
     options.newton.kappa = std::numeric_limits<double>::min();
@@ -91,7 +92,7 @@ class Integrator<Real>::Run {
     beginTimes(start.t, t_end);
     const Outcome outcome = trajectory_.begin(start, length_, monitor);
     if (outcome != Outcome::kSuccess) return trajectory_.failed(outcome, 0, "no step taken");
-    const bool fixed = options_.step.control == StepControl::kFixed;
+    const bool fixed = hasFixedSteps(options_.step);
     const Stop stop = fixed ? fixedSteps(t_end) : adaptiveSteps(t_end);
     return stop ? trajectory_.failed(stop.outcome, stop.h, stop.what) : trajectory_.success();
   }
@@ -183,7 +184,7 @@ class Integrator<Real>::Run {
       return {};
     }
     const StepDecision decision = trajectory_.decide(result, size);
-    // A last step cut short says nothing against the size that was asked for.
+    // A last step that was cut short does not reduce the size of the next one.
     h = std::min(last && decision.accept ? std::max(h, decision.h) : decision.h, options_.step.h_max);
     if (!decision.accept) {
       ++counters_.steps_rejected_error;
@@ -216,6 +217,7 @@ class Integrator<Real>::Run {
   Stop cannotGoOn(std::int64_t attempts, double h, const Real& t_end) {
     const std::int64_t left = options_.step.max_steps - attempts;
     if (left == 0) return {Outcome::kMaxSteps, h, "too many steps"};
+    if (!(h > 0)) return {too_small_, h, "the step control chose no size > 0 " + trajectory_.rejections()};
     if (h < smallestSize()) return {too_small_, h, "step too small " + trajectory_.rejections()};
     const bool stalls =
         attempts > 0 && stall_.attempted(static_cast<double>(state().t), h, static_cast<double>(t_end), left);
@@ -249,7 +251,7 @@ class Integrator<Real>::Run {
   }
   double smallestSize() const { return std::max(options_.step.h_min, resolvedSize()); }
 
-  // What is left after a switch next to the end is no step.
+  // The rest after a switch next to the end is too short for a step.
   void reach(const Real& end) {
     if (state().t < end && static_cast<double>(Real(end - state().t)) < resolvedSize()) {
       trajectory_.endAt(end);

@@ -12,7 +12,7 @@ bool mayRest(double error, double h, double length);
 
 /// A method sees the equations at its nodes. A system at rest takes long steps, and an input may vanish at all nodes of
 /// one: Lobatto's of three stages, 0, 1/2 and 1, in a step of the length of a sine. Estimates see nothing either, as
-/// all stages agree. Such steps are rare, so that they can afford two more looks. Owns scratch; keeps references.
+/// all stages agree. Such steps are rare, so that two more evaluations cost little. Owns scratch; keeps references.
 template <class Real>
 class RestCheck {
  public:

@@ -7,9 +7,9 @@
 #include <type_traits>
 
 #include "core/control/controller.h"
+#include "core/control/order_controller.h"
 #include "core/derivatives/differentiator.h"
 #include "core/estimates/step_attempt.h"
-#include "core/estimates/variable_order.h"
 #include "core/newton/newton.h"
 #include "core/steps/modes.h"
 #include "core/system/first_order.h"
@@ -109,7 +109,7 @@ constexpr Rule kOptions[] = {
 };
 
 constexpr Rule kSystemsAndMethods[] = {
-    {[](const Facts& f) { return f.start >= f.members || (f.members != 1 && !f.order.several_methods); },
+    {[](const Facts& f) { return f.start >= f.members || (f.members != 1 && !f.order.make); },
      [](const Facts& f) {
        return text("order", f.order.id.id) + " with " + std::to_string(f.members) + " methods, starting with number " +
               std::to_string(f.start) + ": several need order 'variable'";

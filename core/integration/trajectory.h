@@ -34,11 +34,11 @@ class Trajectory {
   AttemptResult attempt(const Real& h);
   /// After a failure that a shorter step may avoid: forgets what was predicted from, and returns the size to try next.
   double shorten(double h);
-  /// What the controller says to the tried step of size h; not with fixed steps.
+  /// The controller's decision on the tried step of size h; not with fixed steps.
   StepDecision decide(const AttemptResult& result, double h);
-  /// Takes over the tried step of size h, which ends at `end`; it may be shortened to the first switch in it. What is
-  /// no success cannot be passed; isRecoverable: the shortened step could not be solved within the tolerance, and
-  /// nothing was taken over.
+  /// Takes over the tried step of size h, which ends at `end`; it may be shortened to the first switch in it. With
+  /// another outcome than kSuccess the switch cannot be passed; if it isRecoverable, the shortened step could not be
+  /// solved within the tolerance, and nothing was taken over.
   [[nodiscard]] Outcome commit(const AttemptResult& result, const Real& h, const Real& end);
   /// After `commit`: the size of the next step where the controller asks for `wanted`. The order may change.
   double nextSize(const AttemptResult& result, double h, double wanted);
@@ -47,13 +47,13 @@ class Trajectory {
   const State<Real>& next() const { return next_; }
   /// At time i of the system's `times`: the mode after it, and a restart.
   [[nodiscard]] Outcome passTime(Index i);
-  /// What is left to t_end after a switch close to it is no step.
+  /// Sets the time to t_end, after a switch so close to it that the rest is too short for a step.
   void endAt(const Real& t_end) { state_.t = t_end; }
 
   /// At the end: kSuccess, or kDrift.
   Solution<Real> success();
   Solution<Real> failed(Outcome outcome, double h, const std::string& what) const;
-  /// What keeps steps small: rejections, and the component with the largest error.
+  /// For messages, why steps are small: rejections, and the component with the largest error.
   std::string rejections() const;
 
  private:

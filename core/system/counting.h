@@ -15,6 +15,7 @@ class CountingSystem final : public System<Real> {
  public:
   CountingSystem(const System<Real>& inner, Counters& counters, int threads = 1)
       : inner_(inner), counters_(counters), threads_(threads) {}
+  const System<Real>& inner() const { return inner_; }
   Sizes sizes() const override { return inner_.sizes(); }
   Sizes sceneSizes() const override { return inner_.sceneSizes(); }
   void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const override {

@@ -47,6 +47,8 @@ class FirstOrderForm final : public System<Real> {
   State<Real> fromScene(const State<Real>& scene) const override;
   State<Real> toScene(const State<Real>& state) const override;
 
+  /// Its states are those of toScene; its constraints hold for the positions of y as well.
+  const System<Real>& inner() const { return *inner_; }
   /// Factorizations of D0 since the last fromScene.
   std::int64_t massFactorizations() const { return factorizations_; }
 

@@ -30,15 +30,18 @@ std::string text(const Real& x) {
 }  // namespace
 
 void requireSizes(const Sizes& n, const Declared& declared) {
-  const auto notNegative = [](const char* name, Index size) {
-    if (size < 0) throw Misuse("sizes: " + std::string(name) + " = " + std::to_string(size) + ": >= 0 is expected");
+  constexpr Index kMost = 10'000'000;  // vectors of far more do not fit into memory
+  const auto requireSize = [](const char* name, Index size) {
+    if (size >= 0 && size <= kMost) return;
+    throw Misuse("sizes: " + std::string(name) + " = " + std::to_string(size) + ": 0 to " + std::to_string(kMost) +
+                 " is expected");
   };
-  notNegative("nu", n.nu);
-  notNegative("nx", n.nx);
-  notNegative("nz", n.nz);
-  notNegative("constraints", n.constraints);
-  notNegative("discrete", n.discrete);
-  notNegative("switches", n.switches);
+  requireSize("nu", n.nu);
+  requireSize("nx", n.nx);
+  requireSize("nz", n.nz);
+  requireSize("constraints", n.constraints);
+  requireSize("discrete", n.discrete);
+  requireSize("switches", n.switches);
   if (n.n() == 0) throw Misuse("sizes: nu = nx = nz = 0: a system has at least one unknown");
   if (n.constraints > n.nz) {
     throw Misuse("sizes: constraints = " + std::to_string(n.constraints) + ": up to nz = " + std::to_string(n.nz) +
@@ -86,8 +89,7 @@ void requireStart(const System<Real>& system, const State<Real>& start, const Re
   if (!isFinite(start.t)) throw Misuse("start: t = " + text(start.t) + ": a finite number is expected");
   if (!isFinite(t_end)) throw Misuse("t_end = " + text(t_end) + ": a finite number is expected");
   if (start.t <= t_end) return;
-  throw Misuse("t_end = " + std::to_string(static_cast<double>(t_end)) +
-               " lies before the start, t = " + std::to_string(static_cast<double>(start.t)));
+  throw Misuse("t_end = " + text(t_end) + " lies before the start, t = " + text(start.t));
 }
 
 template <class Real>

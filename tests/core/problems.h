@@ -20,8 +20,10 @@ struct Riccati {
   }
 };
 
-/// A pendulum of length 1 in Cartesian coordinates, g = 9.81, with one multiplier.
-struct CartesianPendulum {
+/// A pendulum of length l in Cartesian coordinates, g = 9.81, with one multiplier.
+template <class Real>
+struct LongPendulum {
+  Real l{1};
   Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 1, .constraints = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -30,9 +32,12 @@ struct CartesianPendulum {
   }
   template <class T, class U, class G>
   void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] - 1.0) * 0.5;
+    g[0] = (u[0] * u[0] + u[1] * u[1] - l * l) * 0.5;
   }
+  static void start(State<double>& s, double l) { s.u << l, 0; }
 };
+/// Of length 1.
+using CartesianPendulum = LongPendulum<double>;
 
 /// Two coupled nonlinear oscillators with a mass matrix that depends on u: a second-order ODE.
 struct Oscillators {

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "core/control/controller.h"
 #include "core/stages/start_values.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -66,16 +68,6 @@ Solution<double> pendulum(const IntegratorOptions& options) {
                            options);
 }
 
-template <class F>
-std::string refusal(const F& f) {
-  try {
-    f();
-  } catch (const Misuse& misuse) {
-    return misuse.what();
-  }
-  return "not refused";
-}
-
 TEST(Strategies, OnesFromOutsideRunAnIntegration) {
   g_decisions = g_predictions = 0;
   const auto own = pendulum(withBoth(1e-8));
@@ -85,6 +77,37 @@ TEST(Strategies, OnesFromOutsideRunAnIntegration) {
   const auto library = pendulum(adaptive(1e-8));
   EXPECT_LT((own.state.u - library.state.u).norm(), 1e-6);
   EXPECT_NE(own.counters.newton_iterations, library.counters.newton_iterations);
+}
+
+/// Sizes that are no steps.
+class WrongController final : public StepController {
+ public:
+  explicit WrongController(double h) : h_(h) {}
+  StepDecision decide(double, double) override { return {true, h_}; }
+  double afterFailure(double) override { return h_; }
+  void forget() override {}
+  void changeOrder(int, double, double) override {}
+
+ private:
+  double h_;
+};
+
+TEST(Strategies, SizesThatAreNoStepsAreNamed) {
+  static double h = 0;
+  constexpr StepControl kWrong{{"wrong"}};
+  registerStrategy(Strategy<StepControl>{kWrong, "no steps", {.estimate = true}, [](const StepOptions&, int) {
+                                           return std::make_unique<WrongController>(h);
+                                         }});
+  IntegratorOptions options = withBoth(1e-8);
+  options.step.control = kWrong;
+  for (const double size : {std::nan(""), -1.0, 0.0}) {
+    h = size;
+    const auto solution = pendulum(options);
+    EXPECT_NE(solution.outcome, Outcome::kSuccess) << size;
+    EXPECT_EQ(solution.counters.steps_accepted, 1) << size;
+    EXPECT_EQ(solution.counters.steps_rejected_newton, 0) << size;
+    EXPECT_NE(solution.detail.find("the step control chose no size > 0"), std::string::npos) << solution.detail;
+  }
 }
 
 TEST(Strategies, OnesFromOutsideAreFoundByTheirIds) {
@@ -105,7 +128,7 @@ TEST(Strategies, ATakenIdIsRefusedNamingBoth) {
   for (const char* word : {"predictor 'previous'", "nothing is known", "stages of the step before"}) {
     EXPECT_NE(why.find(word), std::string::npos) << why;
   }
-  EXPECT_EQ(refusal([] { pendulum(withBoth(1e-4)); }), "not refused");
+  EXPECT_EQ(refusal([] { pendulum(withBoth(1e-4)); }), "");
   const std::string twice = refusal([] { registerStrategy(zero()); });
   EXPECT_NE(twice.find("taken"), std::string::npos) << twice;
 }

@@ -94,9 +94,17 @@ TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
   }
 }
 
+// The first-order form has no constraints of its own; those of the mechanism in it count.
+TEST(Success, DriftOfTheFirstOrderFormIsAnOutcome) {
+  const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 300, makeTableau<double>("gauss_2"),
+                                   embedded(1e-4), Formulation::kFirstOrder);
+  EXPECT_EQ(s.outcome, Outcome::kDrift) << s.detail;
+  EXPECT_GT(std::abs(s.state.u.norm() - 1), 0.01) << "this motion does not drift, the test tests nothing";
+}
+
 TEST(Success, NoDriftWhereTheToleranceIsKept) {
-  for (const Formulation f : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl,
-                              Formulation::kIndex2Projected}) {
+  for (const Formulation f : {Formulation::kFirstOrder, Formulation::kIndex1, Formulation::kIndex2,
+                              Formulation::kIndex3, Formulation::kGgl, Formulation::kIndex2Projected}) {
     const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 3,
                                      makeTableau<double>("radau_iia_4"), adaptive(1e-7), f);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << idOf(f) << ": " << s.detail;
