@@ -5,8 +5,6 @@
 
 namespace irk {
 
-IRK_STRATEGIES(StepControl, "control")
-
 namespace {
 
 /// Paper, section 6, with the error in units of the tolerance:
@@ -16,7 +14,7 @@ namespace {
 /// only if eps < 1 / s_max, s_max = s_min^2, and at most by `growth_at_most`.
 class PaperController : public StepController {
  public:
-  /// Whether gamma damps the step size, and what the exponent is 1 over, beside the order p.
+  /// Whether gamma damps the step size; the exponent is 1 / (p + beyond_order).
   struct Rules {
     bool gamma = true;
     int beyond_order = 1;
@@ -173,22 +171,25 @@ class PredictiveController final : public StepController {
 
 }  // namespace
 
-template <>
-Catalogue<StepControl>& catalogue<StepControl>() {
-  const Needs estimate{.estimate = true};
-  static Catalogue<StepControl> all({
-      {StepControl::kPredictive, "Gustafsson's, HW II (IV.8.25)", estimate, kConstruct<PredictiveController>},
-      {StepControl::kPaper, "section 6 of the paper", estimate, kConstruct<PaperController>},
-      {{"paper_no_gamma"}, "the paper's, without the factor gamma of (6.3)", estimate, kConstruct<PaperWithoutGamma>},
-      {StepControl::kHotint, "the paper's, as the later source has it", estimate, kConstruct<HotintController>},
-      {StepControl::kFixed, "constant steps", {}, nullptr},
-  });
-  return all;
+Strategy<StepControl> predictiveControl() {
+  return {
+      StepControl::kPredictive, "Gustafsson's, HW II (IV.8.25)", {.estimate = true}, kConstruct<PredictiveController>};
 }
-
-std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
-  const auto& make = catalogue<StepControl>()[options.control].make;
-  return make ? make(options, order) : nullptr;
+Strategy<StepControl> paperControl() {
+  return {StepControl::kPaper, "section 6 of the paper", {.estimate = true}, kConstruct<PaperController>};
 }
+Strategy<StepControl> paperControlWithoutGamma() {
+  return {{"paper_no_gamma"},
+          "the paper's, without the factor gamma of (6.3)",
+          {.estimate = true},
+          kConstruct<PaperWithoutGamma>};
+}
+Strategy<StepControl> hotintControl() {
+  return {StepControl::kHotint,
+          "the paper's, as the later source has it",
+          {.estimate = true},
+          kConstruct<HotintController>};
+}
+Strategy<StepControl> fixedStepControl() { return {StepControl::kFixed, "constant steps", {}, nullptr}; }
 
 }  // namespace irk

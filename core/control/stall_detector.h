@@ -6,9 +6,9 @@
 
 namespace irk {
 
-/// Looks back once per window of attempts: an integration stalls where its largest step has not grown
-/// for kWindows windows, and the rest at the last window's pace needs kFarOut times the attempts that are
-/// still allowed. A transient is over in fewer; what goes on so slowly would end by that limit only.
+/// Looks back once per window of attempts. An integration stalls if its largest step has not grown for kWindows
+/// windows, and if the rest of the interval would need kFarOut times the attempts that are still allowed. Transients
+/// end sooner; without this detector such a run would end by the limit of attempts, much later.
 class StallDetector {
  public:
   void begin(double t) {

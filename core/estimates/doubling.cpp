@@ -7,12 +7,9 @@
 
 #include "core/estimates/accumulation.h"
 #include "core/estimates/embedded.h"
-#include "core/estimates/variable_order.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
-
-IRK_STRATEGIES(ErrorEstimate, "estimate")
 
 namespace {
 
@@ -243,27 +240,28 @@ Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& syst
   return factor;
 }
 
-template <>
-Catalogue<ErrorEstimate>& catalogue<ErrorEstimate>() {
-  static Catalogue<ErrorEstimate> all({
-      {.id = ErrorEstimate::kRichardson,
-       .meaning = "doubling, each component with its own order; sees switches",
-       .sees_switches = true,
-       .own_orders = true,
-       .make = makes<StepAttemptMaker, Doubling>()},
-      {.id = ErrorEstimate::kDoubling,
-       .meaning = "one step against two half steps (paper)",
-       .make = makes<StepAttemptMaker, Doubling>()},
-      {.id = ErrorEstimate::kDoublingScalar,
-       .meaning = "difference of the norms (HOTINT)",
-       .make = makes<StepAttemptMaker, ScalarDoubling>()},
-      embeddedEstimate(),
-      {.id = ErrorEstimate::kNone,
-       .meaning = "no estimate: fixed steps only",
-       .estimates = false,
-       .make = makes<StepAttemptMaker, Single>()},
-  });
-  return all;
+Strategy<ErrorEstimate> richardsonEstimate() {
+  return {.id = ErrorEstimate::kRichardson,
+          .meaning = "doubling, each component with its own order; sees switches",
+          .sees_switches = true,
+          .own_orders = true,
+          .make = makes<StepAttemptMaker, Doubling>()};
+}
+Strategy<ErrorEstimate> doublingEstimate() {
+  return {.id = ErrorEstimate::kDoubling,
+          .meaning = "one step against two half steps (paper)",
+          .make = makes<StepAttemptMaker, Doubling>()};
+}
+Strategy<ErrorEstimate> scalarDoublingEstimate() {
+  return {.id = ErrorEstimate::kDoublingScalar,
+          .meaning = "difference of the norms (HOTINT)",
+          .make = makes<StepAttemptMaker, ScalarDoubling>()};
+}
+Strategy<ErrorEstimate> noEstimate() {
+  return {.id = ErrorEstimate::kNone,
+          .meaning = "no estimate: fixed steps only",
+          .estimates = false,
+          .make = makes<StepAttemptMaker, Single>()};
 }
 
 template Vec<double> doublingFactors(const Scheme<double>&, const System<double>&, ErrorEstimate);

@@ -17,7 +17,7 @@ StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
   return {Mat<Real>::Constant(1, 1, mu), nullptr, system.rowPowers(), system.sizes()};
 }
 
-// The stage is at the step's start: there it sees of an input what the start itself sees.
+// Whether the first stage is at the step's start, where it sees the same input as the start itself.
 template <class Real>
 bool beginsAtStart(const Vec<Real>& c) {
   constexpr double kNone = 1e-10;

@@ -57,7 +57,7 @@ class StepAttempt {
   /// The parts of which the last solved step is made, in order: their starts and stages. Valid
   /// while `from` of the attempt is.
   virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
-  /// From now on all pieces are kept or, where nobody else needs them, perhaps not.
+  /// Whether `pieces` has to give all pieces from now on; if not, an estimate may drop those that it does not need.
   virtual void keepPieces(bool keep) { static_cast<void>(keep); }
 };
 
@@ -98,7 +98,7 @@ struct Strategy<ErrorEstimate> {
   bool estimates = true;         ///< false: there is no error to control steps by
   bool sees_switches = false;    ///< looks at the switches in a step that goes on over them; the paper's do not
   bool own_orders = false;       ///< divides each component's difference by its own order, see doublingFactors
-  bool compares_orders = false;  ///< by one method of a family what another would err
+  bool compares_orders = false;  ///< can estimate the error of another method of the family
   PerScalar<StepAttemptMaker> make;
 };
 template <>

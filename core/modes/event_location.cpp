@@ -11,13 +11,13 @@
 namespace irk {
 namespace {
 
-// Of a switching function on the dense output, per root; ten are usual.
+// Evaluations of a switching function on the dense output, per root; ten are usual.
 constexpr std::uintmax_t kMaxEvaluations = 200;
 // Re-solved steps per switch; four are usual.
 constexpr int kMaxSolves = 25;
 // Earlier switches that show only in the shortened step; one is rare.
 constexpr int kMaxEarlier = 5;
-// The part of the tolerance, times h, that the time of a switch may be off.
+// The error allowed in the time of a switch, in units of h times the tolerance.
 constexpr double kTimeTolerance = 1e-5;
 
 template <class Real>
@@ -45,7 +45,7 @@ Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const Stat
     seen = first(attempt, from, next, result.found ? Scan::EndSample::kSkip : Scan::EndSample::kLookAt, result, root) &&
            root.step + resolution(from, h) < result.h;
   }
-  // What cannot be told apart is tried again with a shorter step.
+  // Switches that are too close to be told apart: the step is tried again with a shorter size.
   if (seen) result.outcome = Outcome::kNewtonFailed;
   return result;
 }

@@ -1,7 +1,7 @@
-#include "core/modes/modes_follow.h"
-
+// `ignore` and `smooth`: the mode follows the solution from step to step.
 #include "core/estimates/step_attempt.h"
 #include "core/modes/switch_effect.h"
+#include "core/steps/modes.h"
 
 namespace irk {
 namespace {

@@ -1,16 +1,16 @@
-#include "core/modes/modes_iterate.h"
-
+// `iterate`: the mode is frozen in a step, which is solved again until its mode stays.
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/estimates/step_attempt.h"
 #include "core/modes/switch_effect.h"
+#include "core/steps/modes.h"
 
 namespace irk {
 namespace {
 
-// Modes of a step that still change after this many repetitions have no solution in it.
+// If the mode of a step still changes after this many repetitions, no mode is valid over the whole step.
 constexpr int kDiscontinuousIterations = 10;
 
 /// The mode is frozen over the step, updated at its end, and the step solved again with the new one until it stays:

@@ -1,15 +1,16 @@
-#include "core/modes/modes_locate.h"
-
+// `locate`: the mode is frozen, and the first root of a switching function ends the step.
 #include <algorithm>
 
 #include "core/modes/event_location.h"
+#include "core/options/fixed_steps.h"
+#include "core/steps/modes.h"
 
 namespace irk {
 namespace {
 
 // How finely a switch is located: a part of the tolerance, with fixed steps to round-off.
 double locationTolerance(const IntegratorOptions& options) {
-  if (options.step.control == StepControl::kFixed) return 0;
+  if (hasFixedSteps(options.step)) return 0;
   return std::max(options.tolerances.rtol, options.tolerances.atol);
 }
 

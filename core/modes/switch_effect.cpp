@@ -40,7 +40,7 @@ template <class Real>
 double SwitchEffect<Real>::changeOfRates(const Real& h) {
   rates_ = inside_.w;
   const StartReport report = consistent_.apply(inside_, StartCheck::kNone);
-  // What cannot be determined cannot be trusted.
+  // An effect that cannot be determined is too large to be accepted.
   if (report.outcome != Outcome::kSuccess) return std::numeric_limits<double>::infinity();
   rates_ -= inside_.w;
   return rate_norm_(rates_, h);

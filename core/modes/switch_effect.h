@@ -1,4 +1,4 @@
-// What a switch inside a solved step does to it, for treatments whose steps go on over switches.
+// The effect of a switch inside a solved step on this step, for treatments whose steps go on over switches.
 #pragma once
 
 #include "core/derivatives/consistent_start.h"

@@ -62,12 +62,12 @@ struct Field {
   std::string defaultText() const { return get(Spec{}); }
 };
 
-/// `member(spec)` is a reference to an enum that has ids. The field is called as the axis is.
+/// `member(spec)` is a reference to a value of an axis. The field has the name of the axis.
 template <class Spec, class Member>
-Field<Spec> axisField(std::string meaning, Member member) {
+Field<Spec> axisField(const std::string& meaning, Member member) {
   using Axis = std::remove_cvref_t<decltype(member(std::declval<Spec&>()))>;
   Field<Spec> field{.name = std::string(axisName<Axis>()),
-                    .meaning = std::move(meaning),
+                    .meaning = meaning,
                     .kind = FieldKind::kAxis,
                     .get = [member](const Spec& spec) { return std::string(idOf(member(spec))); },
                     .set = [member](Spec& spec, std::string_view id) { member(spec) = parseId<Axis>(id); }};
@@ -81,10 +81,10 @@ Field<Spec> axisField(std::string meaning, Member member) {
 
 /// `member(spec)` is a reference to a double, or to an integer where the range has integers only.
 template <class Spec, class Member>
-Field<Spec> numberField(std::string name, std::string meaning, const Range& range, Member member) {
+Field<Spec> numberField(const std::string& name, const std::string& meaning, const Range& range, Member member) {
   using Number = std::remove_cvref_t<decltype(member(std::declval<Spec&>()))>;
   Field<Spec> field{.name = name,
-                    .meaning = std::move(meaning),
+                    .meaning = meaning,
                     .range = range,
                     .number = [member](const Spec& spec) { return static_cast<double>(member(spec)); },
                     .assign = [member](Spec& spec, double x) { member(spec) = static_cast<Number>(x); }};

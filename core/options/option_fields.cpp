@@ -5,6 +5,8 @@
 #include <iterator>
 #include <tuple>
 
+#include "core/options/fixed_steps.h"
+
 namespace irk {
 namespace {
 
@@ -28,7 +30,6 @@ OptionField number(std::string name, auto member, const Range& range, std::strin
   return field;
 }
 
-bool fixedSteps(const Options& o) { return o.step.control == StepControl::kFixed; }
 bool isModified(const Options& o) {
   static constexpr std::string_view kIds[] = {"modified", "modified_only", "paper_rule", "modified_each_step",
                                               "modified_step_change"};
@@ -41,12 +42,12 @@ bool stopsByResidual(const Options& o) { return isModified(o) || o.newton.kind =
 bool isPaperControl(const Options& o) {
   return o.step.control == StepControl::kPaper || o.step.control.id == "paper_no_gamma";
 }
-std::string_view noTolerance(const Options& o) { return fixedSteps(o) ? "fixed steps have no tolerance" : ""; }
+std::string_view noTolerance(const Options& o) { return hasFixedSteps(o.step) ? "fixed steps have no tolerance" : ""; }
 std::string_view noEstimate(const Options& o) {
   const bool asked = o.step.estimate != ErrorEstimate::kNone;
-  return fixedSteps(o) && asked ? "fixed steps have no error estimate" : "";
+  return hasFixedSteps(o.step) && asked ? "fixed steps have no error estimate" : "";
 }
-std::string_view noChosenStep(const Options& o) { return fixedSteps(o) ? "fixed steps all have one size" : ""; }
+std::string_view noChosenStep(const Options& o) { return hasFixedSteps(o.step) ? "fixed steps all have one size" : ""; }
 std::string_view ofIncrementTest(const Options& o) {
   return stopsByResidual(o) ? "it belongs to newton 'simplified', 'broyden' and its variants" : "";
 }
@@ -54,7 +55,7 @@ std::string_view ofContraction(const Options& o) {
   return reusesByStep(o) ? "the Jacobian is kept by rule, whatever the contraction is" : ofIncrementTest(o);
 }
 std::string_view ofKappa(const Options& o) {
-  return fixedSteps(o) ? "with fixed steps Newton's method iterates to round-off" : ofIncrementTest(o);
+  return hasFixedSteps(o.step) ? "with fixed steps Newton's method iterates to round-off" : ofIncrementTest(o);
 }
 std::string_view ofResidualTest(const Options& o) {
   return stopsByResidual(o) ? "" : "it belongs to newton 'modified', its variants, and 'full'";
@@ -80,11 +81,11 @@ std::span<const OptionField> optionFields() {
       axis(IRK_MEMBER(derivatives), "How the derivatives in Jacobians are computed."),
       axis(IRK_MEMBER(newton.kind), "Newton's method: when it stops and when its matrix is renewed."),
       axis(IRK_MEMBER(solver), "How the linear systems of all stages are solved."),
-      axis(IRK_MEMBER(storage), "Matrices of the solvers schur and eigen."),
+      axis(IRK_MEMBER(storage), "How the solvers schur and eigen store their matrices."),
       axis(IRK_MEMBER(predictor), "Start values of the stages."),
       axis(IRK_MEMBER(step.estimate), "How the error of a step is estimated.", noEstimate),
       axis(IRK_MEMBER(step.control), "How the step size is chosen."),
-      axis(IRK_MEMBER(order), "One method, or the members of its family by their cost."),
+      axis(IRK_MEMBER(order), "Whether the number of stages stays the same or follows the cost."),
       axis(IRK_MEMBER(summation), "How the increments of steps are added up."),
       axis(IRK_MEMBER(multipliers), "Accelerations and multipliers at the end of the integration."),
       axis(IRK_MEMBER(tolerances.norm), "The norm of errors and of Newton's increments.", noTolerance),
@@ -93,9 +94,10 @@ std::span<const OptionField> optionFields() {
       number("residual_tolerance", IRK_MEMBER(newton.residual_tolerance), Range::above(0).below(1),
              "Newton's method stops when the residual has fallen to this part of its first value.", ofResidualTest),
       number("contractivity_limit", IRK_MEMBER(newton.contractivity_limit), Range::above(0).to(1),
-             "The Jacobian is computed anew when the residual falls by less than this factor.", ofModifiedNewton),
+             "The Jacobian is computed anew when an iteration leaves more than this part of the residual.",
+             ofModifiedNewton),
       number("contractivity_after", IRK_MEMBER(newton.contractivity_after), Range::integers(0, kMaxNewtonIterations),
-             "Iterations before contractivity_limit is looked at.", ofModifiedNewton),
+             "Iterations before contractivity_limit applies.", ofModifiedNewton),
       number("max_iterations", IRK_MEMBER(newton.max_iterations), Range::integers(1, kMaxNewtonIterations),
              "Newton's method fails after this many iterations."),
       number("keep_jacobian_below", IRK_MEMBER(newton.keep_jacobian_below), Range::from(0).below(1),
@@ -137,8 +139,8 @@ void validate(const IntegratorOptions& o) {
   for (const auto& field : optionFields()) {
     if (field.isNumeric()) requireInRange(field.name, field.number(o), field.range);
   }
-  const bool fixed = o.step.control == StepControl::kFixed;
-  if (fixed && o.step.h == 0) throw Misuse("illegal combination: control 'fixed' with h = 0: fixed steps need h > 0");
+  if (hasFixedSteps(o.step) && o.step.h == 0)
+    throw Misuse("illegal combination: control 'fixed' with h = 0: fixed steps need h > 0");
 }
 
 }  // namespace irk

@@ -27,14 +27,14 @@ constexpr Named<DerivativeSource> kSources[] = {
     {DerivativeSource::kForward, "difference_forward", "forward differences (paper)"}};
 constexpr Named<Storage> kStorages[] = {
     {Storage::kAutomatic, "automatic", "sparse where the system is large and sparse enough"},
-    {Storage::kDense, "dense", "dense matrices, their derivatives coloured all the same"},
+    {Storage::kDense, "dense", "dense matrices; their derivatives use coloured columns, too"},
     {Storage::kSparse, "sparse", "compressed columns, pivots by KLU; scalar double only"}};
 constexpr Named<Summation> kSummations[] = {
-    {Summation::kCompensated, "compensated", "additions of increments keep what they lose"},
+    {Summation::kCompensated, "compensated", "the round-off of each addition is added to the next increment"},
     {Summation::kPlain, "plain", "round-off accumulates"}};
 constexpr Named<Multipliers> kMultipliers[] = {
-    {Multipliers::kConsistent, "consistent", "at the end solved anew from (u, v, x)"},
-    {Multipliers::kStages, "stages", "at the end what the last step gives"}};
+    {Multipliers::kConsistent, "consistent", "computed from (u, v, x) at the end"},
+    {Multipliers::kStages, "stages", "those of the last step"}};
 constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kStart, "start", "at the step's start (paper)"},
     {JacobianPoint::kMiddle, "middle", "at t0 + h/2 (HOTINT)"},

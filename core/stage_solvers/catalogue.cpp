@@ -1,6 +1,7 @@
 // The stage solvers that come with the library.
 #include <type_traits>
 
+#include "core/options/entries.h"
 #include "core/stage_solvers/coupled.h"
 #include "core/stage_solvers/decoupled.h"
 #include "irk/multiprecision.h"
@@ -30,29 +31,33 @@ PerScalar<StageSolverMaker> decoupledSolvers() { return {decoupled<double>, deco
 
 }  // namespace
 
-template <>
-Catalogue<StageSolverKind>& catalogue<StageSolverKind>() {
-  static Catalogue<StageSolverKind> all({
-      {.id = StageSolverKind::kSchur,
-       .meaning = "real Schur form of A: s/2 complex n x n systems",
-       .form = {schurForm<double>, schurForm<mp50>, schurForm<mp100>},
-       .make = decoupledSolvers()},
-      {.id = StageSolverKind::kEigen,
-       .meaning = "eigenvectors of A: s/2 complex n x n systems, cheapest",
-       .form = {eigenForm<double>, eigenForm<mp50>, eigenForm<mp100>},
-       .make = decoupledSolvers()},
-      {.id = StageSolverKind::kCoupledDense,
-       .meaning = "one LU of the s n x s n matrix (paper)",
-       .coupled = true,
-       .storage = Storage::kDense,
-       .make = {coupledDense<double>, coupledDense<mp50>, coupledDense<mp100>}},
-      {.id = StageSolverKind::kCoupledSparse,
-       .meaning = "one sparse LU of the s n x s n matrix",
-       .coupled = true,
-       .storage = Storage::kSparse,
-       .make = {coupledSparse, nullptr, nullptr}},
-  });
-  return all;
+Strategy<StageSolverKind> schurSolver() {
+  return {.id = StageSolverKind::kSchur,
+          .meaning = "real Schur form of A: s/2 complex n x n systems",
+          .form = {schurForm<double>, schurForm<mp50>, schurForm<mp100>},
+          .make = decoupledSolvers()};
 }
+Strategy<StageSolverKind> eigenSolver() {
+  return {.id = StageSolverKind::kEigen,
+          .meaning = "eigenvectors of A: s/2 complex n x n systems, cheapest",
+          .form = {eigenForm<double>, eigenForm<mp50>, eigenForm<mp100>},
+          .make = decoupledSolvers()};
+}
+Strategy<StageSolverKind> coupledDenseSolver() {
+  return {.id = StageSolverKind::kCoupledDense,
+          .meaning = "one LU of the s n x s n matrix (paper)",
+          .coupled = true,
+          .storage = Storage::kDense,
+          .make = {coupledDense<double>, coupledDense<mp50>, coupledDense<mp100>}};
+}
+Strategy<StageSolverKind> coupledSparseSolver() {
+  return {.id = StageSolverKind::kCoupledSparse,
+          .meaning = "one sparse LU of the s n x s n matrix",
+          .coupled = true,
+          .storage = Storage::kSparse,
+          .make = {coupledSparse, nullptr, nullptr}};
+}
+
+IRK_CATALOGUE(StageSolverKind, schurSolver(), eigenSolver(), coupledDenseSolver(), coupledSparseSolver())
 
 }  // namespace irk

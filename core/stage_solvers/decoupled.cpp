@@ -102,30 +102,29 @@ template <class Real, template <class> class Lu>
 Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
   const auto& block = form_.blocks[index];
   const Linearization<Real>& D = *at_;
-  const auto fill = [&](const auto& set) {
-    const Complex m1 = h_ * block.mu;
-    const Complex m2 = m1 * m1;
-    setup_.pattern->forEach([&](Index k, Index row) {
-      set(k, Real(scales_[row] * (D.d0[k] + m1.real() * D.d1[k] + m2.real() * D.d2[k])),
-          Real(scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k])));
-    });
+  const Complex m1 = h_ * block.mu;
+  const Complex m2 = m1 * m1;
+  const auto re = [&](Index k, Index row) {
+    return Real(scales_[row] * (D.d0[k] + m1.real() * D.d1[k] + m2.real() * D.d2[k]));
   };
-  const auto factorized = [this](auto& lu) {
+  const auto entry = [&](Index k, Index row) {
+    return Complex(re(k, row), Real(scales_[row] * (m1.imag() * D.d1[k] + m2.imag() * D.d2[k])));
+  };
+  const auto factorized = [&](auto& lu, const auto& entryAt) {
     if constexpr (kSparse) {
+      setup_.pattern->forEach([&, values = lu.values()](Index k, Index row) { values[k] = entryAt(k, row); });
       return lu.factorize(version_ == 0 ? nullptr : &pivots_, news_);
     } else {
+      const Index n = setup_.pattern->n;
+      for (Index j = 0; j < n; ++j) {
+        lu.fillColumn(j, [&](Index i) { return entryAt(j * n + i, i); });
+      }
       return lu.factorize();
     }
   };
   if (small_) return invertBlock(index);
-  if (block.size == 1) {
-    auto& lu = real_lu_[lu_index_[index]];
-    fill([values = lu.values()](Index k, const Real& x, const Real&) { values[k] = x; });
-    return factorized(lu);
-  }
-  auto& lu = complex_lu_[lu_index_[index]];
-  fill([values = lu.values()](Index k, const Real& x, const Real& y) { values[k] = Complex(x, y); });
-  return factorized(lu);
+  return block.size == 1 ? factorized(real_lu_[lu_index_[index]], re)
+                         : factorized(complex_lu_[lu_index_[index]], entry);
 }
 
 // Computes all entries of M first and scales rows afterwards: both loops become vector instructions. With

@@ -21,7 +21,7 @@ namespace irk {
 template <class Real>
 class StepAttempt;
 
-/// What can solve a step again.
+/// Solves a step again.
 template <class Real>
 class StepRepeater {
  public:

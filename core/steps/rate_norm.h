@@ -1,4 +1,4 @@
-// What differences of (a, k) do to a step, in the error norm.
+// The effect of differences of (a, k) on a step, in the error norm.
 #pragma once
 
 #include <algorithm>

@@ -12,8 +12,8 @@ namespace {
 // A first step after a restart follows the motion where the stages' polynomial misses (a, k) at its
 // start by less than this part of what they change over the step.
 constexpr double kFollows = 0.1;
-// It is not asked for more than this, in tolerances: in index 3 a start within the tolerance changes
-// velocities by as much, whatever the step.
+// A difference below this many tolerances is accepted, too: in index 3 a start within the tolerance changes
+// velocities by as much, whatever the step size is.
 constexpr double kStartTolerances = 10;
 
 // Rates that differ from those before by this part of their size are those of another root.

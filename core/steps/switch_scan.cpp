@@ -58,7 +58,7 @@ bool SwitchScan<Real>::sample(Index j, const State<Real>& from, const State<Real
   return report_.outcome == Outcome::kSuccess;
 }
 
-// What the samples up to j say that those before did not.
+// Adds the switches that sample j shows to those that the samples before it have shown.
 template <class Real>
 void SwitchScan<Real>::look(Index j, Index last) {
   for (Index i = 0; i < g_.rows(); ++i) {

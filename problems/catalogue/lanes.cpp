@@ -1,47 +1,12 @@
 #include <algorithm>
-#include <map>
+#include <string>
 
 #include "irk/misuse.h"
 #include "irk/scene_lanes.h"
 
 namespace irk {
 
-// A function of each scene's file.
-LanesMaker caraxisLanes();
-LanesMaker chemakzoLanes();
-LanesMaker dahlquistLanes();
-LanesMaker e5Lanes();
-LanesMaker hiresLanes();
-LanesMaker kapsLanes();
-LanesMaker keplerLanes();
-LanesMaker mechanicalDaeLanes();
-LanesMaker oregoLanes();
-LanesMaker pendulumLanes();
-LanesMaker protheroRobinsonLanes();
-LanesMaker robertsonLanes();
-LanesMaker vanDerPolLanes();
-
 namespace {
-
-// By the ids of scenes.
-std::map<std::string, LanesMaker, std::less<>>& makers() {
-  static std::map<std::string, LanesMaker, std::less<>> all{
-      {"caraxis", caraxisLanes()},
-      {"chemakzo", chemakzoLanes()},
-      {"dahlquist", dahlquistLanes()},
-      {"e5", e5Lanes()},
-      {"hires", hiresLanes()},
-      {"kaps", kapsLanes()},
-      {"kepler", keplerLanes()},
-      {"mechanical_dae", mechanicalDaeLanes()},
-      {"orego", oregoLanes()},
-      {"pendulum", pendulumLanes()},
-      {"prothero_robinson", protheroRobinsonLanes()},
-      {"robertson", robertsonLanes()},
-      {"van_der_pol", vanDerPolLanes()},
-  };
-  return all;
-}
 
 const std::string& valueOf(const Settings& settings, const Parameter& parameter) {
   const auto found = settings.find(parameter.name);
@@ -56,17 +21,15 @@ bool areEqual(std::span<const Settings> settings, const Parameter& parameter) {
 
 }  // namespace
 
-void registerLanes(const std::string& scene, LanesMaker maker) {
-  if (!makers().emplace(scene, maker).second) throw Misuse("scene " + scene + " has lanes already");
-}
-
 void requireLanes(const SceneEntry& entry, std::span<const Settings> settings) {
-  if (!makers().contains(entry.id)) {
+  if (!entry.make_lanes) {
     std::string known;
-    for (const auto& [id, maker] : makers()) known += (known.empty() ? "" : ", ") + id;
+    for (const SceneEntry& other : sceneCatalogue()) {
+      if (other.make_lanes) known += (known.empty() ? "" : ", ") + other.id;
+    }
     throw Misuse("scene " + entry.id +
-                 " has no lanes: its equations switch, branch on values, are many, or nobody has declared them "
-                 "(IRK_LANES); scenes with lanes: " +
+                 " has no lanes: its equations switch, branch on values, or are many, or its entry has no "
+                 "make_lanes; scenes with lanes: " +
                  known);
   }
   for (const Parameter& p : entry.parameters) {
@@ -87,7 +50,7 @@ std::shared_ptr<const System<Lanes>> makeLanes(const SceneEntry& entry, std::spa
     if (areEqual(settings, p)) continue;
     for (const Settings& other : settings.subspan(1)) text += ';' + valueOf(other, p);
   }
-  return makers().at(entry.id)(joined, options);
+  return entry.make_lanes(joined, options);
 }
 
 }  // namespace irk

@@ -13,12 +13,12 @@ namespace irk {
 /// The solution inside an accepted step (dense output): the polynomial through the stages, integrated from the step's
 /// start. Its order is that of the stages, not that of the step's end: for a collocation method with s stages about
 /// s + 1 (u one more, a, k and z one less), for other methods at most their stage order plus 2, and in no case more
-/// than the method's order. With a higher tolerance than its order deserves it is less accurate than the steps.
+/// than the method's order. At tight tolerances it is less accurate than the ends of the steps.
 template <class Real>
 class InsideStep {
  public:
-  /// The state at t, in the scene's unknowns. t is taken into the step. At its ends these are the states of the steps,
-  /// at the start with the discrete state of the step.
+  /// The state at t, in the scene's unknowns; a t outside the step stands for the nearer end. At the ends of the step
+  /// these are the states of the steps, at its start with the discrete state of the step.
   virtual State<Real> at(const Real& t) = 0;
 
  protected:

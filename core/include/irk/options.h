@@ -22,8 +22,8 @@ enum class Storage {
 };
 
 // The catalogue of each axis, with what the ids mean and need, stands beside its strategies: core/options/catalogue.h.
-/// What is left out of (D0, D1, D2), paper (4.4)-(4.8). M a enters the residual linearly in a, so its derivatives are
-/// left out by differentiating at a = 0.
+/// The terms that are left out of (D0, D1, D2), paper (4.4)-(4.8). The residual is linear in a, so the derivatives of
+/// M a are left out by differentiating at a = 0.
 struct JacobianTerms : StrategyId<JacobianTerms> {
   static const JacobianTerms kFull;
   static const JacobianTerms kNoMassVxz;          ///< (4.4): without d(M a)/d(v, x, z)
@@ -67,8 +67,8 @@ inline constexpr Predictor Predictor::kPrevious{{"previous"}};
 inline constexpr Predictor Predictor::kAcceleration{{"acceleration"}};
 
 struct ErrorEstimate : StrategyId<ErrorEstimate> {
-  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; not less than what a switch in
-  /// the step does, nor than an estimate of the stages' order where the halves do not show order q
+  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; at least the effect of a switch in the step, and
+  /// at least an estimate of the stages' order where the two half steps do not show order q
   static const ErrorEstimate kRichardson;
   static const ErrorEstimate kDoubling;  ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
   static const ErrorEstimate kDoublingScalar;  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
@@ -101,13 +101,13 @@ inline constexpr OrderControl OrderControl::kVariable{{"variable"}};
 
 /// How a step's increments are added to u, v, x.
 enum class Summation {
-  kCompensated,  ///< what an addition loses is added to the next increment
+  kCompensated,  ///< the round-off of each addition is added to the next increment
   kPlain,
 };
 /// (a, k, z) at the end of an integration, of systems with algebraic unknowns.
 enum class Multipliers {
-  kStages,      ///< what the last step gives: in index 2 of order s, and its Newton's error over h
-  kConsistent,  ///< solved anew from (u, v, x), at the level of accelerations: of their accuracy
+  kStages,      ///< those of the last step: in index 2 of order s, with the error of Newton's method divided by h
+  kConsistent,  ///< computed from (u, v, x) at the level of accelerations, and as accurate as these
 };
 enum class JacobianPoint {
   kStart,
@@ -194,7 +194,7 @@ struct Tolerances {
   NormKind norm = NormKind::kMixed;
 };
 
-/// Everything an integration can be told.
+/// All options of an integration.
 struct IntegratorOptions {
   Tolerances tolerances;
   DerivativeSource derivatives = DerivativeSource::kAutomatic;
@@ -204,8 +204,8 @@ struct IntegratorOptions {
   StageSolverKind solver = StageSolverKind::kSchur;
   /// Of `schur` and `eigen`; the coupled solvers have their own.
   Storage storage = Storage::kAutomatic;
-  /// Residuals of the stages and factorizations of the blocks at a time, inside one
-  /// integration; the numbers do not depend on it. In a parallel region of the caller: 1.
+  /// Threads for the residuals of the stages and the factorizations of the blocks of one integration; the results do
+  /// not depend on it. In a parallel region of the caller it has no effect: one thread.
   int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
   Summation summation = Summation::kCompensated;

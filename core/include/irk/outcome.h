@@ -5,6 +5,9 @@
 
 namespace irk {
 
+/// One list for all levels, so that a cause keeps its name from where it is found to the row of the run: a
+/// factorization ends with kSuccess, kSingular or kNotFinite; Newton's method and a step also with kNewtonFailed, a
+/// step that switches with kChattering, a start with kInconsistentStart; the other values belong to a whole run.
 enum class Outcome {
   kSuccess,
   kNewtonFailed,       ///< no convergence, and the step may not be (or was already) reduced
@@ -18,7 +21,7 @@ enum class Outcome {
   kChattering,         ///< switches follow each other without time passing
   kStalled,            ///< steps stay so small that the end is out of reach
   kDrift,              ///< the end is reached, but it violates the position constraints
-  kInaccurate,         ///< the estimated errors of all steps add up to more than 1000 tolerances
+  kInaccurate,         ///< the estimated errors of all steps add up to more than 200 tolerances
 };
 
 /// Whether a shorter step may end better: Newton's method failed, or its matrix is singular.

@@ -232,8 +232,8 @@ class ProblemSystem final : public System<Real> {
     return 2;
   }
 
-  // The mode that p implies: due switches done until none is due. A cascade that does not end is
-  // cut: the error estimate has to deal with what is left.
+  // The mode that p implies: does due switches until none is due. A cascade that does not end is
+  // cut off; the error estimate then judges the step.
   template <class T>
   void imply(const Point<T>& p, FewOrMany<T>& d) const {
     if constexpr (kHasSwitching) {

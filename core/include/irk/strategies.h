@@ -1,17 +1,18 @@
-// What a strategy of one's own needs: the interfaces of all axes, and registerStrategy. Their own headers are installed
-// in irk/internal; they change more often than the rest of the library.
+// All that your own strategy includes: the interfaces of all axes, and registerStrategy. The headers of the interfaces
+// are installed in irk/internal; they change more often than the rest of the library.
 //
-// | axis | what to derive from | entry |
+// | axis | base class | entry |
 // |---|---|---|
 // | newton | Newton | Strategy<NewtonKind> |
 // | solver | StageSolver | Strategy<StageSolverKind> |
 // | predictor | StagePredictor | Strategy<Predictor> |
 // | estimate | StepAttempt | Strategy<ErrorEstimate> |
 // | control | StepController | Strategy<StepControl> |
+// | order | OrderController | Strategy<OrderControl> |
 // | jacobian | a function JacobianChange | Strategy<JacobianTerms> |
 // | discontinuity | ModesInStep, ModesAfterStep | Strategy<Discontinuity> |
 //
-// experiments/examples has one of each. A file with
+// experiments/examples has one of each but the last. A file with
 //
 //   IRK_REGISTER { irk::registerStrategy<irk::StepControl>({...}); }
 //
@@ -19,6 +20,7 @@
 #pragma once
 
 #include "core/control/controller.h"
+#include "core/control/order_controller.h"
 #include "core/derivatives/differentiator.h"
 #include "core/estimates/step_attempt.h"
 #include "core/newton/newton.h"

@@ -18,7 +18,7 @@ struct Sizes {
   /// How many of the nz algebraic unknowns are multipliers of position constraints g(t, u) = 0.
   /// They come first in z.
   Index constraints = 0;
-  /// Numbers of the discrete state: constant but at switches.
+  /// Size of the discrete state, which changes at switches only.
   Index discrete = 0;
   /// Switching functions.
   Index switches = 0;

@@ -29,7 +29,7 @@ bool vanishes(const DualNumber<T, N>& x) {
   }
   return true;
 }
-/// All of them; so does a vector without numbers.
+/// Whether all numbers of a vector vanish; true for an empty one.
 template <class T>
 bool vanishes(const ConstVec<T>& x) {
   for (Index i = 0; i < x.size(); ++i) {

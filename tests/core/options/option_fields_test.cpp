@@ -10,18 +10,10 @@
 
 #include "irk/misuse.h"
 #include "tests/core/other_values.h"
+#include "tests/refusal.h"
 
 namespace irk {
 namespace {
-
-std::string refusal(const auto& action) {
-  try {
-    action();
-  } catch (const Misuse& misuse) {
-    return misuse.what();
-  }
-  return {};
-}
 
 TEST(OptionFields, AreNamedOnceAndExplained) {
   std::set<std::string> names;

@@ -1,0 +1,120 @@
+#include "core/control/order_controller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace irk {
+
+namespace {
+
+// The order is reconsidered every kMinStay accepted steps.
+constexpr int kMinStay = 7;
+// Progress per work must grow by this factor: new factors, worse start values.
+constexpr double kGain = 1.2;
+// Members so far above are looked at; the decay of their errors is less certain than that below.
+constexpr std::size_t kAbove = 2;
+constexpr double kDecayAbove = 0.9;
+// Failures of Newton that tell of the first step's size only: it is halved by each.
+constexpr int kFirstStepFailures = 12;
+// Newton's contraction: a step beyond the upper bound is not planned.
+constexpr double kMinContraction = 1e-4, kMaxContraction = 0.5;
+// Measured, in units of one stage in one iteration. What a step costs besides its iterations, per
+// stage: start values and end; the factorizations, by unknown; and for itself: Jacobian, estimate,
+// control.
+constexpr double kStepPerStage = 0.4, kFactors = 16, kStepAlone = 8;
+constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError = 1e-300;
+
+/// The least work per unit step. After some accepted steps the errors e_q of the member below and of two above are
+/// known or guessed: below, by the estimate; above, by the same ratio again, as the coefficients of a smooth solution
+/// decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which grows with the step, its
+/// iterations and the work. The member with the most progress per work is next; none is with a step for which Newton
+/// would contract badly (Hairer & Wanner, J. Comput. Appl. Math. 111, 1999, decide by the contraction alone). A second
+/// failure of Newton in a row leads to the member below, whose equations have less round-off; in the first step, whose
+/// size is a guess, the thirteenth.
+class LeastWork final : public OrderController {
+ public:
+  explicit LeastWork(OrderSetup setup) : setup_(std::move(setup)) {}
+
+  void begin() override { since_change_ = 0; }
+  std::size_t afterFailure(std::size_t at, int failures, bool solved) override {
+    if (failures <= (solved ? 1 : kFirstStepFailures) || at == 0) return at;
+    since_change_ = 0;
+    return at - 1;
+  }
+  bool needsLower() const override { return (since_change_ + 1) % kMinStay == 0; }
+  OrderDecision decide(const OrderFacts& facts) override {
+    ++since_change_;
+    const std::size_t at = facts.at;
+    const OrderDecision same{at, facts.h_next, facts.error};
+    if (std::isnan(facts.lower) && at > 0) return same;
+    if (setup_.members.size() == 1 || since_change_ % kMinStay != 0) return same;
+    const auto next = best(facts);
+    if (next.next == at) return same;
+    since_change_ = 0;
+    return next;
+  }
+
+ private:
+  struct Plan {
+    double h, error;
+    double progress;  ///< h per work; 0: not to be taken
+  };
+  // The step that the member would take next with this estimate, and its progress per work.
+  Plan plan(double estimate, const OrderMember& m, const OrderFacts& now, double trend) const {
+    const double error = estimate * m.strictness;
+    const double s = m.stages;
+    const double wish = kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
+    const double ratio = std::clamp(wish, kShrinkAtMost, kGrowAtMost);
+    Plan plan{now.h * ratio, error, 0};
+    // Newton's contraction grows with the step.
+    const double before = std::max(now.theta, kMinContraction);
+    const double theta = before * ratio;
+    if (theta > kMaxContraction) return plan;
+    const double decades = now.newton_iterations * std::log(1 / before);
+    const double iterations = now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
+    const double work = (iterations + kStepPerStage + setup_.unknowns / kFactors) * s + kStepAlone;
+    plan.progress = plan.h / work;
+    return plan;
+  }
+  OrderDecision best(const OrderFacts& facts) const {
+    const auto& [members, unknowns, weight] = setup_;
+    const std::size_t at = facts.at;
+    const double error = std::max(facts.error, kTinyError);
+    // What the controller has learnt of the error's trend holds for all members.
+    const double untrended = facts.h * kSafety * std::pow(error, -1.0 / (members[at].order + 1));
+    const double trend = std::min(1.0, facts.h_next / untrended);
+    const double estimate = error / members[at].strictness;
+    Plan best = plan(estimate, members[at], facts, trend);
+    best.progress *= kGain;
+    std::size_t next = at;
+    const auto consider = [&](std::size_t i, double e) {
+      const Plan p = plan(e, setup_.members[i], facts, trend);
+      if (p.progress > best.progress) next = i, best = p;
+    };
+    if (at > 0) consider(at - 1, facts.lower);
+    const double s = members[at].stages;
+    const double below = at > 0 ? members[at - 1].stages : s - 1;
+    const double ratio = at > 0 ? std::min(estimate / facts.lower, 1.0) : 0.1;
+    for (std::size_t i = at + 1; i < members.size() && i <= at + kAbove; ++i) {
+      const double more = (members[i].stages - s) / (s - below);
+      consider(i, estimate * std::pow(ratio, kDecayAbove * more) * weight(i) / weight(at));
+    }
+    return {next, best.h, best.error};
+  }
+
+  OrderSetup setup_;
+  int since_change_ = 0;  // accepted steps
+};
+
+}  // namespace
+
+Strategy<OrderControl> fixedOrder() { return {OrderControl::kFixed, "one number of stages", {}, nullptr}; }
+Strategy<OrderControl> variableOrder() {
+  return {OrderControl::kVariable,
+          "the method's family, up to max_stages: the least work per unit step",
+          {.embedded_estimate = true},
+          kConstruct<LeastWork>};
+}
+
+}  // namespace irk
