@@ -2,7 +2,6 @@
 // tolerance. `per_member`: CPU time of one thread, integration only.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "core/base/number_text.h"
 #include "experiments/ensembles/ensemble_run.h"
+#include "experiments/kernels/benchmark_main.h"
 #include "experiments/runs/run.h"
 #include "irk/integrator.h"
 #include "irk/tableaus.h"
@@ -127,15 +127,4 @@ void addAll() {
 }  // namespace
 }  // namespace irk
 
-int main(int argc, char** argv) {
-  try {
-    irk::addAll();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const irk::Misuse& misuse) {
-    std::fprintf(stderr, "irk_ensembles: %s\n", misuse.what());
-    return 2;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return irk::runBenchmarks(argc, argv, "irk_ensembles", irk::addAll); }

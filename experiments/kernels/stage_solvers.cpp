@@ -2,12 +2,12 @@
 // unknowns: residual, Jacobian, factorization, solve, Newton iteration, whole step.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "core/steps/stepper.h"
 #include "experiments/analyses/newton_kernel.h"
+#include "experiments/kernels/benchmark_main.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -116,15 +116,4 @@ void addAll() {
 }  // namespace
 }  // namespace irk
 
-int main(int argc, char** argv) {
-  try {
-    irk::addAll();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const irk::Misuse& misuse) {
-    std::fprintf(stderr, "irk_kernels: %s\n", misuse.what());
-    return 2;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return irk::runBenchmarks(argc, argv, "irk_kernels", irk::addAll); }

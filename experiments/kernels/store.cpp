@@ -106,7 +106,8 @@ void exportRuns(benchmark::State& state) {
   const auto all = keys(state.range(0));
   std::ostringstream quiet;
   store::Store store(folder.path(), "benchmark", store::Use::kWrite, {}, quiet);
-  for ([[maybe_unused]] auto _ : state) store.exportTables(all);
+  const store::RunKeys runs(all);
+  for ([[maybe_unused]] auto _ : state) store.exportTables(runs);
   countRows(state);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <type_traits>
 
 #include "core/base/text.h"
@@ -103,7 +104,13 @@ void registerScene(SceneEntry entry) {
   entry.source = registeringSource();
   requireName("scene id", entry.id, entry.source);
   for (const auto& name : entry.collections) requireName("collection", name, entry.source);
-  for (const Parameter& p : entry.parameters) requireDefault(p, entry);
+  std::set<std::string_view> parameters;
+  for (const Parameter& p : entry.parameters) {
+    requireDefault(p, entry);
+    if (parameters.insert(p.name).second) continue;
+    throw Misuse(
+        fmt::format("scene {} ({}): two parameters are called '{}'", entry.id, sourceOf(entry.source), p.name));
+  }
   for (const SceneEntry& other : catalogue()) {
     if (other.id != entry.id) continue;
     throw Misuse("scene id '" + entry.id + "' (" + sourceOf(entry.source) + ") is taken by " + sourceOf(other.source));
@@ -205,6 +212,26 @@ auto withNameOf(const SceneEntry& entry, const F& make) {
   }
 }
 
+// Options and tables name components, as in `--atol-of "theta=1e-10 lambda=1e-3"`.
+void requireComponents(const std::string& scene, const std::vector<std::string>& names, const Vec<double>& scale) {
+  std::set<std::string_view> known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    if (name.empty() || name.find_first_of(" \t\r\n,;=\"") != name.npos) {
+      throw Misuse(
+          fmt::format("scene {}: component {} is called '{}': a name is not empty and has no blank, ',', ';', '=' and "
+                      "'\"'",
+                      scene, i, name));
+    }
+    if (!known.insert(name).second) throw Misuse(fmt::format("scene {}: two components are called '{}'", scene, name));
+    const auto at = static_cast<Index>(i);
+    if (at < scale.size() && !(scale[at] > 0 && std::isfinite(scale[at]))) {
+      throw Misuse(
+          fmt::format("scene {}: the typical magnitude of {} is {}: a number > 0 is expected", scene, name, scale[at]));
+    }
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -222,6 +249,7 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
     throw Misuse("scene " + entry.id + " names " + std::to_string(names) + " components, but it has " +
                  std::to_string(components) + ": u, v, x and z (setComponents)");
   }
+  requireComponents(entry.id, scene.names, scene.scale);
   return scene;
 }
 

@@ -82,9 +82,8 @@ SceneEntry pendulumEntry() {
           .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
           .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
           .make = make<double>,
-          .make_mp50 = make<mp50>};
+          .make_mp50 = make<mp50>,
+          .make_lanes = lanesOf<Pendulum>};
 }
-
-LanesMaker pendulumLanes() { return lanesOf<Pendulum>; }
 
 }  // namespace irk

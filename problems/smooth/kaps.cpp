@@ -39,9 +39,8 @@ SceneEntry kapsEntry() {
                              .kind = SceneKind::kSingularlyPerturbed,
                              .stiffness = {.parameter = "eps", .reciprocal = true},
                              .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-                             .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
+                             .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+                             .make_lanes = lanesOf<Kaps>});
 }
-
-LanesMaker kapsLanes() { return lanesOf<Kaps>; }
 
 }  // namespace irk

@@ -74,9 +74,8 @@ SceneEntry keplerEntry() {
        .collections = {"probes"},
        .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
        .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
-       .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}}});
+       .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
+       .make_lanes = lanesOf<Kepler>});
 }
-
-LanesMaker keplerLanes() { return lanesOf<Kepler>; }
 
 }  // namespace irk

@@ -37,9 +37,8 @@ SceneEntry mechanicalDaeEntry() {
                                       .shows = "orders of q, v and lambda in every formulation",
                                       .collections = {"probes"},
                                       .kind = SceneKind::kConstrained,
-                                      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
+                                      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+                                      .make_lanes = lanesOf<MechanicalDae>});
 }
-
-LanesMaker mechanicalDaeLanes() { return lanesOf<MechanicalDae>; }
 
 }  // namespace irk

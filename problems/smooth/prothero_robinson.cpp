@@ -42,9 +42,8 @@ SceneEntry protheroRobinsonEntry() {
        .kind = SceneKind::kStiffTest,
        .stiffness = {.parameter = "lambda"},
        .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
-       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}});
+       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+       .make_lanes = lanesOf<ProtheroRobinson>});
 }
-
-LanesMaker protheroRobinsonLanes() { return lanesOf<ProtheroRobinson>; }
 
 }  // namespace irk

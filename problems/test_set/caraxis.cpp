@@ -60,9 +60,8 @@ SceneEntry caraxisEntry() {
                                 .literature = "IVP test set, CARAXIS",
                                 .kind = SceneKind::kConstrained,
                                 .panels = {{"heights of the ends", {"yl", "yr"}}},
-                                .reference_cases = {{.tolerance = kFewDigits}}});
+                                .reference_cases = {{.tolerance = kFewDigits}},
+                                .make_lanes = lanesOf<CarAxis>});
 }
-
-LanesMaker caraxisLanes() { return lanesOf<CarAxis>; }
 
 }  // namespace irk

@@ -42,9 +42,8 @@ SceneEntry chemakzoEntry() {
        .collections = {"ivp"},
        .literature = "IVP test set, CHEMAKZO",
        .kind = SceneKind::kIndex1,
-       .reference_cases = {{.times = "20", .tolerance = kManyDigits}}});
+       .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
+       .make_lanes = lanesOf<ChemicalAkzo>});
 }
-
-LanesMaker chemakzoLanes() { return lanesOf<ChemicalAkzo>; }
 
 }  // namespace irk

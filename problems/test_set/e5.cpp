@@ -43,9 +43,8 @@ SceneEntry e5Entry() {
                            .collections = {"ivp"},
                            .literature = "IVP test set, E5; HW II (IV.10)",
                            .kind = SceneKind::kIndex1,
-                           .reference_cases = {{.times = "10 1e5 1e9 1e11"}}});
+                           .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
+                           .make_lanes = lanesOf<E5>});
 }
-
-LanesMaker e5Lanes() { return lanesOf<E5>; }
 
 }  // namespace irk

@@ -29,9 +29,8 @@ SceneEntry oregoEntry() {
                                    .shows = "steps over ten decades: slow drifts and fast transitions",
                                    .collections = {"ivp"},
                                    .literature = "IVP test set, OREGO; HW II (IV.10)",
-                                   .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}}});
+                                   .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
+                                   .make_lanes = lanesOf<Oregonator>});
 }
-
-LanesMaker oregoLanes() { return lanesOf<Oregonator>; }
 
 }  // namespace irk

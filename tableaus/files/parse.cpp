@@ -101,7 +101,11 @@ class Parser {
   std::string shown() const {
     constexpr std::size_t kShown = 30;
     const std::string& text = lines_[position_].text;
-    return text.size() <= kShown ? text : text.substr(0, kShown) + "...";
+    std::string shown = text.size() <= kShown ? text : text.substr(0, kShown) + "...";
+    // A message ends at its first zero.
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
+    return shown;
   }
 
   const Line& nextLine(std::string_view wanted) const {

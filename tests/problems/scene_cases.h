@@ -121,7 +121,7 @@ inline std::vector<Mode> modesToTest(const Scene<double>& scene) {
 template <class T, class Real>
 Vec<T> residualAt(const System<Real>& system, Level level, const Real& t, const Vec<T>& y, const Vec<Real>& d = {}) {
   const Sizes n = system.sizes();
-  const Vec<T> modes = d.template cast<T>();
+  const Vec<T>& modes = d.template cast<T>();
   const T* p = y.data();
   const T* const w = p + 2 * n.nu + n.nx;
   Vec<T> r(n.n());

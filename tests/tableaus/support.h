@@ -6,24 +6,13 @@
 
 #include <string>
 
-#include "irk/misuse.h"
 #include "irk/tableaus.h"
 #include "tableaus/families/families.h"
+#include "tests/refusal.h"
 
 namespace irk {
 
 inline std::string memberId(const std::string& family, Index s) { return fmt::format("{}_{}", family, s); }
-
-/// The message with which `action` refuses; empty if it does not refuse.
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const Misuse& misuse) {
-    return misuse.what();
-  }
-  return "";
-}
 
 inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
   if (text.find(part) != std::string::npos) return testing::AssertionSuccess();

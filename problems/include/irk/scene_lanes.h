@@ -1,23 +1,18 @@
 // Scenes in lanes: the equations of eight sets of parameters side by side, for ensembles (irk/ensemble.h).
 //
 // A scene's struct can be used in lanes if its residual and constraints do not branch on values; a struct that does is
-// refused by the compiler (irk/lanes.h). In a file of one's own, after IRK_SCENE(FourBar):
+// refused by the compiler (irk/lanes.h). The scene's entry says so:
 //
-//   IRK_LANES(FourBar)
+//   .make_lanes = lanesOf<FourBar>
 #pragma once
 
 #include <memory>
 #include <span>
-#include <string>
 
 #include "irk/lanes.h"
-#include "irk/registration.h"
 #include "irk/scene.h"
 
 namespace irk {
-
-/// Makes the system of eight values per parameter: a completed setting is one number, or kLanes with ';' between.
-using LanesMaker = std::shared_ptr<const System<Lanes>> (*)(const Settings& values, const SystemOptions& options);
 
 /// The LanesMaker of a struct with a function `with`, or without parameters.
 template <template <class> class S>
@@ -30,9 +25,6 @@ std::shared_ptr<const System<Lanes>> lanesOf(const Settings& values, const Syste
   }
 }
 
-/// Adds lanes to a scene that has none. Throws Misuse for a scene that has some. Not while other threads use scenes.
-void registerLanes(const std::string& scene, LanesMaker maker);
-
 /// Throws Misuse, with the reason, for a scene without lanes, and for settings of which lanes cannot have several:
 /// words and texts.
 void requireLanes(const SceneEntry& entry, std::span<const Settings> settings);
@@ -43,10 +35,3 @@ std::shared_ptr<const System<Lanes>> makeLanes(const SceneEntry& entry, std::spa
                                                const SystemOptions& options);
 
 }  // namespace irk
-
-#if !defined(IRK_DIGITS) || IRK_DIGITS == 16
-#define IRK_LANES(S) \
-  IRK_REGISTER { ::irk::registerLanes(S<double>::entry().id, ::irk::lanesOf<S>); }
-#else
-#define IRK_LANES(S)
-#endif

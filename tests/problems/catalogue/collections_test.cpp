@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "irk/misuse.h"
 #include "irk/scene.h"
+#include "irk/system_check.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -69,12 +72,38 @@ TEST(Collections, RefuseNamesThatCannotBeWritten) {
   SceneEntry entry = findScene("kepler");
   entry.id = "not_registered";
   entry.collections = {"mine", "My scenes"};
-  try {
-    registerScene(entry);
-    FAIL();
-  } catch (const Misuse& misuse) {
-    EXPECT_NE(std::string(misuse.what()).find("collection 'My scenes'"), std::string::npos) << misuse.what();
+  EXPECT_NE(refusal([&] { registerScene(entry); }).find("collection 'My scenes'"), std::string::npos);
+  entry.collections = {};
+  entry.parameters.push_back(entry.parameters.front());
+  EXPECT_NE(refusal([&] { registerScene(entry); }).find("two parameters are called 'e'"), std::string::npos);
+}
+
+TEST(Scenes, ComponentsHaveNamesAndMagnitudes) {
+  const auto refused = [](const auto& change) {
+    SceneEntry entry = findScene("kepler");
+    entry.make = [&, make = entry.make](const Settings& settings) {
+      Scene<double> scene = make(settings);
+      change(scene);
+      return scene;
+    };
+    return refusal([&] { static_cast<void>(makeScene<double>(entry, {})); });
+  };
+  EXPECT_EQ(refused([](auto&) {}), "");
+  EXPECT_EQ(refused([](auto& scene) { scene.names[1] = scene.names[0]; }),
+            "scene kepler: two components are called 'q1'");
+  EXPECT_NE(refused([](auto& scene) { scene.names[1] = "q 2"; }).find("component 1 is called 'q 2'"),
+            std::string::npos);
+  EXPECT_NE(refused([](auto& scene) { scene.names[1] = ""; }).find("component 1 is called ''"), std::string::npos);
+  for (const double size : {0.0, -1.0, std::nan("")}) {
+    const std::string text =
+        refused([size](auto& scene) { scene.scale.setConstant(static_cast<Index>(scene.names.size()), size); });
+    EXPECT_NE(text.find("scene kepler: the typical magnitude of q1 is"), std::string::npos) << text;
   }
+}
+
+TEST(Scenes, SizesThatNoMemoryHoldsAreRefused) {
+  const std::string text = refusal([] { requireSizes({.nu = 2'000'000'000}, {}); });
+  EXPECT_NE(text.find("nu = 2000000000: 0 to 10000000"), std::string::npos) << text;
 }
 
 }  // namespace
