@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "core/options/fixed_steps.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/analysis.h"
@@ -61,13 +62,31 @@ struct Family {
   std::set<Index> stages;
 };
 
+// The numbers of the series of a block, or of 2000 of them, spread over its lists.
+std::vector<std::size_t> sampleOf(const Study& study, const std::string& name) {
+  constexpr std::size_t kMost = 2000, kStride = 1'000'003;  // a prime
+  std::size_t first = study.series.size(), count = 0, number = 0;
+  for (const auto& series : study.series) {
+    if (series.block == name) {
+      first = std::min(first, number);
+      ++count;
+    }
+    ++number;
+  }
+  std::vector<std::size_t> sample;
+  for (std::size_t k = 0; k < std::min(count, kMost); ++k)
+    sample.push_back(first + (count <= kMost ? k : k * kStride % count));
+  std::sort(sample.begin(), sample.end());
+  return sample;
+}
+
 class Block {
  public:
   Block(const Study& study, const std::string& name) : study_(study), name_(name) {
-    for (const auto& series : study.series) {
-      if (series.block != name) continue;
+    for (const std::size_t i : sampleOf(study, name)) {
+      const Series series = study.series[i];
       specs_.push_back(series.runs.front());
-      fixed_ = fixed_ || specs_.back().options.step.control == StepControl::kFixed;
+      fixed_ = fixed_ || hasFixedSteps(specs_.back().options.step);
       orders_ = orders_ || series.end == SeriesEnd::kAsymptotic;
       levels_ = std::max(levels_, series.runs.size());
     }

@@ -32,7 +32,7 @@ void appendAnalyses(const Study& study, std::vector<FigureTable>& figures) {
   }
   for (const auto& scene : study.trajectories ? scenes : Cells()) {
     const auto of = [&](const Series& series) { return series.runs.front().scene == scene; };
-    const RunSpec spec = std::find_if(study.series.begin(), study.series.end(), of)->runs.front();
+    const RunSpec spec = (*std::find_if(study.series.begin(), study.series.end(), of)).runs.front();
     add("scene_solution", "Solution over time: " + scene,
         {{"scene", {scene}}, {"file_name", {trajectoryPath({}, spec).stem().string()}}});
     figures.back().caption = spec.method;

@@ -96,9 +96,12 @@ bool isDrawn(const Figure& figure, const ReportOptions& options) {
 }
 
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) {
-  return fmt::format("{}data='{}'; out='{}'; {}", areQuick(options) ? "quick=1; " : "",
-                     (options.results / figure.study).string(), (figureFolder(options) / figure.name).string(),
-                     figure.assignments);
+  return gnuplotCommands(figure, options, options.results / figure.study);
+}
+
+std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data) {
+  return fmt::format("{}data='{}'; out='{}'; {}", areQuick(options) ? "quick=1; " : "", data.string(),
+                     (figureFolder(options) / figure.name).string(), figure.assignments);
 }
 
 std::string shellCommand(const Figure& figure, const ReportOptions& options) {

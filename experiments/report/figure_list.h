@@ -39,6 +39,8 @@ bool isDrawn(const Figure& figure, const ReportOptions& options);
 
 /// The assignments for `gnuplot -e`. With results of --quick they set `quick`, so that style.gp marks the figure.
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options);
+/// The same with the tables of another folder.
+std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data);
 /// The shell's command that draws the figure again, in the folder `home`.
 std::string shellCommand(const Figure& figure, const ReportOptions& options);
 

@@ -18,6 +18,7 @@
 #include "core/base/text.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
+#include "experiments/report/drawn_rows.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/page.h"
 #include "experiments/tables/table.h"
@@ -84,7 +85,9 @@ void requireResults(const std::string& study, const std::vector<Figure>& figures
 bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& err) {
   // What is left of an earlier drawing must not pass for this one.
   for (const auto* ending : {".svg", ".png"}) std::filesystem::remove(figureFolder(options) / (figure.name + ending));
-  if (!drawFigure(figure.script, gnuplotCommands(figure, options), options.home, err)) return false;
+  const auto drawn = drawnRows(figure, options);
+  const auto data = drawn ? drawn->folder() : options.results / figure.study;
+  if (!drawFigure(figure.script, gnuplotCommands(figure, options, data), options.home, err)) return false;
   if (!figure.is_own || isDrawn(figure, options)) return true;
   fmt::print(err, "figure {} is not drawn: it selects no rows\n", figure.name);
   return false;

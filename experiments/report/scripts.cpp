@@ -80,10 +80,10 @@ void checkColumns(const FigureOption& option) {
 }
 
 void checkBlocks(const FigureOption& option, const std::vector<std::string>& blocks) {
-  if (blocks.empty() || (option.name != "block" && option.name != "cases")) return;
+  if (blocks.empty() || (option.name != "block" && option.name != "cases" && option.name != "only")) return;
   constexpr std::string_view kBlock = "block=";
   for (auto word : wordsOf(option)) {
-    if (option.name == "cases") {
+    if (option.name != "block") {
       if (!word.starts_with(kBlock)) continue;
       word = word.substr(kBlock.size(), word.find(':') - kBlock.size());
     }

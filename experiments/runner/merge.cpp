@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_set>
 
 #include "experiments/runs/run_table.h"
+#include "experiments/store/entry_index.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_walk.h"
 
@@ -57,8 +57,7 @@ class Comparing {
 
  private:
   void compareRows(std::uint64_t key, const Store& first, const Store& second) {
-    const Entry &a = *first.runs().find(key), &b = *second.runs().find(key);
-    const TableRow one = first.runs().row(a), other = second.runs().row(b);
+    const TableRow one = first.runs().row(*first.runs().find(key)), other = second.runs().row(*second.runs().find(key));
     const auto text = [this](const TableRow& row, std::string_view column) { return textAt(names_, row, column); };
     if (text(one, "code") != text(other, "code")) return;
     const auto timeout = name(Outcome::kTimeout);
@@ -82,13 +81,15 @@ class Comparing {
 };
 
 void countNotOfStudy(const RunKeys& keys, const std::vector<const Store*>& stores, MergeReport& report) {
-  std::unordered_set<std::uint64_t> known;
-  for (const auto& series : keys) known.insert(series.begin(), series.end());
+  // All rows with different keys, less those of the study.
+  EntryIndex all([](const Entry&, const Entry&) { return false; });
   for (const auto* store : stores) {
-    store->runs().forEach([&](const Entry& entry) {
-      if (known.insert(entry.key).second) ++report.not_of_study;
-    });
+    store->runs().forEach([&](const Entry& entry) { all.add(entry); });
   }
+  all.sort();
+  std::size_t of_study = 0;
+  keys.forEach([&](std::uint64_t key, const std::string&) { of_study += all.find(key) ? 1u : 0u; });
+  report.not_of_study = all.size() - of_study;
 }
 
 }  // namespace
@@ -96,13 +97,14 @@ void countNotOfStudy(const RunKeys& keys, const std::vector<const Store*>& store
 MergeReport reportOf(const Study& study, const RunKeys& keys, const std::vector<const Store*>& stores) {
   MergeReport report;
   Comparing comparing(stores, report);
-  for (const auto key : inOrder(keys)) comparing.compare(key);
+  keys.forEach([&comparing](std::uint64_t key, const std::string&) { comparing.compare(key); });
   report.foreign = comparing.foreign();
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Series& series = study.series[i];
+    const auto its = keys[i];
     const auto state = stateOf(series, [&](std::size_t run) -> std::optional<RunFacts> {
       for (const auto* store : stores) {
-        const Entry* entry = store->runs().find(keys[i][run]);
+        const auto entry = store->runs().find(its[run]);
         if (entry) return factsOf(store->runs(), *entry, series.end == SeriesEnd::kAsymptotic);
       }
       return {};

@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "experiments/base/interrupt.h"
+#include "experiments/tables/environment.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -55,14 +57,14 @@ void send(std::int64_t value, int to, int tag) {
 /// The queue of rank 0: a thread answers the other ranks; its own threads use the same counter.
 class GivingQueue final : public WorkQueue {
  public:
-  GivingQueue(std::size_t count, int others, Ranks::Given given)
-      : count_(count), others_(others), given_(std::move(given)) {
+  GivingQueue(std::vector<std::size_t> order, int others, Ranks::Given given)
+      : order_(std::move(order)), others_(others), given_(std::move(given)) {
     server_ = std::thread([this] { serve(); });
   }
   ~GivingQueue() override { server_.join(); }
   std::optional<std::size_t> next() override {
     const std::size_t i = next_.fetch_add(1);
-    return i < count_ ? std::optional(i) : std::nullopt;
+    return i < order_.size() ? std::optional(order_[i]) : std::nullopt;
   }
 
  private:
@@ -92,7 +94,7 @@ class GivingQueue final : public WorkQueue {
     return status.MPI_TAG;
   }
 
-  std::size_t count_;
+  std::vector<std::size_t> order_;
   int others_;
   Ranks::Given given_;
   std::atomic<std::size_t> next_ = 0;
@@ -143,9 +145,9 @@ class MpiRanks final : public Ranks {
 
   int rank() const override { return rank_; }
   int count() const override { return count_; }
-  std::unique_ptr<WorkQueue> queue(std::size_t count, Given given) override {
+  std::unique_ptr<WorkQueue> queue(std::vector<std::size_t> order, Given given) override {
     meet();  // all messages of the previous queue are received
-    if (rank_ == 0) return std::make_unique<GivingQueue>(count, count_ - 1, std::move(given));
+    if (rank_ == 0) return std::make_unique<GivingQueue>(std::move(order), count_ - 1, std::move(given));
     return std::make_unique<AskingQueue>();
   }
   void meet() override {
@@ -155,6 +157,30 @@ class MpiRanks final : public Ranks {
       MPI_Ibarrier(MPI_COMM_WORLD, &request);
     }
     wait(request);
+  }
+  std::vector<std::string> hosts() override {
+    using Name = std::array<char, 256>;
+    Name own{};
+    hostName().copy(own.data(), own.size() - 1);
+    std::vector<Name> names(static_cast<std::size_t>(count_));
+    MPI_Request request;
+    {
+      const std::lock_guard lock(mpiLock());
+      MPI_Iallgather(own.data(), own.size(), MPI_CHAR, names.data(), own.size(), MPI_CHAR, MPI_COMM_WORLD, &request);
+    }
+    wait(request);
+    std::vector<std::string> hosts;
+    for (const Name& name : names) hosts.emplace_back(name.data());
+    return hosts;
+  }
+  bool asTheFirst(bool said) override {
+    int value = said ? 1 : 0;
+    MPI_Request request;
+    {
+      const std::lock_guard lock(mpiLock());
+      MPI_Ibcast(&value, 1, MPI_INT, 0, MPI_COMM_WORLD, &request);
+    }
+    return wait(request) && value == 1;
   }
   [[noreturn]] void abandon(int status) override {
     MPI_Abort(MPI_COMM_WORLD, status);

@@ -3,21 +3,36 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <string>
+#include <set>
 
 #include "experiments/runs/run_spec.h"
 #include "experiments/store/store.h"
 
 namespace irk {
 
+namespace {
+
+// Few studies have ends over time, and finding them needs memory for every run.
+std::size_t differentEnds(const Study& study) {
+  std::set<double> ends;
+  for (const Series& series : study.series) {
+    const double end = series.runs.front().t_end;
+    if (!std::isnan(end)) ends.insert(end);
+  }
+  return ends.size();
+}
+
+}  // namespace
+
 std::unordered_set<std::uint64_t> earlierEnds(const Study& study) {
-  std::map<std::string, std::map<double, std::uint64_t>> ends;  // of all that is equal
+  if (differentEnds(study) < kEndsOverTime) return {};
+  std::map<std::uint64_t, std::map<double, std::uint64_t>> ends;  // of all that is equal
   for (const Series& series : study.series) {
     for (const RunSpec& spec : series.runs) {
       if (std::isnan(spec.t_end)) continue;  // the scene's own: one end
       RunSpec endless = spec;
       endless.t_end = 1;
-      ends[specKey(endless)][spec.t_end] = store::keyNumber(specKey(spec));
+      ends[store::keyNumber(specKey(endless))][spec.t_end] = store::keyNumber(specKey(spec));
     }
   }
   std::unordered_set<std::uint64_t> earlier;

@@ -8,15 +8,19 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <ostream>
-#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
 #include "experiments/reference/library.h"
+#include "experiments/runner/costs.h"
+#include "experiments/runner/shard_plan.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/solution/trajectory.h"
@@ -24,7 +28,6 @@
 #include "experiments/study/series_rules.h"
 #include "experiments/study/series_walk.h"
 #include "irk/misuse.h"
-#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -64,7 +67,7 @@ class Sweep {
                      .stop = &interruptFlag(),
                      .tell = [this](const std::string& line) { told_.push_back(line); }}) {
     for (std::size_t i = 0; i < study.series.size(); ++i) {
-      if (!keys_[i].empty()) work_.push_back(i);
+      if (!keys_.isLeftOut(i)) work_.push_back(i);
     }
     tellStale(out);
     progress_.emplace(out, study.id);
@@ -79,39 +82,47 @@ class Sweep {
   void makeReferences(Ranks& ranks, std::ostream& out) {
     const auto asks = [](const Series& series) { return series.runs.front().reference == ReferenceUse::kAuto; };
     if (std::none_of(study_.series.begin(), study_.series.end(), asks)) return;
+    constexpr std::size_t kAtOnce = 10'000;  // specs
     std::vector<RunSpec> missing;
+    const auto prepare = [&] {
+      if (ranks.rank() == 0) references_.prepare(missing, study_.id + " references", out);
+      missing.clear();
+    };
     for (const std::size_t i : work_) {
-      if (!asks(study_.series[i])) continue;
-      for (std::size_t run = 0; run < keys_[i].size(); ++run) {
-        if (store_.finished(keys_[i][run])) continue;
-        for (auto& spec : atReferenceTimes(study_.series[i].runs[run])) missing.push_back(std::move(spec));
+      const Series& series = study_.series[i];
+      if (!asks(series)) continue;
+      const auto keys = keys_[i];
+      for (std::size_t run = 0; run < keys.size(); ++run) {
+        if (store_.finished(keys[run])) continue;
+        for (auto& spec : atReferenceTimes(series.runs[run])) missing.push_back(std::move(spec));
       }
+      if (missing.size() >= kAtOnce) prepare();
     }
-    if (ranks.rank() == 0) references_.prepare(missing, study_.id + " references", out);
+    prepare();
     for (const auto& line : told_) fmt::print(out, "{}\n", line);
     ranks.meet();
   }
 
-  /// Throws the first exception of any thread. All ranks must have the same work in the same order.
+  /// Throws the first exception of any thread.
   void run(int threads, Ranks& ranks) {
-    // Long series first, so that all threads end at about the same time; more stages cost more.
-    const auto stages = [this](std::size_t series) {
-      const RunSpec& spec = study_.series[series].runs.front();
-      return isFamily(spec.method) ? spec.max_stages : stagesInId(spec.method);
-    };
-    std::stable_sort(work_.begin(), work_.end(), [&](std::size_t a, std::size_t b) { return stages(a) > stages(b); });
-    const auto queue = ranks.queue(work_.size(), [this](std::size_t i) { countAsGiven(work_[i]); });
-    inParallel(*queue, threads, [this](std::size_t i) { runSeries(work_[i]); });
+    // Long series first, so that all threads end at about the same time.
+    const auto costs = ranks.rank() == 0 && isAnyMissing()
+                           ? expectedCosts(
+                                 study_, [this](std::size_t i) { return keys_[i]; }, store_.runs())
+                           : std::vector<double>(study_.series.size());
+    std::stable_sort(work_.begin(), work_.end(), [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+    const auto queue = ranks.queue(work_, [this](std::size_t i) { countAsGiven(i); });
+    inParallel(*queue, threads, [this](std::size_t i) { runSeries(i); });
   }
 
-  const RunKeys& keys() const { return keys_; }
+  RunKeys takeKeys() { return std::move(keys_); }
 
  private:
   void tellStale(std::ostream& out) const {
     std::size_t stale = 0;
     for (const std::size_t i : work_) {
       for (const auto key : keys_[i]) {
-        const auto* entry = store_.finished(key);
+        const auto entry = store_.finished(key);
         if (entry && !store_.runs().isCurrent(*entry)) ++stale;
       }
     }
@@ -121,6 +132,13 @@ class Sweep {
         "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
         "them again\n",
         study_.id, stale);
+  }
+
+  bool isAnyMissing() const {
+    return std::any_of(work_.begin(), work_.end(), [this](std::size_t i) {
+      const auto keys = keys_[i];
+      return std::any_of(keys.begin(), keys.end(), [this](std::uint64_t key) { return !store_.finished(key); });
+    });
   }
 
   // Another rank makes the series: count its runs as done.
@@ -134,6 +152,7 @@ class Sweep {
   void runSeries(std::size_t index) {
     const Series& series = study_.series[index];
     const bool planned = series.end == SeriesEnd::kAsymptotic;
+    const auto keys = keys_[index];
     SeriesWalk walk(series);
     std::size_t expected = expectedRuns(series);
     while (const auto run = walk.next()) {
@@ -145,7 +164,7 @@ class Sweep {
         const std::lock_guard lock(mutex_);
         progress_->expect(kind);
       }
-      const auto facts = finishedOrMade(spec, keys_[index][*run], kind, planned, tooLongRow(index, walk));
+      const auto facts = finishedOrMade(spec, keys[*run], kind, planned, tooLongRow(keys, walk));
       if (!facts) return;
       walk.record(*run, *facts);
     }
@@ -154,12 +173,12 @@ class Sweep {
     for (; expected > 0; --expected) progress_->skipped(kind);
   }
 
-  std::optional<TableRow> tooLongRow(std::size_t index, const SeriesWalk& walk) {
+  std::optional<TableRow> tooLongRow(const std::vector<std::uint64_t>& keys, const SeriesWalk& walk) {
     const auto run = walk.tooLong();
     if (!run) return {};
     const std::lock_guard lock(mutex_);
     const store::Rows& runs = store_.runs();
-    return runs.row(*runs.find(keys_[index][*run]));
+    return runs.row(*runs.find(keys[*run]));
   }
 
   // nullopt after an interrupt.
@@ -168,7 +187,7 @@ class Sweep {
     if (interruptFlag()) return {};
     {
       const std::lock_guard lock(mutex_);
-      const store::Entry* entry = store_.finished(key);
+      const auto entry = store_.finished(key);
       if (entry && hasSolution(key, spec)) {
         progress_->skipped(kind);
         return store::factsOf(store_.runs(), *entry, planned);
@@ -209,7 +228,7 @@ class Sweep {
 
   const Study& study_;
   store::Store& store_;
-  const RunKeys keys_;
+  RunKeys keys_;
   const Table columns_{{}, runColumns(), {}};
   std::vector<std::size_t> work_;  // indices of series
   std::mutex mutex_;
@@ -229,40 +248,34 @@ std::filesystem::path studyFolder(const Study& study, const RunnerOptions& optio
 int threadCount(int jobs) { return jobs > 0 ? jobs : omp_get_num_procs(); }
 
 RunKeys runKeys(const Study& study, const RunnerOptions& options) {
-  RunKeys keys(study.series.size());
-  const auto shard = shardOfSeries(study, options.shard.count);
-  const auto all = aloneRank()->queue(keys.size(), {});
-  inParallel(*all, threadCount(options.jobs), [&](std::size_t i) {
-    if (shard[i] != options.shard.index) return;
-    for (const auto& spec : study.series[i].runs) keys[i].push_back(store::keyNumber(specKey(spec)));
+  const auto shard = shardsOf(study, options);
+  std::vector<RunKeys::Series> wanted;
+  for (std::size_t i = 0; i < shard.size(); ++i) {
+    const Series& series = study.series[i];
+    wanted.push_back({shard[i] == options.shard.index ? series.runs.size() : 0, series.block});
+  }
+  RunKeys keys(wanted);
+  std::vector<std::size_t> all(shard.size());
+  std::iota(all.begin(), all.end(), 0);
+  inParallel(*aloneRank()->queue(std::move(all), {}), threadCount(options.jobs), [&](std::size_t i) {
+    if (!keys.isLeftOut(i)) keys.set(i, keysOf(study.series[i]));
   });
+  keys.finish();
   return keys;
 }
 
-std::vector<std::uint64_t> inOrder(const RunKeys& keys) {
-  std::vector<std::uint64_t> order;
-  std::unordered_set<std::uint64_t> there;
-  for (const auto& series : keys) {
-    for (const auto key : series) {
-      if (there.insert(key).second) order.push_back(key);
-    }
-  }
-  return order;
-}
-
-std::vector<std::uint64_t> makeRuns(const Study& study, const RunnerOptions& options, store::Store& store, Ranks& ranks,
-                                    std::ostream& progress) {
+RunKeys makeRuns(const Study& study, const RunnerOptions& options, store::Store& store, Ranks& ranks,
+                 std::ostream& progress) {
   Sweep sweep(study, options, store, progress);
   sweep.makeReferences(ranks, progress);
   sweep.run(threadCount(options.jobs), ranks);
-  return inOrder(sweep.keys());
+  return sweep.takeKeys();
 }
 
 Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
   store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
   const auto alone = aloneRank();
   const auto keys = makeRuns(study, options, store, *alone, progress);
-  store.nameBlocks(blocksOf(study, runKeys(study, options)));
   store.exportTables(keys);
   return readTable(store.folder() / "runs.csv");
 }

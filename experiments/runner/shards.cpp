@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <map>
 #include <numeric>
 #include <queue>
 
 #include "experiments/base/numbers.h"
-#include "experiments/runs/setup.h"
 #include "irk/misuse.h"
-#include "irk/scene.h"
-#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -51,31 +46,6 @@ Shard checked(Shard shard, std::string_view text) {
   return shard;
 }
 
-// The number of unknowns of a scene with its settings. Finding it builds the scene, so it is cached.
-class Unknowns {
- public:
-  double of(const RunSpec& spec) {
-    const auto [at, added] = known_.try_emplace({spec.scene, settingsText(spec.settings)}, 0);
-    if (added) {
-      const State<double> start = sceneOf<double>(spec).start;
-      at->second = static_cast<double>(start.u.size() + start.x.size() + start.z().size());
-    }
-    return at->second;
-  }
-
- private:
-  std::map<std::pair<std::string, std::string>, double> known_;
-};
-
-// Expected number of steps, proportional to tol^(-1 / (order + 1)). With fixed steps it is 1 / h up to the unknown
-// length of the interval.
-double expectedSteps(const RunSpec& spec, double stages) {
-  if (spec.options.step.control == StepControl::kFixed) return 1 / spec.options.step.h;
-  const double tol = std::max(spec.options.tolerances.rtol, spec.options.tolerances.atol);
-  constexpr double kMaxOrder = 8;
-  return std::pow(tol, -1 / (1 + std::min(2 * stages - 1, kMaxOrder)));
-}
-
 }  // namespace
 
 Shard parseShard(std::string_view text) {
@@ -94,25 +64,8 @@ Shard parseShard(std::string_view text) {
   return {static_cast<int>(parseInteger("shard", index, Range::integers(1, count))), count};
 }
 
-double expectedCost(const Series& series) {
-  static thread_local Unknowns unknowns;
-  const RunSpec first = series.runs.front();
-  const double given = static_cast<double>(isFamily(first.method) ? 5 : stagesInId(first.method));
-  const double stages = std::max(given, 1.0);
-  const double digits = first.scalar == ScalarKind::kDouble ? 1 : first.scalar == ScalarKind::kMp50 ? 40 : 80;
-  const double step = stages * (unknowns.of(first) + 3) * digits;
-  double cost = 0;
-  for (const auto& spec : series.runs) cost += step * expectedSteps(spec, stages);
-  // The estimates vary more than measured times do. For the times of the quick studies, their square root balances
-  // the shards best.
-  return std::sqrt(cost);
-}
-
-std::vector<int> shardOfSeries(const Study& study, int shards) {
-  std::vector<int> shard(study.series.size(), 1);
-  if (shards == 1) return shard;
-  std::vector<double> cost;
-  for (const auto& series : study.series) cost.push_back(expectedCost(series));
+std::vector<int> balanced(const std::vector<double>& cost, int shards) {
+  std::vector<int> shard(cost.size(), 1);
   std::vector<std::size_t> order(cost.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });

@@ -19,13 +19,9 @@ struct Shard {
 /// PBS_ARRAY_INDEX, SGE_TASK_ID. Throws Misuse.
 Shard parseShard(std::string_view text);
 
-/// The shard of each series, 1 to `shards`: the longest series first, each to the shard with the least work so far.
-/// Depends on the study only, so that all machines agree.
-std::vector<int> shardOfSeries(const Study& study, int shards);
-
-/// The estimated time of the runs of a series, in arbitrary units, from their number, stages, unknowns and
-/// tolerances.
-double expectedCost(const Series& series);
+/// The shard of each series with these costs, 1 to `shards`: the longest series first, each to the shard with the least
+/// work so far.
+std::vector<int> balanced(const std::vector<double>& costs, int shards);
 
 /// A Slurm job script: an array of `shards` jobs, and the commands that merge their results.
 std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <unordered_set>
 
 #include "experiments/base/progress.h"
 #include "experiments/base/time_left.h"
@@ -29,7 +29,7 @@ class Counting {
     const bool planned = series.end == SeriesEnd::kAsymptotic;
     const store::Rows& runs = store_.runs();
     const SeriesState state = stateOf(series, [&](std::size_t run) -> std::optional<RunFacts> {
-      const store::Entry* entry = runs.find(keys[run]);
+      const auto entry = runs.find(keys[run]);
       if (!entry) return {};
       return store::factsOf(runs, *entry, planned);
     });
@@ -44,11 +44,9 @@ class Counting {
   }
 
   StudyStatus result() {
-    for (const auto& [kind, runs] : expected_) {
-      if (!made_.contains(kind)) status_.guessed += runs;
-    }
+    status_.guessed = time_.guessed();
     status_.seconds_left = time_.left();
-    if (made_.empty()) status_.seconds_left = std::nan("");
+    if (time_.spent() == 0) status_.seconds_left = std::nan("");
     if (status_.all.planned == status_.all.finished) status_.seconds_left = 0;
     return std::move(status_);
   }
@@ -57,12 +55,11 @@ class Counting {
   void expect(const std::string& kind, std::size_t runs) {
     if (runs == 0) return;
     time_.expect(kind, runs);
-    expected_[kind] += runs;
   }
 
   void countFinished(const Series& series, std::size_t run, std::uint64_t key, RunCounts& counts) {
     const store::Rows& runs = store_.runs();
-    const store::Entry& entry = *runs.find(key);
+    const store::Entry entry = *runs.find(key);
     const bool stale = !runs.isCurrent(entry), success = runs.name(entry.outcome) == name(Outcome::kSuccess);
     ++counts.finished;
     if (!success) ++counts.failed;
@@ -71,8 +68,8 @@ class Counting {
     const double seconds = numberAt(names_, runs.row(entry), "cpu_s");
     if (!std::isnan(seconds)) {
       const std::string kind = kindOf(series.runs[run], series.end);
+      time_.expect(kind, 1);
       time_.made(kind, seconds);
-      made_.insert(kind);
     }
     const TimingOptions& timing = study_.timing;
     if (!timing.wanted || !success || stale || seconds > timing.skip_above_s || earlier_.contains(key)) return;
@@ -100,8 +97,6 @@ class Counting {
   const Table names_{{}, runColumns(), {}};
   StudyStatus status_;
   TimeLeft time_;
-  std::map<std::string, std::size_t> expected_;
-  std::set<std::string> made_;
   std::map<std::uint16_t, bool> foreign_;
   std::unordered_set<std::uint64_t> earlier_;
 };
@@ -120,7 +115,7 @@ StudyStatus statusOf(const Study& study, const RunnerOptions& options, const sto
   const RunKeys keys = runKeys(study, options);
   Counting counting(study, store);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (!keys[i].empty()) counting.count(study.series[i], keys[i]);
+    if (!keys.isLeftOut(i)) counting.count(study.series[i], keys[i]);
   }
   return counting.result();
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "experiments/base/clock.h"
@@ -14,9 +16,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
 #include "experiments/runner/over_time.h"
-#include "experiments/runner/runner.h"
-#include "experiments/tables/build_info.h"
-#include "experiments/tables/environment.h"
+#include "experiments/store/calibration.h"
 
 namespace irk {
 namespace {
@@ -24,6 +24,7 @@ namespace {
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 // The set-up is measured for this part of the time that the whole call is.
 constexpr double kSetUpPart = 0.1;
+constexpr double kCalibrationPeriod = 1;  // s
 
 /// Stores the seconds per integration; prints nothing.
 class Collector final : public benchmark::BenchmarkReporter {
@@ -38,53 +39,106 @@ class Collector final : public benchmark::BenchmarkReporter {
   double seconds = kNotMeasured;
 };
 
+/// A run whose times are missing.
 struct Candidate {
-  TableRow* row;
-  RunSpec spec;
+  TableRow row;
   double seconds;  // of the accuracy run, on any machine
-  int repetitions;
-  std::vector<double> measured;  // starts with the measurements of an interrupted pass
+  std::size_t wanted;
+  std::vector<double> measured;  // on this processor
   double setup_s;                // the least of them; NaN: not measured
 };
 
 // Timing takes about the same time for runs of about the same length.
 std::string kindOf(const Candidate& candidate) { return std::to_string(std::ilogb(candidate.seconds)); }
 
-// The row's repetitions that were measured on this processor; empty if its times are not valid (forgetTiming).
-std::vector<double> measuredHere(const store::Store& store, const Table& runs, const TableRow& row) {
-  if (store.processor(textAt(runs, row, "cpu_environment")) != processorName()) return {};
-  std::vector<double> seconds;
-  std::istringstream in(textAt(runs, row, "cpu_all"));
-  for (std::string word; in >> word;) seconds.push_back(cellNumber(word));
-  return seconds;
-}
+/// The timing pass of one process. It keeps no table: every round reads the rows again.
+class Pass {
+ public:
+  Pass(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share)
+      : study_(study), keys_(keys), store_(store), share_(share), earlier_(earlierEnds(study)) {}
 
-// The run's length, even if it was measured elsewhere and is not valid as a time.
-double lengthOf(const store::Store& store, const Table& runs, const TableRow& row) {
-  const double seconds = numberAt(runs, row, "cpu_s");
-  const auto* entry = store.runs().find(store::keyNumber(row.front()));
-  if (!std::isnan(seconds) || !entry) return seconds;
-  return numberAt(runs, store.runs().row(*entry), "cpu_s");
-}
-
-std::vector<Candidate> candidates(const Study& study, const store::Store& store, Table& runs) {
-  const SpecsByKey specs(study);
-  const auto earlier = earlierEnds(study);
-  std::vector<Candidate> wanted;
-  for (auto& row : runs.rows) {
-    const auto spec = specs.find(row.front());
-    // Times of this code do not belong to the counters of stale rows.
-    const bool stale = textAt(runs, row, "code") != buildInfo().code;
-    if (!spec || stale || !succeededAt(runs, row) || earlier.contains(store::keyNumber(row.front()))) continue;
-    const double seconds = lengthOf(store, runs, row);
-    const int repetitions = seconds > study.timing.once_above_s ? 1 : study.timing.repetitions;
-    if (seconds > study.timing.skip_above_s || numberAt(runs, row, "cpu_runs") >= repetitions) continue;
-    auto measured = measuredHere(store, runs, row);
-    const double setup = measured.empty() ? kNotMeasured : numberAt(runs, row, "cpu_setup_s");
-    wanted.push_back({&row, *spec, seconds, repetitions, std::move(measured), setup});
+  void expect(Progress& progress) const {
+    forEachSeries([&](const Series& series, const std::vector<std::uint64_t>& keys) {
+      for (std::size_t run = 0; run < series.runs.size(); ++run) {
+        const auto candidate = candidateOf(keys[run]);
+        if (!candidate) continue;
+        for (auto i = candidate->measured.size(); i < candidate->wanted; ++i) progress.expect(kindOf(*candidate));
+      }
+    });
   }
-  return wanted;
-}
+
+  void measure(std::size_t round, Progress& progress) {
+    forEachSeries([&](const Series& series, const std::vector<std::uint64_t>& keys) {
+      for (std::size_t run = 0; run < series.runs.size() && !interruptFlag(); ++run) {
+        auto candidate = candidateOf(keys[run]);
+        if (!candidate || round < candidate->measured.size() || round >= candidate->wanted) continue;
+        const double start = wallSeconds();
+        const std::string kind = kindOf(*candidate);
+        calibrate();
+        time(series.runs[run], *candidate);
+        store_.addTimes(candidate->row);
+        if (candidate->wanted == 1) once_.insert(keys[run]);
+        progress.finished(kind, wallSeconds() - start);
+      }
+    });
+  }
+
+ private:
+  void forEachSeries(const std::function<void(const Series&, const std::vector<std::uint64_t>&)>& take) const {
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (i % share_.hosts == share_.host && !keys_.isLeftOut(i)) take(study_.series[i], keys_[i]);
+    }
+  }
+
+  std::optional<Candidate> candidateOf(std::uint64_t key) const {
+    const store::Rows& runs = store_.runs();
+    const auto entry = runs.find(key);
+    // Times of this code do not belong to the counters of stale rows.
+    if (!entry || !runs.isCurrent(*entry) || runs.name(entry->outcome) != name(Outcome::kSuccess)) return {};
+    const TimingOptions& timing = study_.timing;
+    const bool counts = store_.options().times == store::Times::kAll || store_.timedHere(*entry);
+    const std::size_t repetitions = counts ? entry->repetitions : 0;
+    const bool enough = repetitions >= static_cast<std::size_t>(timing.repetitions);
+    if (enough || earlier_.contains(key) || once_.contains(key)) return {};
+    Candidate candidate{runs.row(*entry), 0, 0, {}, kNotMeasured};
+    candidate.seconds = numberAt(names_, candidate.row, "cpu_s");
+    candidate.wanted = static_cast<std::size_t>(candidate.seconds > timing.once_above_s ? 1 : timing.repetitions);
+    if (candidate.seconds > timing.skip_above_s || repetitions >= candidate.wanted) return {};
+    if (!store_.timedHere(*entry)) return candidate;
+    std::istringstream in(textAt(names_, candidate.row, "cpu_all"));
+    for (std::string word; in >> word;) candidate.measured.push_back(cellNumber(word));
+    if (!candidate.measured.empty()) candidate.setup_s = numberAt(names_, candidate.row, "cpu_setup_s");
+    return candidate;
+  }
+
+  void time(RunSpec spec, Candidate& candidate) const {
+    const double min_time_s = study_.timing.min_time_s;
+    spec.time_limit = 0;
+    const auto run = prepare(spec);
+    // Warm up long runs, which are not repeated within the measurement: the first call touches new memory.
+    if (candidate.wanted > 1 && candidate.seconds > min_time_s) run->wholeCall();
+    candidate.measured.push_back(timeCall([&] { run->wholeCall(); }, min_time_s));
+    const double setup = timeCall([&] { run->setUp(); }, kSetUpPart * min_time_s);
+    Timing timing = timingOf(candidate.measured);
+    timing.setup_s = std::fmin(candidate.setup_s, setup);
+    setTiming(names_, candidate.row, timing);
+  }
+
+  void calibrate() {
+    if (wallSeconds() < calibrated_ + kCalibrationPeriod) return;
+    store_.addCalibration(store::calibrationSeconds());
+    calibrated_ = wallSeconds();
+  }
+
+  const Study& study_;
+  const RunKeys& keys_;
+  store::Store& store_;
+  TimingShare share_;
+  const std::unordered_set<std::uint64_t> earlier_;
+  const Table names_{{}, runColumns(), {}};
+  std::unordered_set<std::uint64_t> once_;  // long runs that are measured
+  double calibrated_ = -kCalibrationPeriod;
+};
 
 }  // namespace
 
@@ -105,39 +159,12 @@ double timeCall(const std::function<void()>& call, double min_time_s) {
   return collector.seconds;
 }
 
-void timeStudy(const Study& study, store::Store& store, Table& runs, std::ostream& out) {
-  auto wanted = candidates(study, store, runs);
-  {
-    Progress progress(out, study.id + " timing");
-    for (const auto& candidate : wanted) {
-      for (auto i = candidate.measured.size(); i < static_cast<std::size_t>(candidate.repetitions); ++i) {
-        progress.expect(kindOf(candidate));
-      }
-    }
-    for (int round = 0; round < study.timing.repetitions; ++round) {
-      for (auto& candidate : wanted) {
-        const bool measured = static_cast<std::size_t>(round) < candidate.measured.size();
-        if (measured || round >= candidate.repetitions || interruptFlag()) continue;
-        const double start = wallSeconds();
-        RunSpec unlimited = candidate.spec;
-        unlimited.time_limit = 0;
-        const auto run = prepare(unlimited);
-        // Warm up long runs, which are not repeated within the measurement: the first call touches new memory.
-        if (candidate.repetitions > 1 && candidate.seconds > study.timing.min_time_s) run->wholeCall();
-        candidate.measured.push_back(timeCall([&] { run->wholeCall(); }, study.timing.min_time_s));
-        const double setup = timeCall([&] { run->setUp(); }, kSetUpPart * study.timing.min_time_s);
-        candidate.setup_s = std::fmin(candidate.setup_s, setup);
-        Timing timing = timingOf(candidate.measured);
-        timing.setup_s = candidate.setup_s;
-        setTiming(runs, *candidate.row, timing);
-        store.addTimes(*candidate.row);
-        progress.finished(kindOf(candidate), wallSeconds() - start);
-      }
-    }
-  }
-  std::vector<std::uint64_t> keys;
-  for (const auto& row : runs.rows) keys.push_back(store::keyNumber(row.front()));
-  store.exportTables(keys);
+void timeStudy(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, std::ostream& out) {
+  Progress progress(out, study.id + " timing");
+  Pass pass(study, keys, store, share);
+  pass.expect(progress);
+  for (int round = 0; round < study.timing.repetitions; ++round)
+    pass.measure(static_cast<std::size_t>(round), progress);
 }
 
 }  // namespace irk

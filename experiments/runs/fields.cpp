@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/control/order_controller.h"
+#include "core/options/fixed_steps.h"
 #include "core/options/option_fields.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/configurations.h"
@@ -124,7 +126,7 @@ Field<RunSpec> atolOfField() {
                 for (const auto& [name, value] : s.atol_of) parseNumber("atol_of " + name, value, kPositive);
               },
           .unused = [](const RunSpec& s) -> std::string_view {
-            return s.options.step.control == StepControl::kFixed ? "fixed steps have no tolerance" : "";
+            return hasFixedSteps(s.options.step) ? "fixed steps have no tolerance" : "";
           }};
 }
 
@@ -133,7 +135,7 @@ Field<RunSpec> maxStagesField() {
       "max_stages", "The most stages of variable order.", Range::integers(1, kMaxStages),
       [](auto& s) -> auto& { return s.max_stages; });
   field.unused = [](const RunSpec& s) -> std::string_view {
-    return s.options.order == OrderControl::kFixed ? "it belongs to order 'variable'" : "";
+    return !choosesOrder(s.options.order) ? "it belongs to order 'variable'" : "";
   };
   return field;
 }

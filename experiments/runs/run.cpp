@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/options/fixed_steps.h"
 #include "core/system/first_order.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
+#include "experiments/own/stuck.h"
 #include "experiments/runs/component_names.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/peer_integrator.h"
@@ -80,6 +82,7 @@ class PeerMethod {
 // `start`.
 std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
   return [&watch, start, limit] {
+    own::stillGoing();
     if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
     const bool late = limit > 0 && threadSeconds() - start > limit;
     return late ? Outcome::kTimeout : Outcome::kSuccess;
@@ -193,7 +196,7 @@ class Prepared final : public PreparedRun {
   // Constant steps have no tolerances.
   ToleranceRatio toleranceRatio() const {
     const Tolerances& tolerances = spec_.options.tolerances;
-    if (spec_.options.step.control == StepControl::kFixed || tolerances.rtol == 0) return {};
+    if (hasFixedSteps(spec_.options.step) || tolerances.rtol == 0) return {};
     return {tolerances.atol / tolerances.rtol, toleranceScale(scene_, spec_, scene_.sizes())};
   }
 
@@ -269,7 +272,7 @@ class Prepared final : public PreparedRun {
 
 // A setting `X/h` has a value only if the step is constant.
 void requireKnownStep(const RunSpec& spec) {
-  if (spec.options.step.control == StepControl::kFixed) return;
+  if (hasFixedSteps(spec.options.step)) return;
   for (const auto& [name, value] : spec.settings) {
     if (value.ends_with("/h")) {
       throw Misuse(name + " = '" + value + "': a value over h needs fixed steps, --step H");

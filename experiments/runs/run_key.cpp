@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/base/input_file.h"
+#include "core/control/order_controller.h"
 #include "experiments/base/numbers.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
@@ -29,7 +30,7 @@ std::uint64_t tableauHash(const Tableau<double>& tableau) {
 }
 
 std::string hashedCoefficients(const std::string& method, int max_stages, OrderControl order) {
-  if (order == OrderControl::kFixed) return hexText(tableauHash(makeTableau<double>(method)));
+  if (!choosesOrder(order)) return hexText(tableauHash(makeTableau<double>(method)));
   std::string all;
   for (const auto& member : makeMethods<double>(method, max_stages, 1).members) {
     all += hexText(tableauHash(member));
@@ -44,7 +45,7 @@ std::string coefficients(const RunSpec& spec) {
   if (std::filesystem::is_regular_file(spec.method)) return hexText(fnv1a(readInputFile(spec.method)));
   static std::mutex mutex;
   static std::map<std::tuple<std::string, int, OrderControl>, std::string> known;
-  const bool variable = spec.options.order == OrderControl::kVariable;
+  const bool variable = choosesOrder(spec.options.order);
   const std::tuple name{spec.method, variable ? spec.max_stages : 0, spec.options.order};
   {
     const std::lock_guard lock(mutex);
@@ -93,6 +94,7 @@ std::string specKey(const RunSpec& spec) {
 std::string integratorName(const RunSpec& spec) {
   if (findPeer(spec.method)) return spec.method;
   if (spec.options.order == OrderControl::kVariable) return spec.configuration;
+  if (choosesOrder(spec.options.order)) return spec.configuration + ":" + std::string(spec.options.order.id);
   return spec.configuration + ":" + spec.method;
 }
 

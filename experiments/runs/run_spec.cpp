@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/control/order_controller.h"
 #include "experiments/base/numbers.h"
+#include "irk/scene_file.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -88,6 +90,9 @@ RunSpec resolved(RunSpec spec) {
       throw Misuse(unknownName("parameter of " + spec.scene, name, known));
     }
   }
+  Settings values = spec.settings;
+  std::erase_if(values, [](const auto& setting) { return setting.second.ends_with("/h"); });  // known with the step
+  static_cast<void>(completedSettings(spec.scene, parameters, values));
   if (std::isnan(spec.t_end)) spec.t_end = makeScene<double>(spec.scene, settingsAtStep(spec)).t_end;
   return spec;
 }
@@ -104,7 +109,7 @@ Settings settingsAtStep(const RunSpec& spec) {
 }
 
 void refuseFamilyOfFixedOrder(const RunSpec& spec) {
-  if (!isFamily(spec.method) || spec.options.order != OrderControl::kFixed) return;
+  if (!isFamily(spec.method) || choosesOrder(spec.options.order)) return;
   throw Misuse(
       fmt::format("illegal combination: order 'fixed' with '{0}': that is a family, for order "
                   "'variable' only; a method has its number of stages, {0}_5",

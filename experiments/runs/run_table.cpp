@@ -156,6 +156,10 @@ bool succeededAt(const Table& table, const TableRow& row) {
   return textAt(table, row, "outcome") == name(Outcome::kSuccess);
 }
 
+bool hasFixedStepsAt(const Table& table, const TableRow& row) {
+  return textAt(table, row, "control") == StepControl::kFixed.id;
+}
+
 bool notMeasurableAt(const Table& table, const TableRow& row) {
   return table.hasColumn(kAccuracy) && std::isnan(numberAt(table, row, "error")) &&
          !std::isnan(numberAt(table, row, kAccuracy));

@@ -22,7 +22,7 @@ std::vector<std::string> seriesColumns(const Table& table);
 struct RunSeries {
   TableRow name;  ///< the cells of seriesColumns
   std::vector<const TableRow*> rows;
-  std::string blocks = {};  ///< of all of its rows (experiments/study/blocks.h)
+  std::string blocks = {};  ///< of all of its rows (block_names.h)
 };
 /// In the order of their first rows. The results point into `runs`.
 std::vector<RunSeries> seriesOf(const Table& runs);
@@ -44,6 +44,8 @@ void forgetTiming(const Table& table, TableRow& row);
 double numberAt(const Table& table, const TableRow& row, std::string_view column);
 const std::string& textAt(const Table& table, const TableRow& row, std::string_view column);
 bool succeededAt(const Table& table, const TableRow& row);
+/// Whether all steps of the run had one size, so that it had no tolerance.
+bool hasFixedStepsAt(const Table& table, const TableRow& row);
 /// Whether the run's error is below kMeasurable accuracies of its computed reference and therefore NaN.
 bool notMeasurableAt(const Table& table, const TableRow& row);
 /// The run's largest error at its reference times, or, where that is unknown, its error at the end; where this is not

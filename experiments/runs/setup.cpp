@@ -5,6 +5,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/text.h"
+#include "core/control/order_controller.h"
 #include "core/estimates/variable_order.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "irk/multiprecision.h"
@@ -19,7 +20,7 @@ Methods<Real> methodsOf(const RunSpec& spec) {
     throw Misuse("method '" + spec.method + "' is an integrator of another library: it has no tableau");
   }
   refuseFamilyOfFixedOrder(spec);
-  if (spec.options.order == OrderControl::kFixed) return makeTableau<Real>(spec.method);
+  if (!choosesOrder(spec.options.order)) return makeTableau<Real>(spec.method);
   return makeMethods<Real>(spec.method, spec.max_stages, firstStages(spec.options.tolerances));
 }
 

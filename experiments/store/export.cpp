@@ -14,6 +14,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/store/calibration.h"
 #include "experiments/store/store.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
@@ -50,24 +51,23 @@ std::string textOf(std::uint32_t seconds) {
 
 }  // namespace
 
-std::string Store::refusalOfTimes(std::span<const std::uint64_t> keys) const {
+std::string Store::refusalOfTimes(const RunKeys& keys) const {
   struct Measured {
     std::size_t rows = 0;
     std::set<std::string> environments;
   };
   std::map<std::string, std::string> processors;  // by environment
   std::map<std::string, Measured> measured;       // by processor
-  for (const auto key : keys) {
-    const Entry* entry = runs_.find(key);
-    if (!entry || runs_.name(entry->outcome) != name(Outcome::kSuccess)) continue;
-    const auto& environment = runs_.name(entry->cpu_environment);
+  forEachRun(keys, [&](const Entry& entry, const std::string&) {
+    if (runs_.name(entry.outcome) != name(Outcome::kSuccess)) return;
+    const auto& environment = runs_.name(entry.cpu_environment);
     const auto [at, added] = processors.try_emplace(environment);
     if (added) at->second = processor(environment);
-    if (options_.times == Times::kHere && at->second != processorName()) continue;
+    if (options_.times == Times::kHere && at->second != processorName()) return;
     auto& here = measured[at->second];
     ++here.rows;
     here.environments.insert(environment);
-  }
+  });
   if (measured.size() < 2) return {};
   std::string text = fmt::format("times of {} processors are not joined:", measured.size());
   for (const auto& [processor, its] : measured) {
@@ -78,17 +78,15 @@ std::string Store::refusalOfTimes(std::span<const std::uint64_t> keys) const {
          "again if the study has a timing pass, or --fresh";
 }
 
-TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& refusal) const {
+TableHead Store::head(const RunKeys& keys, const std::string& refusal) const {
   std::map<std::uint16_t, std::size_t> codes, environments;
   std::uint32_t first = ~0u, last = 0;
-  for (const auto key : keys) {
-    const Entry* entry = runs_.find(key);
-    if (!entry) continue;
-    ++codes[entry->code];
-    ++environments[entry->environment];
-    first = std::min(first, entry->date);
-    last = std::max(last, entry->date);
-  }
+  forEachRun(keys, [&](const Entry& entry, const std::string&) {
+    ++codes[entry.code];
+    ++environments[entry.environment];
+    first = std::min(first, entry.date);
+    last = std::max(last, entry.date);
+  });
   TableHead head{{"study", study_}};
   std::string made_by;
   for (const auto& [code, rows] : codes) {
@@ -102,7 +100,7 @@ TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& re
     const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
     std::set<std::string> values;
     for (const auto& [environment, rows] : environments) {
-      const Entry* entry = environments_.find(keyNumber(runs_.name(environment)));
+      const auto entry = environments_.find(keyNumber(runs_.name(environment)));
       values.insert(entry ? environments_.row(*entry)[at] : "unknown");
     }
     head.emplace_back(name, joined(values));
@@ -112,54 +110,52 @@ TableHead Store::head(std::span<const std::uint64_t> keys, const std::string& re
   if (folder_.parent_path().filename() == "quick")
     head.emplace_back("quick", "a small version of the study; preliminary");
   if (!refusal.empty()) head.emplace_back(kTimesRefused, refusal);
+  const auto drift = calibrationDoubts(calibrationsByHost(calibrations_, environments_));
+  if (!drift.empty()) head.emplace_back(kTimesDrift, drift);
   return head;
 }
 
-void Store::exportRuns(std::span<const std::uint64_t> keys, const std::string& refusal) const {
+void Store::exportRuns(const RunKeys& keys, const std::string& refusal) const {
   const Table names{{}, runs_.columns(), {}};
   writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
     auto columns = runs_.columns();
-    if (!blocks_.empty()) columns.emplace_back(kBlockColumn);
+    if (keys.hasBlocks()) columns.emplace_back(kBlockColumn);
     out << startOf(head(keys, refusal), columns);
-    for (const auto key : keys) {
-      const Entry* entry = runs_.find(key);
-      if (!entry) continue;
-      const bool times_count = refusal.empty() && (options_.times == Times::kAll || timedHere(*entry));
-      TableRow row = runs_.row(*entry);
+    forEachRun(keys, [&](const Entry& entry, const std::string& blocks) {
+      const bool times_count = refusal.empty() && (options_.times == Times::kAll || timedHere(entry));
+      TableRow row = runs_.row(entry);
       if (!times_count) forgetTiming(names, row);
-      if (!blocks_.empty()) {
-        const auto block = blocks_.find(key);
-        row.push_back(block == blocks_.end() ? std::string() : block->second);
-      }
+      if (keys.hasBlocks()) row.push_back(blocks);
       out << csvLine(row) << '\n';
-    }
+    });
   });
 }
 
-void Store::exportStates(std::span<const std::uint64_t> keys) const {
+void Store::exportStates(const RunKeys& keys) const {
   writeWhole(folder_ / "states.csv", [&](std::ostream& out) {
     out << startOf({{"study", study_}}, states_.columns());
-    for (const auto key : keys) {
-      if (const Entry* entry = states_.find(key)) out << states_.line(*entry) << '\n';
-    }
+    keys.forEach([&](std::uint64_t key, const std::string&) {
+      if (const auto entry = states_.find(key)) out << states_.line(*entry) << '\n';
+    });
   });
 }
 
-void Store::exportEnvironments() const {
+void Store::exportAll(const Rows& rows, const std::string& name) const {
   std::vector<Entry> all;
-  environments_.forEach([&all](const Entry& entry) { all.push_back(entry); });
+  rows.forEach([&all](const Entry& entry) { all.push_back(entry); });
   std::sort(all.begin(), all.end(),
             [](const Entry& a, const Entry& b) { return std::pair(a.part, a.offset) < std::pair(b.part, b.offset); });
-  writeWhole(folder_ / "environments.csv", [&](std::ostream& out) {
-    out << startOf({{"study", study_}}, environments_.columns());
-    for (const auto& entry : all) out << environments_.line(entry) << '\n';
+  writeWhole(folder_ / (name + ".csv"), [&](std::ostream& out) {
+    out << startOf({{"study", study_}}, rows.columns());
+    for (const auto& entry : all) out << rows.line(entry) << '\n';
   });
 }
 
-std::string Store::exportTables(std::span<const std::uint64_t> keys) {
+std::string Store::exportTables(const RunKeys& keys) {
   const auto refusal = refusalOfTimes(keys);
   exportRuns(keys, refusal);
-  exportEnvironments();
+  exportAll(environments_, "environments");
+  if (calibrations_.size() > 0) exportAll(calibrations_, "calibrations");
   if (states_.size() > 0) exportStates(keys);
   return refusal;
 }

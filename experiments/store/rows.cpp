@@ -35,8 +35,6 @@ bool parseKey(std::string_view text, std::uint64_t& key) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-bool isBefore(const Entry& entry, std::uint64_t key) { return entry.key < key; }
-
 std::string contentsOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -60,6 +58,8 @@ struct Rows::Columns {
   }
   std::size_t code, date, remade, repetitions, environment, cpu_environment, outcome;
 };
+
+std::uint64_t keyNumber(std::string_view key) { return numberOf<std::uint64_t>(key, 16); }
 
 std::uint32_t secondsOf(std::string_view date) {
   constexpr std::size_t kLength = 20;
@@ -85,6 +85,7 @@ Rows::Rows(std::filesystem::path folder, std::string name, std::vector<std::stri
       at_(std::make_unique<Columns>(columns_)),
       names_(1),
       current_(idOf(at_->code < columns_.size() ? code : "")),
+      index_([this](const Entry& a, const Entry& b) { return better(a, b); }),
       writer_(folder_, name_ + "." + writerName(), columns_) {}
 
 Rows::~Rows() {
@@ -131,7 +132,7 @@ void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage
     if (!entry) return false;
     entry->part = part;
     entry->offset = offset;
-    sorted_.push_back(*entry);
+    index_.add(*entry);
     return true;
   });
   if (!reading.columns_match) {
@@ -174,23 +175,7 @@ void Rows::read(Damage damage, std::ostream& messages) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     readOne(parts_[i], static_cast<std::uint32_t>(i), damage, messages);
   }
-  keepBest();
-}
-
-void Rows::keepBest() {
-  std::sort(sorted_.begin(), sorted_.end(),
-            [this](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : better(a, b); });
-  const auto end =
-      std::unique(sorted_.begin(), sorted_.end(), [](const Entry& a, const Entry& b) { return a.key == b.key; });
-  sorted_.erase(end, sorted_.end());
-  sorted_.shrink_to_fit();
-}
-
-const Entry* Rows::find(std::uint64_t key) const {
-  const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), key, isBefore);
-  if (at != sorted_.end() && at->key == key) return &*at;
-  const auto added = added_.find(key);
-  return added == added_.end() ? nullptr : &added->second;
+  index_.sort();
 }
 
 void Rows::append(const TableRow& row) {
@@ -202,15 +187,7 @@ void Rows::append(const TableRow& row) {
   if (first) parts_.push_back(writer_.file());
   const auto own = std::find(parts_.begin(), parts_.end(), writer_.file());
   entry->part = static_cast<std::uint32_t>(own - parts_.begin());
-  const auto sorted = std::lower_bound(sorted_.begin(), sorted_.end(), entry->key, isBefore);
-  const bool there = sorted != sorted_.end() && sorted->key == entry->key;
-  Entry& counting = there ? *sorted : added_.try_emplace(entry->key, *entry).first->second;
-  if (better(*entry, counting)) counting = *entry;
-}
-
-void Rows::forEach(const std::function<void(const Entry&)>& take) const {
-  for (const auto& entry : sorted_) take(entry);
-  for (const auto& [key, entry] : added_) take(entry);
+  index_.put(*entry);
 }
 
 int Rows::descriptor(std::uint32_t part) const {

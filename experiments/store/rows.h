@@ -11,23 +11,16 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
+#include "experiments/store/entry_index.h"
 #include "experiments/store/part.h"
 #include "experiments/tables/table.h"
 
 namespace irk::store {
 
-/// The part of a row that is kept in memory: 40 bytes regardless of the row's length. `code`, `environment`,
-/// `cpu_environment` and `outcome` are ids for `Rows::name`; 0 is the empty text.
-struct Entry {
-  std::uint64_t key = 0, offset = 0;
-  std::uint32_t part = 0;
-  std::uint32_t date = 0, remade = 0;  ///< seconds since 1970; 0 = none
-  std::uint16_t repetitions = 0;       ///< of the timing pass
-  std::uint16_t code = 0, environment = 0, cpu_environment = 0, outcome = 0;
-};
+/// The number that the hexadecimal text `0123456789abcdef` stands for.
+std::uint64_t keyNumber(std::string_view key);
 
 /// Seconds since 1970 of `2026-01-31T12:00:00Z`; 0 for other text.
 std::uint32_t secondsOf(std::string_view date);
@@ -41,7 +34,8 @@ std::string writerName();
 ///   2. the latest request to make it again (`--fresh`: column `remade`);
 ///   3. measured by the timing pass (column `cpu_runs`);
 ///   4. the later date; within one second the row of the later part, or further down in it.
-/// Reading takes one pass over the parts and keeps one Entry per key. Not thread-safe.
+/// Reading takes one pass over the parts and keeps one Entry per key, with bounded memory (EntryIndex). Not
+/// thread-safe.
 class Rows {
  public:
   /// `code` is the fingerprint of this program.
@@ -55,9 +49,9 @@ class Rows {
   void read(Damage damage, std::ostream& messages);
 
   const std::vector<std::string>& columns() const { return columns_; }
-  std::size_t size() const { return sorted_.size() + added_.size(); }
-  /// Returns nullptr if there is no such row. The pointer is valid until the next append.
-  const Entry* find(std::uint64_t key) const;
+  std::size_t size() const { return index_.size(); }
+  /// The valid row of this key, if there is one.
+  std::optional<Entry> find(std::uint64_t key) const { return index_.find(key); }
   bool isCurrent(const Entry& entry) const { return entry.code == current_; }
   const std::string& name(std::uint16_t id) const { return names_[id]; }
   TableRow row(const Entry& entry) const;
@@ -67,8 +61,8 @@ class Rows {
   /// The row is in the file when this returns; the destructor flushes it to the device. Throws Failure.
   void append(const TableRow& row);
 
-  /// Visits every entry, in unspecified order.
-  void forEach(const std::function<void(const Entry&)>& take) const;
+  /// Visits every entry, by ascending keys.
+  void forEach(const std::function<void(const Entry&)>& take) const { index_.forEach(take); }
   /// The number of lines that could not be read.
   std::size_t damaged() const { return damaged_; }
 
@@ -78,7 +72,6 @@ class Rows {
   std::optional<Entry> entryOf(const std::vector<std::string_view>& cells);
   std::uint16_t idOf(std::string_view name);
   void readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages);
-  void keepBest();
   int descriptor(std::uint32_t part) const;
 
   std::filesystem::path folder_;
@@ -88,8 +81,7 @@ class Rows {
   std::vector<std::filesystem::path> parts_;
   std::vector<std::string> names_;
   std::uint16_t current_;
-  std::vector<Entry> sorted_;                       // by key, one entry each
-  std::unordered_map<std::uint64_t, Entry> added_;  // keys that sorted_ does not contain
+  EntryIndex index_;
   PartWriter writer_;
   std::size_t damaged_ = 0;
   mutable std::vector<int> descriptors_;  // one for each of parts_; -1 = closed

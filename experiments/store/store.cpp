@@ -4,7 +4,6 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <charconv>
 #include <ctime>
 #include <map>
 #include <ostream>
@@ -12,13 +11,14 @@
 
 #include "experiments/base/failure.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/store/calibration.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 
 namespace irk::store {
 namespace {
 
-constexpr const char* kTables[] = {"runs", "states", "environments"};
+constexpr const char* kTables[] = {"runs", "states", "environments", "calibrations"};
 
 std::vector<std::string> stateColumns() { return {"key", "state", "code", "date"}; }
 
@@ -39,12 +39,6 @@ bool hasParts(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::uint64_t keyNumber(std::string_view key) {
-  std::uint64_t number = 0;
-  std::from_chars(key.data(), key.data() + key.size(), number, 16);
-  return number;
-}
-
 Store::Store(std::filesystem::path folder, std::string study, Use use, const StoreOptions& options,
              std::ostream& messages)
     : folder_(std::move(folder)),
@@ -53,13 +47,14 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
       started_(dateText()),
       runs_(folder_, kTables[0], runColumns(), buildInfo().code),
       states_(folder_, kTables[1], stateColumns(), buildInfo().code),
-      environments_(folder_, kTables[2], environmentColumns(), "") {
+      environments_(folder_, kTables[2], environmentColumns(), ""),
+      calibrations_(folder_, kTables[3], calibrationColumns(), "") {
   if (use == Use::kWrite) {
     lock_.emplace(folder_, options.if_locked, messages);
     adoptFormerTable(messages);
   }
   const auto damage = use == Use::kWrite ? Rows::Damage::kSetAside : Rows::Damage::kReport;
-  for (auto* rows : {&runs_, &states_, &environments_}) rows->read(damage, messages);
+  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_}) rows->read(damage, messages);
 }
 
 // Handles exported tables without parts: they were copied here, or written by a version that had no parts.
@@ -75,7 +70,7 @@ void Store::adoptFormerTable(std::ostream& messages) {
     return;
   }
   std::filesystem::create_directories(folder_ / "parts");
-  for (const std::string table : {kTables[2], kTables[1], kTables[0]}) {
+  for (const std::string table : {kTables[3], kTables[2], kTables[1], kTables[0]}) {
     const auto from = folder_ / (table + ".csv");
     if (!std::filesystem::is_regular_file(from)) continue;
     const auto part = folder_ / "parts" / fmt::format("{}.{}.taken_in.csv", table, writerName());
@@ -85,12 +80,12 @@ void Store::adoptFormerTable(std::ostream& messages) {
   fmt::print(messages, "{}: a table without its parts: it is taken in as one\n", file.string());
 }
 
-const Entry* Store::finished(std::uint64_t key) const {
-  const Entry* entry = runs_.find(key);
-  if (!entry) return nullptr;
-  if (options_.stale == StaleRows::kRemake && !runs_.isCurrent(*entry)) return nullptr;
+std::optional<Entry> Store::finished(std::uint64_t key) const {
+  const auto entry = runs_.find(key);
+  if (!entry) return {};
+  if (options_.stale == StaleRows::kRemake && !runs_.isCurrent(*entry)) return {};
   const bool made_before = entry->remade < secondsOf(started_) || !runs_.isCurrent(*entry);
-  if (options_.finished == FinishedRuns::kRunAgain && made_before) return nullptr;
+  if (options_.finished == FinishedRuns::kRunAgain && made_before) return {};
   return entry;
 }
 
@@ -103,6 +98,11 @@ void Store::addTimes(TableRow row) {
   addEnvironment();
   row.resize(runs_.columns().size());
   runs_.append(row);
+}
+
+void Store::addCalibration(double seconds) {
+  addEnvironment();
+  calibrations_.append(calibrationRow(seconds));
 }
 
 void Store::addRun(TableRow row) {
@@ -120,7 +120,7 @@ std::size_t Store::takeOver(const Store& other) {
     std::size_t taken = 0;
     from.forEach([&](const Entry& entry) {
       const TableRow row = from.row(entry);
-      const Entry* here = rows.find(entry.key);
+      const auto here = rows.find(entry.key);
       if (here && rows.row(*here) == row) return;
       rows.append(row);
       ++taken;
@@ -129,15 +129,22 @@ std::size_t Store::takeOver(const Store& other) {
   };
   take(environments_, other.environments_);
   take(states_, other.states_);
+  take(calibrations_, other.calibrations_);
   return take(runs_, other.runs_);
 }
 
 std::string Store::processor(std::string_view environment) const {
-  const Entry* entry = environments_.find(keyNumber(environment));
+  const auto entry = environments_.find(keyNumber(environment));
   if (!entry) return "unknown";
   static const auto columns = environmentColumns();
   static const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "cpu") - columns.begin());
   return environments_.row(*entry)[at];
+}
+
+void Store::forEachRun(const RunKeys& keys, const TakeRun& take) const {
+  keys.forEach([&](std::uint64_t key, const std::string& blocks) {
+    if (const auto entry = runs_.find(key)) take(*entry, blocks);
+  });
 }
 
 bool Store::timedHere(const Entry& entry) const {

@@ -1,22 +1,23 @@
 // The stored rows of one study: part files, to which rows are only ever appended, and the tables exported from them.
 //
 //   results/<study>/lock                        held by the current writer
-//                   parts/runs.<writer>.csv     rows of one process; likewise states and environments
+//                   parts/runs.<writer>.csv     rows of one process; likewise states, environments and calibrations
 //                   parts/runs.<writer>.damaged lines that could not be read
-//                   runs.csv, states.csv, environments.csv   for people and gnuplot: the study's runs in its order
+//                   runs.csv, states.csv, environments.csv, calibrations.csv   for people and gnuplot: the study's
+//                                               runs in its order
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
 #include "experiments/store/lock.h"
 #include "experiments/store/rows.h"
-#include "experiments/study/blocks.h"
+#include "experiments/store/run_keys.h"
 #include "experiments/tables/table.h"
 
 namespace irk::store {
@@ -50,17 +51,19 @@ class Store {
   const std::filesystem::path& folder() const { return folder_; }
   const Rows& runs() const { return runs_; }
   const Rows& environments() const { return environments_; }
+  const Rows& calibrations() const { return calibrations_; }
   const StoreOptions& options() const { return options_; }
 
-  /// Returns nullptr if the run has to be made: it has no row, its row is stale and to be remade, or --fresh was
-  /// given.
-  const Entry* finished(std::uint64_t key) const;
-  bool hasState(std::uint64_t key) const { return states_.find(key) != nullptr; }
+  /// Nothing if the run has to be made: it has no row, its row is stale and to be remade, or --fresh was given.
+  std::optional<Entry> finished(std::uint64_t key) const;
+  bool hasState(std::uint64_t key) const { return states_.find(key).has_value(); }
 
   /// Stores a run that was made now; fills in the column `remade`.
   void addRun(TableRow row);
   /// Stores a row with new times; drops its cell of blocks.
   void addTimes(TableRow row);
+  /// Stores a calibration that was measured here and now, in seconds.
+  void addCalibration(double seconds);
   void addState(const std::string& key, const std::string& state);
   /// Copies the rows of `other` that this store does not have. Returns the number of copied runs.
   std::size_t takeOver(const Store& other);
@@ -70,33 +73,30 @@ class Store {
   /// Whether the times of the valid row were measured on this processor.
   bool timedHere(const Entry& entry) const;
 
-  /// Sets the block names for exported tables; without names these have no block column.
-  void nameBlocks(BlockNames names) { blocks_ = std::move(names); }
+  /// Calls `take` for each of these runs that has a row, in their order, with the names of its blocks.
+  using TakeRun = std::function<void(const Entry& entry, const std::string& blocks)>;
+  void forEachRun(const RunKeys& keys, const TakeRun& take) const;
 
-  /// Writes runs.csv, environments.csv and, if there are states, states.csv: the rows of these keys in this order.
-  /// Each file is written beside its target and renamed. Returns the reason if times of several processors are
-  /// refused, or an empty text.
-  std::string exportTables(std::span<const std::uint64_t> keys);
+  /// Writes runs.csv, environments.csv and, if there are any, states.csv and calibrations.csv: the rows of these keys
+  /// in this order, with a column of blocks if the keys have them. Each file is written beside its target and renamed.
+  /// Returns the reason if times of several processors are refused, or an empty text.
+  std::string exportTables(const RunKeys& keys);
 
  private:
   void addEnvironment();
   void adoptFormerTable(std::ostream& messages);
-  TableHead head(std::span<const std::uint64_t> keys, const std::string& refusal) const;
-  std::string refusalOfTimes(std::span<const std::uint64_t> keys) const;
-  void exportRuns(std::span<const std::uint64_t> keys, const std::string& refusal) const;
-  void exportStates(std::span<const std::uint64_t> keys) const;
-  void exportEnvironments() const;
+  TableHead head(const RunKeys& keys, const std::string& refusal) const;
+  std::string refusalOfTimes(const RunKeys& keys) const;
+  void exportRuns(const RunKeys& keys, const std::string& refusal) const;
+  void exportStates(const RunKeys& keys) const;
+  void exportAll(const Rows& rows, const std::string& name) const;
 
   std::filesystem::path folder_;
   std::string study_;
   StoreOptions options_;
   std::string started_;
   std::optional<Lock> lock_;
-  Rows runs_, states_, environments_;
-  BlockNames blocks_;
+  Rows runs_, states_, environments_, calibrations_;
 };
-
-/// The number that the hexadecimal text `0123456789abcdef` stands for.
-std::uint64_t keyNumber(std::string_view key);
 
 }  // namespace irk::store

@@ -10,25 +10,11 @@
 #include <vector>
 
 #include "experiments/runs/run_spec.h"
-#include "experiments/study/series_runs.h"
+#include "experiments/study/series_list.h"
 
 namespace irk {
 
 struct Analysis;  // analysis.h
-
-/// The rule by which later runs of a series are skipped.
-enum class SeriesEnd {
-  kAll,         ///< every run is made
-  kAsymptotic,  ///< a StepPlanner chooses among them, to measure orders
-  kTooLong,     ///< after a run that hit max_steps or the time limit, harder runs are recorded with its outcome
-};
-
-/// Runs of one method on one scene, made in order from the easiest to the hardest.
-struct Series {
-  SeriesRuns runs;
-  SeriesEnd end = SeriesEnd::kAll;
-  std::string block = {};  ///< the name of its block; empty for the runs of an audit
-};
 
 /// The serial timing pass.
 struct TimingOptions {
@@ -51,7 +37,7 @@ struct AuditOptions {
 struct Study {
   std::string id;
   std::string title;
-  std::vector<Series> series;
+  SeriesList series;
   std::vector<const Analysis*> analyses;  ///< what is computed from the runs, in the catalogue's order
   std::vector<double> targets;            ///< errors at which costs are compared
   bool trajectories = false;              ///< write the solution over time of every run: <scene>.<method>.csv

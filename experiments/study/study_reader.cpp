@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -15,80 +14,21 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/loaded/load_method.h"
-#include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/draw.h"
 #include "experiments/study/study_file.h"
 #include "experiments/study/study_rules.h"
+#include "experiments/study/toml/block_series.h"
 #include "experiments/study/toml/own_files.h"
 #include "experiments/study/toml/scene_lists.h"
+#include "experiments/study/toml/values.h"
 #include "irk/tableaus.h"
 
 namespace irk {
 namespace {
 
-template <class F>
-auto atPlace(const StudyValue& value, F&& f) {
-  try {
-    return f();
-  } catch (const Misuse& misuse) {
-    throw Misuse(fmt::format("{}: {}", value.place, misuse.what()));
-  }
-}
-
-const StudyValue* find(const StudyKeys& keys, std::string_view key) {
-  const auto at = keys.find(key);
-  return at == keys.end() ? nullptr : &at->second;
-}
-
-const std::string& single(std::string_view key, const StudyValue& value) {
-  if (value.items.size() != 1) {
-    throw Misuse(fmt::format("{}: {}: one value is expected, not a list", value.place, key));
-  }
-  return value.items.front();
-}
-
-double number(const StudyKeys& keys, std::string_view key, double fallback, const Range& range) {
-  const auto* value = find(keys, key);
-  if (!value) return fallback;
-  return atPlace(*value, [&] { return parseNumber(key, single(key, *value), range); });
-}
-
-std::int64_t integer(const StudyKeys& keys, std::string_view key, std::int64_t fallback, std::int64_t min,
-                     std::int64_t max) {
-  const auto* value = find(keys, key);
-  if (!value) return fallback;
-  return atPlace(*value, [&] { return parseInteger(key, single(key, *value), Range::integers(min, max)); });
-}
-
-std::vector<double> numbers(const StudyValue& value, std::string_view key, const Range& range) {
-  std::vector<double> all;
-  for (const auto& item : value.items) {
-    all.push_back(atPlace(value, [&] { return parseNumber(key, item, range); }));
-  }
-  return all;
-}
-
-// Each tolerance is used for both rtol and atol.
-std::vector<double> toleranceList(const StudyValue& value) {
-  auto tolerances = numbers(value, "tolerances", kPositive);
-  RunSpec spec;
-  for (const auto& item : value.items) {
-    for (const auto* field : {"rtol", "atol"}) atPlace(value, [&] { findField(field).set(spec, item); });
-  }
-  return tolerances;
-}
-
-bool flag(const StudyKeys& keys, std::string_view key) {
-  const auto* value = find(keys, key);
-  if (!value) return false;
-  const auto& text = single(key, *value);
-  if (text != "true" && text != "false") {
-    throw Misuse(fmt::format("{}: {} = '{}': true or false", value->place, key, text));
-  }
-  return text == "true";
-}
+using namespace values;
 
 // Numbers and ranges such as 3 and "1..20".
 std::vector<Index> stageList(const StudyValue& value) {
@@ -158,70 +98,16 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
   return methods;
 }
 
-// All combinations of the values of the block's spec fields.
-std::vector<RunSpec> specProduct(const StudyKeys& keys) {
-  std::vector<RunSpec> specs(1);
-  // A configuration comes first: it sets fields that other keys override.
-  std::vector<std::pair<std::string, StudyValue>> ordered(keys.begin(), keys.end());
-  std::stable_partition(ordered.begin(), ordered.end(), [](const auto& key) { return key.first == "configuration"; });
-  for (const auto& entry : ordered) {
-    const std::string& key = entry.first;
-    const StudyValue& value = entry.second;
-    if (!isSpecKey(key)) continue;
-    const auto& field = atPlace(
-        value, [&]() -> const auto& { return findField(key); });
-    std::vector<RunSpec> product;
-    for (const auto& spec : specs) {
-      for (const auto& item : value.items) {
-        product.push_back(spec);
-        atPlace(value, [&] { field.set(product.back(), item); });
-      }
-    }
-    specs = std::move(product);
-  }
-  return specs;
-}
-
-int refineMost(const StudyKeys& keys) { return static_cast<int>(integer(keys, "refine_most", 2, 2, 1'000'000'000)); }
-
-Series makeSeries(const RunSpec& spec, const StudyKeys& keys) {
-  if (const auto* tolerances = find(keys, "tolerances")) {
-    return {{spec, Swept::kTolerances, toleranceList(*tolerances)}, SeriesEnd::kTooLong};
-  }
-  if (const auto* steps = find(keys, "steps")) return {{spec, Swept::kStep, numbers(*steps, "steps", kPositive)}};
-  if (!find(keys, "refine_most")) return {spec};
-  const double start = atPlace(*find(keys, "scene"), [&] { return sceneOf<double>(spec).start.t; });
-  std::vector<double> steps;
-  for (const int n : divisions(refineMost(keys))) steps.push_back((spec.t_end - start) / n);
-  return {{spec, Swept::kStep, std::move(steps)}, SeriesEnd::kAsymptotic};
-}
-
-std::size_t runsOfSeries(const StudyKeys& keys) {
-  if (const auto* tolerances = find(keys, "tolerances")) return tolerances->items.size();
-  if (const auto* steps = find(keys, "steps")) return steps->items.size();
-  return find(keys, "refine_most") ? divisions(refineMost(keys)).size() : 1;
-}
-
-void appendBlock(const StudyKeys& keys, std::vector<Series>& all) {
+void appendBlock(const StudyKeys& keys, SeriesList& all) {
   const auto& scene = *find(keys, "scene");
   if (scene.items.empty()) throw Misuse(scene.place + ": the block names no scene");
   refuseContradictions(keys);
-  const auto methods = methodList(keys);
+  auto methods = methodList(keys);
   const auto most = integer(keys, "most_runs", kMaxRuns, 1, kMaxRunsAsked);
   refuseTooMany(keys, methods.size(), runsOfSeries(keys), most);
-  const auto specs = specProduct(keys);
+  const BlockSeries series(keys, methods);
   refusePeersInSweeps(keys, methods);
-  for (RunSpec spec : specs) {
-    spec = atPlace(scene, [&] { return resolved(spec); });
-    for (const auto& method : methods) {
-      spec.method = method;
-      if (const auto* listed = find(keys, "methods")) {
-        atPlace(*listed, [&] { refuseFamilyOfFixedOrder(spec); });
-      }
-      all.push_back(makeSeries(spec, keys));
-      all.back().block = find(keys, "name")->items.front();
-    }
-  }
+  all.append(series.size(), series);
 }
 
 // Refuses keys that the study's table does not have.
@@ -262,7 +148,7 @@ AuditOptions auditOptions(const StudyKeys& keys) {
 
 std::vector<Series> auditSeries(const AuditOptions& options) {
   std::vector<Series> series;
-  for (const auto& run : audit::drawnRuns(options)) series.push_back({run.spec});
+  for (const auto& run : audit::drawnRuns(options)) series.push_back({run.spec, SeriesEnd::kAll, {}});
   return series;
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "core/control/order_controller.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/unused_options.h"
 #include "experiments/study/analysis.h"
@@ -100,11 +101,12 @@ void refuseVariableOrder(const Study& study, const StudyKeys& block, std::size_t
     if (analysis->one_method.empty()) continue;
     for (std::size_t i = first; i < series.size(); ++i) {
       const RunSpec& spec = series[i].runs.front();
-      if (spec.options.order != OrderControl::kVariable || findPeer(spec.method)) continue;
+      if (!choosesOrder(spec.options.order) || findPeer(spec.method)) continue;
       const auto* key = keyOf(block, "order");
       if (!key) key = keyOf(block, "configuration");
-      throw Misuse(fmt::format("{}: order 'variable' with {} = true: {}; use order 'fixed'",
-                               (key ? key : keyOf(block, "scene"))->place, analysis->key, analysis->one_method));
+      throw Misuse(fmt::format("{}: order '{}' with {} = true: {}; use order 'fixed'",
+                               (key ? key : keyOf(block, "scene"))->place, spec.options.order.id, analysis->key,
+                               analysis->one_method));
     }
   }
 }

@@ -70,7 +70,7 @@ struct Sample {
 void addRuns(const Table& runs, bool adaptive_only, Sample& sample) {
   for (const auto& row : runs.rows) {
     const auto& outcome = textAt(runs, row, "outcome");
-    if (outcome == kRefused || (adaptive_only && textAt(runs, row, "control") == "fixed")) continue;
+    if (outcome == kRefused || (adaptive_only && hasFixedStepsAt(runs, row))) continue;
     ++sample.kinds[methodKind(runs, row)][outcome];
     ++sample.all[outcome];
   }

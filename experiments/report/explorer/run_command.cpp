@@ -34,7 +34,7 @@ class Row {
   double number(std::string_view column) const { return cellNumber(text(column)); }
   // An integrator of another library is called by its method's id alone.
   bool isPeer() const { return text("integrator") == text("method"); }
-  bool hasFixedSteps() const { return text("control") == "fixed" && number("h") > 0; }
+  bool hasFixedSteps() const { return runs_.hasColumn("control") && hasFixedStepsAt(runs_, row_) && number("h") > 0; }
 
  private:
   const Table& runs_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/options/fixed_steps.h"
 #include "experiments/own/files.h"
 #include "irk/misuse.h"
 #include "irk/registration.h"
@@ -94,7 +95,7 @@ void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scen
   if (spec.scalar != ScalarKind::kDouble) {
     refuse(peer, spec.scalar, "the library computes in double precision");
   }
-  if (spec.options.step.control == StepControl::kFixed) {
+  if (hasFixedSteps(spec.options.step)) {
     refuse(peer, StepControl::kFixed, "a peer chooses its own steps");
   }
   if (spec.options.tolerances.norm != NormKind::kMixed) {

@@ -81,6 +81,8 @@ PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scen
       switches_(*system_),
       derivatives_(spec.options.derivatives),
       ends_consistent_(spec.options.multipliers == Multipliers::kConsistent && system_->sizes().nz > 0) {
+  if (!peer_)
+    throw Misuse(fmt::format("method '{}' ({}): its function 'make' returned no solver", entry.id, entry.title));
   validate(spec.options);
   requireLegal(spec.options);
 }
@@ -147,7 +149,8 @@ StartReport PeerIntegrator::leg(bool new_run, double t_end, const Monitor<double
   problem_->count(counters_);
   problem_->setStop({});
   if (stopped_.outcome != Outcome::kSuccess || restarts_) return stopped_;
-  if (outcome != Outcome::kSuccess) return failed(outcome, peer_->message());
+  const std::string reason = peer_->message();
+  if (outcome != Outcome::kSuccess) return failed(outcome, reason.empty() ? "the method gave up" : reason);
   return state_.t >= t_end ? StartReport{} : failed(Outcome::kStepTooSmall, "the method returned before the end");
 }
 

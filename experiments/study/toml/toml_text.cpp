@@ -81,7 +81,10 @@ toml::table parseToml(std::string_view text, const std::string& file) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw Misuse(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
+    const std::string_view what = error.description();
+    const bool open = what.find("unescaped control characters") != what.npos;
+    throw Misuse(
+        fmt::format("{}:{}: {}", file, error.source().begin.line, open ? "a text without its closing quote" : what));
   }
 }
 

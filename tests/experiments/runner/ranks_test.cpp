@@ -4,11 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <thread>
 
@@ -19,7 +21,9 @@ namespace irk {
 namespace {
 
 TEST(WorkQueue, GivesEachPieceOnce) {
-  const auto queue = aloneRank()->queue(1000, {});
+  std::vector<std::size_t> order(1000);
+  std::iota(order.begin(), order.end(), 0);
+  const auto queue = aloneRank()->queue(order, {});
   std::mutex mutex;
   std::multiset<std::size_t> given;
   const auto take = [&] {
@@ -34,6 +38,12 @@ TEST(WorkQueue, GivesEachPieceOnce) {
   EXPECT_EQ(given.size(), 1000u);
   EXPECT_EQ(std::set<std::size_t>(given.begin(), given.end()).size(), 1000u);
   EXPECT_FALSE(queue->next());
+}
+
+TEST(TimingRanks, AreOnePerHost) {
+  EXPECT_EQ(timingRanks({"a"}), (std::vector<int>{0}));
+  EXPECT_EQ(timingRanks({"a", "a", "a", "a"}), (std::vector<int>{0}));
+  EXPECT_EQ(timingRanks({"a", "a", "b", "a", "c", "b"}), (std::vector<int>{0, 2, 4}));
 }
 
 #ifdef IRK_MPIEXEC
@@ -131,6 +141,30 @@ tolerances = [1e-6, 1e-9, 1e-11]
   EXPECT_NE(output("killed").find(made), std::string::npos) << made << " in " << output("killed");
   ASSERT_EQ(statusOf(command("undisturbed")), 0);
   expectSame(exported("killed"), exported("undisturbed"));
+}
+
+// Four ranks on one host: one of them measures, every run once per repetition.
+TEST_F(RanksOfMpi, OneRankOfAHostMeasures) {
+  std::ofstream(folder_.path() / "small.toml", std::ios::app) << "[timing]\nmin_time_s = 1e-4\nrepetitions = 2\n";
+  ASSERT_EQ(statusOf(command("timed", kFour)), 0) << output("timed");
+  const Table timed = exported("timed");
+  ASSERT_EQ(timed.rows.size(), 36u);
+  std::size_t successes = 0;
+  for (const auto& row : timed.rows) {
+    successes += succeededAt(timed, row) ? 1u : 0u;
+    EXPECT_EQ(numberAt(timed, row, "cpu_runs"), succeededAt(timed, row) ? 2 : 0);
+  }
+  std::size_t writers = 0, measured = 0;
+  for (const auto& part : partsOf(folder("timed"))) {
+    const Table rows = readTable(part);
+    const auto its = static_cast<std::size_t>(std::count_if(
+        rows.rows.begin(), rows.rows.end(), [&](const auto& row) { return numberAt(rows, row, "cpu_runs") > 0; }));
+    writers += its > 0 ? 1u : 0u;
+    measured += its;
+  }
+  EXPECT_EQ(writers, 1u);
+  EXPECT_EQ(measured, 2 * successes);
+  EXPECT_EQ(partsOf(folder("timed"), "calibrations").size(), 1u);
 }
 
 TEST_F(RanksOfMpi, AMisuseEndsAllRanks) {

@@ -114,7 +114,7 @@ TEST(Runner, ShardsTogetherAreTheWhole) {
   for (const auto& part : parts) {
     joined.takeOver(store::Store(part, "", store::Use::kRead, {}, quiet));
   }
-  joined.exportTables(inOrder(runKeys(small(), {})));
+  joined.exportTables(runKeys(small(), {}));
   const Table merged = readTable(folder.path() / "joined" / "runs.csv");
   const Table whole = runStudy(small(), options(folder, 1), quiet);
   const auto comparison = compare::compareRuns({whole, {}}, {merged, {}}, {.times = 10});
@@ -189,10 +189,12 @@ refine_most = 128
 // modified Newton there, and the measured orders are those of theory.
 TEST(Runner, TheOrderStudyMeasuresIndex2WithFewStages) {
   Study study = loadStudy("order", StudyVariant::kFull);
-  std::erase_if(study.series, [](const Series& series) {
+  std::vector<Series> few(study.series.begin(), study.series.end());
+  std::erase_if(few, [](const Series& series) {
     const RunSpec& spec = series.runs.front();
     return spec.scene != "index2_nonlinear" || (spec.method != "gauss_1" && spec.method != "lobatto_iiid_2");
   });
+  study.series = few;
   ASSERT_EQ(study.series.size(), 2u);
   const TemporaryFolder folder;
   std::ostringstream quiet;
@@ -254,11 +256,16 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
   std::ostringstream quiet;
   Study study = small();
   study.timing = {true, 1e-4, 3, 0.5, 3};
-  Table runs = runStudy(study, options(folder, 2), quiet);
+  runStudy(study, options(folder, 2), quiet);
   const auto file = folder.path() / "small" / "runs.csv";
   store::Store store(file.parent_path(), study.id, store::Use::kWrite, {}, quiet);
-  timeStudy(study, store, runs, quiet);
-  const Table read = readTable(file);
+  const RunKeys keys = runKeys(study, {});
+  const auto time = [&] {
+    timeStudy(study, keys, store, {}, quiet);
+    store.exportTables(keys);
+    return readTable(file);
+  };
+  const Table read = time();
   for (const auto& row : read.rows) {
     const double repetitions = numberAt(read, row, "cpu_runs");
     if (!succeededAt(read, row)) {
@@ -271,16 +278,15 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
     EXPECT_GE(numberAt(read, row, "cpu_spread"), 0);
   }
   // A second pass has nothing to time. After an interrupt in the second round only the missing rounds are measured.
-  Table again = read;
-  timeStudy(study, store, again, quiet);
-  EXPECT_EQ(readTable(file).rows, read.rows);
-  const auto all = again.column("cpu_all");
-  for (auto& row : again.rows) {
-    if (!succeededAt(again, row)) continue;
-    row[again.column("cpu_runs")] = "2";
+  EXPECT_EQ(time().rows, read.rows);
+  const auto all = read.column("cpu_all");
+  for (TableRow row : read.rows) {
+    if (!succeededAt(read, row)) continue;
+    row[read.column("cpu_runs")] = "2";
     row[all] = "0.25 0.5";
+    store.addTimes(row);
   }
-  timeStudy(study, store, again, quiet);
+  const Table again = time();
   for (const auto& row : again.rows) {
     EXPECT_EQ(numberAt(again, row, "cpu_runs"), succeededAt(again, row) ? 3 : 0);
     EXPECT_EQ(row[all].starts_with("0.25 0.5 "), succeededAt(again, row)) << row[all];

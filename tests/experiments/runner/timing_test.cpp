@@ -79,6 +79,15 @@ methods = "radau_iia_3"
 tolerances = [1e-4, 1e-7]
 )";
 
+// Times the study and reads what is exported.
+Table timed(const Study& study, store::Store& store) {
+  std::ostringstream quiet;
+  const RunKeys keys = runKeys(study, {});
+  timeStudy(study, keys, store, {}, quiet);
+  store.exportTables(keys);
+  return readTable(store.folder() / "runs.csv");
+}
+
 TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
   const TemporaryFolder folder;
   std::ostringstream quiet;
@@ -86,12 +95,10 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
   RunnerOptions options;
   options.results = folder.path();
   options.jobs = 1;
-  Table runs = runStudy(study, options, quiet);
+  runStudy(study, options, quiet);
   study.timing = {true, 1e-3, 5, 10, 20};
-  const auto file = folder.path() / "small" / "runs.csv";
-  store::Store store(file.parent_path(), study.id, store::Use::kWrite, {}, quiet);
-  timeStudy(study, store, runs, quiet);
-  const Table read = readTable(file);
+  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
+  const Table read = timed(study, store);
   ASSERT_EQ(read.rows.size(), 2u);
   for (const auto& row : read.rows) {
     const double least = numberAt(read, row, "cpu_s"), median = numberAt(read, row, "cpu_median_s");
@@ -103,6 +110,32 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
     EXPECT_LT(setup, median) << "a part of the whole call";
     EXPECT_LT(least, 0.1) << "of one integration";
   }
+}
+
+// Hosts that time at the same time share the series.
+TEST(TimeStudy, HostsShareTheSeries) {
+  const TemporaryFolder folder;
+  std::ostringstream quiet;
+  Study study = parseStudy(
+      "[[block]]\nscene = \"kepler\"\nt_end = 0.1\nmethods = [\"gauss_1\", \"gauss_2\", \"gauss_3\"]\n"
+      "tolerances = [1e-3, 1e-4]\n",
+      "small.toml", StudyVariant::kFull);
+  RunnerOptions options;
+  options.results = folder.path();
+  options.jobs = 1;
+  runStudy(study, options, quiet);
+  study.timing = {true, 1e-5, 2, 10, 20};
+  const RunKeys keys = runKeys(study, {});
+  const auto repetitions = [&](const store::Store& store) {
+    std::vector<int> all;
+    keys.forEach([&](std::uint64_t key, const std::string&) { all.push_back(store.runs().find(key)->repetitions); });
+    return all;
+  };
+  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
+  timeStudy(study, keys, store, {.host = 1, .hosts = 2}, quiet);
+  EXPECT_EQ(repetitions(store), (std::vector<int>{0, 0, 2, 2, 0, 0}));
+  timeStudy(study, keys, store, {.host = 0, .hosts = 2}, quiet);
+  EXPECT_EQ(repetitions(store), (std::vector<int>{2, 2, 2, 2, 2, 2}));
 }
 
 // Ten ends give the error over time: only the last integration is timed. Nine are runs of their own.
@@ -118,10 +151,10 @@ TEST(TimeStudy, TimesTheLastOfTenEnds) {
     RunnerOptions options;
     options.results = folder.path();
     options.jobs = 1;
-    Table runs = runStudy(study, options, quiet);
+    runStudy(study, options, quiet);
     study.timing = {true, 1e-5, 1, 10, 20};
     store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-    timeStudy(study, store, runs, quiet);
+    const Table runs = timed(study, store);
     ASSERT_EQ(runs.rows.size(), ten ? 20u : 18u);
     for (const auto& row : runs.rows) {
       const bool last = numberAt(runs, row, "t_end") == 0.1;
@@ -141,23 +174,23 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   options.jobs = 1;
   const Table runs = runStudy(study, options, quiet);
   store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-  const auto timed = [&](double once_above, double skip_above, const char* cpu, const char* outcome) {
-    Table table = runs;
-    for (auto& row : table.rows) {
-      row[table.column("cpu_s")] = cpu;
-      row[table.column("outcome")] = outcome;
+  int day = 1;
+  const auto repetitions = [&](const char* cpu, const char* outcome) {
+    for (TableRow row : runs.rows) {
+      row[runs.column("cpu_s")] = cpu;
+      row[runs.column("outcome")] = outcome;
+      row[runs.column("remade")] = "2100-01-0" + std::to_string(day) + "T00:00:00Z";  // replaces the rows before
+      store.addTimes(row);
     }
-    study.timing = {true, 1e-4, 3, once_above, skip_above};
-    timeStudy(study, store, table, quiet);
-    return table;
+    ++day;
+    study.timing = {true, 1e-4, 3, 0.5, 3};
+    const Table table = timed(study, store);
+    return numberAt(table, table.rows.front(), "cpu_runs");
   };
-  const auto repetitions = [](const Table& table) { return numberAt(table, table.rows.front(), "cpu_runs"); };
-  EXPECT_EQ(repetitions(timed(0.5, 3, "0.4", "success")), 3);
-  EXPECT_EQ(repetitions(timed(0.5, 3, "0.6", "success")), 1);
-  const Table skipped = timed(0.5, 3, "3.5", "success");
-  EXPECT_EQ(repetitions(skipped), 0);
-  EXPECT_EQ(numberAt(skipped, skipped.rows.front(), "cpu_s"), 3.5);
-  EXPECT_EQ(repetitions(timed(0.5, 3, "0.4", "max_steps")), 0);
+  EXPECT_EQ(repetitions("3.5", "success"), 0);
+  EXPECT_EQ(repetitions("0.4", "max_steps"), 0);
+  EXPECT_EQ(repetitions("0.6", "success"), 1);
+  EXPECT_EQ(repetitions("0.4", "success"), 3);
 }
 
 }  // namespace

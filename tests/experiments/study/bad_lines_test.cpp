@@ -39,6 +39,12 @@ class Lines : public testing::Test {
     write("open.toml", "[[block]]\nscene = \"kepler\"\n[\n");
     write("brace.toml", "[[block]]\nscene = [\"kepler\", }\"pendulum\"]\n");
     write("both.toml", "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\ntolerances = 0.1\nsteps = 0.1\n");
+    write("quote.toml", "title = \"Mine\n[[block]]\nscene = \"kepler\"\n");
+    write("range.toml",
+          "[[block]]\nmethods = \"gauss_2\"\nscene = \"pendulum\"\nsettings = \"m=-1\"\ntolerances = 0.1\n");
+    write("only.toml",
+          "[[block]]\nname = \"a\"\nscene = \"kepler\"\nmethods = \"gauss_2\"\ntolerances = 0.1\n[[figure]]\n"
+          "script = \"work_by\"\nvariant = \"method\"\nonly = \"block=b\"\n");
     write("method.txt", "stages: 1\norder: 2\nA\n0.5\nb\n1\nc\n");
     fs::create_directories(folder_.path() / "empty");
     fs::create_directories(folder_.path() / "study");
@@ -208,6 +214,9 @@ TEST_F(Lines, Files) {
                  {2, {"run", "@/open.toml"}, "open.toml:3"},
                  {2, {"run", "@/brace.toml"}, "brace.toml:2"},
                  {2, {"run", "@/both.toml"}, "both.toml:5"},
+                 {2, {"run", "@/quote.toml"}, "quote.toml:1: a text without its closing quote"},
+                 {2, {"run", "@/range.toml"}, "range.toml:3: scene pendulum: parameter m = '-1' must be a number in ["},
+                 {2, {"run", "@/only.toml"}, "only.toml:9: only: unknown block 'b'"},
                  {2, {"run", std::string(5000, 'x')}, "xxx"},
                  {2, {"run", "@/good.toml", "--results", "@/file"}, "file"},
                  {2, {"run", "@/good.toml", "--results", "/dev/full"}, "/dev/full"},

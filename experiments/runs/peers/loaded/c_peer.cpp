@@ -68,7 +68,11 @@ class CPeer final : public Peer {
     if (functions_.one_at_a_time) lock = std::unique_lock(*functions_.one_at_a_time);
     const int returned =
         functions_.solve(&table_, start.t, t_end, y_.data(), start.yp ? yp_.data() : nullptr, &counts_);
-    if (returned != IRK_PEER_SUCCESS && message_.empty()) message_ = fmt::format("irk_peer_solve = {}", returned);
+    if (returned < IRK_PEER_SUCCESS || returned > IRK_PEER_SINGULAR) {
+      message_ = fmt::format("irk_peer_solve returned {}, 0 to {} is allowed:", returned, +IRK_PEER_SINGULAR);
+    } else if (returned != IRK_PEER_SUCCESS && message_.empty()) {
+      message_ = fmt::format("irk_peer_solve returned {}", returned);
+    }
     return outcomeOf(returned);
   }
 
@@ -119,7 +123,7 @@ class CPeer final : public Peer {
     };
     table_.stopped = [](void* self) { return of(self).problem_.stopped() ? 1 : 0; };
     table_.explain = [](void* self, const char* text) {
-      std::string& message = of(self).message_ = text;
+      std::string& message = of(self).message_ = text ? text : "";
       for (char& c : message) c = c == '\n' ? ' ' : c;
     };
   }

@@ -1,0 +1,40 @@
+// What a figure draws of a large table of runs. gnuplot reads a table once for every curve, so that a figure of 1e6
+// rows would take hours.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "experiments/report/figure_list.h"
+
+namespace irk {
+
+/// A folder of temporary files; the destructor removes it.
+class DrawnRows {
+ public:
+  /// Links all files of `results` but runs.csv, of which it writes the rows and columns that `figure` draws: those
+  /// of its block, scene, cases and `only`, and the columns that its script names. In a script with a line
+  /// `# Thins by OPTION COLUMN ...`, a mark is left out if another one of the same curve, with the same outcome, lies
+  /// within a small part of a decade in these columns; the part grows until kMostRows are left. Throws Failure, Misuse.
+  DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results);
+  ~DrawnRows();
+  DrawnRows(const DrawnRows&) = delete;
+  DrawnRows& operator=(const DrawnRows&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::size_t rows() const { return rows_; }
+
+  /// Smaller tables are read by gnuplot as they are.
+  static constexpr std::uintmax_t kLargeFile = 30'000'000;  // bytes; about 50 000 rows
+  static constexpr std::size_t kMostRows = 20'000;
+
+ private:
+  std::filesystem::path folder_;
+  std::size_t rows_ = 0;
+};
+
+/// The folder from which the figure is drawn if its script reads runs.csv and that is large; else nullptr.
+std::unique_ptr<DrawnRows> drawnRows(const Figure& figure, const ReportOptions& options);
+
+}  // namespace irk

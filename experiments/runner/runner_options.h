@@ -1,0 +1,18 @@
+// How and where the runs of a study are made.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/runner/shards.h"
+#include "experiments/store/store.h"
+
+namespace irk {
+
+struct RunnerOptions {
+  std::filesystem::path results = "results";
+  int jobs = 0;  ///< >= 0; 0 = one per processor
+  Shard shard;
+  store::StoreOptions store;
+};
+
+}  // namespace irk

@@ -1,0 +1,76 @@
+#include "experiments/runner/shard_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <ostream>
+#include <string>
+
+#include "experiments/base/failure.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runner/costs.h"
+#include "experiments/tables/environment.h"
+
+namespace irk {
+namespace {
+
+std::filesystem::path planFile(const Study& study, const RunnerOptions& options) {
+  return options.results / study.id / fmt::format("shards_of_{}", options.shard.count);
+}
+
+// A hash of the study's series.
+std::string fingerprint(const Study& study) {
+  std::uint64_t hash = 0;
+  for (const Series& series : study.series) {
+    hash = fnv1a(fmt::format("{:x} {} {}", hash, specKey(series.runs.front()), series.runs.size()));
+  }
+  return hexText(hash);
+}
+
+// Empty if there is no plan for these series.
+std::vector<int> readPlan(const Study& study, const RunnerOptions& options) {
+  std::ifstream in(planFile(study, options));
+  std::string its;
+  if (!(in >> its) || its != fingerprint(study)) return {};
+  std::vector<int> shards;
+  for (int shard = 0; in >> shard && shard >= 1 && shard <= options.shard.count;) shards.push_back(shard);
+  return shards.size() == study.series.size() ? shards : std::vector<int>();
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> keysOf(const Series& series) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(series.runs.size());
+  for (const auto& spec : series.runs) keys.push_back(store::keyNumber(specKey(spec)));
+  return keys;
+}
+
+std::vector<int> shardsOf(const Study& study, const RunnerOptions& options) {
+  if (options.shard.count == 1) return std::vector<int>(study.series.size(), 1);
+  auto kept = readPlan(study, options);
+  if (!kept.empty()) return kept;
+  std::ostream silent(nullptr);
+  const store::Store earlier(options.results / study.id, study.id, store::Use::kRead, {}, silent);
+  const auto costs = expectedCosts(
+      study, [&](std::size_t i) { return keysOf(study.series[i]); }, earlier.runs());
+  return balanced(costs, options.shard.count);
+}
+
+void keepShards(const Study& study, const RunnerOptions& options) {
+  if (options.shard.count == 1 || !readPlan(study, options).empty()) return;
+  std::string text = fingerprint(study) + '\n';
+  for (const int shard : shardsOf(study, options)) text += std::to_string(shard) + '\n';
+  const auto file = planFile(study, options);
+  const auto beside = fmt::format("{}.{}.{}", file.string(), hostName(), getpid());
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream out(beside, std::ios::binary);
+  if (!(out << text).flush()) throw Failure(fmt::format("cannot write {}: {}", beside, std::strerror(errno)));
+  out.close();
+  std::filesystem::rename(beside, file);
+}
+
+}  // namespace irk

@@ -1,0 +1,38 @@
+// Shows whether the processor kept its speed while times were measured: a fixed computation, timed beside them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/store/rows.h"
+
+namespace irk::store {
+
+/// The columns of calibrations.csv: calibration (a number), environment, date, calibration_s.
+std::vector<std::string> calibrationColumns();
+
+/// Seconds of the thread's CPU clock that a fixed computation takes, the least of three. About 3 ms in all.
+double calibrationSeconds();
+
+/// The row of a calibration that was measured here and now.
+TableRow calibrationRow(double seconds);
+
+/// The head entry of a runs.csv for whose times there are calibration doubts. Its value names the hosts.
+inline constexpr std::string_view kTimesDrift = "times drift";
+
+/// Calibrations of one host.
+struct HostCalibrations {
+  std::string host, processor;
+  std::vector<double> seconds;
+};
+
+/// What is wrong, or an empty text: hosts of which one calibration in ten, or more, is 1.1 times their least one; and
+/// hosts whose median is 1.1 times that of the fastest host with the same processor. Hosts with fewer than five
+/// calibrations are not judged.
+std::string calibrationDoubts(std::vector<HostCalibrations> hosts);
+
+/// Joins the calibrations with the hosts of their environments.
+std::vector<HostCalibrations> calibrationsByHost(const Rows& calibrations, const Rows& environments);
+
+}  // namespace irk::store

@@ -1,0 +1,78 @@
+// The series of a study, made on demand: large studies keep none of them in memory.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "experiments/study/series_runs.h"
+
+namespace irk {
+
+/// The rule by which later runs of a series are skipped.
+enum class SeriesEnd {
+  kAll,         ///< every run is made
+  kAsymptotic,  ///< a StepPlanner chooses among them, to measure orders
+  kTooLong,     ///< after a run that hit max_steps or the time limit, harder runs are recorded with its outcome
+};
+
+/// Runs of one method on one scene, made in order from the easiest to the hardest.
+struct Series {
+  SeriesRuns runs;
+  SeriesEnd end = SeriesEnd::kAll;
+  std::string block = {};  ///< the name of its block; empty for the runs of an audit
+};
+
+/// Reads like a vector of series, but every access makes a new one: keep it by value or by a reference that extends its
+/// life. Thread-safe if the functions are.
+class SeriesList {
+ public:
+  using Make = std::function<Series(std::size_t)>;
+
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = Series;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = Series;
+    Iterator(const SeriesList* list, std::size_t at) : list_(list), at_(at) {}
+    Series operator*() const { return (*list_)[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    Iterator operator++(int) { return {list_, at_++}; }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    const SeriesList* list_;
+    std::size_t at_;
+  };
+
+  SeriesList() = default;
+  SeriesList(std::vector<Series> all);  // NOLINT: all of them, kept
+
+  /// Appends the series make(0), ..., make(count - 1). A few of them are made once and kept.
+  void append(std::size_t count, Make make);
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  /// 0 <= i < size.
+  Series operator[](std::size_t i) const;
+  Series front() const { return (*this)[0]; }
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size_}; }
+
+ private:
+  struct Part {
+    std::size_t first;
+    Make make;
+  };
+  std::vector<Part> parts_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace irk
