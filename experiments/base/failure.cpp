@@ -34,7 +34,20 @@ bool isFault(const std::error_code& code) {
          code == std::errc::too_many_files_open;
 }
 
+std::string& blamed() {
+  static std::string file;
+  return file;
+}
+
+// The program itself throws none of these.
+std::string unknownException(std::string_view what) {
+  if (blamed().empty()) return fmt::format("internal error: {}", what);
+  return fmt::format("code of {} throws: {}", blamed(), what);
+}
+
 }  // namespace
+
+void blameExceptionsOn(const std::string& file) { blamed() = file; }
 
 void printErrorLine(std::ostream& err, std::string_view text) { fmt::print(err, "irk: {}\n", oneLine(text)); }
 
@@ -54,9 +67,9 @@ int reportException(std::ostream& err) {
   } catch (const std::bad_alloc&) {
     printErrorLine(err, "out of memory");
   } catch (const std::exception& error) {
-    printErrorLine(err, fmt::format("internal error: {}", error.what()));
+    printErrorLine(err, unknownException(error.what()));
   } catch (...) {
-    printErrorLine(err, "internal error: an exception without text, as a user's file may throw it");
+    printErrorLine(err, unknownException("an exception without text"));
   }
   return kFailedStatus;
 }

@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace irk {
@@ -15,6 +16,9 @@ class Failure : public std::runtime_error {
 
 /// Prints `irk: text` as one line; control characters are escaped.
 void printErrorLine(std::ostream& err, std::string_view text);
+
+/// From now on an exception of unknown kind counts as one of this user's file, the last one that is given here.
+void blameExceptionsOn(const std::string& file);
 
 /// Call inside a catch block. Prints one line about the exception and returns the exit status: 2 for Misuse and for
 /// files that cannot be used; 1 for a full disk, exhausted memory and everything else.

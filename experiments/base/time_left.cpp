@@ -6,13 +6,21 @@ namespace irk {
 namespace {
 
 constexpr double kNewest = 0.3;  // weight of the newest run in a kind's average
+// Further kinds count as one, so that the memory does not grow with the number of runs.
+constexpr std::size_t kMaxKinds = 20'000;
 
 }  // namespace
 
-void TimeLeft::expect(const std::string& kind, std::size_t runs) { kinds_[kind].left += runs; }
+TimeLeft::Kind& TimeLeft::kindOf(const std::string& name) {
+  const auto at = kinds_.find(name);
+  if (at != kinds_.end()) return at->second;
+  return kinds_[kinds_.size() < kMaxKinds ? name : "others"];
+}
+
+void TimeLeft::expect(const std::string& kind, std::size_t runs) { kindOf(kind).left += runs; }
 
 void TimeLeft::made(const std::string& kind, double seconds) {
-  Kind& k = kinds_[kind];
+  Kind& k = kindOf(kind);
   k.left -= std::min<std::size_t>(k.left, 1);
   k.seconds = k.made == 0 ? seconds : k.seconds + kNewest * (seconds - k.seconds);
   ++k.made;
@@ -21,7 +29,7 @@ void TimeLeft::made(const std::string& kind, double seconds) {
 }
 
 void TimeLeft::dropped(const std::string& kind, std::size_t runs) {
-  Kind& k = kinds_[kind];
+  Kind& k = kindOf(kind);
   k.left -= std::min(k.left, runs);
 }
 
@@ -32,6 +40,14 @@ double TimeLeft::left() const {
     seconds += static_cast<double>(kind.left) * (kind.made == 0 ? mean : kind.seconds);
   }
   return seconds;
+}
+
+std::size_t TimeLeft::guessed() const {
+  std::size_t runs = 0;
+  for (const auto& [name, kind] : kinds_) {
+    if (kind.made == 0) runs += kind.left;
+  }
+  return runs;
 }
 
 }  // namespace irk

@@ -19,6 +19,8 @@ class TimeLeft {
 
   /// Seconds of the runs to come. A kind without finished runs counts with the mean over all finished runs.
   double left() const;
+  /// Runs to come whose kind has no finished run.
+  std::size_t guessed() const;
   /// Seconds of the finished runs.
   double spent() const { return spent_; }
 
@@ -27,6 +29,7 @@ class TimeLeft {
     std::size_t left = 0, made = 0;
     double seconds = 0;  // recent runs weigh more: the order of runs is not random
   };
+  Kind& kindOf(const std::string& name);
   std::map<std::string, Kind> kinds_;
   std::size_t made_ = 0;
   double spent_ = 0;

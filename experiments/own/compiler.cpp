@@ -181,6 +181,22 @@ std::string messagesAbout(const std::string& source, const std::string& messages
   return kept;
 }
 
+std::string refusalOf(const fs::path& given, const std::string& source, const std::string& messages) {
+  constexpr std::string_view kError = " error: ";
+  std::istringstream in(messages);
+  std::string place;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with(source + ':')) {
+      const auto begin = source.size() + 1, end = line.find_first_not_of("0123456789", begin);
+      if (end > begin) place = ':' + line.substr(begin, end - begin);
+    }
+    const auto error = line.find(kError);
+    if (error == line.npos || line.starts_with(' ')) continue;
+    return fmt::format("{}{}: it does not compile: {}", given.string(), place, line.substr(error + kError.size()));
+  }
+  return given.string() + ": it does not compile";
+}
+
 Compiled compile(const fs::path& source, int digits, std::ostream& log) {
   (void)readInputFile(source.string());  // for its message
   const fs::path file = fs::canonical(source);
@@ -204,7 +220,7 @@ Compiled compile(const fs::path& source, int digits, std::ostream& log) {
     fs::remove(rule, none);
     const std::string about = messagesAbout(file.string(), child.messages);
     log << (about.empty() ? child.messages : about);
-    throw Misuse(fmt::format("{}: it does not compile", source.string()));
+    throw Misuse(refusalOf(source, file.string(), child.messages));
   }
   const auto all = prerequisites(rule);
   const auto files = userFiles(all);

@@ -23,4 +23,8 @@ Compiled compile(const std::filesystem::path& source, int digits, std::ostream& 
 /// and every error. At most 60.
 std::string messagesAbout(const std::string& source, const std::string& messages);
 
+/// `GIVEN:LINE: it does not compile: ERROR` with the first error of the messages; LINE is that of the error, or of the
+/// last place of `source` before it, if the error is in another file.
+std::string refusalOf(const std::filesystem::path& given, const std::string& source, const std::string& messages);
+
 }  // namespace irk::own

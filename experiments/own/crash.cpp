@@ -3,23 +3,32 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "experiments/base/failure.h"
+#include "experiments/own/fixed_text.h"
+#include "experiments/own/stuck.h"
+
 namespace irk::own {
 namespace {
 
-// Made before a crash: a handler may not allocate.
-std::string& message() {
-  static auto& text = *new std::string;
-  return text;
-}
+FixedText of_crash, of_exit;
 
 void onCrash(int) {
-  const auto written = write(STDERR_FILENO, message().data(), message().size());
-  _exit(written < 0 ? 2 : 1);
+  of_crash.print();
+  _exit(1);
+}
+
+std::atomic<bool> exit_is_mistake = false;
+
+void onExit() {
+  if (!exit_is_mistake) return;
+  of_exit.print();
+  _exit(1);
 }
 
 // A stack of its own: the crash may be that the stack is used up.
@@ -33,21 +42,31 @@ void useOwnStack() {
 
 void explainCrashes(const std::filesystem::path& file) {
   const bool is_source = file.extension() == ".cpp";
-  message() = "irk: the program crashed while it ran code of " + file.string() + ", most likely by " +
-              (is_source ? "an index out of range" : "another calling sequence or an index out of range") +
-              "; what was finished before is kept";
-  message() +=
-      is_source && !wantsChecks() ? "; compiled with checks it tells the place: IRK_CHECKED=1 irk ...\n" : ".\n";
+  constexpr int kSilentSeconds = 20;  // far more than a step needs, but in large systems with many digits
+  blameExceptionsOn(file.string());
+  askWhenStuck(file, kSilentSeconds);
+  of_exit.set("irk: code of " + file.string() + " called exit(); it has to return\n");
+  std::string crash =
+      "irk: the program crashed while it ran code of " + file.string() + ", most likely by " +
+      (is_source ? "an index out of range or a null pointer" : "another calling sequence or an index out of range") +
+      "; what was finished before is kept";
+  crash += is_source && !wantsChecks() ? "; compiled with checks it tells the place: IRK_CHECKED=1 irk ...\n" : ".\n";
+  of_crash.set(crash);
   static const bool installed = [] {
     useOwnStack();
     struct sigaction action = {};
     action.sa_handler = onCrash;
     action.sa_flags = SA_ONSTACK;
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
+    std::atexit(onExit);
     return true;
   }();
   static_cast<void>(installed);
 }
+
+ExitGuard::ExitGuard() { exit_is_mistake = true; }
+ExitGuard::~ExitGuard() { allowExit(); }
+void allowExit() { exit_is_mistake = false; }
 
 bool wantsChecks() {
   const char* const value = std::getenv("IRK_CHECKED");

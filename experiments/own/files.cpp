@@ -30,7 +30,9 @@ const SharedLibrary& load(const std::filesystem::path& object, const std::filesy
   try {
     return *loaded.emplace_back(std::make_unique<SharedLibrary>(object));
   } catch (const Misuse& misuse) {
-    throw Misuse(fmt::format("{}: its object cannot be loaded: {}", source.string(), misuse.what()));
+    const std::string_view reason = misuse.what(), name = object.c_str();
+    throw Misuse(fmt::format("{}: compiled, but {}", source.string(),
+                             reason.starts_with(name) ? reason.substr(name.size() + 2) : reason));
   }
 }
 

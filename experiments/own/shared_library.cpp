@@ -1,5 +1,10 @@
 #include "experiments/own/shared_library.h"
 
+#include <cxxabi.h>
+
+#include <cstdlib>
+#include <memory>
+
 // Without Boost.Filesystem, which would have to be linked.
 #define BOOST_DLL_USE_STD_FS
 #include <boost/dll/shared_library.hpp>
@@ -13,12 +18,23 @@ namespace {
 
 using Library = boost::dll::shared_library;
 
+// `FILE: undefined symbol: _Z5tabled` becomes `undefined symbol: table(double)`.
+std::string withoutMangling(const std::string& reason) {
+  const std::string kind = "undefined symbol: ";
+  const auto at = reason.find(kind);
+  if (at == reason.npos) return reason;
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> symbol(
+      abi::__cxa_demangle(reason.c_str() + at + kind.size(), nullptr, nullptr, &status), std::free);
+  return status == 0 ? kind + symbol.get() : reason.substr(at);
+}
+
 // What the system's loader says, without what Boost puts around it: `... (dlerror system message: REASON): ...`.
 std::string reasonOf(const std::string& text) {
   const std::string before = "dlerror system message: ";
   const auto begin = text.find(before), end = text.rfind("): ");
   if (begin == text.npos || end == text.npos || end < begin) return text;
-  return "it cannot be loaded: " + text.substr(begin + before.size(), end - begin - before.size());
+  return "it cannot be loaded: " + withoutMangling(text.substr(begin + before.size(), end - begin - before.size()));
 }
 
 constexpr std::size_t kMaxLibraryBytes = std::size_t{1} << 30U;

@@ -84,7 +84,7 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   write("undeclared.cpp", replaced("lift.cpp", "number<Real>(values, \"k\")", "number<Real>(values, \"q\")"));
   write("empty.cpp", "int unused = 0;\n");
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
-      {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp: it does not compile"}},
+      {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp:", ": it does not compile: "}},
       {"taken.cpp", {"'pendulum' (taken.cpp) is taken by a scene of the program"}},
       {"id.cpp", {"'My Lift' (id.cpp)", "small letters"}},
       {"default.cpp", {"scene lift (default.cpp)", "the default -1 of the parameter m", "1e-15"}},
@@ -143,16 +143,17 @@ TEST_F(OwnFiles, ASolverIsAMethod) {
 
 struct Example {
   const char *file, *axis, *id;
+  const char* with = "";  // options that it needs
 };
 void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
 
 class OwnStrategy : public OwnFiles, public testing::WithParamInterface<Example> {};
 
 TEST_P(OwnStrategy, IsAnOptionLikeAllOthers) {
-  const auto [file, axis, id] = GetParam();
+  const auto [file, axis, id, with] = GetParam();
   const std::string load = std::string(" --load " IRK_SOURCE_DIR "/experiments/examples/") + file;
   const std::string solve =
-      std::string("solve slider_crank --method radau_iia_5 --tol 1e-7 --t-end 1 --") + axis + ' ' + id;
+      std::string("solve slider_crank --method radau_iia_5 --tol 1e-7 --t-end 1") + with + " --" + axis + ' ' + id;
   const Ran ran = irk(solve + load);
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_TRUE(containsAll(ran.text, {"14.1278"}));
@@ -160,14 +161,15 @@ TEST_P(OwnStrategy, IsAnOptionLikeAllOthers) {
   EXPECT_EQ(irk(solve).status, 2) << "unknown without its file";
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, OwnStrategy,
-                         testing::Values(Example{"pi_control.cpp", "control", "pi"},
-                                         Example{"linear_predictor.cpp", "predictor", "linear"},
-                                         Example{"chord_newton.cpp", "newton", "chord"},
-                                         Example{"smoothness_estimate.cpp", "estimate", "smoothness"},
-                                         Example{"full_pivot_solver.cpp", "solver", "full_pivot"},
-                                         Example{"no_stiffness.cpp", "jacobian", "no_stiffness"}),
-                         [](const auto& example) { return std::string(example.param.id); });
+INSTANTIATE_TEST_SUITE_P(
+    Examples, OwnStrategy,
+    testing::Values(Example{"pi_control.cpp", "control", "pi"}, Example{"linear_predictor.cpp", "predictor", "linear"},
+                    Example{"chord_newton.cpp", "newton", "chord"},
+                    Example{"smoothness_estimate.cpp", "estimate", "smoothness"},
+                    Example{"full_pivot_solver.cpp", "solver", "full_pivot"},
+                    Example{"no_stiffness.cpp", "jacobian", "no_stiffness"},
+                    Example{"contraction_order.cpp", "order", "contraction", " --estimate embedded"}),
+    [](const auto& example) { return std::string(example.param.id); });
 
 TEST(CompilerMessages, KeepErrorsAndWhatBelongsToTheFile) {
   const std::string text =
