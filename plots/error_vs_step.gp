@@ -4,6 +4,7 @@
 # Reads runs.csv, and orders.csv, if there is one, for the window of the fit. Options: block or scene and settings,
 # formulation, scalar, component ('x' selects the column error_x, '' the column error), families (one panel each), stages_shown,
 # only (quoted words column=value that all rows must have).
+# Thins by h error error_u error_v error_x error_z
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("formulation")) formulation = ''
 if (!exists("scalar")) scalar = ''
@@ -87,7 +88,7 @@ do for [format in formats] {
     do for [i = 1 : n] {
       f = word(families, i)
       eval panel(i, n, 1)
-      set title familyTitle(f) offset 0,-0.5
+      set title familyTitle(f) offset 0,-0.5 noenhanced
       set xlabel 'step h'
       set ylabel when(i == 1, 'error') offset 1,0
       set key at graph 1.02, graph 1 left top Left reverse title (has_fits ? 's: order' : 'stages')

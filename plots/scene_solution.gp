@@ -13,6 +13,7 @@ file = data.'/'.file_name.'.csv'
 fromHead(key) = system("sed -n 's/^# ".key.": //p' '".file."' 2>/dev/null")
 if (!exists("panels")) panels = fromHead('panels')
 time_label = fromHead('time')
+panels_note = fromHead('panels_note')
 if (time_label eq '') time_label = 't'
 
 # The table's own column names.
@@ -65,19 +66,20 @@ if (n == 0) { eval absence(scene." in ".file) }
 columns = n <= 3 ? n : 2
 lines = (n + columns - 1) / columns
 width = n <= 1 ? 560 : n == 3 ? 1080 : 820
-margin_left = n <= 1 ? 0.14 : n == 3 ? 0.075 : n > 6 ? 0.12 : 0.1
+margin_left = n <= 1 ? 0.17 : n == 3 ? 0.09 : 0.12
 margin_bottom = lines == 1 ? 0.15 : lines > 2 ? 0.06 : 0.09; margin_top = words(jumps) ? (lines == 1 ? 0.17 : lines == 2 ? 0.1 : 0.08) : lines > 1 ? 0.06 : 0.1
 gap_x = n == 3 ? 0.085 : 0.12; gap_y = lines > 2 ? 0.24 / lines : 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
   set multiplot
   if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.6 font ',10' textcolor rgb ink noenhanced }
+  if (panels_note ne '') { set label 98 panels_note at screen 0.015, screen 1 left offset 0,-0.6 font ',10' textcolor rgb ink noenhanced }
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)
     eval 'scale = '.number(factor(p))
     eval panel(i, columns, lines)
-    set ylabel label(p) offset 1,0 noenhanced
+    set ylabel label(p) offset 0,0 noenhanced
     orbit = strstrt(list, ':') > 0
     set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : time_label) offset 0,0.3 noenhanced
     unset key
@@ -94,7 +96,7 @@ do for [format in formats] {
     }
     plot for [k = 1 : words(list)] file using (timeOrBase(column(over(word(list, k))), orbit)):(scale * column(of(word(list, k)))) \
       with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
-    unset label 99; unset logscale x; set format x '%g'
+    unset label 99; unset label 98; unset logscale x; set format x '%g'
   }
   unset multiplot
   unset output

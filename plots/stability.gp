@@ -86,7 +86,7 @@ do for [format in formats] {
   do for [p = 1 : panels] {
     names = inPanel(p)
     eval panel(p, columns, lines)
-    set xrange [-extent : extent]; set yrange [-extent : extent]
+    set xrange [-extent : extent]; set yrange [-extent : extent]; set xtics nomirror; set ytics nomirror
     if (families ne '') { set xtics extent / 2; set ytics extent / 2 }
     set title panelTitle(p) offset 0,-0.6
     set xlabel when(p > panels - columns, 'Re z') offset 0,0.6

@@ -8,6 +8,7 @@
 #   titles (quoted words, one per case),
 #   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...), at_end (1: the error at the end, whatever the reference times),
 #   only (quoted words column=value that all rows must have), columns (of panels).
+# Thins by quantity costs rtol atol
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("variant")) variant = 'jacobian'
 if (!exists("variants")) variants = ''

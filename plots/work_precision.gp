@@ -6,6 +6,7 @@
 # only (quoted words column=value that all rows must have), quantity (error, error_u, error_v, error_x, error_z), at_end
 # (1: the error at the end, whatever the reference times), costs ('cpu_s', or several counters: one panel each).
 # With variant (a column; its values are the curves) work_by.gp draws the figure, with variants and only.
+# Thins by quantity costs rtol atol
 load system('dirname "'.ARG0.'"')."/style.gp"
 here = system('dirname "'.ARG0.'"')
 if (!exists("only")) only = ''

@@ -2,23 +2,17 @@
 
 namespace irk {
 
-// Each in the file of its name.
-Analysis ordersAnalysis();
-Analysis costAnalysis();
-Analysis profileAnalysis();
-Analysis ratiosAnalysis();
-Analysis robustnessAnalysis();
-Analysis estimatesAnalysis();
-Analysis scalingAnalysis();
-Analysis energyAnalysis();
-Analysis phasesAnalysis();
-Analysis contractionsAnalysis();
+// In the order of execution, each a function of the file of its name. This line declares them, the array calls them.
+#define IRK_ANALYSES                                                                                                \
+  ordersAnalysis(), costAnalysis(), profileAnalysis(), ratiosAnalysis(), robustnessAnalysis(), estimatesAnalysis(), \
+      scalingAnalysis(), energyAnalysis(), phasesAnalysis(), contractionsAnalysis()
+
+Analysis IRK_ANALYSES;
 
 std::span<const Analysis> analyses() {
-  static const Analysis all[] = {ordersAnalysis(),     costAnalysis(),        profileAnalysis(), ratiosAnalysis(),
-                                 robustnessAnalysis(), estimatesAnalysis(),   scalingAnalysis(), energyAnalysis(),
-                                 phasesAnalysis(),     contractionsAnalysis()};
+  static const Analysis all[] = {IRK_ANALYSES};
   return all;
 }
+#undef IRK_ANALYSES
 
 }  // namespace irk

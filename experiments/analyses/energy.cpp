@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/options/fixed_steps.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -87,7 +88,7 @@ Table energyTable(const Study& study, const Table& runs) {
       const RunSpec& spec = *found;
       const auto scene = sceneOf<mp50>(spec);
       const auto* energy = energyOf(scene);
-      const bool fixed = spec.options.step.control == StepControl::kFixed;
+      const bool fixed = hasFixedSteps(spec.options.step);
       if (!energy || !fixed || findPeer(spec.method)) continue;
       const EnergyErrors errors = integrate(spec, *energy);
       const EnergyDrift drift = energyDrift(errors.t, errors.error);

@@ -3,12 +3,27 @@
 #include <fstream>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "experiments/store/calibration.h"
 #include "experiments/store/store.h"
 #include "experiments/study/analysis.h"
 
 namespace irk {
+
+namespace {
+
+std::string headEntry(const std::filesystem::path& file, std::string_view key) {
+  const auto start = "# " + std::string(key) + ": ";
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line) && line.starts_with('#');) {
+    if (line.starts_with(start)) return line.substr(start.size());
+  }
+  return {};
+}
+
+}  // namespace
 
 std::string refusedTimes(const TableHead& head) {
   for (const auto& [key, value] : head) {
@@ -17,13 +32,15 @@ std::string refusedTimes(const TableHead& head) {
   return {};
 }
 
-std::string refusedTimes(const std::filesystem::path& runs) {
-  const auto start = "# " + std::string(store::kTimesRefused) + ": ";
-  std::ifstream in(runs);
-  for (std::string line; std::getline(in, line) && line.starts_with('#');) {
-    if (line.starts_with(start)) return line.substr(start.size());
-  }
-  return {};
+std::string refusedTimes(const std::filesystem::path& runs) { return headEntry(runs, store::kTimesRefused); }
+
+std::string timesDrift(const std::filesystem::path& runs) { return headEntry(runs, store::kTimesDrift); }
+
+void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out) {
+  const auto drift = timesDrift(runs);
+  if (drift.empty()) return;
+  out << study << (study.empty() ? "" : ": ") << "the times are doubtful: " << drift
+      << "; calibrations.csv has all of them, --fresh measures again\n";
 }
 
 std::vector<std::string> writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,

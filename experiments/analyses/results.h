@@ -16,6 +16,12 @@ std::string refusedTimes(const TableHead& head);
 /// The same for a file; only its head is read.
 std::string refusedTimes(const std::filesystem::path& runs);
 
+/// What makes the times of a runs.csv doubtful: the speed of a processor changed while they were measured, or hosts
+/// with one processor differ in speed (store::calibrationDoubts). Empty if nothing does.
+std::string timesDrift(const std::filesystem::path& runs);
+/// Prints it.
+void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out);
+
 /// Writes the tables of the study's analyses (experiments/study/analysis.h). If times come from several processors
 /// (store::kTimesRefused), it writes no profile, and costs without times. Returns one line for every number that must
 /// not be trusted; all tables are written nevertheless.

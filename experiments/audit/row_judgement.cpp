@@ -8,7 +8,7 @@
 namespace irk::audit {
 
 double toleranceOf(const Table& runs, const TableRow& row) {
-  if (runs.hasColumn("control") && textAt(runs, row, "control") == "fixed") return std::nan("");
+  if (runs.hasColumn("control") && hasFixedStepsAt(runs, row)) return std::nan("");
   return std::max(numberAt(runs, row, "rtol"), numberAt(runs, row, "atol"));
 }
 

@@ -12,6 +12,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/commands/list_scenes.h"
 #include "experiments/commands/shell.h"
+#include "experiments/own/crash.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/own_files.h"
@@ -325,6 +326,7 @@ class Program {
 int runProgram(const std::vector<std::string>& arguments, Streams streams) {
   int status = 0;
   const own::ReportTo report(streams.err);
+  const own::ExitGuard guard;
   try {
     runRegistrations("");
     status = Program().run(arguments, streams);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "experiments/analyses/results.h"
 #include "experiments/commands/commands.h"
 #include "experiments/compare/folders.h"
 #include "irk/misuse.h"
@@ -47,6 +48,7 @@ int compareCommand(const CompareOptions& options, Streams streams) {
     const auto comparison = compare::compareRuns(compare::readRuns(file), compare::readRuns(other->second), limits);
     differences += comparison.differences.size();
     streams.out << compare::textOf(study, comparison);
+    for (const auto& its : {file, other->second}) tellDrift(its.parent_path().string(), its, streams.err);
   }
   return differences == 0 ? 0 : 1;
 }

@@ -15,6 +15,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/runner/merge.h"
+#include "experiments/runner/shard_plan.h"
 #include "experiments/study/study_reader.h"
 
 namespace irk {
@@ -76,7 +77,10 @@ std::string commandsOf(const MergeOptions& options, const Study& made, const sto
                        results.empty() ? "" : " --results " + results);
   };
   if (shards == 0) return command("");
-  const auto shard_of = shardOfSeries(made, static_cast<int>(shards));
+  RunnerOptions each;
+  each.results = first.parent_path().parent_path();
+  each.shard.count = static_cast<int>(shards);
+  const auto shard_of = shardsOf(made, each);
   std::set<int> missing;
   for (const auto series : report.missing_series) missing.insert(shard_of[series]);
   std::string text;
@@ -116,8 +120,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
     return 1;
   }
   for (const auto& store : stores) merged.takeOver(*store);
-  merged.nameBlocks(blocksOf(study, keys));
-  merged.exportTables(inOrder(keys));
+  merged.exportTables(keys);
   keepFigures(figures, folder);
   const Table runs = readTable(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);
@@ -129,6 +132,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
     if (interruptFlag()) return kInterruptedStatus;
   }
   for (const auto& line : doubts) streams.err << line << '\n';
+  tellDrift(study.id, folder / "runs.csv", streams.err);
   return doubts.empty() ? 0 : 1;
 }
 

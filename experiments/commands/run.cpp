@@ -16,10 +16,12 @@
 #include "experiments/base/studies_progress.h"
 #include "experiments/claims/claims_text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/own/crash.h"
 #include "experiments/report/explorer/explorer.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/join_ranks.h"
+#include "experiments/runner/shard_plan.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/series_walk.h"
@@ -30,9 +32,9 @@
 namespace irk {
 namespace {
 
-// Ordered for the reader: first the solutions, then their correctness, then their cost.
+// Ordered for the reader: first the solutions, then their correctness, then their cost. `audit` is a study of its own:
+// it judges the whole program and takes as long as half of the others.
 constexpr std::string_view kPaperStudies[] = {"scenes",
-                                              "audit",
                                               "order",
                                               "cpu_time",
                                               "families",
@@ -61,16 +63,13 @@ constexpr std::string_view kPaperStudies[] = {"scenes",
                                               "failure_stability",
                                               "failure_newton"};
 
-void printSummary(const Study& study, const store::Store& store, const std::vector<std::uint64_t>& keys,
-                  std::ostream& out) {
+void printSummary(const Study& study, const store::Store& store, const RunKeys& keys, std::ostream& out) {
   std::map<std::string, std::size_t> outcomes;
   std::size_t runs = 0;
-  for (const auto key : keys) {
-    const auto* entry = store.runs().find(key);
-    if (!entry) continue;
+  store.forEachRun(keys, [&](const store::Entry& entry, const std::string&) {
     ++runs;
-    ++outcomes[store.runs().name(entry->outcome)];
-  }
+    ++outcomes[store.runs().name(entry.outcome)];
+  });
   fmt::print(out, "{}: {} runs in {}", study.id, runs, store.folder().string());
   for (const auto& [outcome, count] : outcomes) fmt::print(out, ", {} {}", count, outcome);
   out << '\n';
@@ -83,17 +82,15 @@ struct Refusals {
   bool all() const { return refused > 0 && refused == runs; }
 };
 
-Refusals refusalsOf(const std::string& study, const store::Store& store, const std::vector<std::uint64_t>& keys) {
+Refusals refusalsOf(const std::string& study, const store::Store& store, const RunKeys& keys) {
   Refusals found;
-  const store::Entry* first = nullptr;
-  for (const auto key : keys) {
-    const auto* entry = store.runs().find(key);
-    if (!entry) continue;
+  std::optional<store::Entry> first;
+  store.forEachRun(keys, [&](const store::Entry& entry, const std::string&) {
     ++found.runs;
-    if (store.runs().name(entry->outcome) != "refused") continue;
+    if (store.runs().name(entry.outcome) != "refused") return;
     ++found.refused;
     if (!first) first = entry;
-  }
+  });
   if (!first) return found;
   const Table columns{{}, runColumns(), {}};
   const std::string count =
@@ -110,19 +107,54 @@ bool isStudyFile(const std::string& id_or_file) {
 }
 
 // Whether a table of all runs is needed; it takes some kilobytes of memory per run.
-bool needsTable(const Study& study) { return !study.analyses.empty() || study.audit || study.timing.wanted; }
+bool needsTable(const Study& study) { return !study.analyses.empty() || study.audit; }
 
-// Makes this rank's part of the runs and prints nothing; for ranks other than 0, which merges and reports.
+// This rank's share of the timing pass; nothing if it must be idle, because another one on its host measures.
+std::optional<TimingShare> timingShare(Ranks& ranks) {
+  const auto all = timingRanks(ranks.hosts());
+  const auto own = std::find(all.begin(), all.end(), ranks.rank());
+  if (own == all.end()) return {};
+  return TimingShare{static_cast<std::size_t>(own - all.begin()), all.size()};
+}
+
+// Makes this rank's part of the runs and of the times, and prints nothing; for ranks other than 0, which merges and
+// reports.
 void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
   std::ostream silent(nullptr);
+  const auto folder = studyFolder(study, options);
   ranks.meet();  // rank 0 holds the lock
-  store::Store store(studyFolder(study, options), study.id, store::Use::kJoin, options.store, silent);
-  makeRuns(study, options, store, ranks, silent);
+  std::optional<store::Store> store(std::in_place, folder, study.id, store::Use::kJoin, options.store, silent);
+  const RunKeys keys = makeRuns(study, options, *store, ranks, silent);
+  store.reset();
+  ranks.meet();  // all rows are written
+  if (!ranks.asTheFirst(false)) return;
+  if (const auto share = timingShare(ranks)) {
+    store.emplace(folder, study.id, store::Use::kJoin, options.store, silent);
+    timeStudy(study, keys, *store, *share, silent);
+  }
+  store.reset();
+  ranks.meet();  // all times are written
+}
+
+// Measures the times on all hosts, then reads the store again.
+void timeTogether(const Study& study, const RunKeys& keys, const RunnerOptions& options, Ranks& ranks,
+                  std::optional<store::Store>& store, std::ostream& err) {
+  const auto share = timingShare(ranks);
+  if (share->hosts > 1)
+    fmt::print(err, "{}: {} hosts measure times, each one run after the other\n", study.id, share->hosts);
+  timeStudy(study, keys, *store, *share, err);
+  ranks.meet();
+  if (ranks.count() > 1) {
+    store.reset();
+    store.emplace(studyFolder(study, options), study.id, store::Use::kWrite, options.store, err);
+  }
+  store->exportTables(keys);
 }
 
 // Makes the runs on all ranks, then reads the store again.
-std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ranks,
-                                       std::optional<store::Store>& store, std::ostream& err) {
+RunKeys makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ranks, std::optional<store::Store>& store,
+                    std::ostream& err) {
+  keepShards(study, options);
   const auto open = [&] {
     store.reset();
     store.emplace(studyFolder(study, options), study.id, store::Use::kWrite, options.store, err);
@@ -131,10 +163,9 @@ std::vector<std::uint64_t> makeAllRuns(const Study& study, const RunnerOptions& 
   ranks.meet();
   if (ranks.count() > 1)
     fmt::print(err, "{}: {} ranks; what another one gets counts as done\n", study.id, ranks.count());
-  const auto keys = makeRuns(study, options, *store, ranks, err);
+  auto keys = makeRuns(study, options, *store, ranks, err);
   ranks.meet();
   if (ranks.count() > 1) open();  // includes the rows of the other ranks
-  store->nameBlocks(blocksOf(study, runKeys(study, options)));
   store->exportTables(keys);
   return keys;
 }
@@ -145,18 +176,17 @@ int runStored(const Study& study, const FigureTables& figures, const RunnerOptio
   std::optional<store::Store> opened;
   const auto keys = makeAllRuns(study, options, ranks, opened, streams.err);
   keepFigures(figures, folder);
-  store::Store& store = *opened;
   const auto file = folder / "runs.csv";
   std::vector<std::string> doubts;
   if (const auto refusal = refusedTimes(file); !refusal.empty()) doubts.push_back(refusal);
-  if (options.shard.count > 1 || !needsTable(study)) {
+  const bool whole = options.shard.count == 1;
+  const bool times = whole && study.timing.wanted && doubts.empty() && !interruptFlag();
+  if (ranks.asTheFirst(times)) timeTogether(study, keys, options, ranks, opened, streams.err);
+  const store::Store& store = *opened;
+  if (!whole || !needsTable(study)) {
     printSummary(study, store, keys, streams.out);
   } else {
-    Table runs = readTable(file);
-    if (!interruptFlag() && study.timing.wanted && doubts.empty()) {
-      timeStudy(study, store, runs, streams.err);
-      runs = readTable(file);
-    }
+    const Table runs = readTable(file);
     doubts = writeSummaries(study, runs, folder, streams.err);
     printSummary(study, store, keys, streams.out);
     if (study.audit) {
@@ -164,6 +194,7 @@ int runStored(const Study& study, const FigureTables& figures, const RunnerOptio
     }
   }
   for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
+  tellDrift(study.id, file, streams.err);
   const Refusals refusals = refusalsOf(study.id, store, keys);
   if (refusals.all()) {
     printErrorLine(streams.err, refusals.line);
@@ -210,20 +241,23 @@ int runCommand(const RunOptions& options, Streams streams) {
   if (each.shard.count > 1) throw Misuse("--shard with ranks of mpirun: they share the whole study");
   if (each.jobs == 0) each.jobs = 1;
   const InterruptScope interrupts;
+  const auto abandon = [&ranks](int with) {
+    own::allowExit();
+    ranks->abandon(with);
+  };
   int status = 0;
   try {
     if (ranks->rank() == 0) {
       status = runStored(study, figures, each, *ranks, streams);
     } else {
       joinStudy(study, each, *ranks);
-      ranks->meet();  // all parts are written
     }
   } catch (...) {
-    ranks->abandon(reportException(streams.err));
+    abandon(reportException(streams.err));
   }
   if (interruptFlag()) {
     streams.out.flush();
-    ranks->abandon(kInterruptedStatus);
+    abandon(kInterruptedStatus);
   }
   return status;
 }
@@ -259,7 +293,9 @@ int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::
     }
     keepFigures(figures, folder);
   }
-  return drawFigures(id, options, streams.err) == 0 ? 0 : 1;
+  const int failures = drawFigures(id, options, streams.err);
+  fmt::print(streams.out, "figures: {}\n", figureFolder(options).string());
+  return failures == 0 ? 0 : kFailedStatus;
 }
 
 int claimsCommand(const std::string& results, bool sensitivity, Streams streams) {

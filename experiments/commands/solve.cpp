@@ -186,6 +186,11 @@ std::vector<std::string> givenFields(const SolveOptions& options) {
   return given;
 }
 
+std::string failureText(const RunRecord& record) {
+  return fmt::format("{} with {} failed: {}{}{}", record.spec.scene, record.spec.method, record.outcome,
+                     record.detail.empty() ? "" : ", ", record.detail);
+}
+
 }  // namespace
 
 RunSpec solveSpec(const SolveOptions& options) {
@@ -239,7 +244,8 @@ int solveCommand(const SolveOptions& options, Streams streams) {
     printRecord(streams.out, record, sceneOf<double>(spec).names);
   }
   if (interruptFlag()) return kInterruptedStatus;
-  return record.succeeded() && drawn ? 0 : 1;
+  if (!record.succeeded()) printErrorLine(streams.err, failureText(record));
+  return record.succeeded() && drawn ? 0 : kFailedStatus;
 }
 
 }  // namespace irk

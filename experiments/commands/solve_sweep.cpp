@@ -147,11 +147,12 @@ int solveSweep(const Sweep& sweep, Streams streams) {
   const InterruptScope interrupts;
   ReferenceLibrary references(referenceOptions(streams.err));
   const Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
-  bool failed = false;
+  std::size_t made = 0, failed = 0;
   for (std::size_t i = 0; i < specs.size() && !interruptFlag(); ++i) {
     const RunSpec& spec = specs[i];
     const RunRecord record = orRefused(spec, [&] { return execute(spec, watch); });
-    failed = failed || !record.succeeded();
+    ++made;
+    if (!record.succeeded()) ++failed;
     if (first.json) {
       streams.out << solveJson(record, -1) << '\n';
     } else {
@@ -160,7 +161,8 @@ int solveSweep(const Sweep& sweep, Streams streams) {
     streams.out.flush();
   }
   if (interruptFlag()) return kInterruptedStatus;
-  return failed ? kFailedStatus : 0;
+  if (failed > 0) printErrorLine(streams.err, fmt::format("{} of {} runs failed", failed, made));
+  return failed > 0 ? kFailedStatus : 0;
 }
 
 }  // namespace irk

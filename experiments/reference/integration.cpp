@@ -4,6 +4,7 @@
 
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
+#include "experiments/own/stuck.h"
 #include "experiments/runs/run_errors.h"
 #include "experiments/runs/setup.h"
 #include "irk/integrator.h"
@@ -27,6 +28,7 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
   auto integrator = setup.integrator();
   Monitor<Real> monitor;
   monitor.interrupt = [&] {
+    own::stillGoing();
     if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
     const bool late = watch.budget && watch.budget->exceededBy(threadSeconds() - start);
     return late ? Outcome::kTimeout : Outcome::kSuccess;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 
 namespace irk {
@@ -14,10 +15,14 @@ std::string withUnit(const std::string& title, const std::string& unit) {
   return unit.empty() ? title : title + " in " + unit;
 }
 
+// The first columns; of a large system, as the points of a grid, some from the first to the last.
 std::vector<Panel> onePerColumn(const std::vector<std::string>& columns) {
+  const std::size_t count = std::min(kMaxPanels, columns.size());
+  const bool large = columns.size() > 4 * kMaxPanels;
   std::vector<Panel> panels;
-  for (const auto& column : columns) {
-    if (panels.size() < kMaxPanels) panels.push_back({column, {column}});
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& column = columns[large ? i * (columns.size() - 1) / (count - 1) : i];
+    panels.push_back({column, {column}});
   }
   return panels;
 }
@@ -54,7 +59,11 @@ TableHead panelHead(const SceneEntry& entry, const Scene<double>& scene) {
     text += fmt::format("{}\"{}|{}|{:g}\"", text.empty() ? "" : " ", withUnit(panel.title, unit), fmt::join(there, " "),
                         panel.factor);
   }
-  return {{"time", withUnit("t", scene.time_unit)}, {"panels", text}};
+  TableHead head{{"time", withUnit("t", scene.time_unit)}, {"panels", text}};
+  if (entry.panels.empty() && columns.size() > kMaxPanels) {
+    head.emplace_back("panels_note", fmt::format("{} of {} components", kMaxPanels, columns.size()));
+  }
+  return head;
 }
 
 }  // namespace irk

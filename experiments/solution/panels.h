@@ -11,7 +11,8 @@ std::vector<std::pair<std::string, std::string>> namesAndUnits(const Scene<doubl
 
 /// The head entries `time: t in s` and `panels: "label|columns|factor" ...`; a label names the unit of its columns
 /// times the factor. Uses the entry's panels, without the columns that the scene lacks with its settings; an entry
-/// without panels gets one for each of the first components and outputs.
+/// without panels gets one for each component and output, or for eight of them, and an entry `panels_note` that says
+/// so.
 TableHead panelHead(const SceneEntry& entry, const Scene<double>& scene);
 
 }  // namespace irk

@@ -48,7 +48,7 @@ double leastTolerance(const Table& runs, const RunSeries& series) {
   double least = std::numeric_limits<double>::quiet_NaN();
   if (!runs.hasColumn("control") || !runs.hasColumn("rtol") || !runs.hasColumn("atol")) return least;
   for (const auto* run : series.rows) {
-    if (textAt(runs, *run, "control") == "fixed") continue;
+    if (hasFixedStepsAt(runs, *run)) continue;
     const double rtol = numberAt(runs, *run, "rtol"), atol = numberAt(runs, *run, "atol");
     const double tolerance = rtol > 0 ? rtol : atol;
     if (!(tolerance >= least)) least = tolerance;

@@ -146,7 +146,7 @@ Table orderTable(const Table& runs) {
                     "theory", "source",     "verdict",     "reason",      std::string(kBlockColumn)};
   std::map<std::string, OverZ> over_z;  // by method
   for (const auto& series : seriesOf(runs)) {
-    const bool fixed = textAt(runs, *series.rows.front(), "control") == "fixed";
+    const bool fixed = hasFixedStepsAt(runs, *series.rows.front());
     const auto rows = successes(runs, series);
     if (!fixed) continue;
     if (rows.empty()) {

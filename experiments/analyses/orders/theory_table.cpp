@@ -84,7 +84,7 @@ Table theoryTable(const Table& runs) {
   std::vector<Group> groups;  // in the order of the runs
   for (const auto& series : seriesOf(runs)) {
     const TableRow& row = *series.rows.back();
-    if (textAt(runs, row, "control") != "fixed") continue;
+    if (!hasFixedStepsAt(runs, row)) continue;
     std::vector<std::string> name;
     for (const auto column : kNames) name.push_back(textAt(runs, row, column));
     const auto [at, added] = places.try_emplace(name, groups.size());

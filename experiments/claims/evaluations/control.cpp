@@ -49,8 +49,7 @@ std::map<TableRow, std::map<std::string, double>> slopes(const Table& runs, std:
   return all;
 }
 
-}  // namespace
-
+/// C8: each BDF code over each Radau IIA, the slope of this column.
 Measurement perRestart(const ResultTables& tables, std::string_view cost) {
   const Table runs = claimRuns(tables, "restarts");
   if (runs.rows.empty()) throw MissingResults("study claims lacks the runs of the blocks restarts");
@@ -130,6 +129,20 @@ Measurement absoluteTolerances(const ResultTables& tables, Setting setting) {
     }
   }
   return measured;
+}
+
+}  // namespace
+
+Evaluations controlEvaluations() {
+  using Tables = const ResultTables&;
+  return {
+      {"C3a", costOfDoubling},
+      {"C8a", [](Tables tables, Setting) { return perRestart(tables, "steps_accepted"); }},
+      {"C8b", [](Tables tables, Setting) { return perRestart(tables, "cpu_s"); }},
+      {"C8c", [](Tables tables, Setting) { return perRestart(tables, "residuals"); }},
+      {"C9a", gainBetweenSwitches},
+      {"C14", absoluteTolerances},
+  };
 }
 
 }  // namespace irk::claims

@@ -149,8 +149,6 @@ Rule bestRule(const std::vector<RuleCase>& cases, const std::set<std::string>& s
   return best;
 }
 
-}  // namespace
-
 Measurement massDerivativesIterations(const ResultTables& tables, Setting setting) {
   return ofCosts(withoutMassDerivatives(tables, setting, "newton_iterations"));
 }
@@ -218,6 +216,20 @@ Measurement jacobianReuse(const ResultTables& tables, Setting setting) {
                                    median(valuesOf(jacobians.cases)));
   }
   return measured;
+}
+
+}  // namespace
+
+Evaluations newtonEvaluations() {
+  return {
+      {"C5a", massDerivativesIterations},
+      {"C5b", massDerivativesTime},
+      {"C6a", iterationsAtSmallSteps},
+      {"C6b", digitsLostIndex3},
+      {"C6c", digitsLostIndex2},
+      {"C12", newtonRule},
+      {"C15a", jacobianReuse},
+  };
 }
 
 }  // namespace irk::claims

@@ -30,8 +30,6 @@ double massFactorizationsAt(const Table& runs, const TableRow& run) {
   return at == detail.npos ? 0 : std::stod(detail.substr(at + kCount.size()));
 }
 
-}  // namespace
-
 Measurement shareOfEvaluations(const ResultTables& tables, Setting setting) {
   constexpr double kFewest = 3, kMost = 200;
   const Table phases = coveredPhases(tables, setting);
@@ -96,6 +94,17 @@ Measurement costOfFactorization(const ResultTables& tables, Setting setting) {
     measured.cases.push_back({textAt(phases, row, "scene"), numberAt(phases, row, "factorization_s") * steps / sum});
   }
   return measured;
+}
+
+}  // namespace
+
+Evaluations partsEvaluations() {
+  return {
+      {"C4", shareOfEvaluations},
+      {"C11a", massFactorizations},
+      {"C11b", firstOrderForm},
+      {"C15b", costOfFactorization},
+  };
 }
 
 }  // namespace irk::claims

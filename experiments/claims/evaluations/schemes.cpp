@@ -58,8 +58,6 @@ Limit limitOf(const Table& runs, std::vector<const TableRow*> series) {
   return Limit::kUnknown;
 }
 
-}  // namespace
-
 Measurement observedOrder(const ResultTables& tables, Setting) {
   const Table& orders = tables.table("order", "orders");
   Measurement measured;
@@ -115,6 +113,7 @@ Measurement limitOfManyStages(const ResultTables& tables, Setting setting) {
   return measured;
 }
 
+/// C7: `which` of the ends 0, 1, 2 of a scene.
 Measurement driftOver(const ResultTables& tables, Setting setting, std::size_t which) {
   const Table runs = where(claimRuns(tables, "drift", setting), {{"outcome", "success"}});
   std::map<std::string, std::set<double>> ends;
@@ -140,6 +139,7 @@ Measurement newmarkDifference(const ResultTables&, Setting) {
   return measured;
 }
 
+/// C13: at equal errors of this column.
 Measurement radauFor(const ResultTables& tables, Setting setting, std::string_view error) {
   const Table runs = timedClaimRuns(tables, "families", setting);
   const auto series = seriesOf(runs);
@@ -160,6 +160,25 @@ Measurement radauFor(const ResultTables& tables, Setting setting, std::string_vi
     measured.remark += fmt::format("{}{} {}", measured.remark.empty() ? "Cheapest, times: " : ", ", family, times);
   }
   return measured;
+}
+
+}  // namespace
+
+Evaluations schemesEvaluations() {
+  using Tables = const ResultTables&;
+  return {
+      {"C1a", observedOrder},
+      {"C1b", costOfHighOrder},
+      {"C2a", fastestStages},
+      {"C2b", limitOfManyStages},
+      {"C7a", [](Tables tables, Setting setting) { return driftOver(tables, setting, 0); }},
+      {"C7b", [](Tables tables, Setting setting) { return driftOver(tables, setting, 1); }},
+      {"C7c", [](Tables tables, Setting setting) { return driftOver(tables, setting, 2); }},
+      {"C10", newmarkDifference},
+      {"C13u", [](Tables tables, Setting setting) { return radauFor(tables, setting, "error_u"); }},
+      {"C13v", [](Tables tables, Setting setting) { return radauFor(tables, setting, "error_v"); }},
+      {"C13z", [](Tables tables, Setting setting) { return radauFor(tables, setting, "error_z"); }},
+  };
 }
 
 }  // namespace irk::claims

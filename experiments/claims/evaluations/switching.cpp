@@ -71,8 +71,7 @@ double stepAt(const Table& steps, double t) {
 
 constexpr double kClean = 0.1;  // error of a solution that can be used
 
-}  // namespace
-
+/// C3b: of a group u, v, x.
 Measurement reliableSteps(const ResultTables& tables, std::string_view group) {
   const Table& estimates = tables.table("estimate", "estimates");
   Measurement measured;
@@ -109,6 +108,7 @@ Measurement reliableRuns(const ResultTables& tables, Setting setting) {
   return measured;
 }
 
+/// C16: error over tolerance of runs that treat switches so; what fails does not reach its tolerance.
 Measurement reachedTolerances(const ResultTables& tables, Setting setting, std::string_view treatment) {
   const Table all = timedRuns(tables, "reliability", kWithJumps, setting);
   const Table runs = where(all, {{"discontinuity", treatment}});
@@ -120,6 +120,7 @@ Measurement reachedTolerances(const ResultTables& tables, Setting setting, std::
   return measured;
 }
 
+/// C16: residuals over those of the run that locates its switches, where both succeed.
 Measurement costOverLocating(const ResultTables& tables, Setting setting, std::string_view treatment) {
   const Table runs = timedRuns(tables, "reliability", kWithJumps, setting);
   std::map<TableRow, double> located;
@@ -226,6 +227,27 @@ Measurement gainOnFlexibleContact(const ResultTables& tables, Setting setting) {
     if (std::isfinite(few) && std::isfinite(many)) measured.cases.push_back({race.scene, few / many});
   }
   return measured;
+}
+
+}  // namespace
+
+Evaluations switchingEvaluations() {
+  using Tables = const ResultTables&;
+  return {
+      {"C3bu", [](Tables tables, Setting) { return reliableSteps(tables, "u"); }},
+      {"C3bv", [](Tables tables, Setting) { return reliableSteps(tables, "v"); }},
+      {"C3bx", [](Tables tables, Setting) { return reliableSteps(tables, "x"); }},
+      {"C3br", reliableRuns},
+      {"C9b", stepAtSwitch},
+      {"C16a", [](Tables tables, Setting setting) { return reachedTolerances(tables, setting, "ignore"); }},
+      {"C16b", [](Tables tables, Setting setting) { return reachedTolerances(tables, setting, "iterate"); }},
+      {"C16c", [](Tables tables, Setting setting) { return costOverLocating(tables, setting, "ignore"); }},
+      {"C16d", [](Tables tables, Setting setting) { return costOverLocating(tables, setting, "iterate"); }},
+      {"C17", contractionAtFirst},
+      {"C18", repairedByFullNewton},
+      {"C19", rejectedWithGamma},
+      {"C20", gainOnFlexibleContact},
+  };
 }
 
 }  // namespace irk::claims

@@ -62,7 +62,9 @@ max_steps = 40
   ASSERT_EQ(study.series.size(), 1u);
   const auto made = [&](SeriesEnd end) {
     const TemporaryFolder folder;
-    study.series.front().end = end;
+    Series changed = study.series.front();
+    changed.end = end;
+    study.series = std::vector{changed};
     RunnerOptions options;
     options.results = folder.path();
     options.jobs = 1;

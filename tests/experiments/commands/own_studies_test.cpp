@@ -61,6 +61,7 @@ TEST_F(OwnStudies, MergedShardsHaveTheirFigures) {
   ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);
   std::vector<std::string> merge{"merge", "--study", study(), "--results", results()};
   for (const auto& entry : std::filesystem::directory_iterator(results("parts") + "/small")) {
+    if (!entry.is_directory()) continue;
     merge.push_back(entry.path());
   }
   const Ended merged = program(merge);

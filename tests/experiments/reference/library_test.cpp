@@ -222,7 +222,7 @@ TEST(ReferenceKeyOfStudies, RefusesOtherWords) {
       [&] { parseStudy(start + "tolerances = 1e-4\nreference = \"atuo\"\n", "mine.toml", StudyVariant::kFull); });
   EXPECT_TRUE(containsAll(message, {"mine.toml:5", "reference", "atuo", "did you mean 'auto'"}));
   const Study all = parseStudy("[defaults]\nreference = \"auto\"\n" + start, "mine.toml", StudyVariant::kFull);
-  EXPECT_EQ(all.series.at(0).runs.front().reference, ReferenceUse::kAuto);
+  EXPECT_EQ(all.series.front().runs.front().reference, ReferenceUse::kAuto);
 }
 
 }  // namespace

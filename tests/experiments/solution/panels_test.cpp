@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tests/experiments/support.h"
@@ -29,12 +30,17 @@ TEST(Panels, LeaveOutWhatSettingsTakeAway) {
   EXPECT_TRUE(containsAll(headOf("slider_crank").at("panels"), {"\"multiplier in N|lambda|1\""}));
 }
 
-TEST(Panels, OfASceneWithoutAnyAreItsFirstComponents) {
+TEST(Panels, OfASceneWithoutAnyAreSomeOfItsComponents) {
   EXPECT_EQ(headOf("kaps").at("panels"), "\"y1|y1|1\" \"y2|y2|1\"");
   EXPECT_EQ(headOf("kaps").at("time"), "t") << "no units";
-  const auto many = headOf("beam_chain").at("panels");
-  EXPECT_TRUE(containsAll(many, {"|u8|"}));
-  EXPECT_EQ(many.find("|u9|"), many.npos);
+  EXPECT_FALSE(headOf("kaps").contains("panels_note"));
+  const auto many = headOf("beam_chain");
+  const Index components = 2 * makeScene<double>("beam_chain", {}).start.u.size();
+  EXPECT_EQ(many.at("panels_note"), "8 of " + std::to_string(components) + " components");
+  EXPECT_EQ(std::count(many.at("panels").begin(), many.at("panels").end(), '"'), 16);
+  const std::string last = "u" + std::to_string(components / 2) + "'";
+  EXPECT_TRUE(containsAll(many.at("panels"), {"|u1|", "|" + last + "|"})) << "from the first to the last";
+  EXPECT_EQ(many.at("panels").find("|u2|"), std::string::npos);
 }
 
 TEST(Panels, OrbitsHaveTheUnitOfTheirPlane) {
