@@ -1,22 +1,15 @@
 #include "core/linear/interleaved_lu.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/linear/complex_arithmetic.h"
 
 namespace irk {
 namespace {
 
 constexpr std::size_t kMaxLanes = 8, kMinWidth = 4;
-
-// Writes the entries of one lane. Each entry holds the real parts of all lanes, then their imaginary parts.
-template <class T>
-void spread(const std::vector<T>& from, std::size_t lane, std::size_t width, std::vector<double>& to) {
-  double* out = to.data() + lane;
-  for (const T& x : from) {
-    out[0] = std::real(x);
-    out[width] = std::imag(x);
-    out += 2 * width;
-  }
-}
 
 template <int kWidth>
 struct Pack {
@@ -25,57 +18,197 @@ struct Pack {
   using Out = Eigen::Map<Array>;
 };
 
-}  // namespace
+// Left-looking LU of all lanes, column by column, as in SparseLu. Lanes without a matrix repeat the first one. A pivot
+// that is zero or not finite makes numbers that are not finite from there on, which the sum of all pivots shows.
+template <int kWidth>
+struct Elimination {
+  using Array = typename Pack<kWidth>::Array;
+  using In = typename Pack<kWidth>::In;
+  using Out = typename Pack<kWidth>::Out;
+  static constexpr std::size_t kSize = 2 * kWidth;
 
-InterleavedLu::InterleavedLu(const SparseAnalysis& analysis, std::size_t matrices)
-    : versions_(matrices), work_(static_cast<std::size_t>(analysis.n()) * 2 * kMaxLanes) {
-  const auto n = static_cast<std::size_t>(analysis.n());
-  for (std::size_t first = 0; first < matrices; first += kMaxLanes) {
-    const std::size_t lanes = std::min(kMaxLanes, matrices - first);
-    const std::size_t width = lanes > kMinWidth ? kMaxLanes : kMinWidth, size = 2 * width;
-    Group group{first, lanes, width, {}, {}, std::vector<double>(n * size)};
-    group.l.reserve(2 * size * analysis.lowerEntries());
-    group.u.reserve(2 * size * analysis.upperEntries());
-    groups_.push_back(std::move(group));
+  const SparsePivots& f;
+  double* x;  // the column; zero again after each
+  double *l, *u, *inverse;
+  double *first_l, *first_u, *first_inverse;  // those of the first lane alone, or null
+  Array m1r = {}, m1i = {}, m2r = {}, m2i = {};
+  Array least = {}, most = {}, sum = {};  // magnitudes of the pivots
+  Array multiplier = {};                  // largest magnitude in L
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  void begin(std::span<const std::complex<double>> m) {
+    for (int i = 0; i < kWidth; ++i) {
+      const std::complex<double> own = m[index(i) < m.size() ? index(i) : 0];
+      m1r[i] = own.real();
+      m1i[i] = own.imag();
+    }
+    m2r = m1r * m1r - m1i * m1i;
+    m2i = 2 * m1r * m1i;
+    least.setConstant(std::numeric_limits<double>::infinity());
+    most = sum = multiplier = Array::Zero();
+    std::fill_n(x, f.p.size() * kSize, 0.0);
   }
-}
 
-bool InterleavedLu::assign(std::span<const SparseLu<double>> real,
-                           std::span<const SparseLu<std::complex<double>>> complex) {
-  bool changed = false;
-  std::size_t at = 0;
-  const auto look = [&](const auto& lu) {
-    changed = changed || versions_[at] != lu.version();
-    versions_[at++] = lu.version();
-  };
-  std::for_each(real.begin(), real.end(), look);
-  std::for_each(complex.begin(), complex.end(), look);
-  if (changed) {
-    pivots_ = real.empty() ? &complex.front().pivots() : &real.front().pivots();
-    const auto same = [this](const auto& lu) { return lu.pivots() == *pivots_; };
-    shared_ = std::all_of(real.begin(), real.end(), same) && std::all_of(complex.begin(), complex.end(), same);
-    for (Group& group : groups_) {
-      detail::fit(group.l, pivots_->l_row.size() * 2 * group.width);
-      detail::fit(group.u, pivots_->u_row.size() * 2 * group.width);
+  void fill(std::size_t k, const InterleavedLu::Pencil& pencil, const std::vector<int>& row_of) {
+    for (std::size_t e = index(f.source_start[k]); e < index(f.source_start[k + 1]); ++e) {
+      const std::size_t entry = index(f.source[e]), row = index(f.target[e]);
+      const double scale = f.scale[row] * pencil.row_scales[row_of[entry]];
+      const double d0 = scale * pencil.d0[entry], d1 = scale * pencil.d1[entry], d2 = scale * pencil.d2[entry];
+      Out{x + row* kSize} = d0 + m1r * d1 + m2r * d2;
+      Out{x + row* kSize + kWidth} = m1i * d1 + m2i * d2;
     }
   }
-  if (!shared_) return false;
-  for (Group& group : groups_) {
-    for (std::size_t lane = 0; lane < group.lanes; ++lane) {
-      const auto take = [&](const auto& lu) {
-        spread(lu.lower(), lane, group.width, group.l);
-        spread(lu.upper(), lane, group.width, group.u);
-        spread(lu.inverseDiagonal(), lane, group.width, group.inverse_diagonal);
-      };
-      const std::size_t matrix = group.first + lane;
-      if (matrix < real.size()) {
-        take(real[matrix]);
-      } else {
-        take(complex[matrix - real.size()]);
+
+  void eliminate(std::size_t k) {
+    for (std::size_t e = index(f.u_start[k]); e < index(f.u_start[k + 1]); ++e) {
+      const std::size_t j = index(f.u_row[e]);
+      double* const here = x + j * kSize;
+      const Array re = In(here), im = In(here + kWidth);
+      Out{u + e* kSize} = re;
+      Out{u + e* kSize + kWidth} = im;
+      if (first_u) first_u[e] = re[0];
+      std::fill_n(here, kSize, 0.0);
+      for (std::size_t i = index(f.l_start[j]); i < index(f.l_start[j + 1]); ++i) {
+        double* const below = x + index(f.l_row[i]) * kSize;
+        const Array a = In(l + i * kSize), b = In(l + i * kSize + kWidth);
+        Out{below} -= a * re - b * im;
+        Out{below + kWidth} -= a * im + b * re;
       }
     }
   }
+
+  void divide(std::size_t k, bool fresh) {
+    double* const diagonal = x + k * kSize;
+    const Array re = In(diagonal), im = In(diagonal + kWidth);
+    const Array size = re.abs() + im.abs(), square = (re * re + im * im).inverse();
+    least = least.min(size);
+    most = most.max(size);
+    sum += size;
+    const Array a = re * square, b = -im * square;
+    Out{inverse + k* kSize} = a;
+    Out{inverse + k* kSize + kWidth} = b;
+    if (first_inverse) first_inverse[k] = a[0];
+    std::fill_n(diagonal, kSize, 0.0);
+    for (std::size_t e = index(f.l_start[k]); e < index(f.l_start[k + 1]); ++e) {
+      double* const below = x + index(f.l_row[e]) * kSize;
+      const Array c = In(below), d = In(below + kWidth);
+      const Array lr = c * a - d * b, li = c * b + d * a;
+      Out{l + e* kSize} = lr;
+      Out{l + e* kSize + kWidth} = li;
+      if (first_l) first_l[e] = lr[0];
+      if (fresh) multiplier = multiplier.max(lr.abs() + li.abs());
+      std::fill_n(below, kSize, 0.0);
+    }
+  }
+};
+
+}  // namespace
+
+InterleavedLu::InterleavedLu(std::shared_ptr<const SparseAnalysis> analysis, std::size_t matrices)
+    : analysis_(std::move(analysis)), choice_(analysis_) {
+  analysis_->reserve(pivots_);
+  const auto n = static_cast<std::size_t>(analysis_->n());
+  const std::size_t l = 2 * analysis_->lowerEntries(), u = 2 * analysis_->upperEntries();
+  std::size_t widest = 0;
+  for (std::size_t first = 0; first < matrices; first += kMaxLanes) {
+    const std::size_t lanes = std::min(kMaxLanes, matrices - first);
+    const std::size_t width = lanes > kMinWidth ? kMaxLanes : kMinWidth;
+    Group group{first, lanes, width, {}, {}, std::vector<double>(n * 2 * width), std::vector<double>(width)};
+    group.l.reserve(l * 2 * width);
+    group.u.reserve(u * 2 * width);
+    groups_.push_back(std::move(group));
+    widest = std::max(widest, width);
+  }
+  l_.reserve(l);
+  u_.reserve(u);
+  inverse_diagonal_.reserve(n);
+  work_.resize(n * 2 * widest);
+}
+
+bool InterleavedLu::factorize(const Pencil& pencil, std::span<const std::complex<double>> m) {
+  if (pivoted_ && refactorize(pencil, m, false)) return true;
+  pivoted_ = choosePivots(pencil, m.front()) && refactorize(pencil, m, true);
+  return pivoted_;
+}
+
+bool InterleavedLu::choosePivots(const Pencil& pencil, std::complex<double> m) {
+  const std::complex<double> m2 = detail::product(m, m);
+  const std::vector<int>& row = analysis_->row;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    choice_.values()[k] = pencil.row_scales[row[k]] * (pencil.d0[k] + m * pencil.d1[k] + m2 * pencil.d2[k]);
+  }
+  ++pivotings_;
+  if (!choice_.entries().allFinite() || !choice_.choose(pivots_)) return false;
+  if (m.imag() == 0) {
+    detail::fit(l_, pivots_.l_row.size());
+    detail::fit(u_, pivots_.u_row.size());
+    inverse_diagonal_.resize(pivots_.p.size());
+  }
+  for (Group& group : groups_) {
+    detail::fit(group.l, pivots_.l_row.size() * 2 * group.width);
+    detail::fit(group.u, pivots_.u_row.size() * 2 * group.width);
+  }
   return true;
+}
+
+bool InterleavedLu::refactorize(const Pencil& pencil, std::span<const std::complex<double>> m, bool fresh) {
+  return std::all_of(groups_.begin(), groups_.end(), [&](Group& group) {
+    const auto own = m.subspan(group.first, group.lanes);
+    return group.width == kMinWidth ? refactorizeGroup<kMinWidth>(group, pencil, own, fresh)
+                                    : refactorizeGroup<kMaxLanes>(group, pencil, own, fresh);
+  });
+}
+
+template <int kWidth>
+bool InterleavedLu::refactorizeGroup(Group& group, const Pencil& pencil, std::span<const std::complex<double>> m,
+                                     bool fresh) {
+  const bool copies = &group == &groups_.front() && m.front().imag() == 0;
+  Elimination<kWidth> lu{.f = pivots_,
+                         .x = work_.data(),
+                         .l = group.l.data(),
+                         .u = group.u.data(),
+                         .inverse = group.inverse_diagonal.data(),
+                         .first_l = copies ? l_.data() : nullptr,
+                         .first_u = copies ? u_.data() : nullptr,
+                         .first_inverse = copies ? inverse_diagonal_.data() : nullptr};
+  lu.begin(m);
+  for (std::size_t k = 0; k < pivots_.p.size(); ++k) {
+    lu.fill(k, pencil, analysis_->row);
+    lu.eliminate(k);
+    lu.divide(k, fresh);
+  }
+  for (std::size_t i = 0; i < group.lanes; ++i) {
+    const auto lane = static_cast<Index>(i);
+    if (!(lu.least[lane] > 0) || !std::isfinite(lu.sum[lane])) return false;
+    const double condition = lu.least[lane] / lu.most[lane];
+    if (fresh) {
+      if (lu.multiplier[lane] > kMostMultiplier) return false;
+      group.chosen_at[i] = condition;
+    } else if (condition < kSmallerPivot * group.chosen_at[i]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void InterleavedLu::solveFirst(double* b) {
+  const SparsePivots& f = pivots_;
+  const std::size_t n = f.p.size();
+  double* const x = work_.data();
+  for (std::size_t k = 0; k < n; ++k) x[k] = b[f.p[k]] * f.scale[k];
+  for (std::size_t k = 0; k < n; ++k) {
+    for (auto e = static_cast<std::size_t>(f.l_start[k]); e < static_cast<std::size_t>(f.l_start[k + 1]); ++e) {
+      x[f.l_row[e]] -= l_[e] * x[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    const double here = x[k] * inverse_diagonal_[k];
+    for (auto e = static_cast<std::size_t>(f.u_start[k]); e < static_cast<std::size_t>(f.u_start[k + 1]); ++e) {
+      x[f.u_row[e]] -= u_[e] * here;
+    }
+    b[f.q[k]] = here;
+  }
 }
 
 void InterleavedLu::solve(std::span<const Lane> lanes) {
@@ -94,7 +227,7 @@ void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) 
   using Array = typename Pack<kWidth>::Array;
   using In = typename Pack<kWidth>::In;
   using Out = typename Pack<kWidth>::Out;
-  const SparsePivots& f = *pivots_;
+  const SparsePivots& f = pivots_;
   const std::size_t n = f.p.size();
   constexpr std::size_t kSize = 2 * kWidth;
   double* const x = work_.data();

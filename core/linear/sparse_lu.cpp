@@ -13,10 +13,6 @@
 namespace irk {
 namespace {
 
-// Old pivots are used as long as the ratio of the smallest to the largest pivot is at least this part of the ratio
-// at the time of their choice.
-constexpr double kSmallerPivot = 1e-3;
-
 klu_common defaults() {
   klu_common common;
   klu_defaults(&common);
@@ -155,44 +151,57 @@ void SparseAnalysis::reserve(SparsePivots& f) const {
 }
 
 template <class T>
-SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
-    : analysis_(std::move(analysis)),
-      values_(static_cast<Index>(analysis_->row.size())),
-      work_(static_cast<std::size_t>(analysis_->n())) {
+PivotChoice<T>::PivotChoice(std::shared_ptr<const SparseAnalysis> analysis)
+    : analysis_(std::move(analysis)), values_(static_cast<Index>(analysis_->row.size())) {
   if (!kHasKlu<T>) {
     throw Misuse("illegal combination: sparse systems in multiprecision: KLU is for double");
   }
-  const auto n = static_cast<std::size_t>(analysis_->n());
-  const std::size_t l = analysis_->lowerEntries(), u = analysis_->upperEntries();
-  l_.reserve(2 * l);
-  u_.reserve(2 * u);
-  re_.reserve(2 * std::max(l, u));
-  if (!std::is_same_v<T, double>) im_.reserve(2 * std::max(l, u));
+  const std::size_t most = 2 * std::max(analysis_->lowerEntries(), analysis_->upperEntries());
+  re_.reserve(most);
+  if (!std::is_same_v<T, double>) im_.reserve(most);
+  row_of_.reserve(static_cast<std::size_t>(analysis_->n()));
+}
+
+template <class T>
+bool PivotChoice<T>::choose(SparsePivots& pivots) {
+  if constexpr (kHasKlu<T>) {
+    klu_symbolic* const symbolic = analysis_->symbolic_->value;
+    Pivoting<T> klu(*analysis_, symbolic, values_);
+    if (!klu.good()) return false;
+    klu.extract(symbolic, pivots, re_, im_);
+    finish(*analysis_, pivots, row_of_);
+    return true;
+  }
+  return false;
+}
+
+template <class T>
+SparseLu<T>::SparseLu(std::shared_ptr<const SparseAnalysis> analysis)
+    : analysis_(std::move(analysis)), choice_(analysis_), work_(static_cast<std::size_t>(analysis_->n())) {
+  l_.reserve(2 * analysis_->lowerEntries());
+  u_.reserve(2 * analysis_->upperEntries());
   analysis_->reserve(pivots_);
-  inverse_diagonal_.resize(n);
-  row_of_.reserve(n);
+  inverse_diagonal_.resize(static_cast<std::size_t>(analysis_->n()));
 }
 
 template <class T>
 Outcome SparseLu<T>::factorize(const SparsePivots* others, bool rather) {
-  if (!values_.allFinite()) return Outcome::kNotFinite;
+  if (!choice_.entries().allFinite()) return Outcome::kNotFinite;
   if (others && rather && adopt(*others)) return Outcome::kSuccess;
   if (pivoted_ && refactorize() && condition_ >= kSmallerPivot * chosen_at_) return Outcome::kSuccess;
   if (others && adopt(*others)) return Outcome::kSuccess;
   return pivot() ? Outcome::kSuccess : Outcome::kSingular;
 }
 
-// Takes the pivots of another matrix if KLU might have chosen them itself: no pivot is a smaller part of its column
-// than KLU's tolerance allows.
+// Takes the pivots of another matrix if KLU might have chosen them itself.
 template <class T>
 bool SparseLu<T>::adopt(const SparsePivots& pivots) {
   if (pivoted_ && pivots == pivots_) return false;
   pivots_ = pivots;
   detail::fit(l_, pivots_.l_row.size());
   detail::fit(u_, pivots_.u_row.size());
-  const double most = 1 / defaults().tol;
-  pivoted_ = refactorize() && std::all_of(l_.begin(), l_.end(), [most](const T& l) {
-               return static_cast<double>(detail::magnitude(l)) <= most;
+  pivoted_ = refactorize() && std::all_of(l_.begin(), l_.end(), [](const T& l) {
+               return static_cast<double>(detail::magnitude(l)) <= kMostMultiplier;
              });
   ++version_;
   chosen_at_ = condition_;
@@ -213,7 +222,7 @@ bool SparseLu<T>::refactorize() {
     for (int e = f.source_start[c]; e < f.source_start[c + 1]; ++e) {
       const auto at = static_cast<std::size_t>(e);
       const int row = f.target[at];
-      x[row] = values_[f.source[at]] * Real(f.scale[static_cast<std::size_t>(row)]);
+      x[row] = choice_.entries()[f.source[at]] * Real(f.scale[static_cast<std::size_t>(row)]);
     }
     for (int e = f.u_start[c]; e < u_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
@@ -247,23 +256,16 @@ bool SparseLu<T>::refactorize() {
 // Lets KLU choose new pivots, then factorizes with them.
 template <class T>
 bool SparseLu<T>::pivot() {
-  if constexpr (kHasKlu<T>) {
-    pivoted_ = false;
-    condition_ = chosen_at_ = 0;
-    ++pivotings_;
-    ++version_;
-    klu_symbolic* const symbolic = analysis_->symbolic_->value;
-    Pivoting<T> klu(*analysis_, symbolic, values_);
-    if (!klu.good()) return false;
-    klu.extract(symbolic, pivots_, re_, im_);
-    finish(*analysis_, pivots_, row_of_);
-    detail::fit(l_, pivots_.l_row.size());
-    detail::fit(u_, pivots_.u_row.size());
-    pivoted_ = refactorize();
-    chosen_at_ = condition_;
-    return pivoted_;
-  }
-  return false;
+  pivoted_ = false;
+  condition_ = chosen_at_ = 0;
+  ++pivotings_;
+  ++version_;
+  if (!choice_.choose(pivots_)) return false;
+  detail::fit(l_, pivots_.l_row.size());
+  detail::fit(u_, pivots_.u_row.size());
+  pivoted_ = refactorize();
+  chosen_at_ = condition_;
+  return pivoted_;
 }
 
 template <class T>
@@ -289,6 +291,10 @@ void SparseLu<T>::solve(T* b) {
   }
 }
 
+IRK_INSTANTIATE_CLASS(PivotChoice)
+template class PivotChoice<std::complex<double>>;
+template class PivotChoice<std::complex<mp50>>;
+template class PivotChoice<std::complex<mp100>>;
 IRK_INSTANTIATE_CLASS(SparseLu)
 template class SparseLu<std::complex<double>>;
 template class SparseLu<std::complex<mp50>>;

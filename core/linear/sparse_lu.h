@@ -32,7 +32,7 @@ class SparseAnalysis {
 
  private:
   template <class T>
-  friend class SparseLu;
+  friend class PivotChoice;
   struct Symbolic;
   std::unique_ptr<Symbolic> symbolic_;
 };
@@ -60,6 +60,34 @@ void fit(std::vector<Entry>& x, std::size_t size) {
 
 }  // namespace detail
 
+/// Pivots are kept as long as the ratio of the smallest to the largest one is at least this part of the ratio at the
+/// time of their choice.
+inline constexpr double kSmallerPivot = 1e-3;
+/// Pivots of another matrix are taken if no entry of L exceeds this: then KLU might have chosen them itself.
+inline constexpr double kMostMultiplier = 1e3;
+
+/// KLU's choice of pivots for a matrix. T is double or std::complex<double>; for any other scalar the constructor
+/// throws Misuse. Allocates in its constructor; `choose` lets KLU allocate, and allocates where the pivots fill more
+/// than twice as much as the analysis predicts.
+template <class T>
+class PivotChoice {
+ public:
+  explicit PivotChoice(std::shared_ptr<const SparseAnalysis> analysis);
+
+  /// The entries of the matrix, in the order of the pattern. Fill all of them before `choose`, which keeps them.
+  T* values() { return values_.data(); }
+  const Vec<T>& entries() const { return values_; }
+
+  /// Returns false if the matrix is singular or not finite.
+  [[nodiscard]] bool choose(SparsePivots& pivots);
+
+ private:
+  std::shared_ptr<const SparseAnalysis> analysis_;
+  Vec<T> values_;
+  std::vector<int> row_of_;
+  std::vector<double> re_, im_;
+};
+
 /// Sparse LU of an n x n matrix. T is double or std::complex<double>; for any other scalar the constructor throws
 /// Misuse. Allocates in its constructor; later only KLU allocates, when it chooses new pivots, and this class, when
 /// these fill more than twice as much as the analysis predicts. KLU's own refactorization and solve, which divide
@@ -70,7 +98,7 @@ class SparseLu {
   explicit SparseLu(std::shared_ptr<const SparseAnalysis> analysis);
 
   /// The entries, in the order of the pattern. Fill all of them before `factorize`, which keeps them.
-  T* values() { return values_.data(); }
+  T* values() { return choice_.values(); }
 
   /// Factorizes with the pivots of the last factorization if they are still good; else with `others`, the pivots of
   /// a similar matrix, if they are good; else with new pivots. `rather`: tries `others` first. Returns kSuccess,
@@ -85,13 +113,9 @@ class SparseLu {
   /// How many times KLU has chosen pivots.
   int pivotings() const { return pivotings_; }
 
-  /// Pivots and factors of the last factorization: the values of L and U in the order of `pivots`, and the inverses
-  /// of the diagonal of U. `version` changes with the pivots; it is 0 if there are none.
+  /// Pivots of the last factorization. `version` changes with them; it is 0 if there are none.
   const SparsePivots& pivots() const { return pivots_; }
   int version() const { return pivoted_ ? version_ : 0; }
-  const std::vector<T>& lower() const { return l_; }
-  const std::vector<T>& upper() const { return u_; }
-  const std::vector<T>& inverseDiagonal() const { return inverse_diagonal_; }
 
  private:
   using Real = typename Eigen::NumTraits<T>::Real;
@@ -101,12 +125,10 @@ class SparseLu {
   bool pivot();
 
   std::shared_ptr<const SparseAnalysis> analysis_;
-  Vec<T> values_;
+  PivotChoice<T> choice_;
   SparsePivots pivots_;
   std::vector<T> l_, u_, inverse_diagonal_;
   std::vector<T> work_;
-  std::vector<int> row_of_;  // scratch of `pivot`
-  std::vector<double> re_, im_;
   bool pivoted_ = false;
   int version_ = 0;
   double condition_ = 0, chosen_at_ = 0;  // reciprocal conditions: now, and when the pivots were chosen

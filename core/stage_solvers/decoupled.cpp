@@ -13,6 +13,8 @@ namespace {
 // An eigenvalue of A from the Schur form and the same one from the eigenbasis differ by round-off. They count as
 // equal up to this multiple of eps.
 constexpr double kSameEigenvalue = 1e4;
+// Sparse blocks that have no common order of pivots are factorized one by one for so many factorizations.
+constexpr int kApart = 10;
 
 }  // namespace
 
@@ -28,11 +30,39 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
              setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
-      D1Y_(setup.pattern->n, setup.A.rows()),
-      D2Y_(setup.pattern->n, setup.A.rows()),
+      D1Y_(setup.pattern->n, form_.diagonal ? 0 : setup.A.rows()),
+      D2Y_(setup.pattern->n, D1Y_.cols()),
       eta_(setup.pattern->n) {
+  for (const auto& block : form_.blocks) {
+    const Index size = small_ ? block.size * setup.pattern->n : 0;
+    inverses_.emplace_back(size * size);
+  }
+  if constexpr (kSparse) {
+    if (!setup_.analysis) {
+      setup_.analysis = std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row);
+    }
+    if (form_.diagonal && form_.blocks.size() > 1) {
+      together_.emplace(setup_.analysis, form_.blocks.size());
+      lane_m_.resize(form_.blocks.size());
+      for (const Index size : {1, 2}) {  // real blocks first
+        for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
+          const auto& block = form_.blocks[k];
+          if (block.size != size) continue;
+          double* const re = Y_.col(block.start).data();
+          double* const im = size == 1 ? nullptr : re + Y_.rows();
+          lane_block_.push_back(k);
+          lanes_.push_back({re, im, block.sigma, 1 / block.sigma});
+        }
+      }
+      return;
+    }
+  }
+  if (!small_) makeFactors();
+}
+
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::makeFactors() {
   const auto add = [&](const auto& shape) {
-    if (small_) return;
     for (const auto& block : form_.blocks) {
       lu_index_.push_back(block.size == 1 ? real_lu_.size() : complex_lu_.size());
       if (block.size == 1) {
@@ -42,29 +72,27 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
       }
     }
   };
-  for (const auto& block : form_.blocks) {
-    const Index size = small_ ? block.size * setup.pattern->n : 0;
-    inverses_.emplace_back(size * size);
-  }
   if constexpr (kSparse) {
-    const auto analysis = setup.analysis
-                              ? setup.analysis
-                              : std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row);
-    add(analysis);
-    analysis->reserve(pivots_);
-    if (!form_.diagonal || form_.blocks.size() == 1) return;
-    together_.emplace(*analysis, form_.blocks.size());
-    for (const Index size : {1, 2}) {  // real blocks first
-      for (const auto& block : form_.blocks) {
-        if (block.size != size) continue;
-        double* const re = Y_.col(block.start).data();
-        double* const im = size == 1 ? nullptr : re + Y_.rows();
-        lanes_.push_back({re, im, block.sigma, 1 / block.sigma});
-      }
-    }
+    add(setup_.analysis);
+    setup_.analysis->reserve(pivots_);
   } else {
-    add(setup.pattern->n);
+    add(setup_.pattern->n);
   }
+}
+
+// Tries to factorize all sparse blocks with one order of pivots. If no order serves all, as at the start of a system
+// whose rows are scaled by powers of h, the next factorizations do not try.
+template <class Real, template <class> class Lu>
+bool Decoupled<Real, Lu>::factorizeTogether() {
+  gathered_ = false;
+  if (!together_ || apart_-- > 0) return false;
+  for (std::size_t i = 0; i < lane_m_.size(); ++i) lane_m_[i] = h_ * form_.blocks[lane_block_[i]].mu;
+  if constexpr (kSparse) {
+    gathered_ = together_->factorize({at_->d0.data(), at_->d1.data(), at_->d2.data(), scales_.data()}, lane_m_);
+  }
+  apart_ = gathered_ ? 0 : kApart;
+  if (!gathered_ && lu_index_.empty()) makeFactors();
+  return gathered_;
 }
 
 // The blocks are independent of each other, so that any number of threads gives the same bits. Sparse blocks try the
@@ -74,6 +102,7 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
   at_ = &at.front();
   h_ = h;
   rowScales(setup_.row_powers, h, scales_);
+  if (factorizeTogether()) return Outcome::kSuccess;
   const std::size_t blocks = form_.blocks.size();
   std::size_t done = 0;
   if constexpr (kSparse) {
@@ -93,9 +122,7 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
   }
   const auto failed =
       std::find_if(outcomes_.begin(), outcomes_.end(), [](Outcome o) { return o != Outcome::kSuccess; });
-  if (failed != outcomes_.end()) return *failed;
-  if constexpr (kSparse) gathered_ = together_ && together_->assign(real_lu_, complex_lu_);
-  return Outcome::kSuccess;
+  return failed == outcomes_.end() ? Outcome::kSuccess : *failed;
 }
 
 template <class Real, template <class> class Lu>
@@ -254,6 +281,9 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
     if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
     if (small_) {
       withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[k].data(), x, n); });
+    } else if (gathered_) {
+      if (k != lane_block_.front()) return false;
+      if constexpr (kSparse) together_->solveFirst(x);
     } else {
       real_lu_[lu_index_[k]].solve(x);
     }

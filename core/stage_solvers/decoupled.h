@@ -29,6 +29,8 @@ class Decoupled final : public StageSolver<Real> {
  private:
   using Complex = std::complex<Real>;
   static constexpr bool kSparse = std::is_same_v<Lu<Real>, SparseLu<Real>>;
+  void makeFactors();
+  bool factorizeTogether();
   Outcome factorizeBlock(std::size_t index);
   void coupleRows(const typename BlockForm<Real>::Block& block);
   void multiply(Index column);
@@ -38,18 +40,23 @@ class Decoupled final : public StageSolver<Real> {
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;
   Mat<Real> T2_;
-  Mat<Real> to_basis_, from_basis_;      // Y = R to_basis, R = Y from_basis
-  std::vector<Lu<Real>> real_lu_;        // of the real blocks, in their order
-  std::vector<Lu<Complex>> complex_lu_;  // of the complex pairs, in their order
-  std::vector<std::size_t> lu_index_;    // by block: its index in real_lu_ or complex_lu_
+  Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
+  // Factors of the real blocks and of the complex pairs, in their order. None where blocks are inverted, and none for
+  // sparse blocks as long as one order of pivots serves all of them.
+  std::vector<Lu<Real>> real_lu_;
+  std::vector<Lu<Complex>> complex_lu_;
+  std::vector<std::size_t> lu_index_;  // by block: its index in real_lu_ or complex_lu_
   // Sparse blocks: the pivots of the first block, offered to the others. Copied at the beginning of a factorization;
   // in the very first one, after the first block is factorized.
   SparsePivots pivots_;
   int version_ = 0;                        // of pivots_
   bool news_ = false;                      // pivots_ have changed since the last factorization
   std::optional<InterleavedLu> together_;  // all factors, if the blocks are sparse and do not couple
+  std::vector<std::size_t> lane_block_;    // the lanes' blocks, real ones first
   std::vector<InterleavedLu::Lane> lanes_;
+  std::vector<Complex> lane_m_;    // h mu
   bool gathered_ = false;          // together_ holds the present factors
+  int apart_ = 0;                  // factorizations until the blocks are tried together again
   std::vector<Outcome> outcomes_;  // by block
   bool small_;                     // blocks are inverted, see small_inverse.h; not for one stage, where it does not pay
   std::vector<Vec<Real>> inverses_;  // by block, as real matrices of size n or 2n

@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <random>
+#include <string>
 
 #include "tests/core/support.h"
 
@@ -155,70 +157,114 @@ TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
   expectSolves(*third.lu, like, 1e-12);
 }
 
-// Real and complex matrices of one pattern with the pivots of the first one, in more than one group of lanes.
-TEST(InterleavedLu, AgreesWithSolvesOneByOne) {
+// D0, D1 and D2 of one pattern, with rows scaled by S.
+struct Pencil {
+  Mat<double> D0, D1, D2;
+  Vec<double> S;
+  Filled<double> pattern;
+  Vec<double> d0, d1, d2;
+
+  Pencil(const Mat<double>& A0, const Mat<double>& A1, const Mat<double>& A2)
+      : D0(A0), D1(A1), D2(A2), S(A0.rows()), pattern(A0), d0(entries(A0)), d1(entries(A1)), d2(entries(A2)) {
+    for (Index i = 0; i < S.size(); ++i) S[i] = 0.5 + static_cast<double>(i % 3);
+  }
+  InterleavedLu::Pencil view() const { return {d0.data(), d1.data(), d2.data(), S.data()}; }
+  Mat<std::complex<double>> at(std::complex<double> m) const {
+    return S.asDiagonal() * (D0.cast<std::complex<double>>() + m * D1 + m * m * D2);
+  }
+
+ private:
+  Vec<double> entries(const Mat<double>& A) const {
+    const SparseAnalysis& analysis = *pattern.analysis();
+    Vec<double> values(static_cast<Index>(analysis.row.size()));
+    for (Index j = 0, k = 0; j < A.cols(); ++j) {
+      for (; k < analysis.column_start[static_cast<std::size_t>(j) + 1]; ++k) {
+        values[k] = A(analysis.row[static_cast<std::size_t>(k)], j);
+      }
+    }
+    return values;
+  }
+};
+
+// All lanes against SparseLu with the pivots of the first matrix, which is real or not.
+void expectTogether(InterleavedLu& together, const Pencil& pencil, const std::vector<std::complex<double>>& m) {
   using Complex = std::complex<double>;
-  const Mat<double> A = saddle<double>(1);
-  const Index n = A.rows();
-  for (const int pairs : {1, 4, 12}) {
-    SCOPED_TRACE(pairs);
-    std::vector<SparseLu<double>> real;
-    std::vector<SparseLu<Complex>> complex;
-    Filled<double> first(A);
-    ASSERT_EQ(first.factorize(A), Outcome::kSuccess);
-    const auto near = [&](int i) { return Mat<double>((1 + 0.1 * i) * A); };
-    real.push_back(std::move(*first.lu));
-    for (int i = 0; i < pairs; ++i) {
-      Filled<Complex> other(A.cast<Complex>());
-      const Mat<Complex> B = near(i).cast<Complex>() + Complex(0, 0.3) * near(i + 1).cast<Complex>();
-      ASSERT_EQ(other.factorize(B, &real.front().pivots()), Outcome::kSuccess);
-      ASSERT_EQ(other.lu->pivotings(), 0);
-      complex.push_back(std::move(*other.lu));
-    }
-    InterleavedLu together(*first.analysis(), real.size() + complex.size());
-    ASSERT_TRUE(together.assign(real, complex));
-    Mat<double> Y = Mat<double>::Random(n, 1 + 2 * pairs), expected = Y;
-    constexpr double kSigma = 0.7;
-    std::vector<InterleavedLu::Lane> lanes{{Y.data(), nullptr, 1, 1}};
-    real.front().solve(expected.data());
-    for (int i = 0; i < pairs; ++i) {
-      const Index re = 1 + 2 * i;
-      lanes.push_back({Y.col(re).data(), Y.col(re + 1).data(), kSigma, 1 / kSigma});
-      Vec<Complex> y = expected.col(re) + Complex(0, kSigma) * expected.col(re + 1);
-      complex[static_cast<std::size_t>(i)].solve(y.data());
-      expected.col(re) = y.real();
-      expected.col(re + 1) = y.imag() / kSigma;
-    }
-    together.solve(lanes);
-    for (Index j = 0; j < Y.cols(); ++j) {
-      EXPECT_LT((Y.col(j) - expected.col(j)).norm(), 1e-12 * expected.col(j).norm()) << j;
+  const Index n = pencil.D0.rows();
+  ASSERT_TRUE(together.factorize(pencil.view(), m));
+  const auto columns = static_cast<Index>(m.size());
+  Mat<double> re = Mat<double>::Random(n, columns), im = Mat<double>::Random(n, columns);
+  const Mat<double> re0 = re, im0 = im;
+  constexpr double kSigma = 0.7;
+  std::vector<InterleavedLu::Lane> lanes;
+  for (Index j = 0; j < columns; ++j) {
+    const bool real = m[static_cast<std::size_t>(j)].imag() == 0;
+    lanes.push_back({re.col(j).data(), real ? nullptr : im.col(j).data(), kSigma, 1 / kSigma});
+  }
+  together.solve(lanes);
+  for (Index j = 0; j < columns; ++j) {
+    const Mat<Complex> A = pencil.at(m[static_cast<std::size_t>(j)]);
+    Filled<Complex> alone(A);
+    ASSERT_EQ(alone.factorize(A), Outcome::kSuccess);
+    const double sigma = lanes[static_cast<std::size_t>(j)].im ? kSigma : 0;
+    Vec<Complex> y = re0.col(j) + Complex(0, sigma) * im0.col(j);
+    alone.lu->solve(y.data());
+    const Vec<Complex> x = re.col(j) + Complex(0, sigma) * im.col(j);
+    EXPECT_LT((x - y).norm(), 1e-10 * y.norm()) << j;
+  }
+  if (m.front().imag() != 0) return;
+  Vec<double> first = re0.col(0);
+  together.solveFirst(first.data());
+  EXPECT_LT((first - re.col(0)).norm(), 1e-12 * first.norm());
+}
+
+// One and more groups of lanes, half full and full; pivots off the diagonal; then other matrices with kept pivots.
+TEST(InterleavedLu, AgreesWithSolvesOneByOne) {
+  const Pencil pencil(saddle<double>(1), 0.05 * saddle<double>(2), 0.05 * saddle<double>(3));
+  for (const int pairs : {1, 3, 4, 7, 12}) {
+    for (const bool real : {true, false}) {
+      SCOPED_TRACE(std::to_string(pairs) + (real ? " pairs and a real one" : " pairs"));
+      std::vector<std::complex<double>> m;
+      if (real) m.emplace_back(0.3);
+      for (int i = 0; i < pairs; ++i) m.emplace_back(0.4 - 0.1 * i, 0.1 + 0.1 * i);
+      InterleavedLu together(pencil.pattern.analysis(), m.size());
+      expectTogether(together, pencil, m);
+      for (auto& each : m) each *= 0.9;
+      expectTogether(together, pencil, m);
+      EXPECT_EQ(together.pivotings(), 1);
     }
   }
 }
 
-TEST(InterleavedLu, RefusesDifferentPivotsAndFollowsTheirChanges) {
-  Mat<double> A(2, 2), swapped(2, 2);
-  A << 1, 0.5, 0.5, 2;
-  swapped << 1e-14, 1, 1, 1e-14;
-  Filled<double> first(A), second(A);
-  ASSERT_EQ(first.factorize(A), Outcome::kSuccess);
-  ASSERT_EQ(second.factorize(swapped), Outcome::kSuccess);
-  std::vector<SparseLu<double>> both;
-  both.push_back(std::move(*first.lu));
-  both.push_back(std::move(*second.lu));
-  InterleavedLu together(*first.analysis(), 2);
-  EXPECT_FALSE(together.assign(both, {}));
-  EXPECT_FALSE(together.assign(both, {})) << "nothing has changed";
-  // Both use the pivots of the second matrix.
-  std::copy(swapped.data(), swapped.data() + 4, both[0].values());
-  ASSERT_EQ(both[0].factorize(&both[1].pivots()), Outcome::kSuccess);
-  EXPECT_EQ(both[0].pivotings(), 1);
-  ASSERT_TRUE(together.assign(both, {}));
-  Mat<double> Y = Mat<double>::Random(2, 2);
-  const Mat<double> b = Y;
-  const std::vector<InterleavedLu::Lane> lanes{{Y.col(0).data(), nullptr, 1, 1}, {Y.col(1).data(), nullptr, 1, 1}};
-  together.solve(lanes);
-  EXPECT_LT((swapped * Y - b).norm(), 1e-14);
+// m = 0 has its pivots on the diagonal, m = 1 beside it.
+TEST(InterleavedLu, FollowsChangesOfPivotsAndRefusesWhereTheyDiffer) {
+  Mat<double> A(2, 2), D1(2, 2), D2(2, 2);
+  A << 1, 1e-14, 1e-14, 2;
+  D1 << -1 + 1e-14, 1, 1, -2 + 1e-14;
+  D2 << 0, 0, 0, 0;
+  const Pencil pencil(A, D1, D2);
+  InterleavedLu together(pencil.pattern.analysis(), 2);
+  expectTogether(together, pencil, {0, {0, 0.1}});
+  EXPECT_EQ(together.pivotings(), 1);
+  expectTogether(together, pencil, {1, {1, 1e-15}});
+  EXPECT_EQ(together.pivotings(), 2);
+  EXPECT_FALSE(together.factorize(pencil.view(), std::vector<std::complex<double>>{0, {1, 1e-15}}));
+  expectTogether(together, pencil, {0, {0, 0.1}});
+}
+
+TEST(InterleavedLu, RefusesWhatIsSingularOrNotFinite) {
+  Mat<double> A(2, 2), D1(2, 2);
+  A << 1, 2, 3, 4;
+  D1 << -1, 0, -3, 0;  // m = 1: a column of zeros
+  Pencil pencil(A, D1, Mat<double>::Zero(2, 2));
+  InterleavedLu together(pencil.pattern.analysis(), 2);
+  const std::vector<std::complex<double>> good{0.1, {0, 0.1}};
+  expectTogether(together, pencil, good);
+  EXPECT_FALSE(together.factorize(pencil.view(), std::vector<std::complex<double>>{0.1, 1}));
+  EXPECT_FALSE(together.factorize(pencil.view(), std::vector<std::complex<double>>{1, {0, 0.1}}));
+  pencil.d0[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(together.factorize(pencil.view(), good));
+  pencil.d0[1] = 3;
+  expectTogether(together, pencil, good);
 }
 
 TEST(SparseLu, OneUnknown) {
