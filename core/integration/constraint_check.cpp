@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/derivatives/first_order.h"
 #include "core/system/counting.h"
-#include "core/system/first_order.h"
 #include "irk/multiprecision.h"
 
 namespace irk {

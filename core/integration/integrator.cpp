@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/control/stall_detector.h"
+#include "core/derivatives/first_order.h"
 #include "core/estimates/accumulation.h"
 #include "core/integration/rules.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
 #include "core/system/counting.h"
-#include "core/system/first_order.h"
 #include "irk/multiprecision.h"
 #include "irk/system_check.h"
 

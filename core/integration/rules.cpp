@@ -9,10 +9,10 @@
 #include "core/control/controller.h"
 #include "core/control/order_controller.h"
 #include "core/derivatives/differentiator.h"
+#include "core/derivatives/first_order.h"
 #include "core/estimates/step_attempt.h"
 #include "core/newton/newton.h"
 #include "core/steps/modes.h"
-#include "core/system/first_order.h"
 
 namespace irk {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/derivatives/first_order.h"
 #include "core/options/fixed_steps.h"
-#include "core/system/first_order.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
 #include "experiments/own/stuck.h"

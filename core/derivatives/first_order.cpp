@@ -1,8 +1,9 @@
-#include "core/system/first_order.h"
+#include "core/derivatives/first_order.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "irk/misuse.h"
@@ -34,8 +35,11 @@ FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner, 
       values_(2 * inner_sizes_.nu + inner_sizes_.nx + inner_sizes_.discrete),
       dual_(inner_sizes_),
       dual_residual_(inner_sizes_.n()),
-      diagonal_(inner_sizes_.n()),
-      lu_(inner_sizes_.n()) {
+      diagonal_(inner_sizes_.n()) {
+  if (std::is_same_v<Real, double> && inner_sizes_.n() >= kSparseFrom) {
+    sparse_ = std::make_unique<Differentiator<Real>>(*inner_, DerivativeSource::kAutomatic, JacobianTerms::kFull,
+                                                     Storage::kAutomatic, Matrices::kOnlyD0);
+  }
   sizes_.nx = 2 * inner_sizes_.nu + inner_sizes_.nx;
   sizes_.discrete = inner_sizes_.discrete;
   sizes_.switches = inner_sizes_.switches;
@@ -195,10 +199,25 @@ bool FirstOrderForm<Real>::isSolution(const Vec<Real>& residual) const {
   return Real(column_.norm()) <= Real(sqrt(eps)) * (Real(1) + Real(at_.w.norm()));
 }
 
-// Evaluates D0 (into the matrix of lu_) and the residual at at_.
+// Evaluates D0 and the residual at at_.
 template <class Real>
 void FirstOrderForm<Real>::evaluateMatrix() const {
+  if (sparse_) {
+    sparse_->evaluate(Level::kAcceleration, pointOf(at_), D_);
+    if (D_.pattern->full) sparse_.reset();
+  }
+  if (!sparse_) return evaluateColumns();
+  inner_->evaluate(Level::kAcceleration, pointOf(at_), {residual_.data(), residual_.size()});
+}
+
+// Both at once, by dual numbers: one direction per column.
+template <class Real>
+void FirstOrderForm<Real>::evaluateColumns() const {
   const Index n = inner_sizes_.n();
+  if (!D_.pattern || !D_.pattern->full) {
+    D_.pattern = Pattern::dense(n);
+    D_.d0.resize(n * n);
+  }
   const auto lift = [](const Vec<Real>& from, Vec<Dual<Real>>& to) {
     for (Index i = 0; i < from.size(); ++i) to[i] = Dual<Real>(from[i]);
   };
@@ -215,7 +234,7 @@ void FirstOrderForm<Real>::evaluateMatrix() const {
     inner_->evaluate(Level::kAcceleration, pointOf(dual_), {dual_residual_.data(), n});
     for (Index c = 0; c < count; ++c) {
       for (Index i = 0; i < n; ++i) {
-        lu_.matrix()(i, first + c) = dual_residual_[i].d[static_cast<std::size_t>(c)];
+        D_.d0[(first + c) * n + i] = dual_residual_[i].d[static_cast<std::size_t>(c)];
       }
       dual_.w[first + c].d[static_cast<std::size_t>(c)] = Real(0);
     }
@@ -226,7 +245,7 @@ void FirstOrderForm<Real>::evaluateMatrix() const {
 template <class Real>
 bool FirstOrderForm<Real>::factorize() const {
   ++factorizations_;
-  return lu_.factorize() == Outcome::kSuccess;
+  return lu_.factorize(D_) == Outcome::kSuccess;
 }
 
 template <class Real>
@@ -234,7 +253,7 @@ void FirstOrderForm<Real>::divideByMatrix(Vec<Real>& x) const {
   if (rates_ == Rates::kDiagonal) {
     x.array() /= diagonal_.array();
   } else {
-    lu_.solve(x.data());
+    lu_.solve(x);
   }
 }
 

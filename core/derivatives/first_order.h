@@ -7,7 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/linear/dense_lu.h"
+#include "core/derivatives/differentiator.h"
+#include "core/derivatives/rate_lu.h"
 #include "irk/problem.h"
 
 namespace irk {
@@ -15,7 +16,7 @@ namespace irk {
 /// A system in first-order form: its x is (u, v, x) of the inner system, its rows are f(t, x) - k. z is eliminated:
 /// position constraints enter twice differentiated, so that positions drift. For a mechanism f contains
 /// v' = M^-1 F: M (the whole D0) is evaluated and factorized at every new point or once per step, unless it is
-/// constant.
+/// constant. D0 is sparse where `automatic` storage is.
 ///
 /// Unlike other systems it keeps scratch: use one object per thread.
 template <class Real>
@@ -58,7 +59,9 @@ class FirstOrderForm final : public System<Real> {
   enum class Rates { kDiagonal, kConstant, kLinear, kNonlinear };
 
   bool classify(const State<Real>& scene) const;  // false: D0 is singular
-  Rates kindNear(const State<Real>& scene, const Mat<Real>& D0) const;
+  Rates kindNear(const State<Real>& scene, const Vec<Real>& D0) const;
+  bool isRegular() const;
+  bool isDiagonal() const;
   bool solve(const Real& t, const Real* y, const Real* d) const;
   bool holds(const Real& t, const Real* y, const Real* d) const;
   bool solveLinear() const;
@@ -66,6 +69,7 @@ class FirstOrderForm final : public System<Real> {
   bool refine() const;
   bool isSolution(const Vec<Real>& residual) const;
   void evaluateMatrix() const;
+  void evaluateColumns() const;
   bool factorize() const;
   void divideByMatrix(Vec<Real>& x) const;
 
@@ -85,8 +89,10 @@ class FirstOrderForm final : public System<Real> {
   mutable Vec<Real> residual_, column_, values_;
   mutable State<Dual<Real>> dual_;
   mutable Vec<Dual<Real>> dual_residual_;
-  mutable Vec<Real> diagonal_;  // of D0, used for kDiagonal
-  mutable DenseLu<Real> lu_;    // of D0
+  mutable Vec<Real> diagonal_;                            // of D0, used for kDiagonal
+  mutable std::unique_ptr<Differentiator<Real>> sparse_;  // evaluates D0; null for few unknowns or a dense D0
+  mutable Linearization<Real> D_;                         // D0
+  mutable RateLu<Real> lu_;
   mutable std::int64_t factorizations_ = 0;
 };
 

@@ -1,7 +1,10 @@
 // The first-order form with M factorized at every point, and once per step.
-#include "core/system/first_order.h"
+#include "core/derivatives/first_order.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
 
 #include "tests/core/support.h"
 
@@ -68,6 +71,87 @@ TEST(FirstOrder, LeavesAConstantMassAlone) {
   for (const auto formulation : {Formulation::kFirstOrder, Formulation::kFirstOrderPerStep}) {
     EXPECT_EQ(run(Springs{}, start, formulation, adaptive(1e-6)).factorizations, 0) << idOf(formulation);
   }
+}
+
+/// Masses in a row, coupled by springs and by inertia: M is tridiagonal, depends on u with `bends`, and the residual is
+/// not linear in a with `hardens`.
+struct Chain {
+  Index n;
+  double coupling = 0.5, bends = 0, hardens = 0;
+
+  Sizes sizes() const { return {.nu = n}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    for (Index i = 0; i < n; ++i) {
+      const T& u = p.u[i];
+      T row = (2 + bends * u * u) * p.a[i] + hardens * p.a[i] * p.a[i] * p.a[i] + 3.0 * u + 0.1 * p.v[i];
+      for (const Index j : {i - 1, i + 1}) {
+        if (j >= 0 && j < n) row += coupling * p.a[j] - u * p.u[j];
+      }
+      r.u[i] = -row;
+    }
+  }
+};
+
+// Enough unknowns for a sparse D0. f is right if it solves the residual, its derivatives if they are difference
+// quotients of f.
+TEST(FirstOrder, SolvesSparseSystems) {
+  constexpr Index n = 40;
+  for (const Chain& chain : {Chain{n, 0}, Chain{n}, Chain{n, 0.5, 0.7}, Chain{n, 0.5, 0.7, 0.3}}) {
+    SCOPED_TRACE(std::to_string(chain.coupling) + " " + std::to_string(chain.bends) + " " +
+                 std::to_string(chain.hardens));
+    const auto inner = makeSystem<double>(chain);
+    const FirstOrderForm<double> form(inner);
+    State<double> start(inner->sizes());
+    for (Index i = 0; i < n; ++i) start.u[i] = std::sin(1.0 + static_cast<double>(i)), start.v[i] = 0.3;
+    State<double> state = form.fromScene(start);
+    const auto f = [&](const Vec<double>& x) {
+      state.x = x;
+      state.w.setZero();
+      Vec<double> r(2 * n);
+      form.evaluate(Level::kFormulated, pointOf(state), {r.data(), r.size()});
+      return r;
+    };
+    Vec<double> x = state.x;
+    for (Index i = 0; i < 2 * n; ++i) x[i] += 0.1 * std::cos(static_cast<double>(i));
+    const Vec<double> value = f(x);
+    State<double> scene(inner->sizes());
+    scene.u = x.head(n);
+    scene.v = x.tail(n);
+    scene.w = value.tail(n);
+    Vec<double> r(n);
+    inner->evaluate(Level::kAcceleration, pointOf(scene), {r.data(), r.size()});
+    EXPECT_LT(r.lpNorm<Eigen::Infinity>(), 1e-13);
+    EXPECT_EQ(value.head(n), x.tail(n));
+
+    State<Dual<double>> dual(form.sizes());
+    const Vec<double> direction = Vec<double>::Random(2 * n);
+    for (Index i = 0; i < 2 * n; ++i) {
+      dual.x[i] = Dual<double>(x[i]);
+      dual.x[i].d[0] = direction[i];
+      dual.w[i] = Dual<double>(0.0);
+    }
+    Vec<Dual<double>> derivative(2 * n);
+    form.evaluate(Level::kFormulated, pointOf(dual), {derivative.data(), derivative.size()});
+    constexpr double h = 1e-5;
+    const Vec<double> quotient = (f(x + h * direction) - f(x - h * direction)) / (2 * h);
+    for (Index i = 0; i < 2 * n; ++i) EXPECT_NEAR(derivative[i].d[0], quotient[i], 1e-8) << i;
+    EXPECT_EQ(form.massFactorizations() > 0, chain.bends != 0);
+  }
+}
+
+// A dense matrix would take 20 GB.
+TEST(FirstOrder, LargeSystemsNeedNoDenseMatrix) {
+  const Chain chain{50000};
+  const FirstOrderForm<double> form(makeSystem<double>(chain));
+  State<double> start(chain.sizes());
+  start.u.setConstant(0.2);
+  State<double> state = form.fromScene(start);
+  state.w.setZero();
+  Vec<double> r(state.x.size());
+  form.evaluate(Level::kFormulated, pointOf(state), {r.data(), r.size()});
+  // In the middle of the chain neighbours move alike: 3 a + 3 u - 2 u^2 = 0.
+  EXPECT_NEAR(r[75000], (2 * 0.04 - 3 * 0.2) / 3, 1e-12);
 }
 
 }  // namespace

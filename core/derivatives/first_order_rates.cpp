@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/system/first_order.h"
+#include <Eigen/LU>
+
+#include "core/derivatives/first_order.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -33,33 +35,58 @@ bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   renew_ = true;
   at_ = scene;
   evaluateMatrix();
-  const Mat<Real> D0 = lu_.matrix();
-  if (!Eigen::FullPivLU<Mat<Real>>(D0).isInvertible()) {
+  if (!isRegular()) {
     rates_ = Rates::kNonlinear;  // later solves report that D0 is singular
     return false;
   }
-  rates_ = kindNear(scene, D0);
+  const Linearization<Real> here = D_;
+  rates_ = kindNear(scene, here.d0);
   at_ = scene;
-  lu_.matrix() = D0;
-  diagonal_ = D0.diagonal();
-  if (rates_ == Rates::kConstant && D0.isDiagonal(Real(0))) rates_ = Rates::kDiagonal;
+  D_ = here;
+  if (rates_ == Rates::kConstant && isDiagonal()) rates_ = Rates::kDiagonal;
   if (rates_ == Rates::kConstant) factorize();
   return true;
 }
 
 template <class Real>
+bool FirstOrderForm<Real>::isRegular() const {
+  if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
+  return Eigen::FullPivLU<Mat<Real>>(Eigen::Map<const Mat<Real>>(D_.d0.data(), D_.pattern->n, D_.pattern->n))
+      .isInvertible();
+}
+
+// Sets diagonal_.
+template <class Real>
+bool FirstOrderForm<Real>::isDiagonal() const {
+  const Pattern& pattern = *D_.pattern;
+  diagonal_.setZero();
+  for (Index j = 0; j < pattern.n; ++j) {
+    const auto c = static_cast<std::size_t>(j);
+    for (int k = pattern.column_start[c]; k < pattern.column_start[c + 1]; ++k) {
+      const Index row = pattern.row[static_cast<std::size_t>(k)];
+      if (row == j) {
+        diagonal_[j] = D_.d0[k];
+      } else if (D_.d0[k] != Real(0)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+template <class Real>
 typename FirstOrderForm<Real>::Rates FirstOrderForm<Real>::kindNear(const State<Real>& scene,
-                                                                    const Mat<Real>& D0) const {
+                                                                    const Vec<Real>& D0) const {
   constexpr int kSamples = 3;
   bool constant = true;
   for (int sample = 1; sample <= kSamples; ++sample) {
     at_ = moved(scene, sample);
     evaluateMatrix();
-    const Mat<Real> there = lu_.matrix();
-    constant = constant && there == D0;
+    const Vec<Real> there = D_.d0;
+    constant = constant && there.size() == D0.size() && there == D0;
     for (Index i = 0; i < at_.w.size(); ++i) at_.w[i] += Real(0.5 + 0.1 * static_cast<double>(i));
     evaluateMatrix();
-    if (!(lu_.matrix() == there)) return Rates::kNonlinear;
+    if (D_.d0.size() != there.size() || D_.d0 != there) return Rates::kNonlinear;
   }
   return constant ? Rates::kConstant : Rates::kLinear;
 }
