@@ -31,6 +31,7 @@ namespace irk {
   scene(e5Entry) \
   scene(elasticaEntry) \
   scene(elastoplasticEntry) \
+  scene(heatEntry) \
   scene(heavyTopEntry) \
   scene(hiresEntry) \
   scene(hydraulicArmEntry) \

@@ -26,6 +26,7 @@ struct Comparison {
 constexpr Comparison kComparisons[] = {{"work_precision", "integrator", ""},
                                        {"peers", "integrator", ""},
                                        {"beam", "integrator", ""},
+                                       {"heat", "integrator", ""},
                                        {"families", "family", "the family "},
                                        {"cpu_time", "stages", "the number of stages "},
                                        {"discontinuity", "discontinuity", "the treatment "},

@@ -24,8 +24,9 @@ namespace {
 using Json = nlohmann::json;
 
 // Of the built-in studies those that compare errors with costs.
-constexpr std::string_view kStudies[] = {"work_precision", "robustness",    "peers",   "beam",     "families",
-                                         "cpu_time",       "discontinuity", "control", "jacobian", "newton_rule"};
+constexpr std::string_view kStudies[] = {"work_precision", "robustness", "peers",      "beam",
+                                         "heat",           "families",   "cpu_time",   "discontinuity",
+                                         "control",        "jacobian",   "newton_rule"};
 
 // Columns of runs.csv that are drawn: errors (whatever the table has), counters, times.
 bool isQuantity(std::string_view column) {
