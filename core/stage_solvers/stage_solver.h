@@ -30,8 +30,8 @@ struct StageSolverSetup {
   std::shared_ptr<const BlockForm<Real>> form = nullptr;
 };
 
-/// Owns its factors and scratch: one per thread. Allocates only in its constructor (sparse ones also where
-/// new pivots fill much more).
+/// Owns its factors and scratch: one per thread. Allocates only in its constructor; sparse ones also where new pivots
+/// fill much more, and where blocks have no common order of pivots for the first time.
 template <class Real>
 class StageSolver {
  public:
