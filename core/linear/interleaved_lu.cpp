@@ -25,7 +25,7 @@ struct Elimination {
   using Array = typename Pack<kWidth>::Array;
   using In = typename Pack<kWidth>::In;
   using Out = typename Pack<kWidth>::Out;
-  static constexpr std::size_t kSize = 2 * kWidth;
+  static constexpr std::size_t kSize = std::size_t{2} * kWidth;
 
   const SparsePivots& f;
   double* x;  // the column; zero again after each
@@ -229,7 +229,7 @@ void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) 
   using Out = typename Pack<kWidth>::Out;
   const SparsePivots& f = pivots_;
   const std::size_t n = f.p.size();
-  constexpr std::size_t kSize = 2 * kWidth;
+  constexpr std::size_t kSize = std::size_t{2} * kWidth;
   double* const x = work_.data();
   std::fill_n(x, n * kSize, 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
