@@ -36,10 +36,6 @@ FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner, 
       dual_(inner_sizes_),
       dual_residual_(inner_sizes_.n()),
       diagonal_(inner_sizes_.n()) {
-  if (std::is_same_v<Real, double> && inner_sizes_.n() >= kSparseFrom) {
-    sparse_ = std::make_unique<Differentiator<Real>>(*inner_, DerivativeSource::kAutomatic, JacobianTerms::kFull,
-                                                     Storage::kAutomatic, Matrices::kOnlyD0);
-  }
   sizes_.nx = 2 * inner_sizes_.nu + inner_sizes_.nx;
   sizes_.discrete = inner_sizes_.discrete;
   sizes_.switches = inner_sizes_.switches;
@@ -199,6 +195,14 @@ bool FirstOrderForm<Real>::isSolution(const Vec<Real>& residual) const {
   return Real(column_.norm()) <= Real(sqrt(eps)) * (Real(1) + Real(at_.w.norm()));
 }
 
+// A new integration finds the pattern of D0 anew, so that its results are those of a new object.
+template <class Real>
+void FirstOrderForm<Real>::forgetPattern() const {
+  if (!std::is_same_v<Real, double> || inner_sizes_.n() < kSparseFrom) return;
+  sparse_ = std::make_unique<Differentiator<Real>>(*inner_, DerivativeSource::kAutomatic, JacobianTerms::kFull,
+                                                   Storage::kAutomatic, Matrices::kOnlyD0);
+}
+
 // Evaluates D0 and the residual at at_.
 template <class Real>
 void FirstOrderForm<Real>::evaluateMatrix() const {
@@ -291,6 +295,7 @@ void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
 template <class Real>
 State<Real> FirstOrderForm<Real>::fromScene(const State<Real>& scene) const {
   start_w_ = scene.w;
+  forgetPattern();
   if (!classify(scene)) {
     throw Misuse(
         "illegal combination: formulation 'first_order' with a system whose D0 = "

@@ -68,6 +68,7 @@ class FirstOrderForm final : public System<Real> {
   bool solveNewton() const;
   bool refine() const;
   bool isSolution(const Vec<Real>& residual) const;
+  void forgetPattern() const;
   void evaluateMatrix() const;
   void evaluateColumns() const;
   bool factorize() const;

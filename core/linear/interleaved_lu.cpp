@@ -55,8 +55,9 @@ struct Elimination {
       const std::size_t entry = index(f.source[e]), row = index(f.target[e]);
       const double scale = f.scale[row] * pencil.row_scales[row_of[entry]];
       const double d0 = scale * pencil.d0[entry], d1 = scale * pencil.d1[entry], d2 = scale * pencil.d2[entry];
-      Out{x + row* kSize} = d0 + m1r * d1 + m2r * d2;
-      Out{x + row* kSize + kWidth} = m1i * d1 + m2i * d2;
+      double* const to = x + row * kSize;
+      Out{to} = d0 + m1r * d1 + m2r * d2;
+      Out{to + kWidth} = m1i * d1 + m2i * d2;
     }
   }
 
