@@ -155,17 +155,17 @@ class Thinned {
   void keep(Row row) {
     std::uint64_t hash = row.curve;
     for (const double place : row.place) hash = fnv1a(fmt::format("{:x} {}", hash, std::floor(place / part_)));
-    if (near_.empty() || known_.insert(hash).second) rows_.push_back(std::move(row));
+    if (part_ == 0 || known_.insert(hash).second) rows_.push_back(std::move(row));
   }
   void coarsen() {
-    part_ *= kCoarser;
+    part_ = part_ == 0 ? kFinestPart : part_ * kCoarser;
     known_.clear();
     for (auto& row : std::exchange(rows_, {})) keep(std::move(row));
   }
 
   std::vector<std::size_t> kept_, same_, near_;
   Columns at_;
-  double part_ = kFinestPart;
+  double part_ = 0;  // of a decade; 0: all rows are kept
   std::vector<Row> rows_;
   std::unordered_set<std::uint64_t> known_;
 };

@@ -1,5 +1,5 @@
-// What a figure draws of a large table of runs. gnuplot reads a table once for every curve, so that a figure of 1e6
-// rows would take hours.
+// What a figure draws of a table of runs. gnuplot reads a table once for every curve, so that a figure of 1e4 rows with
+// all their columns takes a minute and one of 1e6 rows takes hours.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,10 @@ namespace irk {
 class DrawnRows {
  public:
   /// Links all files of `results` but runs.csv, of which it writes the rows and columns that `figure` draws: those
-  /// of its block, scene, cases and `only`, and the columns that its script names. In a script with a line
-  /// `# Thins by OPTION COLUMN ...`, a mark is left out if another one of the same curve, with the same outcome, lies
-  /// within a small part of a decade in these columns; the part grows until kMostRows are left. Throws Failure, Misuse.
+  /// of its block, scene, cases and `only`, and the columns that its script names. If more than kMostRows are left and
+  /// the script has a line `# Thins by OPTION COLUMN ...`, a mark is left out if another one of the same curve, with the
+  /// same outcome, lies within a small part of a decade in these columns; the part grows until kMostRows are left.
+  /// Throws Failure, Misuse.
   DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results);
   ~DrawnRows();
   DrawnRows(const DrawnRows&) = delete;
@@ -26,7 +27,7 @@ class DrawnRows {
   std::size_t rows() const { return rows_; }
 
   /// Smaller tables are read by gnuplot as they are.
-  static constexpr std::uintmax_t kLargeFile = 30'000'000;  // bytes; about 50 000 rows
+  static constexpr std::uintmax_t kLargeFile = 300'000;  // bytes; about 500 rows
   static constexpr std::size_t kMostRows = 20'000;
 
  private:

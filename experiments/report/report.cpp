@@ -10,10 +10,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <ostream>
+#include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "core/base/text.h"
 #include "experiments/analyses/results.h"
@@ -93,6 +97,29 @@ bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& e
   return false;
 }
 
+// Draws the figures side by side, each with a gnuplot of its own; their messages come in the order of the figures.
+// Returns the number of failures.
+int drawAll(const std::vector<Figure>& figures, const ReportOptions& options, std::ostream& err) {
+  std::vector<std::string> messages(figures.size());
+  std::vector<std::exception_ptr> thrown(figures.size());
+  int failures = 0;
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : failures)
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    try {
+      std::ostringstream text;
+      if (!drawOne(figures[i], options, text)) ++failures;
+      messages[i] = text.str();
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  }
+  for (const auto& text : messages) err << text;
+  for (const auto& exception : thrown) {
+    if (exception) std::rethrow_exception(exception);
+  }
+  return failures;
+}
+
 }  // namespace
 
 void requireResultsFolder(const std::filesystem::path& results) {
@@ -124,11 +151,11 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
     ++failures;
     fmt::print(err, "figures of {} have no times: {}\n", of, refusal);
   }
-  for (const auto& figure : figures) {
-    if ((!study.empty() && figure.study != study) || !hasResults(figure, options)) continue;
-    if (!drawOne(figure, options, err)) ++failures;
-  }
-  return failures;
+  std::vector<Figure> wanted;
+  std::copy_if(figures.begin(), figures.end(), std::back_inserter(wanted), [&](const Figure& figure) {
+    return (study.empty() || figure.study == study) && hasResults(figure, options);
+  });
+  return failures + drawAll(wanted, options, err);
 }
 
 std::filesystem::path writeReport(const ReportOptions& options) {
