@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "experiments/claims/sensitivity.h"
 
@@ -37,6 +39,25 @@ std::string aligned(const std::vector<Line>& lines) {
   return text;
 }
 
+// Why a part has no verdict, and what an infinite value stands for.
+std::string notesText(const Part& part, const std::array<Finding, 2>& findings) {
+  std::string text;
+  const auto& [paper, best] = findings;
+  const bool same = paper.judged.reason == best.judged.reason;
+  if (!paper.judged.reason.empty() && paper.judged.reason != kPreliminary) {
+    text += fmt::format("{}{}: {}\n", part.id, same ? "" : ", paper", paper.judged.reason);
+  }
+  if (!same && !best.judged.reason.empty() && best.judged.reason != kPreliminary) {
+    text += fmt::format("{}, best: {}\n", part.id, best.judged.reason);
+  }
+  for (const Setting setting : kSettings) {
+    const Judgement& judged = findings[static_cast<std::size_t>(setting)].judged;
+    if (!std::isinf(judged.value)) continue;
+    text += fmt::format("{}, {}: infinite; {}\n", part.id, settingName(setting), judged.remark);
+  }
+  return text;
+}
+
 std::string tableText(const std::vector<ClaimFindings>& all) {
   std::vector<Line> lines{{"", "paper", "", "best", "", "confirmed if"}};
   std::string reasons;
@@ -50,14 +71,7 @@ std::string tableText(const std::vector<ClaimFindings>& all) {
       }
       line.push_back(conditionText(part));
       lines.push_back(line);
-      const auto& [paper, best] = parts[i];
-      const bool same = paper.judged.reason == best.judged.reason;
-      if (!paper.judged.reason.empty() && paper.judged.reason != kPreliminary) {
-        reasons += fmt::format("{}{}: {}\n", part.id, same ? "" : ", paper", paper.judged.reason);
-      }
-      if (!same && !best.judged.reason.empty() && best.judged.reason != kPreliminary) {
-        reasons += fmt::format("{}, best: {}\n", part.id, best.judged.reason);
-      }
+      reasons += notesText(part, parts[i]);
     }
   }
   return aligned(lines) + (reasons.empty() ? "" : "\n" + reasons);

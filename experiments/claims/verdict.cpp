@@ -138,8 +138,9 @@ std::string numberText(const Part& part, const Judgement& judgement) {
   const bool share = part.statistic == Statistic::kShare;
   const double scale = share ? 100 : 1;
   const std::string_view unit = share ? "%" : std::string_view(part.unit);
-  return fmt::format("{:.3g} [{:.3g}, {:.3g}]{}{}", scale * judgement.value, scale * judgement.low,
-                     scale * judgement.high, unit.empty() ? "" : " ", unit);
+  const auto text = [&](double x) { return std::isinf(x) ? std::string("∞") : fmt::format("{:.3g}", scale * x); };
+  return fmt::format("{} [{}, {}]{}{}", text(judgement.value), text(judgement.low), text(judgement.high),
+                     unit.empty() ? "" : " ", unit);
 }
 
 Verdict combined(const std::vector<Verdict>& parts) {

@@ -54,6 +54,7 @@ Measurement perRestart(const ResultTables& tables, std::string_view cost) {
   const Table runs = claimRuns(tables, "restarts");
   if (runs.rows.empty()) throw MissingResults("study claims lacks the runs of the blocks restarts");
   Measurement measured;
+  std::size_t infinite = 0;
   for (const auto& [place, methods] : slopes(runs, cost)) {
     for (const auto& [radau, steps] : methods) {
       if (!radau.starts_with("radau")) continue;
@@ -61,10 +62,14 @@ Measurement perRestart(const ResultTables& tables, std::string_view cost) {
         if (bdf.find("bdf") == bdf.npos) continue;
         // Where a restart costs Radau IIA nothing, any cost is infinitely more.
         const double without = more_steps > 0 ? kInfinity : std::nan("");
-        measured.cases.push_back({place.front(), steps > 0 ? more_steps / steps : without});
+        const double ratio = steps > 0 ? more_steps / steps : without;
+        if (std::isinf(ratio)) ++infinite;
+        measured.cases.push_back({place.front(), ratio});
       }
     }
   }
+  measured.remark =
+      fmt::format("in {} of {} pairs a restart costs Radau IIA nothing.", infinite, measured.cases.size());
   return measured;
 }
 

@@ -113,6 +113,15 @@ TEST(ClaimVerdict, ExistenceNeedsOneCase) {
   EXPECT_EQ(verdictOf(part, scenes({1, 2, 3})), Verdict::kContradicted);
 }
 
+TEST(ClaimVerdict, InfiniteValuesAreWrittenAsSuch) {
+  const auto written = [](const Measurement& measured) {
+    const std::string text = numberText(median(kAtMost), judge(median(kAtMost), measured));
+    return text.substr(0, text.find(']') + 1);
+  };
+  EXPECT_EQ(written(scenes({kInfinity, kInfinity, kInfinity})), "∞ [∞, ∞]");
+  EXPECT_EQ(written(scenes({2, 2, kInfinity})), "2 [2, ∞]");
+}
+
 TEST(ClaimVerdict, ReportsHaveNone) {
   const Part part{.id = "T1", .measured = "", .unit = "", .statistic = Statistic::kReport};
   EXPECT_EQ(verdictOf(part, scenes({1}, 1)), Verdict::kReported);
