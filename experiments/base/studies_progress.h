@@ -8,20 +8,24 @@
 
 namespace irk {
 
+struct ExpectedStudy {
+  std::string id;
+  std::size_t runs = 0;
+  double time_per_run = 1;  ///< in any unit, the same for all studies
+};
+
 class StudiesProgress {
  public:
-  /// The studies in their order, each with the expected number of its runs.
-  explicit StudiesProgress(std::vector<std::pair<std::string, std::size_t>> studies) : studies_(std::move(studies)) {}
+  /// The studies in their order.
+  explicit StudiesProgress(std::vector<ExpectedStudy> studies) : studies_(std::move(studies)) {}
 
-  /// The line before study number `next` (from 0): `study 3 of 23, order: 400 of 20000 runs done, 2 %, about 12:00
-  /// left for all studies`. `seconds` is the wall time of the studies before it. The time left takes the mean time of
-  /// their runs, so it is missing before the first.
+  /// The line before study number `next` (from 0): `study 3 of 23, order: 400 of 20000 runs done, about 12:00 left for
+  /// all studies`. `seconds` is the wall time of the studies before it. The time left is missing until one percent of
+  /// the expected time is over.
   std::string line(std::size_t next, double seconds) const;
 
  private:
-  std::size_t runsBefore(std::size_t study) const;
-
-  std::vector<std::pair<std::string, std::size_t>> studies_;
+  std::vector<ExpectedStudy> studies_;
 };
 
 }  // namespace irk
