@@ -29,7 +29,6 @@ constexpr double kMinBatch = 2e-3;
 // measurement of one of them. As long as the parts do not cover the run, further rounds follow for up to
 // kMaxSeconds: disturbances only add time, and more to a whole run than to its parts, whose code and data stay in
 // the cache.
-// whole run more than to its parts, whose code and data stay in the cache.
 constexpr int kRounds = 5;
 constexpr double kMaxSeconds = 10;
 constexpr double kMinCovered = 0.9, kMaxCovered = 1.1;
