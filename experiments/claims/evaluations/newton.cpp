@@ -162,8 +162,9 @@ Measurement iterationsAtSmallSteps(const ResultTables& tables, Setting setting) 
   Measurement index2 = moreIterations(tables, setting, {{"formulation", "index2"}, {"scaling", "on"}});
   std::erase_if(index2.cases, [](const Case& one) { return std::isnan(one.value); });
   if (!index2.cases.empty()) {
-    measured.remark += fmt::format(" In index 2, scaled: {:.3g} times, median of {} cases.",
-                                   median(valuesOf(index2.cases)), index2.cases.size());
+    const double times = median(valuesOf(index2.cases));
+    measured.remark += fmt::format(" In index 2, scaled: {}{}",
+                                   std::isinf(times) ? "" : fmt::format("median {:.3g} times, ", times), index2.remark);
   }
   return measured;
 }
