@@ -35,6 +35,9 @@ constexpr double kWorthUpdates = 0.1;
 // With fewer unknowns an iteration costs less than the updates (van_der_pol: a tenth of the run).
 constexpr Index kUpdatesFrom = 3;
 
+// A theta that no step has shown yet: it promises no contraction.
+constexpr double kUnknownTheta = 1;
+
 // Fixed steps cannot be shortened: Newton's method gets this many times the iterations.
 constexpr int kFixedStepFactor = 4;
 
@@ -46,7 +49,8 @@ constexpr int kFixedStepFactor = 4;
 /// The first theta tells how fast the error of the start values goes, which need not contain what the matrix solves
 /// worst: that shows from the third increment on. Where kappa is limited by round-off (tight tolerances, fixed steps)
 /// the theta of the last step's last increment counts as well: what is left of each step's stage equations has the same
-/// sign in many steps, and no error estimate sees it.
+/// sign in many steps, and no error estimate sees it. Until a step has had a third increment, none ends with the
+/// second.
 template <class Real>
 class SimplifiedNewton : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
@@ -78,7 +82,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   }
   void forget() override {
     eta_ = theta_ = 1;
-    slowest_ = 0;
+    slowest_ = kUnknownTheta;
   }
 
  protected:
@@ -111,6 +115,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
           result.round_off = norm;
           return result;
         }
+        if (m > 1 && slowest_ == kUnknownTheta) slowest_ = theta;
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
         if (m > 1) slowest_ = theta;
       }
@@ -166,7 +171,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   IncrementLimit limit_;
   bool adaptive_;
   double eta_ = 1, theta_ = 1;
-  double slowest_ = 0;  // theta of the last step's third or later increment
+  double slowest_ = kUnknownTheta;  // theta of the last step's third or later increment
 };
 
 /// With Broyden's updates of the matrix.

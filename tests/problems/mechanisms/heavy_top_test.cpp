@@ -76,7 +76,8 @@ TEST(HeavyTop, KeepsItsInvariantsAndConstraints) {
 
 // Newton's first increments contract by 1e-3 and less, the later ones by a tenth. With the first alone as a criterion
 // each step of radau_iia_5 kept an error of half a tolerance, always of one sign; the motion amplified them, and the
-// result was wrong by 7e-9. Some methods still are where a processor rounds in another way, and must say so.
+// result was wrong by 7e-9. So was that of lobatto_iiid_5 without the processor's vector instructions, because its half
+// steps never had a third increment. gauss_6 still is wrong by 4e-9, and must say so.
 TEST(HeavyTop, KeepsTightTolerancesInFirstOrderForm) {
   const auto scene = makeScene<double>("heavy_top");
   const auto exact = scene.exact(scene.t_end);
@@ -89,7 +90,8 @@ TEST(HeavyTop, KeepsTightTolerancesInFirstOrderForm) {
     Integrator<double> integrator(system, tableau, options, scene.scale.head(14));
     const auto s = integrator.integrate(scene.start, scene.t_end);
     ASSERT_TRUE(s.outcome == Outcome::kSuccess || s.outcome == Outcome::kDrift) << s.detail;
-    if (s.outcome == Outcome::kDrift && method != std::string_view("radau_iia_5")) continue;
+    if (s.outcome == Outcome::kDrift && method == std::string_view("gauss_6")) continue;
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     ASSERT_EQ(s.state.t, scene.t_end);
     for (const char* name : {"x", "y", "z", "e0", "e1", "e2", "e3"}) {
       EXPECT_NEAR(valueByName(scene, name, s.state), valueByName(scene, name, exact), 1e-9) << name;
