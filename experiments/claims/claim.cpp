@@ -162,6 +162,7 @@ Change changeOf(const toml::table& table, const std::string& file) {
 Claim claimOf(const toml::table& table, const std::string& file) {
   Reader reader(table, file, "claim");
   Claim claim{.id = reader.text("id"),
+              .title = reader.text("title"),
               .words = reader.text("words"),
               .section = reader.text("section"),
               .studies = reader.texts("studies"),
@@ -186,6 +187,10 @@ std::string rangeText(const Range& range) {
   if (range.low != -kInfinity) return fmt::format("{} {:.4g}", range.low_open ? "above" : "at least", range.low);
   if (range.high != kInfinity) return fmt::format("{} {:.4g}", range.high_open ? "below" : "at most", range.high);
   return {};
+}
+
+std::string placeOf(const Claim& claim) {
+  return claim.section.find_first_of("0123456789") == 0 ? "section " + claim.section : claim.section;
 }
 
 Protocol parseProtocol(std::string_view toml, const std::string& file) {

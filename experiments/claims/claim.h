@@ -60,12 +60,16 @@ struct Change {
 
 struct Claim {
   std::string id;       ///< "C3"
+  std::string title;    ///< in a few words
   std::string words;    ///< the paper's sentence
   std::string section;  ///< of the paper
   std::vector<std::string> studies, figures;
   std::vector<Part> parts;
   std::vector<Change> history;
 };
+
+/// Where the paper says it: `section 3`, `abstract`.
+std::string placeOf(const Claim& claim);
 
 struct Protocol {
   std::vector<Claim> claims;

@@ -86,15 +86,27 @@ std::string historyHtml(const Claim& claim) {
 
 std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& figures) {
   std::string html =
+      "<p class=\"note\">How to read a verdict. A claim has one or more parts (C3a, C3b, …). Each part is a number "
+      "that is "
+      "measured in many cases: runs of a scene by a method. “7 [5, 10.5] stages” is the median of the cases with its "
+      "90&nbsp;% interval, which resampling of the scenes gives; a percentage is the share of the cases that fulfil "
+      "the "
+      "condition; “5 of 20 cases” belongs to a claim that something can happen, which needs one case. Confirmed: the "
+      "whole interval fulfils the condition; contradicted: nothing of it does; undecided: the threshold lies within; "
+      "not "
+      "measurable: fewer than ten cases of three scenes; reported: a number without a condition. One contradicted part "
+      "contradicts the claim. In its setting: as the paper describes the program; best setting: the configurations "
+      "<code>embedded</code> and <code>variable</code> of this suite.</p>\n"
       "<table class=\"claims\"><thead><tr><th></th><th>The paper says</th><th>In its setting</th>"
       "<th>In the best setting</th></tr></thead><tbody>\n";
   for (const auto& findings : judgeClaims(protocol(), tables)) {
     const Claim& claim = *findings.claim;
     html += fmt::format(
-        "<tr class=\"claim\" id=\"{}\"><th>{}</th><td class=\"words\"><q>{}</q> <span class=\"section\">(section "
-        "{})</span>\n<details class=\"protocol\"><summary>Protocol, sensitivity, history</summary>{}{}"
+        "<tr class=\"claim\" id=\"{}\"><th>{}</th><td class=\"words\"><q>{}</q> <span "
+        "class=\"section\">({})</span>\n<details class=\"protocol\"><summary>Protocol, sensitivity, "
+        "history</summary>{}{}"
         "<p><code>{}</code></p>{}</details></td>\n{}{}</tr>\n",
-        claim.id, claim.id, escapeHtml(claim.words), escapeHtml(claim.section), protocolHtml(findings),
+        claim.id, claim.id, escapeHtml(claim.words), escapeHtml(placeOf(claim)), protocolHtml(findings),
         historyHtml(claim), escapeHtml(commandOf(claim)), linksHtml(claim, figures),
         verdictHtml(findings, Setting::kPaper, tables.areQuick()),
         verdictHtml(findings, Setting::kBest, tables.areQuick()));

@@ -94,8 +94,7 @@ std::string findingText(const Part& part, const Finding& finding) {
 
 std::string claimText(const ClaimFindings& findings) {
   const Claim& claim = *findings.claim;
-  std::string text =
-      fmt::format("{}  \"{}\" (section {})\n    {}\n", claim.id, claim.words, claim.section, commandOf(claim));
+  std::string text = fmt::format("{}  \"{}\" ({})\n    {}\n", claim.id, claim.words, placeOf(claim), commandOf(claim));
   for (std::size_t i = 0; i < findings.parts.size(); ++i) {
     const Part& part = claim.parts[i];
     text += fmt::format("  {}  {}{}{}\n", part.id, part.measured, part.statistic == Statistic::kReport ? "" : "; ",

@@ -79,8 +79,10 @@ Measurement firstOrderForm(const ResultTables& tables, Setting setting) {
     measured.cases.push_back({race.scene, ratio});
     per_step_is_best += per_step < per_point ? 1 : 0;
   }
-  measured.remark = fmt::format("The first-order form is cheaper with M factorized once per step in {} of {} cases.",
-                                per_step_is_best, measured.cases.size());
+  measured.remark = fmt::format(
+      "In {} of {} cases the first-order form costs less with one factorization of M per step than "
+      "with one per evaluation.",
+      per_step_is_best, measured.cases.size());
   return measured;
 }
 

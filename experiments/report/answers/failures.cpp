@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <map>
 
-#include "experiments/runs/peers/catalogue.h"
+#include "experiments/audit/row_judgement.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/builtin_studies.h"
 
 namespace irk::report {
 namespace {
 
 constexpr const char* kQuestion = "Where do methods fail?";
+constexpr const char* kStudy = "work_precision";  // the same problems and tolerances for every solver
 constexpr std::string_view kSuccess = "success";
 constexpr std::string_view kRefused = "refused";  // combinations that are not allowed; no runs
-constexpr std::size_t kFewRuns = 10;              // too few for a comparison of percentages
 
 using Counts = std::map<std::string, std::size_t>;  // outcome -> runs
 
@@ -30,24 +29,14 @@ std::size_t successes(const Counts& counts) {
   return found == counts.end() ? 0 : found->second;
 }
 
-double failedPart(const Counts& counts) {
-  const auto all = static_cast<double>(total(counts));
-  return all > 0 ? 1 - static_cast<double>(successes(counts)) / all : 0;
-}
-
-// The causes of failure, the most frequent first.
-std::vector<std::pair<std::string, std::size_t>> causesOf(const Counts& counts) {
+std::string causesText(const Counts& counts) {
   std::vector<std::pair<std::string, std::size_t>> causes;
   for (const auto& [outcome, count] : counts) {
     if (outcome != kSuccess) causes.emplace_back(outcome, count);
   }
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  return causes;
-}
-
-std::string causesText(const Counts& counts) {
   std::vector<std::string> parts;
-  for (const auto& [cause, count] : causesOf(counts)) parts.push_back(fmt::format("{} ({})", causeTitle(cause), count));
+  for (const auto& [cause, count] : causes) parts.push_back(fmt::format("{} ({})", causeTitle(cause), count));
   return listText(parts);
 }
 
@@ -56,76 +45,94 @@ std::string percent(double part) {
                                   : fmt::format("{:.{}f} %", 100 * part, part > 0 && part < 0.1 ? 1 : 0);
 }
 
-std::string methodKind(const Table& runs, const TableRow& row) {
-  const auto& method = textAt(runs, row, "method");
-  return findPeer(method) ? method : textAt(runs, row, "configuration");
-}
-
-struct Sample {
-  std::string name;
-  std::map<std::string, Counts> kinds = {};  // by kind of method
-  Counts all = {};
+/// How the runs of one solver, or on one scene, end.
+struct Ends {
+  std::size_t runs = 0, failed = 0, wrong = 0;
+  Counts outcomes = {};
+  double bad() const { return runs > 0 ? static_cast<double>(failed + wrong) / static_cast<double>(runs) : 0; }
 };
+using EndsOf = std::map<std::string, Ends>;
 
-void addRuns(const Table& runs, bool adaptive_only, Sample& sample) {
+void add(const Table& runs, const TableRow& row, Ends& ends) {
+  ++ends.runs;
+  if (!succeededAt(runs, row)) {
+    ++ends.failed;
+    ++ends.outcomes[textAt(runs, row, "outcome")];
+  } else if (audit::judgeRow(runs, row) == audit::Judgement::kWrong) {
+    ++ends.wrong;
+  }
+}
+
+EndsOf endsBy(std::string_view column, const Table& runs) {
+  EndsOf ends;
   for (const auto& row : runs.rows) {
-    const auto& outcome = textAt(runs, row, "outcome");
-    if (outcome == kRefused || (adaptive_only && hasFixedStepsAt(runs, row))) continue;
-    ++sample.kinds[methodKind(runs, row)][outcome];
-    ++sample.all[outcome];
+    if (textAt(runs, row, "outcome") != kRefused) add(runs, row, ends[textAt(runs, row, column)]);
   }
+  return ends;
 }
 
-std::vector<Sample> samplesOf(const claims::ResultTables& tables) {
-  Sample drawn{.name = "audit, drawn at random"}, other{.name = "other studies"};
-  for (const auto& study : builtinStudies()) {
-    if (study.id.starts_with("failure_")) continue;
-    try {
-      addRuns(tables.runs(study.id), true, study.id == "audit" ? drawn : other);
-    } catch (const claims::MissingResults&) {
-      continue;  // a study that has not been run
-    }
-  }
-  std::vector<Sample> samples;
-  for (auto* sample : {&drawn, &other}) {
-    if (!sample->all.empty()) samples.push_back(std::move(*sample));
-  }
-  return samples;
+// The most unreliable ones first.
+std::vector<std::pair<std::string, Ends>> sorted(const EndsOf& ends) {
+  std::vector<std::pair<std::string, Ends>> list(ends.begin(), ends.end());
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.second.bad() > b.second.bad(); });
+  return list;
 }
 
-std::string worstSentence(const Sample& sample) {
-  const std::pair<const std::string, Counts>*worst = nullptr, *best = nullptr;
-  for (const auto& kind : sample.kinds) {
-    if (total(kind.second) < kFewRuns) continue;
-    if (!worst || failedPart(kind.second) > failedPart(worst->second)) worst = &kind;
-    if (!best || failedPart(kind.second) < failedPart(best->second)) best = &kind;
-  }
-  if (!worst || worst == best || failedPart(worst->second) == failedPart(best->second)) return {};
-  return fmt::format("`{}` fails most often, in {} of its runs, mostly by {}; `{}` least often, in {}.", worst->first,
-                     percent(failedPart(worst->second)), causeTitle(causesOf(worst->second).front().first), best->first,
-                     percent(failedPart(best->second)));
-}
-
-void appendRows(const Sample& sample, const std::vector<std::string>& causes, Answer& answer) {
-  const auto append = [&](const std::string& kind, const Counts& counts, const std::string& css_class) {
-    const auto all = static_cast<double>(total(counts));
-    HtmlTable::Row row{
-        {escapeHtml(sample.name), escapeHtml(kind), fmt::format("{}", total(counts)), percent(failedPart(counts))},
-        css_class};
-    TableRow cells{sample.name, kind, fmt::format("{}", total(counts)), fmt::format("{}", successes(counts))};
-    for (const auto& cause : causes) {
-      const auto found = counts.find(cause);
-      const std::size_t count = found == counts.end() ? 0 : found->second;
-      cells.push_back(fmt::format("{}", count));
-      std::string text = fmt::format("{} ({})", count, percent(static_cast<double>(count) / all));
-      replacePlaceholder(text, " ", "&nbsp;");
-      row.cells.push_back(count == 0 ? "–" : text);
-    }
-    answer.shown.rows.push_back(std::move(row));
-    answer.table.rows.push_back(std::move(cells));
+std::string endsText(const Ends& ends) {
+  const auto part = [&](std::size_t count) {
+    return percent(static_cast<double>(count) / static_cast<double>(ends.runs));
   };
-  for (const auto& [kind, counts] : sample.kinds) append(kind, counts, "");
-  append("all", sample.all, "sum");
+  return fmt::format("{} of its runs fail and {} are wrong", part(ends.failed), part(ends.wrong));
+}
+
+std::vector<std::string> sentencesOf(const EndsOf& by_solver, const EndsOf& by_scene) {
+  Ends all;
+  for (const auto& [solver, ends] : by_solver) {
+    all.runs += ends.runs;
+    all.failed += ends.failed;
+    all.wrong += ends.wrong;
+  }
+  std::vector<std::string> sentences{
+      fmt::format("{} solvers at the same problems and tolerances: of {} runs, {} say that they fail, and {} call a "
+                  "wrong result a success.",
+                  by_solver.size(), all.runs, all.failed, all.wrong)};
+  const auto solvers = sorted(by_solver);
+  if (solvers.size() > 1 && solvers.front().second.bad() > solvers.back().second.bad()) {
+    const auto& [best, fewest] = solvers.back();
+    const auto& [worst, most] = solvers.front();
+    sentences.push_back(fmt::format("The most reliable is `{}`: {}. The least reliable is `{}`: {}.", best,
+                                    endsText(fewest), worst, endsText(most)));
+  }
+  constexpr std::size_t kHardest = 3;
+  std::vector<std::string> hardest;
+  for (const auto& [scene, ends] : sorted(by_scene)) {
+    if (hardest.size() == kHardest || ends.failed + ends.wrong == 0) break;
+    hardest.push_back(fmt::format("{} ({})", scene, percent(ends.bad())));
+  }
+  if (!hardest.empty()) {
+    sentences.push_back(
+        fmt::format("The problems on which most runs of all solvers fail or are wrong: {}.", listText(hardest)));
+  }
+  return sentences;
+}
+
+void appendRow(const std::string& solver, const Ends& ends, Answer& answer) {
+  const auto cellOf = [&](std::size_t count) {
+    if (count == 0) return std::string("–");
+    std::string text =
+        fmt::format("{} ({})", count, percent(static_cast<double>(count) / static_cast<double>(ends.runs)));
+    replacePlaceholder(text, " ", "&nbsp;");
+    return text;
+  };
+  answer.shown.rows.push_back({{escapeHtml(solver), fmt::format("{}", ends.runs), cellOf(ends.failed),
+                                cellOf(ends.wrong), ends.failed > 0 ? escapeHtml(causesText(ends.outcomes)) : "–"}});
+  TableRow cells{solver, fmt::format("{}", ends.runs), fmt::format("{}", ends.failed), fmt::format("{}", ends.wrong)};
+  for (std::size_t i = cells.size(); i < answer.table.columns.size(); ++i) {
+    const auto found = ends.outcomes.find(answer.table.columns[i]);
+    cells.push_back(fmt::format("{}", found == ends.outcomes.end() ? 0 : found->second));
+  }
+  answer.table.rows.push_back(std::move(cells));
 }
 
 }  // namespace
@@ -161,7 +168,8 @@ std::string wrongSentence(const claims::ResultTables& tables) {
       if (textAt(summary, row, "by") != "all") continue;
       const double wrong = numberAt(summary, row, "wrong"), right = numberAt(summary, row, "right");
       return fmt::format(
-          "Of the {:.0f} successes that can be judged, {:.0f} are wrong: their error is above 1000 tolerances.",
+          "Of the {:.0f} successes of the audit that can be judged, {:.0f} are wrong: their error is above 1000 "
+          "tolerances.",
           right + wrong, wrong);
     }
   } catch (const claims::MissingResults&) {
@@ -170,37 +178,33 @@ std::string wrongSentence(const claims::ResultTables& tables) {
 }
 
 Answer failureAnswer(const claims::ResultTables& tables) {
-  Answer answer = unknownAnswer("failures", kQuestion, "audit");
-  const auto samples = samplesOf(tables);
-  if (samples.empty()) return answer;
-  answer.sentences.clear();
-  const Sample& first = samples.front();
-  const std::size_t failed = total(first.all) - successes(first.all);
-  answer.sentences.push_back(fmt::format("Of {} runs ({}), {} fail, {}{}.", total(first.all), first.name, failed,
-                                         percent(failedPart(first.all)),
-                                         failed > 0 ? ": " + causesText(first.all) : ""));
-  for (auto sentence : {worstSentence(first), wrongSentence(tables)}) {
-    if (!sentence.empty()) answer.sentences.push_back(std::move(sentence));
-  }
-  Counts all;
-  for (const auto& sample : samples) {
-    for (const auto& [outcome, count] : sample.all) all[outcome] += count;
-  }
-  std::vector<std::string> causes;
-  for (const auto& [cause, count] : causesOf(all)) causes.push_back(cause);
-  answer.table.columns = {"sample", "method", "runs", "success"};
-  answer.table.columns.insert(answer.table.columns.end(), causes.begin(), causes.end());
-  answer.shown = {.caption = "Failed runs by cause", .titles = {"runs of", "kind of method", "runs", "failed"}};
-  for (const auto& cause : causes) answer.shown.titles.push_back(causeTitle(cause));
-  for (const auto& sample : samples) appendRows(sample, causes, answer);
-  answer.note =
-      "`default`, `paper`, `embedded` and `variable` are configurations of this suite; the others are other libraries' "
-      "solvers. "
-      "Runs with fixed steps and the studies that provoke failures are not counted here.";
-  answer.links = {{"#study_audit", "can success be believed?"},
+  Answer answer = unknownAnswer("failures", kQuestion, kStudy);
+  answer.links = {{"#robustness", "by tolerance"},
+                  {"#study_audit", "can success be believed?"},
                   {"#study_failure_constraints", "maps of failures: constraints"},
                   {"#study_failure_stability", "stiffness"},
                   {"#study_failure_newton", "Newton's method"}};
+  try {
+    const Table& runs = tables.runs(kStudy);
+    const EndsOf by_solver = endsBy("integrator", runs);
+    answer.sentences = sentencesOf(by_solver, endsBy("scene", runs));
+    Counts causes;
+    for (const auto& [solver, ends] : by_solver) {
+      for (const auto& [outcome, count] : ends.outcomes) causes[outcome] += count;
+    }
+    answer.table = {runs.head, {"solver", "runs", "failed", "wrong"}, {}};
+    for (const auto& [outcome, count] : causes) answer.table.columns.push_back(outcome);
+    answer.shown = {.caption = "How runs end, at the same problems and tolerances",
+                    .titles = {"solver", "runs", "failed", "wrong successes", "failed because of"}};
+    for (const auto& [solver, ends] : sorted(by_solver)) appendRow(solver, ends, answer);
+    answer.note =
+        "Failed: the run says so itself. Wrong: a success with an error above 1000 tolerances. A solver is asked only "
+        "for problems that it can treat. Steps stay tiny: so small that the end is out of reach. Errors add up: the "
+        "estimates of all steps exceed 200 tolerances. Drift: of a constraint. Studies that provoke failures are not "
+        "counted here.";
+  } catch (const claims::MissingResults&) {
+  }
+  if (auto sentence = wrongSentence(tables); !sentence.empty()) answer.sentences.push_back(std::move(sentence));
   return answer;
 }
 

@@ -1,4 +1,4 @@
-// Where do methods fail? Outcomes by cause and kind of method.
+// Where do methods fail? How runs end, by solver and by cause.
 #pragma once
 
 #include <string>
@@ -10,8 +10,7 @@
 
 namespace irk::report {
 
-/// From the runs of the audit, which are drawn at random, and of all other studies with adaptive steps but those that
-/// provoke failures. A kind of method is a configuration of the suite or another library's solver.
+/// From the runs of work_precision: the same problems and tolerances for every solver.
 Answer failureAnswer(const claims::ResultTables& tables);
 
 /// `too many steps` for `max_steps`; an unknown outcome is returned as it is.

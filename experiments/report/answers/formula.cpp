@@ -50,6 +50,7 @@ std::optional<OrderFormula> orderFormula(std::string_view family, SystemKind kin
     const auto value = orderAt(family, s, kind, component);
     if (!value) return {};
     if (order->source != "theorem") formula.theorem = false;
+    if (*value <= 0) formula.divergent = s;
     if (*value == (s % 2 == 0 ? *even : *odd).at(s)) continue;
     formula.text += fmt::format("; s = {}: {}", s, textOf({0, *value}));
   }

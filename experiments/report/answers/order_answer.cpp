@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "experiments/analyses/orders/row_theory.h"
@@ -64,15 +66,24 @@ std::map<Place, OrderCheck> checksOf(const Table& orders) {
   return checks;
 }
 
+// What of the measured orders agrees: `✓ 5/5`; `✗ 4/5, s = 15: 15.54 instead of 15`; `✓ 8/8, 5 not measurable`.
+std::string checkText(const OrderCheck& check) {
+  const int measured = check.agree + check.differ;
+  std::string text = fmt::format("{} {}/{}", check.differ > 0 ? "✗" : "✓", check.agree, measured);
+  for (const auto& [stages, order] : check.differing) text += fmt::format(", s = {}: {}", stages, order);
+  if (check.not_measurable > 0) text += fmt::format(", {} not measurable", check.not_measurable);
+  return text;
+}
+
 // One line for each case of the formula.
 std::string cellHtml(const OrderFormula& formula, const OrderCheck& check) {
   std::string lines = escapeHtml(formula.text);
   replacePlaceholder(lines, "; ", "<br>");
   std::string html = fmt::format("<span class=\"formula\">{}{}</span>", lines, formula.theorem ? "" : "&#8224;");
-  const int measured = check.agree + check.differ;
-  if (measured == 0) return html;
-  return html + fmt::format(" <span class=\"{}\">{} {}/{}</span>", check.differ > 0 ? "differ" : "agree",
-                            check.differ > 0 ? "✗" : "✓", check.agree, measured);
+  if (formula.divergent > 0)
+    html += fmt::format(" <span class=\"differ\">no convergence for s ≤ {}</span>", formula.divergent);
+  if (check.agree + check.differ == 0) return html;
+  return html + fmt::format(" <span class=\"{}\">{}</span>", check.differ > 0 ? "differ" : "agree", checkText(check));
 }
 
 void appendRow(const System& system, char component, const std::map<Place, OrderCheck>& checks, Answer& answer) {
@@ -97,17 +108,41 @@ std::vector<std::string> titlesOf(const std::vector<const Family*>& families) {
   return titles;
 }
 
-// Which families keep the order of ODEs in the differential unknowns of index 2.
+// Which families keep the order of ODEs in the positions and velocities of a mechanical system of index 2.
 std::string keptSentence() {
-  std::vector<const Family*> kept, lost;
+  std::vector<const Family*> both, positions, neither;
   for (const auto& family : kFamilies) {
-    const auto ode = orderFormula(family.id, SystemKind::kOde, 'x');
-    const auto index2 = orderFormula(family.id, SystemKind::kIndex2, 'x');
-    if (ode && index2) (ode->text == index2->text ? kept : lost).push_back(&family);
+    const auto formula = [&](SystemKind kind, char component) { return orderFormula(family.id, kind, component); };
+    const auto ode = formula(SystemKind::kOde, 'x');
+    const auto u = formula(SystemKind::kMechanical2, 'u'), v = formula(SystemKind::kMechanical2, 'v');
+    if (!ode || !u || !v) continue;
+    (u->text != ode->text ? neither : v->text != ode->text ? positions : both).push_back(&family);
   }
-  return fmt::format(
-      "With constraints (index 2) the differential unknowns keep the order of ODEs with {}, and lose order with {}.",
-      listText(titlesOf(kept)), listText(titlesOf(lost)));
+  std::string text = fmt::format(
+      "With constraints (mechanical, index 2) positions and velocities keep the order of "
+      "ODEs with {}",
+      listText(titlesOf(both)));
+  if (!positions.empty()) text += fmt::format("; only the positions keep it with {}", listText(titlesOf(positions)));
+  if (!neither.empty()) text += fmt::format("; both lose order with {}", listText(titlesOf(neither)));
+  return text + ".";
+}
+
+// Where measured orders and theory differ; empty if they do not.
+std::string differSentence(const Table& orders) {
+  std::set<int> stages;
+  double measured = 0, least = std::numeric_limits<double>::infinity();
+  for (const auto& row : orders.rows) {
+    if (textAt(orders, row, "verdict") != "differs") continue;
+    stages.insert(static_cast<int>(numberAt(orders, row, "stages")));
+    const double difference = std::abs(numberAt(orders, row, "order") - numberAt(orders, row, "theory"));
+    measured = std::max(measured, difference);
+    least = std::min(least, difference);
+  }
+  if (stages.empty()) return {};
+  std::vector<std::string> names;
+  for (const int s : stages) names.push_back(std::to_string(s));
+  return fmt::format("Those that differ have s = {} and lie {:.2g} to {:.2g} from theory.", listText(names), least,
+                     measured);
 }
 
 }  // namespace
@@ -118,7 +153,11 @@ void add(const Table& orders, const TableRow& row, OrderCheck& check) {
   if (verdict == "no_theory") ++check.no_theory;
   if (verdict != "agrees" && verdict != "differs") return;
   ++(verdict == "agrees" ? check.agree : check.differ);
-  check.worst = std::fmax(check.worst, std::abs(numberAt(orders, row, "order") - numberAt(orders, row, "theory")));
+  const double order = numberAt(orders, row, "order"), theory = numberAt(orders, row, "theory");
+  check.worst = std::fmax(check.worst, std::abs(order - theory));
+  if (verdict == "agrees") return;
+  check.differing[static_cast<int>(numberAt(orders, row, "stages"))] =
+      fmt::format("{:.4g} instead of {}", order, theory);
 }
 
 OrderCheck checkOf(const Table& orders) {
@@ -157,6 +196,7 @@ Answer orderAnswer(const claims::ResultTables& tables) {
     answer.table.head = orders.head;
     checks = checksOf(orders);
     answer.sentences.push_back(sentenceOf(checkOf(orders)));
+    if (auto text = differSentence(orders); !text.empty()) answer.sentences.push_back(std::move(text));
     answer.links = {{"#order_table", "every measured order"}, {"#study_order", "diagrams"}};
   } catch (const claims::MissingResults&) {
     answer.sentences.push_back("Not checked yet: `irk run order` measures the orders.");
@@ -169,7 +209,9 @@ Answer orderAnswer(const claims::ResultTables& tables) {
     for (const char component : std::string_view(system.components)) appendRow(system, component, checks, answer);
   }
   answer.note =
-      "✓ 5/5: measured orders that agree with the formula, of all that are measurable. † a pattern measured for up to "
+      "✓ 5/5: measured orders that agree with the formula, of all that are measurable. No convergence: the order is "
+      "zero "
+      "or less, smaller steps do not improve the component. † a pattern measured for up to "
       "5 stages and continued, no theorem. Lobatto families begin with s = 2. In index 3, x are the velocities of "
       "y'' = …; GGL: Gear, Gupta and Leimkuhler; projected: one projection of the velocities per step. –: no theory, "
       "or "

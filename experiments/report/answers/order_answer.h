@@ -1,6 +1,9 @@
 // Which order does each component have? Theory as formulas, and the study order as its check.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "experiments/claims/result_tables.h"
 #include "experiments/report/answers/answer.h"
 
@@ -13,7 +16,8 @@ Answer orderAnswer(const claims::ResultTables& tables);
 /// How measured orders compare with theory: counts of verdicts of orders.csv, and the largest difference.
 struct OrderCheck {
   int agree = 0, differ = 0, not_measurable = 0, no_theory = 0;
-  double worst = 0;  ///< largest |order - theory| of those that agree or differ
+  double worst = 0;                           ///< largest |order - theory| of those that agree or differ
+  std::map<int, std::string> differing = {};  ///< by stages, what is measured: `15.54 instead of 15`
 };
 void add(const Table& orders, const TableRow& row, OrderCheck& check);
 OrderCheck checkOf(const Table& orders);

@@ -33,10 +33,27 @@ std::string countsOf(const std::vector<Group>& groups, std::size_t setting) {
   return listText(parts);
 }
 
+// The claims with this verdict in the paper's setting; empty if there are none.
+std::string titlesSentence(const std::vector<ClaimVerdicts>& claims, std::string_view verdict, std::string_view begin) {
+  std::vector<std::string> titles;
+  for (const auto& claim : claims) {
+    if (claim.verdicts[0] != verdict) continue;
+    titles.push_back(fmt::format("{} ({}{})", claim.title, claim.id, claim.partly[0] ? ", but a part holds" : ""));
+  }
+  return titles.empty() ? "" : fmt::format("{}: {}.", begin, fmt::join(titles, "; "));
+}
+
 std::string linksTo(const std::vector<std::string>& ids) {
   std::vector<std::string> links;
   for (const auto& id : ids) links.push_back(linkHtml("#" + id, id));
   return links.empty() ? "–" : fmt::format("{}", fmt::join(links, ", "));
+}
+
+bool isPartly(const claims::ClaimFindings& findings, claims::Setting setting) {
+  if (findings.verdict(setting) != claims::Verdict::kContradicted) return false;
+  return std::ranges::any_of(findings.parts, [&](const auto& part) {
+    return part[static_cast<std::size_t>(setting)].judged.verdict == claims::Verdict::kConfirmed;
+  });
 }
 
 }  // namespace
@@ -45,7 +62,10 @@ Answer paperAnswer(const claims::ResultTables& tables) {
   std::vector<ClaimVerdicts> verdicts;
   for (const auto& findings : claims::judgeClaims(claims::protocol(), tables)) {
     const auto textOf = [&](claims::Setting setting) { return std::string(verdictText(findings.verdict(setting))); };
-    verdicts.push_back({findings.claim->id, {textOf(claims::Setting::kPaper), textOf(claims::Setting::kBest)}});
+    verdicts.push_back({findings.claim->id,
+                        findings.claim->title,
+                        {textOf(claims::Setting::kPaper), textOf(claims::Setting::kBest)},
+                        {isPartly(findings, claims::Setting::kPaper), isPartly(findings, claims::Setting::kBest)}});
   }
   Answer answer = paperAnswer(verdicts);
   if (tables.areQuick()) answer.sentences.emplace_back("Quick runs give no verdicts: `irk paper` makes the full ones.");
@@ -69,7 +89,10 @@ Answer paperAnswer(const std::vector<ClaimVerdicts>& claims) {
   }
   answer.sentences = {
       fmt::format("Of {} claims, in the setting that the paper describes: {}.", claims.size(), countsOf(groups, 0)),
+      titlesSentence(claims, "confirmed", "Confirmed there"),
+      titlesSentence(claims, "contradicted", "Contradicted there"),
       fmt::format("With the suite's own best settings: {}.", countsOf(groups, 1))};
+  std::erase(answer.sentences, "");
   return answer;
 }
 

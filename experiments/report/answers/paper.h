@@ -6,10 +6,11 @@
 
 namespace irk::report {
 
-/// A claim's id with its verdicts by setting (claims::kSettings).
+/// A claim with its verdicts by setting (claims::kSettings).
 struct ClaimVerdicts {
-  std::string id;
+  std::string id, title;
   std::array<std::string, 2> verdicts;
+  std::array<bool, 2> partly = {};  ///< contradicted, but a part of it is confirmed
 };
 
 Answer paperAnswer(const claims::ResultTables& tables);

@@ -21,6 +21,7 @@ namespace {
 constexpr const char* kStudy = "work_precision";
 constexpr const char* kQuestion = "Which solver should I use?";
 constexpr double kAskedErrors[] = {1e-4, 1e-8, 1e-11};
+constexpr double kAsGood = 1.15;  // times of the same runs differ by that much from one day to the next
 
 // A block of the study holds a collection with a part of the solvers: ivp_variable. A run can be in several blocks.
 std::vector<std::string> kindsOf(const Table& table, const TableRow& row) {
@@ -89,9 +90,9 @@ struct Choice {
   std::string kind;
   double error = 0;
   int problems = 0;
-  Ranked best = {}, next = {}, library = {};  ///< without a name: there is none
-  double over_next = std::numeric_limits<double>::quiet_NaN();
-  double over_library = over_next;
+  Ranked best = {}, library = {};    ///< without a name: there is none
+  std::vector<Ranked> as_good = {};  ///< others that solve as many or one less, and are not slower than kAsGood
+  double over_library = std::numeric_limits<double>::quiet_NaN();
   Outcomes outcomes = {};
 };
 
@@ -107,9 +108,9 @@ Choice choiceOf(const Table& costs, const Table& runs, const std::string& kind, 
   if (ranked.empty()) return choice;
   choice.best = ranked.front();
   choice.outcomes = outcomesOf(runs, kind, choice.best.solver);
-  if (ranked.size() > 1) {
-    choice.next = ranked[1];
-    choice.over_next = ratio(found, choice.next.solver, choice.best.solver);
+  for (auto other = ranked.begin() + 1; other != ranked.end(); ++other) {
+    const bool is_fast = ratio(found, other->solver, choice.best.solver) <= kAsGood;
+    if (is_fast && other->solved >= choice.best.solved - 1) choice.as_good.push_back(*other);
   }
   const auto library = std::find_if(ranked.begin(), ranked.end(), [](const Ranked& r) { return isPeer(r.solver); });
   if (!isPeer(choice.best.solver) && library != ranked.end()) {
@@ -124,6 +125,24 @@ std::string solvedText(const Ranked& solver, int problems) {
   return fmt::format("{}&nbsp;{}/{}", escapeHtml(solver.solver), solver.solved, problems);
 }
 
+// `12`; in brackets where the two solve fewer than half of the problems.
+std::string overLibrary(const Choice& c) {
+  const std::string text = factorText(c.over_library);
+  return !c.library.solver.empty() && 2 * c.library.solved < c.problems ? "(" + text + ")" : text;
+}
+
+// `a` or `b` for mechanisms (23 times as fast as `x`, the best of the other libraries, which solves 13 of 17)
+std::string clauseOf(const Choice& c) {
+  if (c.best.solver.empty()) return fmt::format("no solver for {}", kindTitle(c.kind));
+  std::string names = fmt::format("`{}`", c.best.solver);
+  for (const auto& other : c.as_good) {
+    names += fmt::format("{} `{}`", &other == &c.as_good.back() ? " or" : ",", other.solver);
+  }
+  std::string text = fmt::format("{} for {}", names, kindTitle(c.kind));
+  if (c.library.solver.empty()) return text;
+  return fmt::format("{} ({})", text, comparison(c.over_library, c.best, c.library, c.problems));
+}
+
 // The sentence is about the error of this choice and of the others that ask for the same.
 std::string sentenceOf(const std::vector<Choice>& choices) {
   constexpr double kMiddle = 1e-8;
@@ -133,30 +152,32 @@ std::string sentenceOf(const std::vector<Choice>& choices) {
   }
   std::vector<std::string> parts;
   for (const auto& choice : choices) {
-    if (choice.error != error) continue;
-    parts.push_back(choice.best.solver.empty()
-                        ? fmt::format("no solver for {}", kindTitle(choice.kind))
-                        : fmt::format("`{}` for {} ({})", choice.best.solver, kindTitle(choice.kind),
-                                      comparison(choice.over_next, choice.best, choice.next, choice.problems)));
+    if (choice.error == error) parts.push_back(clauseOf(choice));
   }
-  return fmt::format("For an error of {}: {}.", errorText(error), fmt::join(parts, "; "));
+  return fmt::format("For an error of {}: {}. In brackets: against the best solver of the other libraries.",
+                     errorText(error), fmt::join(parts, "; "));
 }
 
 void appendRow(const Choice& c, Answer& answer) {
+  std::vector<std::string> names, shown_names;
+  for (const auto& other : c.as_good) {
+    names.push_back(other.solver);
+    shown_names.push_back(solvedText(other, c.problems));
+  }
   answer.table.rows.push_back({c.kind, numberText(c.error), std::to_string(c.problems), c.best.solver,
-                               std::to_string(c.best.solved), c.next.solver, std::to_string(c.next.solved),
-                               numberText(c.over_next), c.library.solver, std::to_string(c.library.solved),
-                               numberText(c.over_library), std::to_string(c.outcomes.runs),
-                               std::to_string(c.outcomes.failed), std::to_string(c.outcomes.wrong)});
+                               std::to_string(c.best.solved), fmt::format("{}", fmt::join(names, " ")),
+                               c.library.solver, std::to_string(c.library.solved), numberText(c.over_library),
+                               std::to_string(c.outcomes.runs), std::to_string(c.outcomes.failed),
+                               std::to_string(c.outcomes.wrong)});
   HtmlTable::Row row{{escapeHtml(kindTitle(c.kind)), errorText(c.error)}};
   if (c.best.solver.empty()) {
-    row.cells.insert(row.cells.end(), {"none reaches it", "–", "–", "–", "–", "–", "–"});
+    row.cells.insert(row.cells.end(), {"none reaches it", "–", "–", "–", "–", "–"});
   } else {
     const auto& [runs, failed, wrong] = c.outcomes;
-    row.cells.insert(row.cells.end(),
-                     {"<b>" + solvedText(c.best, c.problems) + "</b>", solvedText(c.next, c.problems),
-                      factorText(c.over_next), solvedText(c.library, c.problems), factorText(c.over_library),
-                      fmt::format("{} of {}", failed, runs), fmt::format("{} of {}", wrong, runs)});
+    row.cells.insert(row.cells.end(), {"<b>" + solvedText(c.best, c.problems) + "</b>",
+                                       names.empty() ? "–" : fmt::format("{}", fmt::join(shown_names, ", ")),
+                                       solvedText(c.library, c.problems), overLibrary(c),
+                                       fmt::format("{} of {}", failed, runs), fmt::format("{} of {}", wrong, runs)});
   }
   answer.shown.rows.push_back(std::move(row));
 }
@@ -191,17 +212,21 @@ Answer solverAnswer(const claims::ResultTables& tables) {
     if (choices.empty()) return answer;
     answer.sentences = {sentenceOf(choices)};
     answer.table = {costs.head,
-                    {"kind", "target_error", "problems", "solver", "solved", "next", "next_solved", "over_next",
-                     "library", "library_solved", "over_library", "runs", "failed", "wrong"},
+                    {"kind", "target_error", "problems", "solver", "solved", "as_good", "library", "library_solved",
+                     "over_library", "runs", "failed", "wrong"},
                     {}};
     answer.shown = {.caption = "The fastest solver by kind of problem and error",
-                    .titles = {"problem", "error", "fastest, solves", "next, solves", "factor",
-                               "best other library, solves", "factor", "failed runs", "wrong runs"}};
+                    .titles = {"problem", "error", "fastest, solves", "as good, solves", "best other library, solves",
+                               "its time over the fastest", "failed runs", "wrong runs"}};
     for (const auto& choice : choices) appendRow(choice, answer);
     answer.note =
-        "4/4: reaches the error in 4 of 4 problems. Fastest: the solver that reaches the error in most problems, among "
-        "equals the one with the least CPU time. Factor: CPU time over that of the fastest, geometric mean of the "
-        "problems that both solve. Failed and wrong runs are those of the fastest solver at all tolerances; wrong: "
+        "4/4: reaches the error in 4 of 4 problems; the others fail or end with a larger error. Problems that no "
+        "solver "
+        "brings to this error are left out. Fastest: the solver that reaches the error in most problems, among equals "
+        "the one with the least CPU time. As good: at most 1.15 times its time, and at most one problem less; smaller "
+        "differences are noise of the clock. Times are compared by the geometric mean over the problems that both "
+        "solve; in brackets: fewer than half of the problems. Failed and wrong runs are those of the fastest solver at "
+        "all tolerances; wrong: "
         "success with an error above 1000 tolerances. `variable` is Radau IIA of variable order, "
         "`irk solve SCENE --configuration variable`; `embedded:radau_iia_5` is `--configuration embedded --method "
         "radau_iia_5`, and so for others; what has no colon is an integrator of another library.";

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/base/median.h"
+#include "experiments/claims/claim.h"
 #include "experiments/report/answers/answer.h"
 #include "experiments/report/answers/failures.h"
 #include "experiments/report/answers/measured_answers.h"
@@ -62,18 +63,64 @@ std::string sentenceOf(const Comparison& comparison_of, const Table& costs) {
       comparison(ratio(found, next.solver, best.solver), best, next, problems));
 }
 
-// The violation of the position constraint by formulation, from the successful runs.
+// The violation of the position constraint by formulation, from the runs that succeed with every formulation.
 std::string driftSentence(const Table& runs) {
-  std::map<std::string, std::vector<double>> drifts;
+  std::set<std::string> formulations;
+  std::map<TableRow, std::map<std::string, double>> drifts;  // by scene, settings, method, tolerance and end
   for (const auto& row : runs.rows) {
     const double drift = numberAt(runs, row, "drift");
-    if (succeededAt(runs, row) && !std::isnan(drift)) drifts[textAt(runs, row, "formulation")].push_back(drift);
+    const auto& formulation = textAt(runs, row, "formulation");
+    if (!succeededAt(runs, row) || std::isnan(drift)) continue;
+    formulations.insert(formulation);
+    TableRow place;
+    for (const auto* column : {"scene", "settings", "method", "configuration", "rtol", "atol", "h", "t_end"}) {
+      if (runs.hasColumn(column)) place.push_back(textAt(runs, row, column));
+    }
+    drifts[place][formulation] = drift;
   }
+  std::map<std::string, std::vector<double>> common;
+  for (const auto& [place, by_formulation] : drifts) {
+    if (by_formulation.size() < formulations.size()) continue;
+    for (const auto& [formulation, drift] : by_formulation) common[formulation].push_back(drift);
+  }
+  if (common.empty()) return {};
   std::vector<std::string> parts;
-  for (const auto& [formulation, values] : drifts) {
+  for (const auto& [formulation, values] : common) {
     parts.push_back(fmt::format("{:.0e} with `{}`", median(values), formulation));
   }
-  return parts.empty() ? "" : fmt::format("The median drift of all runs is {}.", listText(parts));
+  const std::size_t runs_each = common.begin()->second.size();
+  return fmt::format("The median drift of the {} runs that succeed with every formulation: {}.", runs_each,
+                     listText(parts));
+}
+
+// Which solver is the fastest on which scene, where these are few.
+std::string fastestSentence(const Table& costs, const Comparison& comparison_of, double target) {
+  constexpr std::size_t kMostScenes = 5;
+  std::map<std::string, std::map<std::string, double>> best;  // scene -> value -> cost
+  for (const auto& row : costs.rows) {
+    const double cost = numberAt(costs, row, "cpu_s");
+    if (numberAt(costs, row, "target_error") != target || std::isnan(cost)) continue;
+    const auto [at, added] =
+        best[textAt(costs, row, "scene")].try_emplace(textAt(costs, row, comparison_of.column), cost);
+    if (!added) at->second = std::min(at->second, cost);
+  }
+  if (best.size() < 2 || best.size() > kMostScenes) return {};
+  std::vector<std::string> parts;
+  for (const auto& [scene, by_value] : best) {
+    const auto least = std::ranges::min_element(by_value, {}, [](const auto& one) { return one.second; });
+    parts.push_back(fmt::format("`{}` on {}", least->first, scene));
+  }
+  return fmt::format("The fastest there by scene: {}.", listText(parts));
+}
+
+// The claims that are judged by runs of this study.
+std::string claimsSentence(std::string_view study) {
+  std::vector<std::string> ids;
+  for (const auto& claim : claims::protocol().claims) {
+    if (std::ranges::find(claim.studies, study) != claim.studies.end()) ids.push_back(claim.id);
+  }
+  if (ids.empty()) return {};
+  return fmt::format("Its runs judge the claim{} {} of the paper.", ids.size() > 1 ? "s" : "", listText(ids));
 }
 
 // How the runs of each solver end over all scenes and tolerances.
@@ -107,7 +154,9 @@ std::vector<std::string> studyAnswers(std::string_view study, const claims::Resu
   std::vector<std::string> sentences;
   for (const auto& comparison_of : kComparisons) {
     const Table* costs = comparison_of.study == study ? tableIfAny(tables, study, "cpu_at_error") : nullptr;
-    if (costs) sentences.push_back(sentenceOf(comparison_of, *costs));
+    if (!costs) continue;
+    sentences.push_back(sentenceOf(comparison_of, *costs));
+    sentences.push_back(fastestSentence(*costs, comparison_of, targetOf(*costs)));
   }
   if (const Table* counts = tableIfAny(tables, study, "robustness")) sentences.push_back(robustnessSentence(*counts));
   if (const Table* orders = tableIfAny(tables, study, "orders")) sentences.push_back(sentenceOf(checkOf(*orders)));
@@ -125,6 +174,7 @@ std::vector<std::string> studyAnswers(std::string_view study, const claims::Resu
     if (study == "small_steps") sentences.push_back(smallStepsSentence(*runs));
     if (study.starts_with("failure_")) sentences.push_back(familiesFailSentence(*runs));
     sentences.push_back(outcomeSentence(*runs));
+    sentences.push_back(claimsSentence(study));
   }
   std::erase(sentences, "");
   return sentences;

@@ -183,7 +183,7 @@ TEST(NewtonClaims, KFormAgainstTheBestFirstOrderForm) {
   EXPECT_EQ(verdict("C11b", massForms({1.01, 1.1, 1.2}, 1, 2)), kNo) << "once per evaluation is the best";
   EXPECT_EQ(verdict("C11b", massForms({1.01, 1.1, 1.2}, 2, 1)), kNo) << "once per step is the best";
   EXPECT_EQ(verdict("C11b", massForms({0.5, 0.5, 2}, 1, 2)), kOpen);
-  EXPECT_TRUE(containsAll(finding("C11b", massForms({1, 1, 1}, 2, 1)).judged.remark, {"per step in 30 of 30"}));
+  EXPECT_TRUE(containsAll(finding("C11b", massForms({1, 1, 1}, 2, 1)).judged.remark, {"In 30 of 30 cases"}));
   EXPECT_EQ(verdict("C11b", kForm("")), kUnknown) << "the study claims has its runs";
 }
 
