@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "core/estimates/accumulation.h"
@@ -26,6 +27,13 @@ template <class Real>
 bool isIndex3(const System<Real>& system) {
   const auto& powers = system.errorPowers().v;
   return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
+}
+
+// Whether the last stage is before the step's end, and EmbeddedEstimate can be used.
+template <class Real>
+bool canLookIntoGaps(const Scheme<Real>& scheme, const IntegratorOptions& options) {
+  return EmbeddedEstimate<Real>::endsBefore(scheme) && scheme.regular && scheme.first == 0 &&
+         scheme.tableau.stage_order >= 1 && catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
 }
 
 /// No estimate: one step.
@@ -82,9 +90,15 @@ class Doubling : public StepAttempt<Real> {
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
     const double start_defect = watches_start_ ? half_.startDefect(from) : 0;
-    if (looks_again_) rough_whole_ = whole_.roughness(from), rough_halves_ = half_.roughness(from);
+    if (looks_again_) {
+      rough_.whole = whole_.roughness(from), rough_.halves = half_.roughness(from);
+      missed_.whole = missed(whole_, from, coarse_, half), missed_.halves = missed(half_, from, middle_, half);
+    }
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
-    if (looks_again_) rough_halves_ = std::max(rough_halves_, half_.roughness(middle_));
+    if (looks_again_) {
+      rough_.halves = std::max(rough_.halves, half_.roughness(middle_));
+      missed_.halves = std::max(missed_.halves, missed(half_, middle_, to, half));
+    }
     result.error = error(coarse_, to, static_cast<double>(h));
     if (accumulates_) {
       result.added = result.error;
@@ -160,20 +174,44 @@ class Doubling : public StepAttempt<Real> {
         locates_(system.sizes().switches > 0 && system.discontinuity().at_switch == AtSwitch::kEnd),
         keeps_pieces_(locates_),
         coarse_(system.sizes()),
-        middle_(system.sizes()) {}
+        middle_(system.sizes()) {
+    if (!looks_again_ || !canLookIntoGaps(scheme, options)) return;
+    gaps_ = std::make_unique<EmbeddedEstimate<Real>>(system, scheme, options, setup.jacobian, half_.matrix(),
+                                                     setup.norm, setup.counters);
+  }
   static bool ownOrders(const IntegratorOptions& options) {
     return catalogue<ErrorEstimate>()[options.step.estimate].own_orders;
   }
-  // A second look, of the order of the stages: it is below the tolerance, or it falls from the whole step
-  // to its halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
+  // What the stages of a step miss before the first and behind the last one.
+  double missed(Stepper<Real>& stepper, const State<Real>& from, const State<Real>& to, const Real& filter_h) {
+    if (!gaps_) return 0;
+    const auto before = gaps_->missedAtStart(from, stepper.stages(), filter_h);
+    const auto behind = gaps_->missedAtEnd(from, stepper.stages(), to, filter_h);
+    const bool known = before.outcome == Outcome::kSuccess && behind.outcome == Outcome::kSuccess;
+    if (!known) return std::numeric_limits<double>::infinity();
+    const auto [less, more] = std::minmax(before.error, behind.error);
+    return isNews(more, less) ? more : 0;
+  }
+
+  // Of the whole step, and the larger one of its halves.
+  struct Pair {
+    double whole = 0, halves = 0;
+  };
+  // A second look, of the order of the stages: each is below the tolerance, or it falls from the whole step to its
+  // halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
   double unresolved() const {
-    const double least = std::max(kMinDecay, kPartOfDecay * whole_.decay());
-    if (rough_halves_ > 1 && rough_whole_ < std::exp2(least) * rough_halves_) return rough_halves_;
+    const double least = std::exp2(std::max(kMinDecay, kPartOfDecay * whole_.decay()));
+    double found = 0;
+    for (const Pair& pair : {rough_, missed_}) {
+      if (pair.halves > 1 && pair.whole < least * pair.halves) found = std::max(found, pair.halves);
+    }
     const double most = std::exp2(whole_.decay() + kBeyondDecay);
-    return rough_whole_ > kRough && rough_whole_ > most * rough_halves_ ? rough_whole_ : 0;
+    if (rough_.whole > kRough && rough_.whole > most * rough_.halves) found = std::max(found, rough_.whole);
+    return found;
   }
 
   Stepper<Real> whole_, half_;
+  std::unique_ptr<EmbeddedEstimate<Real>> gaps_;  // null where the last stage is at the end
   bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
   Accumulation accumulation_;
   std::int64_t steps_ = 0;      // accepted
@@ -184,7 +222,7 @@ class Doubling : public StepAttempt<Real> {
   bool continues_ = false;      // (a, k) at the start of a step are those of the same mode
   bool vague_start_ = false;    // of the mode: a restart, which may not determine (a, k)
   Index worst_ = -1;
-  double rough_whole_ = 0, rough_halves_ = 0;
+  Pair rough_, missed_;
   int order_;
   bool interpolate_;
   bool locates_;       // switches, on the dense output

@@ -37,6 +37,17 @@ class EmbeddedEstimate {
   /// `evaluate` of the same step.
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q);
 
+  /// What the stages miss behind the last one, where that is not at the step's end: (1 - c_s) h times the defect of the
+  /// stages' polynomial at the end `to` of the step, filtered with the step `filter_h`. A fast motion there is seen by
+  /// no stage of this step and is over in the next. Of u, v, x; what constraints miss is drift and does not count.
+  [[nodiscard]] Result missedAtEnd(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to,
+                                   const Real& filter_h);
+  /// The same before the first stage: c_1 h times the defect at the start.
+  [[nodiscard]] Result missedAtStart(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                     const Real& filter_h);
+  /// Whether the last stage is before the step's end.
+  static bool endsBefore(const Scheme<Real>& scheme) { return scheme.c.maxCoeff() < Real(1 - 1e-10); }
+
   /// Allocates what the first evaluation would, where the pattern is known.
   void reserve() { own_.reserve(); }
   /// The component of (u, v, x, z) with the largest part in the last estimate.
@@ -57,7 +68,9 @@ class EmbeddedEstimate {
   };
   Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages, const AtStart& at_start,
                   double again_above);
-  Outcome filter(const State<Real>& from, const Real& h);
+  Result missed(const StagePolynomial<Real>& stages, const Vec<Real>& weights, const Real& part, const Real& filter_h);
+  enum class EquationsAt { kStart, kGap };
+  Outcome filter(const Real& h, EquationsAt at);
 
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
@@ -74,8 +87,16 @@ class EmbeddedEstimate {
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
   State<Real> at_;         // where the residual is evaluated
   State<Real> error_, zero_;
+  double behind_;  // 1 - c_s
   Vec<double> ones_;
   Mat<Real> e_;  // n x 1
 };
+
+/// Whether what the stages miss at one end of a step is more than at the other one. Undamped errors of stiff components
+/// are as large at both, and shorter steps would not make them smaller.
+inline bool isNews(double missed, double elsewhere) {
+  constexpr double kMuchMore = 4;
+  return !(missed <= kMuchMore * elsewhere);
+}
 
 }  // namespace irk

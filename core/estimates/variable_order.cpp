@@ -112,6 +112,13 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   const double factor = member().accumulation.factor(member().accumulates ? steps_ : 0, sum_);
   result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t), static_cast<double>(h));
   result.error = worse(result.error, order(), result.mode_error, 1);
+  // What the stages miss at the end tells nothing about stiff components at the start: these are not filtered again.
+  again_ = !(result.error <= 1);
+  if (result.outcome == Outcome::kSuccess && EmbeddedEstimate<Real>::endsBefore(member().scheme)) {
+    const auto missed = member().estimate.missedAtEnd(from, *past_, to, h);
+    result.outcome = missed.outcome;
+    if (isNews(missed.error, estimate.error)) result.error = worse(result.error, order(), missed.error, 1);
+  }
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
   }
@@ -125,7 +132,6 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
       lower_error_ = estimate.error * muOf(at_ - 1) / muOf(at_);
     }
   }
-  again_ = !(result.error <= 1);
   return result;
 }
 
