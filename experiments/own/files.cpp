@@ -173,6 +173,7 @@ std::string fileWithHash(std::string_view hash) {
 }
 
 std::string hashOf(std::string_view kind, std::string_view id) {
+  if (hashes().empty()) return "";
   const auto at = hashes().find({std::string(kind), std::string(id)});
   return at == hashes().end() ? "" : at->second;
 }

@@ -12,6 +12,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runner/costs.h"
+#include "experiments/runs/swept_keys.h"
 #include "experiments/tables/environment.h"
 
 namespace irk {
@@ -45,7 +46,8 @@ std::vector<int> readPlan(const Study& study, const RunnerOptions& options) {
 std::vector<std::uint64_t> keysOf(const Series& series) {
   std::vector<std::uint64_t> keys;
   keys.reserve(series.runs.size());
-  for (const auto& spec : series.runs) keys.push_back(store::keyNumber(specKey(spec)));
+  const SweptKeys all(series.runs.front());
+  for (const auto& spec : series.runs) keys.push_back(all.of(spec));
   return keys;
 }
 

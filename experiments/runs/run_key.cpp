@@ -1,5 +1,7 @@
 // Everything that determines the numbers of a run, as one text and as a key.
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -11,6 +13,7 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_spec.h"
+#include "experiments/runs/swept_keys.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -42,7 +45,6 @@ std::string hashedCoefficients(const std::string& method, int max_stages, OrderC
 // program, and for a method that cannot be made, whose run is refused.
 std::string coefficients(const RunSpec& spec) {
   if (const PeerEntry* peer = findPeer(spec.method)) return peer->source;
-  if (std::filesystem::is_regular_file(spec.method)) return hexText(fnv1a(readInputFile(spec.method)));
   static std::mutex mutex;
   static std::map<std::tuple<std::string, int, OrderControl>, std::string> known;
   const bool variable = choosesOrder(spec.options.order);
@@ -52,6 +54,7 @@ std::string coefficients(const RunSpec& spec) {
     const auto found = known.find(name);
     if (found != known.end()) return found->second;
   }
+  if (std::filesystem::is_regular_file(spec.method)) return hexText(fnv1a(readInputFile(spec.method)));
   std::string text;
   try {
     text = hashedCoefficients(spec.method, spec.max_stages, spec.options.order);
@@ -75,10 +78,9 @@ std::string ownFiles(const RunSpec& spec) {
   return text;
 }
 
-}  // namespace
-
-std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameters) {
-  auto text = canonicalText(spec);
+// What follows the canonical text; no swept field changes it.
+std::string textBehindFields(const RunSpec& spec, const std::vector<Parameter>& parameters) {
+  std::string text;
   for (const auto& parameter : parameters) {
     if (!spec.settings.contains(parameter.name)) {
       text.append(";").append(parameter.name).append("=").append(parameter.default_value);
@@ -87,8 +89,43 @@ std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameter
   return text + ";coefficients=" + coefficients(spec) + ownFiles(spec);
 }
 
+const std::vector<SpecField>& sweptFields() {
+  static const std::vector<SpecField> fields = [] {
+    std::vector<SpecField> swept;
+    std::ranges::copy_if(specFields(), std::back_inserter(swept), &SpecField::swept);
+    return swept;
+  }();
+  return fields;
+}
+
+}  // namespace
+
+std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameters) {
+  return canonicalText(spec) + textBehindFields(spec, parameters);
+}
+
 std::string specKey(const RunSpec& spec) {
   return hexText(fnv1a(keyText(resolved(spec), findScene(spec.scene).parameters)));
+}
+
+SweptKeys::SweptKeys(const RunSpec& any) : between_(1) {
+  for (const auto& field : specFields()) {
+    if (&field != &specFields().front()) between_.back() += ';';
+    between_.back().append(field.name) += '=';
+    if (field.swept) {
+      between_.emplace_back();
+    } else {
+      between_.back() += field.get(any);
+    }
+  }
+  between_.back() += textBehindFields(any, findScene(any.scene).parameters);
+}
+
+std::uint64_t SweptKeys::of(const RunSpec& run) const {
+  std::string text = between_.front();
+  std::size_t next = 1;
+  for (const auto& field : sweptFields()) text.append(field.get(run)).append(between_[next++]);
+  return fnv1a(text);
 }
 
 std::string integratorName(const RunSpec& spec) {

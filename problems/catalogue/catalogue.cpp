@@ -120,11 +120,11 @@ void registerScene(SceneEntry entry) {
 }
 
 const SceneEntry& findScene(std::string_view id) {
-  std::vector<std::string> known;
   for (const SceneEntry& entry : sceneCatalogue()) {
     if (entry.id == id) return entry;
-    known.push_back(entry.id);
   }
+  std::vector<std::string> known;
+  for (const SceneEntry& entry : sceneCatalogue()) known.push_back(entry.id);
   throw Misuse(unknownName("scene", id, known));
 }
 

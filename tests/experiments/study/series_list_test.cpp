@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/base/numbers.h"
+#include "experiments/runner/shard_plan.h"
 #include "experiments/runs/fields.h"
+#include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/support.h"
 
@@ -43,6 +46,23 @@ TEST(SeriesList, LargeBlocksAreProductsOfTheirLists) {
       }
     }
   }
+}
+
+// The keys of a series are made together.
+TEST(SeriesList, KeysAreThoseOfEachRunAlone) {
+  std::size_t runs = 0;
+  for (const auto& entry : builtinStudies()) {
+    const Study study = loadStudy(std::string(entry.id), StudyVariant::kQuick);
+    for (const Series series : study.series) {
+      const auto keys = keysOf(series);
+      ASSERT_EQ(keys.size(), series.runs.size());
+      for (const std::size_t run : {std::size_t(0), keys.size() / 2, keys.size() - 1}) {
+        ASSERT_EQ(hexText(keys[run]), specKey(series.runs[run])) << canonicalText(series.runs[run]);
+        ++runs;
+      }
+    }
+  }
+  EXPECT_GT(runs, 1000u);
 }
 
 Series ofScene(const std::string& scene) {
