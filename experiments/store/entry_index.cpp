@@ -18,11 +18,6 @@ void keepIn(std::unordered_map<std::uint64_t, Entry>& entries, const Entry& entr
   if (!added && better(entry, at->second)) at->second = entry;
 }
 
-std::optional<Entry> findIn(const std::vector<Entry>& sorted, std::uint64_t key) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), key, isBefore);
-  return at != sorted.end() && at->key == key ? std::optional(*at) : std::nullopt;
-}
-
 /// Writes sorted entries to a file and notes the first key of each page.
 class RunWriter {
  public:
@@ -49,6 +44,19 @@ class RunWriter {
 };
 
 }  // namespace
+
+SortedEntries::SortedEntries(std::vector<Entry> entries) : entries_(std::move(entries)) {
+  while (entries_.size() >> bits_ > kPerGroup) ++bits_;
+  firsts_.resize((std::size_t(1) << bits_) + 1, static_cast<std::uint32_t>(entries_.size()));
+  for (std::size_t i = entries_.size(); i-- > 0;) firsts_[group(entries_[i].key)] = static_cast<std::uint32_t>(i);
+  for (std::size_t g = firsts_.size() - 1; g-- > 0;) firsts_[g] = std::min(firsts_[g], firsts_[g + 1]);
+}
+
+std::optional<Entry> SortedEntries::find(std::uint64_t key) const {
+  const auto* end = entries_.data() + firsts_[group(key) + 1];
+  const auto* at = std::lower_bound(entries_.data() + firsts_[group(key)], end, key, isBefore);
+  return at != end && at->key == key ? std::optional(*at) : std::nullopt;
+}
 
 /// Goes through sorted entries in memory, or page by page through those of a run.
 class EntryIndex::Cursor {
@@ -90,7 +98,7 @@ std::vector<Entry> EntryIndex::sortedNewest() const {
 void EntryIndex::forEach(const std::function<void(const Entry&)>& take) const {
   std::vector<Cursor> cursors;
   cursors.emplace_back(sortedNewest());
-  cursors.emplace_back(held_);
+  cursors.emplace_back(held_.all());
   for (const Run& run : runs_) cursors.emplace_back(*file_, run);
   using Head = std::pair<std::uint64_t, std::size_t>;  // a key and its cursor
   std::priority_queue<Head, std::vector<Head>, std::greater<>> heads;
@@ -127,14 +135,14 @@ void EntryIndex::add(const Entry& entry) {
 }
 
 void EntryIndex::sort() {
-  std::size_t most = held_.size() + newest_.size();
+  std::size_t most = held_.all().size() + newest_.size();
   for (const Run& run : runs_) most += run.count;
   if (most <= most_held_) {
     std::vector<Entry> all;
     all.reserve(most);
     forEach([&all](const Entry& entry) { all.push_back(entry); });
-    held_ = std::move(all);
-    size_ = held_.size();
+    size_ = all.size();
+    held_ = SortedEntries(std::move(all));
     runs_.clear();
     file_.reset();
     end_ = 0;
@@ -168,7 +176,7 @@ std::optional<Entry> EntryIndex::find(std::uint64_t key) const {
   for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
     if (const auto found = findIn(*run, key)) return found;
   }
-  return store::findIn(held_, key);
+  return held_.find(key);
 }
 
 void EntryIndex::put(const Entry& entry) {

@@ -14,8 +14,29 @@
 
 namespace irk::store {
 
+/// Entries in memory, found by their keys in a few steps: keys are hashes, so the first bits of a key tell about where
+/// its entry is. Other keys are found, too, but slower.
+class SortedEntries {
+ public:
+  SortedEntries() : SortedEntries(std::vector<Entry>()) {}
+  /// Sorted by keys, each of which is there once. At most 2^32 - 1.
+  explicit SortedEntries(std::vector<Entry> entries);
+
+  std::optional<Entry> find(std::uint64_t key) const;
+  const std::vector<Entry>& all() const { return entries_; }
+
+ private:
+  static constexpr std::size_t kPerGroup = 4;
+  // The first bits of a key.
+  std::size_t group(std::uint64_t key) const { return bits_ == 0 ? 0 : key >> (64 - bits_); }
+
+  std::vector<Entry> entries_;
+  int bits_ = 0;
+  std::vector<std::uint32_t> firsts_;  // of each group the place of its first entry, and the number of all
+};
+
 /// One entry for each key: the best of those that were given. Memory holds the newest kNewest entries and up to `held`
-/// sorted ones, 40 bytes each; if there are more, all but the newest are in a temporary file, of which memory holds one
+/// sorted ones, 41 bytes each; if there are more, all but the newest are in a temporary file, of which memory holds one
 /// key per page. It then needs about 5 MB and 0.1 byte per entry. Not thread-safe.
 class EntryIndex {
  public:
@@ -53,7 +74,7 @@ class EntryIndex {
   Better better_;
   std::size_t most_held_;
   std::unordered_map<std::uint64_t, Entry> newest_;
-  std::vector<Entry> held_;  // sorted; instead of runs while there are few entries
+  SortedEntries held_;  // instead of runs while there are few entries
   std::unique_ptr<SpillFile> file_;
   std::vector<Run> runs_;  // a key may be in several of them: the best entry counts, which is the newest after `put`
   std::uint64_t end_ = 0;  // entries in the file

@@ -51,45 +51,53 @@ std::string textOf(std::uint32_t seconds) {
 
 }  // namespace
 
-std::string Store::refusalOfTimes(const RunKeys& keys) const {
+// Where the rows of a table come from.
+struct Store::Origins {
   struct Measured {
     std::size_t rows = 0;
     std::set<std::string> environments;
   };
+  std::map<std::uint16_t, std::size_t> codes, environments;  // rows of each
+  std::uint32_t first_date = ~0u, last_date = 0;
+  std::map<std::string, Measured> measured;  // by processor
+
+  // The reason why their times are not joined; empty if they are.
+  std::string refusalOfTimes() const {
+    if (measured.size() < 2) return {};
+    std::string text = fmt::format("times of {} processors are not joined:", measured.size());
+    for (const auto& [processor, its] : measured) {
+      text += fmt::format(" '{}' ({} rows, environments {}),", processor, its.rows, fmt::join(its.environments, " "));
+    }
+    return text +
+           " so runs.csv has none. Either --times here, which keeps those of this processor and measures the others "
+           "again if the study has a timing pass, or --fresh";
+  }
+};
+
+Store::Origins Store::originsOf(const RunKeys& keys) const {
+  Origins origins;
   std::map<std::string, std::string> processors;  // by environment
-  std::map<std::string, Measured> measured;       // by processor
   forEachRun(keys, [&](const Entry& entry, const std::string&) {
+    ++origins.codes[entry.code];
+    ++origins.environments[entry.environment];
+    origins.first_date = std::min(origins.first_date, entry.date);
+    origins.last_date = std::max(origins.last_date, entry.date);
     if (runs_.name(entry.outcome) != name(Outcome::kSuccess)) return;
     const auto& environment = runs_.name(entry.cpu_environment);
     const auto [at, added] = processors.try_emplace(environment);
     if (added) at->second = processor(environment);
     if (options_.times == Times::kHere && at->second != processorName()) return;
-    auto& here = measured[at->second];
+    auto& here = origins.measured[at->second];
     ++here.rows;
     here.environments.insert(environment);
   });
-  if (measured.size() < 2) return {};
-  std::string text = fmt::format("times of {} processors are not joined:", measured.size());
-  for (const auto& [processor, its] : measured) {
-    text += fmt::format(" '{}' ({} rows, environments {}),", processor, its.rows, fmt::join(its.environments, " "));
-  }
-  return text +
-         " so runs.csv has none. Either --times here, which keeps those of this processor and measures the others "
-         "again if the study has a timing pass, or --fresh";
+  return origins;
 }
 
-TableHead Store::head(const RunKeys& keys, const std::string& refusal) const {
-  std::map<std::uint16_t, std::size_t> codes, environments;
-  std::uint32_t first = ~0u, last = 0;
-  forEachRun(keys, [&](const Entry& entry, const std::string&) {
-    ++codes[entry.code];
-    ++environments[entry.environment];
-    first = std::min(first, entry.date);
-    last = std::max(last, entry.date);
-  });
+TableHead Store::head(const Origins& origins, const std::string& refusal) const {
   TableHead head{{"study", study_}};
   std::string made_by;
-  for (const auto& [code, rows] : codes) {
+  for (const auto& [code, rows] : origins.codes) {
     const bool current = runs_.name(code) == buildInfo().code;
     made_by +=
         fmt::format("{}{} ({} rows{})", made_by.empty() ? "" : ", ", runs_.name(code), rows, current ? "" : ", stale");
@@ -99,12 +107,13 @@ TableHead Store::head(const RunKeys& keys, const std::string& refusal) const {
   for (const char* name : {"version", "commit", "host", "compiler", "flags", "libraries", "cpu"}) {
     const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
     std::set<std::string> values;
-    for (const auto& [environment, rows] : environments) {
+    for (const auto& [environment, rows] : origins.environments) {
       const auto entry = environments_.find(keyNumber(runs_.name(environment)));
       values.insert(entry ? environments_.row(*entry)[at] : "unknown");
     }
     head.emplace_back(name, joined(values));
   }
+  const auto first = origins.first_date, last = origins.last_date;
   if (last > 0)
     head.emplace_back("date", first == last ? textOf(last) : fmt::format("{} to {}", textOf(first), textOf(last)));
   if (folder_.parent_path().filename() == "quick")
@@ -115,18 +124,23 @@ TableHead Store::head(const RunKeys& keys, const std::string& refusal) const {
   return head;
 }
 
-void Store::exportRuns(const RunKeys& keys, const std::string& refusal) const {
+void Store::exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const {
   const Table names{{}, runs_.columns(), {}};
   writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
     auto columns = runs_.columns();
     if (keys.hasBlocks()) columns.emplace_back(kBlockColumn);
-    out << startOf(head(keys, refusal), columns);
+    out << startOf(head, columns);
     forEachRun(keys, [&](const Entry& entry, const std::string& blocks) {
-      const bool times_count = refusal.empty() && (options_.times == Times::kAll || timedHere(entry));
-      TableRow row = runs_.row(entry);
-      if (!times_count) forgetTiming(names, row);
-      if (keys.hasBlocks()) row.push_back(blocks);
-      out << csvLine(row) << '\n';
+      const bool times_count = !times_refused && (options_.times == Times::kAll || timedHere(entry));
+      if (times_count) {
+        out << runs_.csv(entry);
+      } else {
+        TableRow row = runs_.row(entry);
+        forgetTiming(names, row);
+        out << csvLine(row);
+      }
+      if (keys.hasBlocks()) out << ',' << csvLine({blocks});
+      out << '\n';
     });
   });
 }
@@ -152,8 +166,9 @@ void Store::exportAll(const Rows& rows, const std::string& name) const {
 }
 
 std::string Store::exportTables(const RunKeys& keys) {
-  const auto refusal = refusalOfTimes(keys);
-  exportRuns(keys, refusal);
+  const Origins origins = originsOf(keys);
+  const auto refusal = origins.refusalOfTimes();
+  exportRuns(keys, head(origins, refusal), !refusal.empty());
   exportAll(environments_, "environments");
   if (calibrations_.size() > 0) exportAll(calibrations_, "calibrations");
   if (states_.size() > 0) exportStates(keys);

@@ -19,8 +19,8 @@ namespace {
 // The end of the cell that begins at `at`; npos if the cell is damaged.
 std::size_t cellEnd(std::string_view line, std::size_t at) {
   if (at == line.size() || line[at] != '"') {
-    const auto end = std::min(line.find(',', at), line.size());
-    return line.substr(at, end - at).find('"') == line.npos ? end : line.npos;
+    while (at < line.size() && line[at] != ',' && line[at] != '"') ++at;
+    return at < line.size() && line[at] == '"' ? line.npos : at;
   }
   for (++at;; at += 2) {
     at = line.find('"', at);

@@ -208,31 +208,53 @@ int Rows::descriptor(std::uint32_t part) const {
   return file;
 }
 
-std::string Rows::line(const Entry& entry) const {
-  constexpr std::size_t kUsual = 2048;
-  std::string text;
-  for (;;) {
-    char block[kUsual];
-    const auto count =
-        pread(descriptor(entry.part), block, sizeof block, static_cast<off_t>(entry.offset + text.size()));
-    if (count <= 0) throw Failure(fmt::format("{}: shorter than before", parts_[entry.part].string()));
-    const std::string_view got(block, static_cast<std::size_t>(count));
-    const auto end = got.find('\n');
-    text.append(got.substr(0, end));
-    if (end == got.npos) continue;
-    if (text.ends_with('\r')) text.pop_back();
-    return text;
+std::string_view Rows::readBlock(const Entry& entry, std::size_t size) const {
+  block_ = {entry.part, entry.offset, std::string(size, '\0')};
+  std::size_t got = 0;
+  for (ssize_t count = 1; count > 0 && got < size; got += static_cast<std::size_t>(std::max<ssize_t>(count, 0))) {
+    count =
+        pread(descriptor(entry.part), block_.bytes.data() + got, size - got, static_cast<off_t>(entry.offset + got));
   }
+  block_.bytes.resize(got);
+  return block_.bytes;
+}
+
+std::string Rows::line(const Entry& entry) const {
+  constexpr std::size_t kUsual = 2048, kAhead = 1 << 16;
+  std::string_view text = block_.from(entry);
+  std::size_t end = text.find('\n');
+  // Rows that follow each other are read together.
+  for (std::size_t size = block_.isBefore(entry) ? kAhead : kUsual; end == text.npos; size *= 2) {
+    text = readBlock(entry, size);
+    end = text.find('\n');
+    if (end == text.npos && text.size() < size) {
+      throw Failure(fmt::format("{}: shorter than before", parts_[entry.part].string()));
+    }
+  }
+  text = text.substr(0, end);
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return std::string(text);
+}
+
+void Rows::split(const Entry& entry, const std::string& line, std::vector<std::string_view>& cells) const {
+  if (!splitLine(line, cells) || cells.size() < columns_.size()) {
+    throw Failure(fmt::format("{}: a row has changed since it was read", parts_[entry.part].string()));
+  }
+  cells.resize(columns_.size());  // drops the block column of an exported table
 }
 
 TableRow Rows::row(const Entry& entry) const {
   const std::string text = line(entry);
   std::vector<std::string_view> cells;
-  if (!splitLine(text, cells) || cells.size() < columns_.size()) {
-    throw Failure(fmt::format("{}: a row has changed since it was read", parts_[entry.part].string()));
-  }
-  cells.resize(columns_.size());  // drops the block column of an exported table
+  split(entry, text, cells);
   return plainRow(cells);
+}
+
+std::string Rows::csv(const Entry& entry) const {
+  std::string text = line(entry);
+  split(entry, text, cells_);
+  text.resize(static_cast<std::size_t>(cells_.back().data() + cells_.back().size() - text.data()));
+  return text;
 }
 
 }  // namespace irk::store

@@ -55,6 +55,8 @@ class Rows {
   bool isCurrent(const Entry& entry) const { return entry.code == current_; }
   const std::string& name(std::uint16_t id) const { return names_[id]; }
   TableRow row(const Entry& entry) const;
+  /// The cells of `row` as they are written, with commas between them: what csvLine(row) gives, in less time.
+  std::string csv(const Entry& entry) const;
   /// The row as written, without its line end.
   std::string line(const Entry& entry) const;
 
@@ -73,6 +75,26 @@ class Rows {
   std::uint16_t idOf(std::string_view name);
   void readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages);
   int descriptor(std::uint32_t part) const;
+  std::string_view readBlock(const Entry& entry, std::size_t size) const;
+  void split(const Entry& entry, const std::string& line, std::vector<std::string_view>& cells) const;
+
+  /// The bytes of a part that were read last.
+  struct Block {
+    std::uint32_t part = 0;
+    std::uint64_t begin = 0;
+    std::string bytes;
+
+    /// From the row's first byte on; empty if that is not in the block.
+    std::string_view from(const Entry& entry) const {
+      const bool has = entry.part == part && entry.offset >= begin && entry.offset - begin < bytes.size();
+      return has ? std::string_view(bytes).substr(entry.offset - begin) : std::string_view();
+    }
+    /// Whether the row begins in the block or shortly behind it.
+    bool isBefore(const Entry& entry) const {
+      const std::uint64_t end = begin + bytes.size();
+      return entry.part == part && entry.offset >= begin && entry.offset <= end + bytes.size();
+    }
+  };
 
   std::filesystem::path folder_;
   std::string name_;
@@ -86,6 +108,8 @@ class Rows {
   std::size_t damaged_ = 0;
   mutable std::vector<int> descriptors_;  // one for each of parts_; -1 = closed
   mutable std::size_t open_ = 0;
+  mutable Block block_;
+  mutable std::vector<std::string_view> cells_;  // of one row
 };
 
 }  // namespace irk::store

@@ -49,43 +49,45 @@ std::vector<std::uint64_t> RunKeys::operator[](std::size_t series) const {
   return keysBetween(first_[series], first_[series + 1]);
 }
 
+template <class Take>
+void RunKeys::forAll(Take&& take) const {
+  std::size_t series = 0;
+  for (std::size_t begin = 0; begin < first_.back(); begin += kHeld) {
+    std::size_t run = begin;
+    for (const auto key : keysBetween(begin, std::min(begin + kHeld, first_.back()))) {
+      while (first_[series + 1] <= run) ++series;
+      take(key, run++, blocks_[block_[series]]);
+    }
+  }
+}
+
 void RunKeys::finish() {
   EntryIndex first([](const Entry& a, const Entry& b) { return a.offset < b.offset; });
-  const auto all = [this](const auto& take) {
-    for (std::size_t i = 0; i < size(); ++i) {
-      std::uint64_t run = first_[i];
-      for (const auto key : (*this)[i]) take(key, run++, blocks_[block_[i]]);
-    }
-  };
-  all([&first](std::uint64_t key, std::uint64_t run, const std::string&) { first.add({.key = key, .offset = run}); });
+  forAll([&first](std::uint64_t key, std::size_t run, const std::string&) { first.add({.key = key, .offset = run}); });
   first.sort();
   repeated_ = first_.back() - first.size();
   if (repeated_ == 0) return;
   is_repeat_.resize(first_.back());
-  all([&](std::uint64_t key, std::uint64_t run, const std::string&) {
+  forAll([&](std::uint64_t key, std::size_t run, const std::string&) {
     if (first.find(key)->offset == run) return;
     is_repeat_[run] = true;
     blocks_of_repeated_.try_emplace(key);
   });
-  all([this](std::uint64_t key, std::uint64_t, const std::string& block) {
+  forAll([this](std::uint64_t key, std::size_t, const std::string& block) {
     const auto at = blocks_of_repeated_.find(key);
     if (at != blocks_of_repeated_.end()) addBlocks(at->second, block);
   });
 }
 
 void RunKeys::forEach(const std::function<void(std::uint64_t, const std::string&)>& take) const {
-  for (std::size_t i = 0; i < size(); ++i) {
-    std::size_t run = first_[i];
-    for (const auto key : (*this)[i]) {
-      if (repeated_ == 0) {
-        take(key, blocks_[block_[i]]);
-      } else if (!is_repeat_[run]) {
-        const auto at = blocks_of_repeated_.find(key);
-        take(key, at == blocks_of_repeated_.end() ? blocks_[block_[i]] : at->second);
-      }
-      ++run;
+  forAll([&](std::uint64_t key, std::size_t run, const std::string& block) {
+    if (repeated_ == 0) {
+      take(key, block);
+    } else if (!is_repeat_[run]) {
+      const auto at = blocks_of_repeated_.find(key);
+      take(key, at == blocks_of_repeated_.end() ? block : at->second);
     }
-  }
+  });
 }
 
 }  // namespace irk::store

@@ -45,6 +45,9 @@ class RunKeys {
   bool hasBlocks() const { return blocks_.size() > 1 || !blocks_.front().empty(); }
 
  private:
+  // Calls take(key, run, block) for all runs in order.
+  template <class Take>
+  void forAll(Take&& take) const;
   std::vector<std::uint64_t> keysBetween(std::size_t begin, std::size_t end) const;
 
   std::vector<std::size_t> first_;    // number of each series' first run, and of all runs

@@ -85,9 +85,10 @@ class Store {
  private:
   void addEnvironment();
   void adoptFormerTable(std::ostream& messages);
-  TableHead head(const RunKeys& keys, const std::string& refusal) const;
-  std::string refusalOfTimes(const RunKeys& keys) const;
-  void exportRuns(const RunKeys& keys, const std::string& refusal) const;
+  struct Origins;
+  Origins originsOf(const RunKeys& keys) const;
+  TableHead head(const Origins& origins, const std::string& refusal) const;
+  void exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const;
   void exportStates(const RunKeys& keys) const;
   void exportAll(const Rows& rows, const std::string& name) const;
 

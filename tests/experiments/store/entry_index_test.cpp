@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <random>
+#include <set>
+#include <vector>
 
 #include "experiments/base/numbers.h"
 #include "experiments/store/run_keys.h"
@@ -47,6 +50,33 @@ struct Both {
   }
 };
 
+// Hashes and keys that share their first bits.
+TEST(SortedEntries, FindsEveryKey) {
+  constexpr std::uint64_t kMost = ~std::uint64_t(0);
+  const std::vector<std::function<std::uint64_t(std::size_t)>> kinds = {
+      [](std::size_t i) { return keyOf(i); }, [](std::size_t i) { return 2 * i; },
+      [](std::size_t i) { return kMost - 2 * i; }, [](std::size_t i) { return i < 50 ? 2 * i : kMost - 2 * i; }};
+  for (const auto& kind : kinds) {
+    for (const std::size_t count : {0u, 1u, 4u, 5u, 8u, 9u, 100u, 1000u}) {
+      std::set<std::uint64_t> keys;
+      for (std::size_t i = 0; i < count; ++i) keys.insert(kind(i));
+      std::vector<Entry> entries;
+      for (const auto key : keys) entries.push_back({.key = key});
+      const SortedEntries sorted(std::move(entries));
+      ASSERT_EQ(sorted.all().size(), count);
+      for (const auto key : keys) {
+        ASSERT_TRUE(sorted.find(key)) << key << " of " << count;
+        ASSERT_EQ(sorted.find(key)->key, key);
+        for (const auto other : {key - 1, key + 1}) {
+          ASSERT_EQ(sorted.find(other).has_value(), keys.contains(other)) << other << " of " << count;
+        }
+      }
+      EXPECT_EQ(sorted.find(0).has_value(), keys.contains(0));
+      EXPECT_EQ(sorted.find(kMost).has_value(), keys.contains(kMost));
+    }
+  }
+}
+
 TEST(EntryIndex, FindsTheBestOfAnyNumber) {
   for (const std::size_t keys : {std::size_t(0), std::size_t(1), kNewest - 1, kNewest, kNewest + 1, 3 * kNewest + 17}) {
     for (const std::size_t held : kInFileOrMemory) {
@@ -87,7 +117,7 @@ TEST(EntryIndex, TakesNewEntriesBehindSortedOnes) {
 }
 
 TEST(RunKeys, GiveEachRunOnceWithAllItsBlocks) {
-  for (const std::size_t runs : {std::size_t(10), RunKeys::kHeld}) {
+  for (const std::size_t runs : {std::size_t(10), RunKeys::kHeld + 18}) {
     SCOPED_TRACE(runs);
     // The third series repeats every second run of the first; the second one is left out.
     RunKeys keys({{runs, "a"}, {0, "a"}, {runs, "b"}});

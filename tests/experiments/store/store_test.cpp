@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -114,6 +115,55 @@ TEST_F(Results, ATableWithoutPartsIsTakenIn) {
   EXPECT_TRUE(containsAll(told_.str(), {"taken in"}));
   EXPECT_EQ(made(), 0);
   EXPECT_EQ(partsOf(folder()).size(), 1u);
+}
+
+std::vector<store::Entry> entriesOf(const Store& store) {
+  std::vector<store::Entry> entries;
+  store.runs().forEach([&entries](const store::Entry& entry) { entries.push_back(entry); });
+  return entries;
+}
+
+bool isBefore(const store::Entry& a, const store::Entry& b) { return a.offset < b.offset; }
+
+// In any order of reading, an exported row is its line: the same as that of its cells.
+TEST_F(Results, RowsAreExportedAsTheyAreWritten) {
+  run();
+  changePart("results", [](Table& part) {
+    part.rows[1][part.column("detail")] = "say \"x\", twice";
+    part.rows[4][part.column("detail")] = std::string(100'000, ',');  // longer than what is read at once
+    part.rows[8].back() = "\"";
+  });
+  const std::string text = contentsOf(partsOf(folder()).front());
+  const Store store = reader();
+  auto entries = entriesOf(store);
+  ASSERT_EQ(entries.size(), 9u);
+  for (const std::string order : {"of keys", "of the file", "backwards"}) {
+    SCOPED_TRACE(order);
+    if (order == "of the file") std::sort(entries.begin(), entries.end(), isBefore);
+    if (order == "backwards") std::reverse(entries.begin(), entries.end());
+    for (const auto& entry : entries) {
+      const std::string line = text.substr(entry.offset, text.find('\n', entry.offset) - entry.offset);
+      EXPECT_EQ(store.runs().line(entry), line);
+      EXPECT_EQ(store.runs().csv(entry), line);
+      EXPECT_EQ(csvLine(store.runs().row(entry)), line);
+    }
+  }
+}
+
+TEST_F(Results, RowsThatChangedSinceTheyWereReadAreNotExported) {
+  run();
+  const auto part = partsOf(folder()).front();
+  const std::string text = contentsOf(part);
+  const auto write = [&part](const std::string& its) { std::ofstream(part, std::ios::binary) << its; };
+  const Store changed = reader(), cut = reader();
+  const auto entries = entriesOf(changed);
+  const auto last = *std::max_element(entries.begin(), entries.end(), isBefore);
+  std::string other = text;
+  other[last.offset + 20] = '"';
+  write(other);
+  EXPECT_TRUE(containsAll(failureOf([&] { (void)changed.runs().csv(last); }), {"changed since it was read"}));
+  write(text.substr(0, last.offset + 20));
+  EXPECT_TRUE(containsAll(failureOf([&] { (void)cut.runs().csv(last); }), {"shorter than before"}));
 }
 
 // --- Rows are only appended.
