@@ -69,41 +69,40 @@ constexpr PaperStudy kPaperStudies[] = {{"scenes", 1},
                                         {"failure_stability", 0.5},
                                         {"failure_newton", 2}};
 
-void printSummary(const Study& study, const store::Store& store, const RunKeys& keys, std::ostream& out) {
-  std::map<std::string, std::size_t> outcomes;
+/// How the runs of a study ended.
+struct Outcomes {
   std::size_t runs = 0;
+  std::map<std::string, std::size_t> counts;
+  std::optional<store::Entry> refused;  // the first run that can never work
+
+  std::size_t refusals() const { return refused ? counts.at("refused") : 0; }
+  bool allRefused() const { return refused && refusals() == runs; }
+};
+
+Outcomes outcomesOf(const store::Store& store, const RunKeys& keys) {
+  Outcomes found;
   store.forEachRun(keys, [&](const store::Entry& entry, const std::string&) {
-    ++runs;
-    ++outcomes[store.runs().name(entry.outcome)];
+    const std::string& outcome = store.runs().name(entry.outcome);
+    ++found.runs;
+    ++found.counts[outcome];
+    if (outcome == "refused" && !found.refused) found.refused = entry;
   });
-  fmt::print(out, "{}: {} runs in {}", study.id, runs, store.folder().string());
-  for (const auto& [outcome, count] : outcomes) fmt::print(out, ", {} {}", count, outcome);
+  return found;
+}
+
+void printSummary(const Study& study, const store::Store& store, const Outcomes& outcomes, std::ostream& out) {
+  fmt::print(out, "{}: {} runs in {}", study.id, outcomes.runs, store.folder().string());
+  for (const auto& [outcome, count] : outcomes.counts) fmt::print(out, ", {} {}", count, outcome);
   out << '\n';
 }
 
-/// Runs that can never work.
-struct Refusals {
-  std::size_t refused = 0, runs = 0;
-  std::string line;  // how many, and the reason for the first one; empty if there are none
-  bool all() const { return refused > 0 && refused == runs; }
-};
-
-Refusals refusalsOf(const std::string& study, const store::Store& store, const RunKeys& keys) {
-  Refusals found;
-  std::optional<store::Entry> first;
-  store.forEachRun(keys, [&](const store::Entry& entry, const std::string&) {
-    ++found.runs;
-    if (store.runs().name(entry.outcome) != "refused") return;
-    ++found.refused;
-    if (!first) first = entry;
-  });
-  if (!first) return found;
+// How many runs were refused, and the reason for the first one.
+std::string refusalLine(const std::string& study, const store::Store& store, const Outcomes& outcomes) {
   const Table columns{{}, runColumns(), {}};
-  const std::string count =
-      found.all() ? fmt::format("all {}", found.runs) : fmt::format("{} of {}", found.refused, found.runs);
-  found.line = fmt::format("{}: {} runs were refused, the first one for: {}", study, count,
-                           textAt(columns, store.runs().row(*first), "detail"));
-  return found;
+  const std::string count = outcomes.allRefused() ? fmt::format("all {}", outcomes.runs)
+                                                  : fmt::format("{} of {}", outcomes.refusals(), outcomes.runs);
+  return fmt::format("{}: {} runs were refused, the first one for: {}", study, count,
+                     textAt(columns, store.runs().row(*outcomes.refused), "detail"));
 }
 
 // Figures are those of a study's id, built in or with results, or those of its file.
@@ -189,25 +188,25 @@ int runStored(const Study& study, const FigureTables& figures, const RunnerOptio
   const bool times = whole && study.timing.wanted && doubts.empty() && !interruptFlag();
   if (ranks.asTheFirst(times)) timeTogether(study, keys, options, ranks, opened, streams.err);
   const store::Store& store = *opened;
+  const Outcomes outcomes = outcomesOf(store, keys);
   if (!whole || !needsTable(study)) {
-    printSummary(study, store, keys, streams.out);
+    printSummary(study, store, outcomes, streams.out);
   } else {
     const Table runs = readTable(file);
     doubts = writeSummaries(study, runs, folder, streams.err);
-    printSummary(study, store, keys, streams.out);
+    printSummary(study, store, outcomes, streams.out);
     if (study.audit) {
       streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
     }
   }
   for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
   tellDrift(study.id, file, streams.err);
-  const Refusals refusals = refusalsOf(study.id, store, keys);
-  if (refusals.all()) {
-    printErrorLine(streams.err, refusals.line);
-  } else if (refusals.refused > 0) {
-    fmt::print(streams.err, "{}\n", refusals.line);
+  if (outcomes.allRefused()) {
+    printErrorLine(streams.err, refusalLine(study.id, store, outcomes));
+  } else if (outcomes.refused) {
+    fmt::print(streams.err, "{}\n", refusalLine(study.id, store, outcomes));
   }
-  if (!interruptFlag()) return doubts.empty() && !refusals.all() ? 0 : 1;
+  if (!interruptFlag()) return doubts.empty() && !outcomes.allRefused() ? 0 : 1;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;
 }

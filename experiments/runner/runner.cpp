@@ -56,6 +56,8 @@ void inParallel(WorkQueue& queue, int threads, F&& f) {
   if (failure) std::rethrow_exception(failure);
 }
 
+bool asksForReference(const Series& series) { return series.runs.front().reference == ReferenceUse::kAuto; }
+
 /// The state that the threads of one sweep share.
 class Sweep {
  public:
@@ -69,10 +71,11 @@ class Sweep {
     for (std::size_t i = 0; i < study.series.size(); ++i) {
       if (!keys_.isLeftOut(i)) work_.push_back(i);
     }
-    tellStale(out);
+    lookForRows(out);
     progress_.emplace(out, study.id);
     for (const std::size_t i : work_) {
       const Series& series = study.series[i];
+      if (asksForReference(series)) asking_.push_back(i);
       const std::size_t expected = expectedRuns(series);
       for (std::size_t run = 0; run < expected; ++run) progress_->expect(kindOf(series.runs[run], series.end));
     }
@@ -80,17 +83,15 @@ class Sweep {
 
   /// Makes the references that the missing runs need. Ranks read from the cache what the first one has made.
   void makeReferences(Ranks& ranks, std::ostream& out) {
-    const auto asks = [](const Series& series) { return series.runs.front().reference == ReferenceUse::kAuto; };
-    if (std::none_of(study_.series.begin(), study_.series.end(), asks)) return;
+    if (asking_.empty()) return;
     constexpr std::size_t kAtOnce = 10'000;  // specs
     std::vector<RunSpec> missing;
     const auto prepare = [&] {
       if (ranks.rank() == 0) references_.prepare(missing, study_.id + " references", out);
       missing.clear();
     };
-    for (const std::size_t i : work_) {
+    for (const std::size_t i : asking_) {
       const Series& series = study_.series[i];
-      if (!asks(series)) continue;
       const auto keys = keys_[i];
       for (std::size_t run = 0; run < keys.size(); ++run) {
         if (store_.finished(keys[run])) continue;
@@ -106,7 +107,7 @@ class Sweep {
   /// Throws the first exception of any thread.
   void run(int threads, Ranks& ranks) {
     // Long series first, so that all threads end at about the same time.
-    const auto costs = ranks.rank() == 0 && isAnyMissing()
+    const auto costs = ranks.rank() == 0 && is_any_missing_
                            ? expectedCosts(
                                  study_, [this](std::size_t i) { return keys_[i]; }, store_.runs())
                            : std::vector<double>(study_.series.size());
@@ -118,27 +119,20 @@ class Sweep {
   RunKeys takeKeys() { return std::move(keys_); }
 
  private:
-  void tellStale(std::ostream& out) const {
+  // Notes whether runs are missing, and tells how many are stale.
+  void lookForRows(std::ostream& out) {
     std::size_t stale = 0;
-    for (const std::size_t i : work_) {
-      for (const auto key : keys_[i]) {
-        const auto entry = store_.finished(key);
-        if (entry && !store_.runs().isCurrent(*entry)) ++stale;
-      }
-    }
+    keys_.forEach([&](std::uint64_t key, const std::string&) {
+      const auto entry = store_.finished(key);
+      if (!entry) is_any_missing_ = true;
+      if (entry && !store_.runs().isCurrent(*entry)) ++stale;
+    });
     if (stale == 0) return;
     fmt::print(
         out,
         "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
         "them again\n",
         study_.id, stale);
-  }
-
-  bool isAnyMissing() const {
-    return std::any_of(work_.begin(), work_.end(), [this](std::size_t i) {
-      const auto keys = keys_[i];
-      return std::any_of(keys.begin(), keys.end(), [this](std::uint64_t key) { return !store_.finished(key); });
-    });
   }
 
   // Another rank makes the series: count its runs as done.
@@ -230,7 +224,9 @@ class Sweep {
   store::Store& store_;
   RunKeys keys_;
   const Table columns_{{}, runColumns(), {}};
-  std::vector<std::size_t> work_;  // indices of series
+  std::vector<std::size_t> work_;    // indices of series
+  std::vector<std::size_t> asking_;  // those of work_ whose runs may need a computed reference
+  bool is_any_missing_ = false;
   std::mutex mutex_;
   std::optional<Progress> progress_;
   std::vector<std::string> told_;  // about references
