@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <unordered_set>
 
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
@@ -36,9 +37,10 @@ class FileReader {
   StudyValue value(std::string_view key, const toml::node& node) const {
     StudyValue value{{}, place(node.source())};
     if (const auto* list = node.as_array()) {
+      std::unordered_set<std::string> known;
       for (const auto& item : *list) {
         auto text = scalar(key, item);
-        if (std::find(value.items.begin(), value.items.end(), text) != value.items.end()) {
+        if (!known.insert(text).second) {
           refuse(item, fmt::format("{}: '{}' twice in the list", key, text));
         }
         value.items.push_back(std::move(text));

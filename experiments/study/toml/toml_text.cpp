@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 
 #include "irk/misuse.h"
 
 namespace irk {
 namespace {
+
+// Tables within tables, which toml++ reads and removes by recursion; a study has three at most.
+constexpr std::ptrdiff_t kMaxKeyParts = 16;
 
 // The text with strings and comments replaced by blanks; lines keep their numbers.
 std::string structureOf(std::string_view text) {
@@ -34,8 +38,8 @@ std::string structureOf(std::string_view text) {
 }
 
 // Refuses texts at which toml++ (3.3) ends the program, or without assertions reads past the end: a table without a
-// name (`[` and the end of the line), some times of day, and in lists braces and blanks beyond ASCII. A study needs
-// no braces, no times and no lists of lists.
+// name (`[` and the end of the line), some times of day, keys of very many parts, and in lists braces and blanks beyond
+// ASCII. A study needs no braces, no times and no lists of lists.
 void refuseUnreadable(std::string_view text, const std::string& file) {
   const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
   const auto isForeign = [&](char c) {
@@ -68,6 +72,11 @@ void refuseUnreadable(std::string_view text, const std::string& file) {
     if (line.starts_with('[')) {
       const auto name = trimmed(line.substr(line.starts_with("[[") ? 2 : 1));
       if (name.empty() || !mayBegin(name.front())) refuse("a table's name is expected after '['");
+    }
+    const auto equals = line.find('=');
+    const auto key = line.substr(0, equals == line.npos && !line.starts_with('[') ? 0 : equals);
+    if (std::count(key.begin(), key.end(), '.') >= kMaxKeyParts) {
+      refuse(fmt::format("a key of more than {} parts with '.' between them", kMaxKeyParts));
     }
     ++number;
     rest.remove_prefix(std::min(end + 1, rest.size()));
