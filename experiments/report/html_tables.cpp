@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "experiments/runs/run_table.h"
+#include "experiments/tables/table_rows.h"
 
 namespace irk {
 namespace {
@@ -77,12 +78,17 @@ HtmlTable tableausHtml(const Table& tableaus) {
   return html;
 }
 
-void Environments::add(const std::string& study, const Table& environments, const Table& runs) {
+std::set<std::string> usedEnvironments(const std::filesystem::path& runs) {
   std::set<std::string> used;
-  for (const char* column : {"environment", "cpu_environment"}) {
-    if (!runs.hasColumn(column)) continue;
-    for (const auto& row : runs.rows) used.insert(textAt(runs, row, column));
-  }
+  forEachRow(runs, [&used](const Table& names, const TableRow& row) {
+    for (const char* column : {"environment", "cpu_environment"}) {
+      if (names.hasColumn(column)) used.insert(textAt(names, row, column));
+    }
+  });
+  return used;
+}
+
+void Environments::add(const std::string& study, const Table& environments, const std::set<std::string>& used) {
   for (const auto& row : environments.rows) {
     if (!used.contains(textAt(environments, row, "environment"))) continue;
     Environment found;

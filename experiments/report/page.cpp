@@ -199,7 +199,7 @@ std::string Page::environment() const {
   for (const auto& study : studyIds()) {
     const auto runs = folder(study) / "runs.csv", file = folder(study) / "environments.csv";
     if (!std::filesystem::exists(runs) || !std::filesystem::exists(file)) continue;
-    environments.add(study, readTable(file), readTable(runs));
+    environments.add(study, readTable(file), usedEnvironments(runs));
   }
   const std::string html = htmlOf(environments.table());
   return html.empty() ? "<p>No runs yet.</p>\n" : html;

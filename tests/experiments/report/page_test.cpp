@@ -141,12 +141,12 @@ TEST_F(ReportPage, NamesEachEnvironmentOnce) {
   EXPECT_EQ(html.find("Not used"), html.npos);
   // Another study of the same machine adds its name, a study of another machine a column.
   Environments environments;
-  const Table runs{{}, {"environment"}, {{"a"}, {"b"}}};
-  environments.add("one", {{}, {"environment", "cpu"}, {{"a", "X"}}}, runs);
-  environments.add("two", {{}, {"environment", "cpu"}, {{"a", "X"}}}, runs);
+  const std::set<std::string> used{"a", "b"};
+  environments.add("one", {{}, {"environment", "cpu"}, {{"a", "X"}}}, used);
+  environments.add("two", {{}, {"environment", "cpu"}, {{"a", "X"}}}, used);
   EXPECT_EQ(environments.table().titles.size(), 2u);
   EXPECT_TRUE(containsAll(htmlOf(environments.table()), {"one, two"}));
-  environments.add("three", {{}, {"environment", "cpu", "cores"}, {{"b", "Y", "2"}}}, runs);
+  environments.add("three", {{}, {"environment", "cpu", "cores"}, {{"b", "Y", "2"}}}, used);
   EXPECT_EQ(environments.table().titles.size(), 3u);
 }
 

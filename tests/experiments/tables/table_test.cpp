@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "experiments/base/numbers.h"
+#include "experiments/runs/run_table.h"
+#include "experiments/tables/table_rows.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -34,6 +36,28 @@ TEST(Table, ReadsBackWhatWasWritten) {
 }
 
 TEST(Table, QuotesAsRfc4180Says) { EXPECT_EQ(csvLine({"a", "b,c", "say \"x\"", ""}), "a,\"b,c\",\"say \"\"x\"\"\","); }
+
+// One row at a time, they are those of the whole table.
+TEST(Table, RowsTakeNoMoreMemoryThanTheirCells) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "runs.csv";
+  Table wide = sample();
+  for (int i = 0; i < 70; ++i) {
+    wide.columns.push_back("column_" + std::to_string(i));
+    for (auto& row : wide.rows) row.emplace_back();
+  }
+  writeTable(path, wide);
+  for (const auto& row : readTable(path).rows) EXPECT_EQ(row.capacity(), wide.columns.size());
+  std::vector<TableRow> rows;
+  const Table names = forEachRow(path, [&rows](const Table& head, TableRow row) {
+    EXPECT_EQ(textAt(head, row, "column_3"), "");
+    rows.push_back(std::move(row));
+  });
+  EXPECT_EQ(rows, wide.rows);
+  EXPECT_EQ(names.head, wide.head);
+  EXPECT_EQ(names.columns, wide.columns);
+  EXPECT_TRUE(names.rows.empty());
+}
 
 TEST(Table, DropsAHalfWrittenLastRow) {
   const TemporaryFolder folder;
