@@ -12,7 +12,8 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runner/costs.h"
-#include "experiments/runs/swept_keys.h"
+#include "experiments/runs/fields.h"
+#include "experiments/runs/run_spec.h"
 #include "experiments/tables/environment.h"
 
 namespace irk {
@@ -21,6 +22,36 @@ namespace {
 std::filesystem::path planFile(const Study& study, const RunnerOptions& options) {
   return options.results / study.id / fmt::format("shards_of_{}", options.shard.count);
 }
+
+/// The keys of runs that differ in their swept fields only (SpecField::swept): the numbers that specKey writes, in a
+/// third of the time. All specs are resolved.
+class SweptKeys {
+ public:
+  explicit SweptKeys(const RunSpec& any) : between_(1) {
+    for (const auto& field : specFields()) {
+      if (&field != &specFields().front()) between_.back() += ';';
+      between_.back().append(field.name) += '=';
+      if (field.swept) {
+        swept_.push_back(&field);
+        between_.emplace_back();
+      } else {
+        between_.back() += field.get(any);
+      }
+    }
+    // What follows the fields is the same for all runs.
+    between_.back() += keyText(any, findScene(any.scene).parameters).substr(canonicalText(any).size());
+  }
+
+  std::uint64_t of(const RunSpec& run) const {
+    std::string text = between_.front();
+    for (std::size_t i = 0; i < swept_.size(); ++i) text.append(swept_[i]->get(run)).append(between_[i + 1]);
+    return fnv1a(text);
+  }
+
+ private:
+  std::vector<const SpecField*> swept_;
+  std::vector<std::string> between_;  // the text of a key before, between and behind the values of swept fields
+};
 
 // A hash of the study's series.
 std::string fingerprint(const Study& study) {

@@ -1,7 +1,5 @@
 // Everything that determines the numbers of a run, as one text and as a key.
-#include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -13,7 +11,6 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_spec.h"
-#include "experiments/runs/swept_keys.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -78,9 +75,10 @@ std::string ownFiles(const RunSpec& spec) {
   return text;
 }
 
-// What follows the canonical text; no swept field changes it.
-std::string textBehindFields(const RunSpec& spec, const std::vector<Parameter>& parameters) {
-  std::string text;
+}  // namespace
+
+std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameters) {
+  auto text = canonicalText(spec);
   for (const auto& parameter : parameters) {
     if (!spec.settings.contains(parameter.name)) {
       text.append(";").append(parameter.name).append("=").append(parameter.default_value);
@@ -89,43 +87,8 @@ std::string textBehindFields(const RunSpec& spec, const std::vector<Parameter>& 
   return text + ";coefficients=" + coefficients(spec) + ownFiles(spec);
 }
 
-const std::vector<SpecField>& sweptFields() {
-  static const std::vector<SpecField> fields = [] {
-    std::vector<SpecField> swept;
-    std::ranges::copy_if(specFields(), std::back_inserter(swept), &SpecField::swept);
-    return swept;
-  }();
-  return fields;
-}
-
-}  // namespace
-
-std::string keyText(const RunSpec& spec, const std::vector<Parameter>& parameters) {
-  return canonicalText(spec) + textBehindFields(spec, parameters);
-}
-
 std::string specKey(const RunSpec& spec) {
   return hexText(fnv1a(keyText(resolved(spec), findScene(spec.scene).parameters)));
-}
-
-SweptKeys::SweptKeys(const RunSpec& any) : between_(1) {
-  for (const auto& field : specFields()) {
-    if (&field != &specFields().front()) between_.back() += ';';
-    between_.back().append(field.name) += '=';
-    if (field.swept) {
-      between_.emplace_back();
-    } else {
-      between_.back() += field.get(any);
-    }
-  }
-  between_.back() += textBehindFields(any, findScene(any.scene).parameters);
-}
-
-std::uint64_t SweptKeys::of(const RunSpec& run) const {
-  std::string text = between_.front();
-  std::size_t next = 1;
-  for (const auto& field : sweptFields()) text.append(field.get(run)).append(between_[next++]);
-  return fnv1a(text);
 }
 
 std::string integratorName(const RunSpec& spec) {
