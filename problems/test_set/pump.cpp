@@ -71,7 +71,8 @@ struct ChargePump {
     const auto [a, b, depth] = voltages(p);
     T gate = gateWithoutChannel(y6), channel(0.0);  // QG; QS = QD
     if (p.d[kOn] > T(0.0)) {
-      const T sum = b > T(0.0) ? T(a + b - a * b / (a + b)) : a;
+      // Trial steps beyond the switch, where a < 0, follow the equations of a channel that is pinched off, b <= 0.
+      const T sum = a > T(0.0) && b > T(0.0) ? T(a + b - a * b / (a + b)) : a;
       gate = Cox * (2 * sum / 3 + gamma * sqrt(depth));
       channel = -Cox / 3 * sum;
     }
