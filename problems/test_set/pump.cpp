@@ -15,7 +15,7 @@ template <class Real>
 struct ChargePump {
   static constexpr int kAlgebraicIndex = 2;  // y9; y2 to y8 have index 1
   Real CD = decimal<Real>("0.4"), CS = decimal<Real>("1.6");
-  double Cox = 4;
+  Real Cox = 4;
   Real UT0 = decimal<Real>("0.2"), gamma = decimal<Real>("0.035"), phi = decimal<Real>("1.01");
 
   Sizes sizes() const { return {.nx = 3, .nz = 6, .discrete = 3, .switches = 1}; }
