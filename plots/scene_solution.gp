@@ -1,7 +1,8 @@
 # A scene's solution over time, one panel per kind of quantity.
 #   gnuplot -e "data='results/scenes'; out='solution'; scene='SCENE'" scene_solution.gp
 # Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels, log_time (1: a
-# logarithmic time axis, from the first step on), log_values (1: logarithmic values).
+# logarithmic time axis, from the first step on), log_values (> 0: logarithmic values, from
+# this one on).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("method")) method = 'radau_iia_5'
 if (!exists("log_time")) log_time = 0
@@ -28,7 +29,10 @@ first_step = 1e300
 if (exists("W_columns")) { stats file using ($1 > 0 && $1 < first_step ? (first_step = $1) : 0) nooutput }
 set datafile columnheaders
 timeOrBase(x, orbit) = log_time && !orbit ? positive(x) : x
-valueOf(y, orbit) = log_values && !orbit ? positive(y) : y
+valueOf(y, orbit) = log_values > 0 && !orbit ? (y >= log_values ? y : NaN) : y
+# The step of ticks for two to five of them along an axis.
+tickFloor(side) = 10**floor(log10(side / 2))
+tickStep(side) = tickFloor(side) * (side / tickFloor(side) < 5 ? 1 : side / tickFloor(side) < 10 ? 2 : 5)
 
 # Switches: dashed lines over the whole height, short ones where there are many.
 jumps = ""; kinds = ""
@@ -71,6 +75,7 @@ width = n <= 1 ? 560 : n == 3 ? 1080 : 820
 margin_right = n <= 1 ? 0.04 : 0.03
 margin_left = n <= 1 ? 0.17 : n == 3 ? 0.09 : 0.12
 margin_bottom = lines == 1 ? 0.15 : lines > 2 ? 0.06 : 0.09; margin_top = words(jumps) ? (lines == 1 ? 0.17 : lines == 2 ? 0.1 : 0.08) : lines > 1 ? 0.06 : 0.1
+if (lines == 1 && (sum [i = 1 : n] words(content(word(kept, i))) > 3)) { margin_top = margin_top + 0.06 }  # legends of two rows
 gap_x = n == 3 ? 0.085 : 0.12; gap_y = lines > 2 ? 0.24 / lines : 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
@@ -92,12 +97,12 @@ do for [format in formats] {
     set size noratio; set xtics autofreq
     if (log_time && !orbit) { eval decades("x"); set xtics autofreq; if (W_max / first_step > 1e8) { set xtics 1e4 } }
     set ytics autofreq
-    if (log_values && !orbit) { eval decades("y"); set ytics autofreq }
-    if (orbit) {  # equal scales: ticks of one step, two to five along the longer side
+    if (log_values > 0 && !orbit) { eval decades("y"); set ytics autofreq }
+    if (W_max < 0.01 && !log_time && !orbit) { set xtics tickStep(W_max) }  # long labels
+    if (orbit) {  # equal scales: ticks of one step
       stats file using (scale * column(over(word(list, 1)))):(scale * column(of(word(list, 1)))) name "O" nooutput
       side = (O_max_x - O_min_x > O_max_y - O_min_y ? O_max_x - O_min_x : O_max_y - O_min_y) + 1e-300
-      step = 10**floor(log10(side / 2)); step = step * (side / step < 5 ? 1 : side / step < 10 ? 2 : 5)
-      set xrange [*:*] extend; set size ratio -1; set xtics step; set ytics step
+      set xrange [*:*] extend; set size ratio -1; set xtics tickStep(side); set ytics tickStep(side)
     }
     unset arrow
     if (!orbit) {
