@@ -123,6 +123,7 @@ TEST(Reference, ComputedValuesAgreeWithThoseOfOtherPrograms) {
   EXPECT_EQ(compared["andrews"], 54);
   EXPECT_EQ(compared["chemakzo"], 6);
   EXPECT_EQ(compared["e5"], 28);
+  EXPECT_EQ(compared["nand"], 448);
   EXPECT_EQ(compared["pump"], 66);
   EXPECT_EQ(compared["transamp"], 11);
   EXPECT_EQ(compared["caraxis"], 10);
