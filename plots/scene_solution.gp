@@ -1,10 +1,12 @@
 # A scene's solution over time, one panel per kind of quantity.
 #   gnuplot -e "data='results/scenes'; out='solution'; scene='SCENE'" scene_solution.gp
 # Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels, log_time (1: a
-# logarithmic time axis, from the first step on).
+# logarithmic time axis, from the first step on), log_values (> 0: logarithmic values, from
+# this one on).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("method")) method = 'radau_iia_5'
 if (!exists("log_time")) log_time = 0
+if (!exists("log_values")) log_values = 0
 if (!exists("file_name")) file_name = scene.'.'.method
 file = data.'/'.file_name.'.csv'
 
@@ -27,6 +29,10 @@ first_step = 1e300
 if (exists("W_columns")) { stats file using ($1 > 0 && $1 < first_step ? (first_step = $1) : 0) nooutput }
 set datafile columnheaders
 timeOrBase(x, orbit) = log_time && !orbit ? positive(x) : x
+valueOf(y, orbit) = log_values > 0 && !orbit ? (y >= log_values ? y : NaN) : y
+# The step of ticks for two to five of them along an axis.
+tickFloor(side) = 10**floor(log10(side / 2))
+tickStep(side) = tickFloor(side) * (side / tickFloor(side) < 5 ? 1 : side / tickFloor(side) < 10 ? 2 : 5)
 
 # Switches: dashed lines over the whole height, short ones where there are many.
 jumps = ""; kinds = ""
@@ -66,8 +72,10 @@ if (n == 0) { eval absence(scene." in ".file) }
 columns = n <= 3 ? n : 2
 lines = (n + columns - 1) / columns
 width = n <= 1 ? 560 : n == 3 ? 1080 : 820
+margin_right = n <= 1 ? 0.04 : 0.03
 margin_left = n <= 1 ? 0.17 : n == 3 ? 0.09 : 0.12
 margin_bottom = lines == 1 ? 0.15 : lines > 2 ? 0.06 : 0.09; margin_top = words(jumps) ? (lines == 1 ? 0.17 : lines == 2 ? 0.1 : 0.08) : lines > 1 ? 0.06 : 0.1
+if (lines == 1 && (sum [i = 1 : n] words(content(word(kept, i))) > 3)) { margin_top = margin_top + 0.06 }  # legends of two rows
 gap_x = n == 3 ? 0.085 : 0.12; gap_y = lines > 2 ? 0.24 / lines : 0.12
 do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
@@ -88,15 +96,22 @@ do for [format in formats] {
     set yrange [*:*]
     set size noratio; set xtics autofreq
     if (log_time && !orbit) { eval decades("x"); set xtics autofreq; if (W_max / first_step > 1e8) { set xtics 1e4 } }
-    if (orbit) { set xrange [*:*] extend; set size ratio -1; set xtics 0.5 }
+    set ytics autofreq
+    if (log_values > 0 && !orbit) { eval decades("y"); set ytics autofreq }
+    if (W_max < 0.01 && !log_time && !orbit) { set xtics tickStep(W_max) }  # long labels
+    if (orbit) {  # equal scales: ticks of one step
+      stats file using (scale * column(over(word(list, 1)))):(scale * column(of(word(list, 1)))) name "O" nooutput
+      side = (O_max_x - O_min_x > O_max_y - O_min_y ? O_max_x - O_min_x : O_max_y - O_min_y) + 1e-300
+      set xrange [*:*] extend; set size ratio -1; set xtics tickStep(side); set ytics tickStep(side)
+    }
     unset arrow
     if (!orbit) {
       do for [j = 1 : words(jumps)] { set arrow from first real(word(jumps, j)), graph 0 to first real(word(jumps, j)), graph jump_height \
         nohead dt 2 lw 0.8 lc rgb 0xa0a0a0 back }
     }
-    plot for [k = 1 : words(list)] file using (timeOrBase(column(over(word(list, k))), orbit)):(scale * column(of(word(list, k)))) \
+    plot for [k = 1 : words(list)] file using (timeOrBase(column(over(word(list, k))), orbit)):(valueOf(scale * column(of(word(list, k))), orbit)) \
       with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))
-    unset label 99; unset label 98; unset logscale x; set format x '%g'
+    unset label 99; unset label 98; unset logscale; set format '%g'
   }
   unset multiplot
   unset output

@@ -119,7 +119,8 @@ SceneEntry andrewsEntry() {
                                 .collections = {"ivp", "multibody"},
                                 .literature = "IVP test set, ANDREWS; HW II (VII.7)",
                                 .kind = SceneKind::kConstrained,
-                                .panels = {{"angles", {"beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"}}},
+                                .panels = {{"crank and its rod", {"beta", "Theta"}},
+                                           {"other angles", {"gamma", "Phi", "delta", "Omega", "epsilon"}}},
                                 .reference_cases = {{.tolerance = kFewDigits}}});
 }
 

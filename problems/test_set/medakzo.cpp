@@ -50,15 +50,16 @@ SceneEntry medakzoEntry() {
   Parameter points = numberParameter("N", "", "points of the grid", "200", 3, 20000);
   points.whole = true;
   points.audit_max = 40;
-  return sceneEntryOf<MedicalAkzo>({.id = "medakzo",
-                                    .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
-                                    .shows = "400 unknowns in a band; an input that jumps at t = 5",
-                                    .collections = {"ivp"},
-                                    .literature = "IVP test set, MEDAKZO",
-                                    .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
-                                    .parameters = {points},
-                                    .panels = {{"concentrations", {"u3", "v3"}}},
-                                    .reference_cases = {{.times = "5", .tolerance = kFewDigits}}});
+  return sceneEntryOf<MedicalAkzo>(
+      {.id = "medakzo",
+       .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
+       .shows = "400 unknowns in a band; an input that jumps at t = 5",
+       .collections = {"ivp"},
+       .literature = "IVP test set, MEDAKZO",
+       .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
+       .parameters = {points},
+       .panels = {{"antibodies", {"u3", "u50", "u100"}}, {"substrate", {"v50", "v100", "v150"}}},
+       .reference_cases = {{.times = "5", .tolerance = kFewDigits}}});
 }
 
 }  // namespace irk

@@ -85,6 +85,10 @@ SceneEntry pollutionEntry() {
        .shows = "moderate stiffness, components from 1e-18 to 1",
        .collections = {"ivp"},
        .literature = "IVP test set, POLLU; J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250",
+       .panels = {{"NO2, NO", {"y1", "y2"}},
+                  {"O3", {"y4"}},
+                  {"HO2, OH", {"y5", "y6"}, "1e-6", 1e6},
+                  {"HCHO, CO", {"y7", "y8"}}},
        .reference_cases = {{.times = "1", .tolerance = kManyDigits}}});
 }
 

@@ -15,7 +15,7 @@ template <class Real>
 struct ChargePump {
   static constexpr int kAlgebraicIndex = 2;  // y9; y2 to y8 have index 1
   Real CD = decimal<Real>("0.4"), CS = decimal<Real>("1.6");
-  double Cox = 4;
+  Real Cox = 4;
   Real UT0 = decimal<Real>("0.2"), gamma = decimal<Real>("0.035"), phi = decimal<Real>("1.01");
 
   Sizes sizes() const { return {.nx = 3, .nz = 6, .discrete = 3, .switches = 1}; }
@@ -71,7 +71,8 @@ struct ChargePump {
     const auto [a, b, depth] = voltages(p);
     T gate = gateWithoutChannel(y6), channel(0.0);  // QG; QS = QD
     if (p.d[kOn] > T(0.0)) {
-      const T sum = b > T(0.0) ? T(a + b - a * b / (a + b)) : a;
+      // Trial steps beyond the switch, where a < 0, follow the equations of a channel that is pinched off, b <= 0.
+      const T sum = a > T(0.0) && b > T(0.0) ? T(a + b - a * b / (a + b)) : a;
       gate = Cox * (2 * sum / 3 + gamma * sqrt(depth));
       channel = -Cox / 3 * sum;
     }

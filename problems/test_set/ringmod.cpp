@@ -67,6 +67,7 @@ SceneEntry ringmodEntry() {
        .collections = {"ivp"},
        .literature = "IVP test set, RINGMOD",
        .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
+       .panels = {{"signal y1", {"y1"}}, {"output y2", {"y2"}}, {"diode y3", {"y3"}}, {"carrier y7", {"y7"}}},
        .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}}});
 }
 

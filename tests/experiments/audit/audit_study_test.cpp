@@ -55,6 +55,9 @@ TEST(Audit, DrawsAmongTheScenesThatAreAskedFor) {
     const auto scenes = scenesOf("switching");
     EXPECT_NE(std::find(scenes.begin(), scenes.end(), id), scenes.end()) << id;
   }
+  // In another folder, too, where a code of a library (code@library.so) is looked for beside the study.
+  const char* collection = "[audit]\nruns = 40\nscene = '@switching'\n";
+  EXPECT_EQ(parseStudy(collection, "folder/audit.toml", StudyVariant::kFull).series.size(), 40u);
   EXPECT_TRUE(containsAll(misuseOf([&] { study("['pendulum', 'pendulun']"); }), {"audit.toml:3", "pendulun"}));
   EXPECT_TRUE(containsAll(misuseOf([&] { study("'@nosuch'"); }), {"audit.toml:3", "nosuch"}));
 }

@@ -12,6 +12,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
+#include "irk/scene.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -27,6 +28,23 @@ TEST(Figures, BelongToStudiesAndScriptsThatExist) {
     EXPECT_TRUE(std::filesystem::exists(plots() / figure.script)) << figure.name;
     EXPECT_TRUE(names.insert(figure.name).second) << figure.name << " twice";
     EXPECT_FALSE(figure.title.empty() || figure.caption.empty()) << figure.name;
+  }
+}
+
+// The study shows a solution of every scene of the library, each in a figure.
+TEST(Figures, ShowEveryScene) {
+  std::set<std::string> solved, shown;
+  for (const auto& series : loadStudy("scenes", StudyVariant::kFull).series) solved.insert(series.runs[0].scene);
+  for (const auto& figure : readFigures(plots() / "figures.txt")) {
+    if (figure.study != "scenes") continue;
+    const std::string start = "scene='";
+    const auto from = figure.assignments.find(start) + start.size();
+    shown.insert(figure.assignments.substr(from, figure.assignments.find('\'', from) - from));
+  }
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    if (entry.registered) continue;  // by another test
+    EXPECT_TRUE(solved.contains(entry.id)) << entry.id;
+    EXPECT_TRUE(shown.contains(entry.id)) << entry.id;
   }
 }
 

@@ -67,8 +67,9 @@ std::string methodIn(const std::string& file) {
 
 // A file may be called my_solver.so or my_solver.so.1; an '@' separates the name of a code from its library.
 bool isLibrary(std::string_view given) {
-  const bool code = given.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == given.find('@');
-  return given.ends_with(".so") || given.find(".so.") != given.npos || (code && given.find('@') != given.npos);
+  const auto at = given.find('@');  // CODE@LIBRARY; @ivp is a collection of scenes
+  const bool code = at != 0 && given.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == at;
+  return given.ends_with(".so") || given.find(".so.") != given.npos || (code && at != given.npos);
 }
 
 void refuseUnknownMethod(const std::string& method) {
