@@ -1,5 +1,6 @@
 # How runs end: for each collection a panel, for each solver a row, for each tolerance a bar with the shares of right
-# runs, honest failures, wrong successes and runs that cannot be judged. A red number counts the wrong ones.
+# runs, honest failures, wrong successes and runs that cannot be judged. A number in a bar counts the wrong ones; the
+# number beside a row says of how many runs each of its bars is made.
 #   gnuplot -e "data='results/robustness'; out='robustness'" robustness.gp
 # Reads robustness.csv. Options: collections (panels in this order), integrators (rows in this order).
 load system('dirname "'.ARG0.'"')."/style.gp"
@@ -7,7 +8,7 @@ if (!exists("collections")) collections = 'ivp multibody switching probes'
 if (!exists("integrators")) integrators = ''
 file = data.'/robustness.csv'
 parts = "right failed wrong unjudged"
-part_titles = "'right' 'honest failure' 'wrong success' 'not judged'"
+part_titles = "'right' 'honest failure' 'wrong success (number: how many)' 'not judged'"
 part_colours = "0x9CCFE7 0xE6C27A 0xC8102E 0xC9C9C9"
 colour(k) = int(word(part_colours, k))
 single(d) = strcol("tolerance") ne 'all' && position(collections, strcol("collection"))
@@ -35,24 +36,29 @@ upTo(k) = below(k) + (k == 3 && column("wrong") > 0 && share(k) < least ? least 
 line(i) = single(0) && strcol("collection") eq word(shown, i) ? position(solvers, strcol("integrator")) : 0
 width = 0.84
 left(i, x) = line(i) > 0 ? place(0) - width / 2 + width * x : outside
+number_place = many + 0.75
+# On a bar that is red from its left end the number is white.
+numberColour(d) = below(3) < 0.15 ? 0xFFFFFF : colour(3)
+# A row's number of runs is that of its largest tolerance.
+isFirst(i) = line(i) > 0 && place(0) == 1
 levelText(x) = sprintf("10^{%d}", floor(x + 0.5))
 tolerance_tics = "set xtics ("; do for [k = 1 : many] {
   tolerance_tics = tolerance_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', levelText(real(word(levels, k))), many + 1 - k) }
-tolerance_tics = tolerance_tics.") nomirror scale 0 textcolor rgb ink offset 0,0.3"
+tolerance_tics = tolerance_tics.sprintf(", 'runs' %g) nomirror scale 0 textcolor rgb ink offset 0,0.3", number_place)
 solver_tics = "set ytics ("; do for [k = 1 : words(solvers)] {
   solver_tics = solver_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', word(solvers, k), k) }
 solver_tics = solver_tics.") nomirror scale 0 noenhanced textcolor rgb ink"
 
 columns = panels == 1 ? 1 : 2
 lines = (panels + columns - 1) / columns
-height = 100 + lines * (60 + 22 * words(solvers))
-margin_left = columns == 1 ? 0.3 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = 84.0 / height
+height = 116 + lines * (60 + 22 * words(solvers))
+margin_left = columns == 1 ? 0.3 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = 100.0 / height
 gap_x = 0.03; gap_y = 50.0 / height
 do for [format in formats] {
   eval open(format, columns == 1 ? 640 : 1080, height)
   set multiplot
   unset key; unset grid; set border 0
-  set xrange [0.5 : many + 0.5]; set yrange [words(solvers) + 0.5 : 0.5]
+  set xrange [0.5 : many + 1]; set yrange [words(solvers) + 0.5 : 0.5]
   do for [i = 1 : panels] {
     eval panel(i, columns, lines)
     eval tolerance_tics
@@ -61,10 +67,12 @@ do for [format in formats] {
     set xlabel when(i > panels - columns, 'tolerance') offset 0,0.3
     plot for [k = 1 : 4] file using (left(i, below(k))):(line(i)):(left(i, below(k))):(left(i, upTo(k))):(line(i) - 0.38):(line(i) + 0.38) \
         with boxxyerror fs solid noborder lc rgb colour(k) notitle, \
-      file using (column("wrong") > 0 ? left(i, 0.06) : outside):(line(i)):(sprintf("%d", column("wrong"))) \
-        with labels textcolor rgb colour(3) font ',11' notitle
+      file using (column("wrong") > 0 ? left(i, 0.06) : outside):(line(i)):(sprintf("%d", column("wrong"))):(numberColour(0)) \
+        with labels textcolor rgb variable font ',11' notitle, \
+      file using (isFirst(i) ? number_place : outside):(line(i)):(sprintf("%d", column("runs"))) \
+        with labels textcolor rgb ink font ',11' notitle
   }
-  eval legend(34.0 / height)
+  eval legend(48.0 / height)
   plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb colour(k) title word(part_titles, k)
   unset multiplot
   unset output

@@ -34,14 +34,16 @@ valueOf(y, orbit) = log_values > 0 && !orbit ? (y >= log_values ? y : NaN) : y
 tickFloor(side) = 10**floor(log10(side / 2))
 tickStep(side) = tickFloor(side) * (side / tickFloor(side) < 5 ? 1 : side / tickFloor(side) < 10 ? 2 : 5)
 
-# Switches: dashed lines over the whole height, short ones where there are many.
+# Switches: dashed lines over the whole height; where there are many, short ones at the foot of the panel.
 jumps = ""; kinds = ""
 if (position(header, 'switches')) {
   stats file using (strcol('switches') eq '' || strcol('switches') eq '0' ? 0 \
     : (strlen(jumps = jumps.sprintf(' %.8g', column('t'))), strstrt(kinds.',', ', '.strcol('switches').',') ? 0 : strlen(kinds = kinds.', '.strcol('switches')))) nooutput
 }
-jump_height = words(jumps) > 40 ? 0.04 : 1
-jump_note = strlen(kinds) > 60 ? 'dashed lines: switches' : 'dashed lines: '.kinds[3 : *]
+many_jumps = words(jumps) > 16
+jump_height = many_jumps ? 0.04 : 1; jump_dash = many_jumps ? 1 : 2; jump_width = many_jumps ? 0.5 : 0.8
+jump_name = many_jumps ? 'short lines: ' : 'dashed lines: '
+jump_note = jump_name.(strlen(kinds) > 60 ? 'switches' : kinds[3 : *])
 
 if (panels eq '') {  # a table of an older program
   do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
@@ -107,7 +109,7 @@ do for [format in formats] {
     unset arrow
     if (!orbit) {
       do for [j = 1 : words(jumps)] { set arrow from first real(word(jumps, j)), graph 0 to first real(word(jumps, j)), graph jump_height \
-        nohead dt 2 lw 0.8 lc rgb 0xa0a0a0 back }
+        nohead dt jump_dash lw jump_width lc rgb 0xa0a0a0 back }
     }
     plot for [k = 1 : words(list)] file using (timeOrBase(column(over(word(list, k))), orbit)):(valueOf(scale * column(of(word(list, k))), orbit)) \
       with lines lw 1.4 dt seriesDash(k) lc rgb seriesColour(k) title of(word(list, k))

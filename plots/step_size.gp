@@ -18,8 +18,14 @@ stagesIn(method) = int(system("echo '".method."' | sed 's/.*_//'"))
 array Colour[count]; array Stages[count]
 do for [k = 1 : count] { Stages[k] = stagesIn(word(methods, k)); Colour[k] = stageColour(Stages[k]) }
 least = 1e300; most = 0
-do for [i = 1 : n] { do for [k = 1 : count] { if (there(i, k)) {
-  undefine H_*
+array Last[n]
+# The step of at most six labels from 0 to `end`.
+power(x) = 10 ** floor(log10(x))
+fewTics(end) = (unit = power(end / 5), end <= 5.001 * unit ? unit : end <= 10.001 * unit ? 2 * unit : end <= 25.001 * unit ? 5 * unit : 10 * unit)
+do for [i = 1 : n] { Last[i] = 0; do for [k = 1 : count] { if (there(i, k)) {
+  undefine H_*; undefine T_*
+  stats file(i, k) using "t" name "T" nooutput
+  Last[i] = exists("T_max") && T_max > Last[i] ? T_max : Last[i]
   stats file(i, k) using (column("h") > 0 ? log10(column("h")) : NaN) name "H" nooutput
   if (exists("H_min")) { least = 10 ** H_min < least ? 10 ** H_min : least; most = 10 ** H_max > most ? 10 ** H_max : most }
 } } }
@@ -38,6 +44,9 @@ do for [format in formats] {
     set xlabel 't in s'
     set ylabel when(i == 1, 'step size in s') offset 1,0
     if (i > 1) { set format y '' }
+    # Wide numbers, as 0.05, have room at every second mark that gnuplot would choose.
+    set format x '%g'; set xtics autofreq
+    if (n > 2 && Last[i] > 0) { set xtics fewTics(Last[i]) }
     do for [j = 1 : words(jumps(i))] {
       set arrow j from first real(word(jumps(i), j)), graph 0 to first real(word(jumps(i), j)), graph 1 nohead \
         back lw 5 lc rgb 0xF3D9D9

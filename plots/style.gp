@@ -45,6 +45,15 @@ tics125(axis, low, high) = (tics = '', sum [e = int(floor(log10(low))) : int(cei
   sprintf("set %stics (%s) nomirror", axis, tics))
 logTics(axis, low, high) = high / low < 99 ? tics125(axis, low, high) : sprintf("set %stics autofreq nomirror", axis)
 
+# Labels of a horizontal axis of so many decades and points: at every decade, every second, fourth, ..., so that they stay
+# apart. An axis of few decades keeps gnuplot's.
+label_points = 46.0
+decadeStep(decades, points) = decades * label_points <= points ? 1 : decades * label_points <= 2 * points ? 2 \
+  : 4 * ceil(decades * label_points / points / 4)
+decadeTics(decades, points) = decades < 5 ? "set xtics autofreq nomirror" : (step = decadeStep(decades, points), tics = '', \
+  sum [e = -324 / step : 308 / step] (strlen(tics = tics.sprintf("%s'10^{%d}' 1e%d", strlen(tics) ? ', ' : '', e * step, e * step))), \
+  sprintf("set xtics (%s) nomirror", tics))
+
 # --- Families: each has its colour (Okabe and Ito, distinguishable by colour-blind readers), mark and dash.
 families_known = "gauss radau_ia radau_iia lobatto_iiia lobatto_iiib lobatto_iiic lobatto_iiics lobatto_iiid"
 family_titles  = "'Gauss' 'Radau IA' 'Radau IIA' 'Lobatto IIIA' 'Lobatto IIIB' 'Lobatto IIIC' 'Lobatto IIIC*' 'Lobatto IIID'"
@@ -101,7 +110,7 @@ isFixed(d) = has_control ? is("control", 'fixed') : 0
 isVague(d) = has_accuracy ? (absent("reference_accuracy") ? 0 : column("reference_accuracy") > 0.1 * bar(0)) : 0
 isAbove(name) = absent(name) ? 0 : column(name) > bar(0)
 isWrong(d) = succeeded(0) && !isFixed(0) && !isVague(0) ? isAbove("error_u") || isAbove("error_v") || isAbove("error_x") : 0
-wrong_point = 6; wrong_title = 'wrong success'
+wrong_point = 6; ring_size = 1.1; ring_width = 0.9; wrong_title = 'wrong success'
 errorTitle(name, times) = (name eq 'error' ? 'error' : name eq 'error_u' ? 'error of the positions' \
   : name eq 'error_v' ? 'error of the velocities' : name eq 'error_z' ? 'error of the multipliers' : 'error of the states') \
   .when(times > 1, sprintf(', largest at %d times', times))

@@ -90,17 +90,15 @@ at(case, k) = chosen(case) && curveOf(0) eq name(k)
 
 if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
 lines = (panels + columns - 1) / columns
-legend_height = (40.0 + 18 * (count > 5) + 18 * (count > 8)) / (100 + 340 * lines)
-# Three panels in a row have no room for every decade.
-every = coarsest / finest > 1e9 ? 4 : 2
-wide_tics = 'set xtics ('
-do for [e = -8 : 0] { wide_tics = wide_tics.sprintf("%s'10^{%d}' %g", e == -8 ? '' : ', ', every * e, 10.0 ** (every * e)) }
-wide_tics = wide_tics.') nomirror'
-margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 0.05
-margin_bottom = legend_height + (lines == 1 ? 0.15 : 0.085)
-gap_x = words(cases) > 1 ? 0.065 : 0.09; gap_y = 0.13
+height = 100.0 + 340 * lines
+legend_height = (40 + 18 * (count > 5) + 18 * (count > 8)) / height
+margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lines == 1 ? 0.08 : 40 / height
+margin_bottom = legend_height + 66 / height
+gap_x = words(cases) > 1 ? 0.065 : 0.09; gap_y = 100 / height
+width = columns == 1 ? 640.0 : 1080.0
+decade_tics = decadeTics(log10(4 * coarsest / finest), width * cellWidth(columns))
 do for [format in formats] {
-  eval open(format, columns == 1 ? 640 : 1080, 100 + 340 * lines)
+  eval open(format, width, height)
   if (rows == 0) { eval nothing(cases) } else {
     set multiplot
     eval decades("x"); eval decades("y")
@@ -110,7 +108,7 @@ do for [format in formats] {
       span = Most[i] / Least[i] > 10 ? Most[i] / Least[i] : 10
       level(k) = Most[i] * span ** (0.05 + 0.025 * k)   # failures: a strip above all lines
       eval logTics('y', Least[i], Most[i])
-      if (columns == 3 && coarsest / finest > 1e5) { eval wide_tics }
+      eval decade_tics
       set xrange [2 * coarsest : finest / 2]
       set yrange [Least[i] / 1.5 : level(count + 1)]
       eval panel(i, columns, lines)
@@ -122,7 +120,7 @@ do for [format in formats] {
            for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? asked(0) : outside):(level(k)) \
              with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
            for [k = 1 : wrong] file using (chosen(case) && position(variants, curveOf(0)) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
-             with points pt wrong_point ps 1.7 lw 1.6 lc rgb failure_colour notitle
+             with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour notitle
     }
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)
@@ -130,7 +128,7 @@ do for [format in formats] {
     entries = "plot 2 notitle, for [k = 1 : count] keyentry with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 " \
       ."lc rgb curveColour(k) title titleOf(k)"
     if (failures > 0) { entries = entries.", keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'failed'" }
-    if (wrong) { entries = entries.", keyentry with points pt wrong_point ps 1.7 lw 1.6 lc rgb failure_colour title wrong_title" }
+    if (wrong) { entries = entries.", keyentry with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour title wrong_title" }
     eval entries
     eval framed
     set title; unset multiplot

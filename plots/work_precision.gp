@@ -96,7 +96,7 @@ do for [format in formats] {
            for [k = 1 : count] file using (failed(k)):(level(k)) \
              with points pt failure_point ps 1 lw 2.8 lc rgb methodColour(curves, k) notitle, \
            for [k = 1 : W_sum > 0] file using (chosen(0) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
-             with points pt wrong_point ps 1.7 lw 1.6 lc rgb failure_colour title wrong_title, \
+             with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour title wrong_title, \
            for [k = 1 : failures > 0] keyentry with points pt failure_point ps 1 lw 2.8 lc rgb ink title 'failed'
     }
     unset multiplot
