@@ -11,8 +11,7 @@ if (!exists("cost")) cost = 'cpu_s'
 if (!exists("titles")) titles = ''
 file = data.'/cpu_at_error.csv'
 n = words(cases)
-caseTitle(i) = (words(titles) >= i ? word(titles, i).': ' : '') \
-  .nameOf(word(cases, i))
+caseTitle(i) = words(titles) >= i ? word(titles, i) : nameOf(word(cases, i))
 
 row(case) = isCase(case) && is("family", family)
 at(case, error) = row(case) && abs(log10(column("target_error")) - log10(error)) < 0.01

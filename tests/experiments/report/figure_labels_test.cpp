@@ -1,0 +1,132 @@
+// What stands beside the curves: labels of axes that stay apart, numbers in bars, marks of switches. And the ratios of
+// costs, which are drawn from numbers that no table has.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include "tests/experiments/report/drawn.h"
+
+namespace irk {
+namespace {
+
+// The least distance of neighbouring numbers on a panel's horizontal axis, in points; 0 with less than two of them.
+double leastDistance(const Svg& svg, char panel) {
+  std::vector<double> places;
+  for (const auto& label : svg.panel(panel).x) {
+    if (!std::isnan(labelNumber(label.text))) places.push_back(label.pixel);
+  }
+  std::sort(places.begin(), places.end());
+  double least = places.size() < 2 ? 0 : 1e300;
+  for (std::size_t i = 1; i < places.size(); ++i) least = std::min(least, places[i] - places[i - 1]);
+  return least;
+}
+
+TEST(FigureLabels, OfErrorsStayApartInNarrowPanels) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const std::string scenes[] = {"kepler", "pendulum", "hires", "robertson"};
+  for (const auto& scene : scenes) {
+    for (int i = 0; i < 9; ++i) {
+      rows.push_back(run(i, {{"scene", scene}, {"newton", "full"}, {"error", exact(std::pow(10, -2 * i))}}));
+    }
+  }
+  drawing.put("runs.csv", kRunColumns, rows);
+  for (int columns = 1; columns <= 4; ++columns) {
+    const Svg svg = drawing.draw(
+        "work_by.gp", fmt::format("variant='newton'; cases='kepler pendulum hires robertson'; columns={}", columns));
+    for (char panel = 'a'; panel <= 'd'; ++panel) EXPECT_GT(leastDistance(svg, panel), 40) << columns << panel;
+    EXPECT_NEAR(svg.marks('d', 1, kLog, kLog).back().x, 1e-16, 1e-17) << columns;
+  }
+}
+
+TEST(FigureLabels, OfTimesStayApartInThreePanels) {
+  Drawing drawing;
+  for (const double end : {1.0, 0.45, 0.3}) {
+    drawing.put(
+        fmt::format("until_{}.radau_iia_2.csv", end), {"t", "h"},
+        {{{"t", "0.0002"}, {"h", "0.0002"}}, {{"t", exact(end / 2)}, {"h", "0.1"}}, {{"t", exact(end)}, {"h", "0.2"}}});
+  }
+  const Svg svg = drawing.draw("step_size.gp", "cases='until_1 until_0.45 until_0.3'; methods='radau_iia_2'");
+  for (char panel = 'a'; panel <= 'c'; ++panel) {
+    EXPECT_GT(leastDistance(svg, panel), 35) << panel;
+    for (const auto& label : svg.panel(panel).x) EXPECT_LE(label.text.size(), 6u) << label.text;
+  }
+}
+
+// Curve 1 is the line of the first choice.
+TEST(FigureCurves, CostRatio) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* scene, const char* control, const char* error, const char* cost) {
+    rows.push_back({{"scene", scene},
+                    {"settings", ""},
+                    {"control", control},
+                    {"estimate", "doubling"},
+                    {"target_error", error},
+                    {"cpu_s", cost},
+                    {"residuals", exact(100 * std::sqrt(std::atof(cost)))}});
+  };
+  const std::vector<std::string> columns = {"scene",        "settings", "control",  "estimate",
+                                            "target_error", "cpu_s",    "residuals"};
+  for (const char* error : {"1e-4", "1e-6"}) add("kepler", "paper", error, "0.04");
+  add("kepler", "hotint", "1e-4", "0.01");
+  add("kepler", "hotint", "1e-6", "0.08");
+  add("kepler", "predictive", "1e-4", "0.06");
+  add("kepler", "predictive", "1e-6", "nan");
+  add("pendulum", "paper", "1e-4", "2");
+  add("pendulum", "hotint", "1e-4", "3");
+  rows.push_back(rows.front());
+  rows.back()["estimate"] = "richardson";  // excluded by `only`
+  rows.back()["cpu_s"] = "77";
+  drawing.put("cpu_at_error.csv", columns, rows);
+  const std::string options = "variant='control'; only='estimate=doubling'; ";
+  const Svg svg = drawing.draw("cost_ratio.gp", options + "cases='kepler pendulum'");
+  expectPoints(svg.marks('a', 2, kLog, kLog), {{1e-6, 2}, {1e-4, 0.25}}, "hotint over paper", 0.02);
+  expectPoints(svg.marks('a', 3, kLog, kLog), {{1e-4, 1.5}}, "predictive over paper", 0.02);
+  const auto lost = svg.marks('a', 5, kLog, kLog);
+  ASSERT_EQ(lost.size(), 1u) << "the error that paper reaches and predictive does not";
+  EXPECT_NEAR(lost[0].x, 1e-6, 1e-7);
+  EXPECT_GT(lost[0].y, 2);
+  EXPECT_EQ(svg.occurrences("<text>not reached</text>"), 1);
+  const Svg other =
+      drawing.draw("cost_ratio.gp", options + "cases='kepler'; costs='cpu_s residuals'; variants='hotint paper'");
+  expectPoints(other.marks('a', 2, kLog, kLog), {{1e-6, 0.5}, {1e-4, 4}}, "paper over hotint", 0.02);
+  expectPoints(other.marks('b', 2, kLog, kLog), {{1e-6, std::sqrt(0.5)}, {1e-4, 2}}, "in residuals", 0.02);
+  EXPECT_EQ(other.occurrences("not reached"), 0);
+}
+
+TEST(FigureLabels, RobustnessCountsTheRunsOfABar) {
+  Drawing drawing;
+  const auto row = [](const char* integrator, const char* runs, const char* right, const char* wrong) {
+    return Cells{{"collection", "ivp"}, {"integrator", integrator}, {"tolerance", "1e-4"},
+                 {"runs", runs},        {"right", right},           {"failed", "0"},
+                 {"wrong", wrong},      {"unjudged", "0"}};
+  };
+  drawing.put("robustness.csv",
+              {"collection", "integrator", "tolerance", "runs", "right", "failed", "wrong", "unjudged"},
+              {row("variable", "17", "13", "4"), row("gsl_bsimp", "1", "0", "1")});
+  const Svg svg = drawing.draw("robustness.gp", "");
+  EXPECT_EQ(svg.occurrences(">17</tspan>"), 1) << "the runs of a bar of variable";
+  EXPECT_EQ(svg.occurrences(">4</tspan>"), 1) << "its wrong successes";
+  EXPECT_EQ(svg.occurrences(">1</tspan>"), 2) << "runs and wrong successes of gsl_bsimp";
+  EXPECT_GE(svg.occurrences("fill=\"rgb(255,255,255)\""), 1) << "white on a bar that is red";
+}
+
+TEST(FigureLabels, ManySwitchesAreMarkedByShortLines) {
+  Drawing drawing;
+  const auto put = [&](int switches) {
+    std::vector<Cells> rows;
+    for (int i = 0; i <= switches; ++i) {
+      rows.push_back({{"t", exact(0.1 * i)}, {"h", "0.1"}, {"u", exact(i)}, {"switches", i == 0 ? "" : "contact"}});
+    }
+    drawing.put("arm.radau_iia_5.csv", {"t", "h", "u", "switches"}, rows);
+    return drawing.draw("scene_solution.gp", "scene='arm'");
+  };
+  const Svg few = put(6), many = put(30);
+  EXPECT_EQ(few.occurrences("dashed lines: contact"), 1);
+  EXPECT_EQ(many.occurrences("dashed lines"), 0);
+  EXPECT_EQ(many.occurrences("short lines: contact"), 1);
+}
+
+}  // namespace
+}  // namespace irk
