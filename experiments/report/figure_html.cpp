@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,12 +31,23 @@ std::pair<double, double> sizeOf(const std::filesystem::path& svg) {
   return {after("width=\""), after("height=\"")};
 }
 
-// The files that the figure is drawn from, as far as they exist: those that its script reads, or the solutions of the
-// scenes and cases that it names.
+// The value of `file_name='...'`; empty without it.
+std::string fileNameOf(const std::string& assignments) {
+  constexpr std::string_view kKey = "file_name='";
+  const auto at = assignments.find(kKey);
+  if (at == assignments.npos) return {};
+  const auto from = at + kKey.size();
+  return assignments.substr(from, assignments.find('\'', from) - from);
+}
+
+// The files that the figure is drawn from, as far as they exist: those that its script reads, the one that it names, or
+// the solutions of its scenes and cases.
 std::vector<std::string> tablesOf(const Figure& figure, const ReportOptions& options) {
   const auto folder = options.results / figure.study;
   std::vector<std::string> names = readScript(options.home, std::filesystem::path(figure.script).stem()).tables;
-  if (names.empty()) {
+  if (const auto file = fileNameOf(figure.assignments); !file.empty()) {
+    names = {file + ".csv"};
+  } else if (names.empty()) {
     std::string words = figure.assignments;
     std::replace_if(
         words.begin(), words.end(), [](char c) { return c == '\'' || c == '=' || c == ';'; }, ' ');
@@ -55,6 +67,11 @@ std::vector<std::string> tablesOf(const Figure& figure, const ReportOptions& opt
   return names;
 }
 
+// A title that ends as a sentence does, such as a question, needs no full stop.
+const char* stopAfter(const std::string& title) {
+  return !title.empty() && std::string_view(".?!").find(title.back()) != std::string_view::npos ? "" : ".";
+}
+
 }  // namespace
 
 std::string figureHtml(const Figure& figure, const ReportOptions& options) {
@@ -67,11 +84,11 @@ std::string figureHtml(const Figure& figure, const ReportOptions& options) {
   }
   return fmt::format(
       "<figure id=\"{0}\"{1}><div class=\"canvas\"><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" "
-      "alt=\"Diagram: {2}\"{3} loading=\"lazy\"></a></div>\n<figcaption><b>{2}.</b> {4}<br>{5}<a "
+      "alt=\"Diagram: {2}\"{3} loading=\"lazy\"></a></div>\n<figcaption><b>{2}{7}</b> {4}<br>{5}<a "
       "href=\"figures/{0}.png\">PNG</a>"
       "<details><summary>Draw it again</summary><code>{6}</code></details></figcaption></figure>\n",
       figure.name, width > kWide ? " class=\"wide\"" : "", escapeHtml(figure.title), size, escapeHtml(figure.caption),
-      tables, escapeHtml(shellCommand(figure, options)));
+      tables, escapeHtml(shellCommand(figure, options)), stopAfter(figure.title));
 }
 
 }  // namespace irk

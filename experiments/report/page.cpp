@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/base/input_file.h"
 #include "experiments/analyses/orders/order_fit.h"
+#include "experiments/analyses/results.h"
 #include "experiments/base/html.h"
 #include "experiments/claims/claims.h"
 #include "experiments/claims/claims_html.h"
@@ -48,6 +50,24 @@ StudyTexts textsOf(const std::string& id, const ReportOptions& options) {
     return {text("title"), text("question")};
   }
   return {keptFigures(options.results, id).title, {}};
+}
+
+// What the clock rate did while the times of `runs` were measured; empty without doubts.
+std::string driftHtml(const std::filesystem::path& runs) {
+  const std::string drift = timesDrift(runs);
+  if (drift.empty()) return {};
+  constexpr std::string_view kUpTo = "up to ";
+  double most = 0;  // of several hosts
+  for (auto at = drift.find(kUpTo); at != drift.npos; at = drift.find(kUpTo, at + 1)) {
+    most = std::max(most, std::strtod(drift.c_str() + at + kUpTo.size(), nullptr));
+  }
+  const std::string rate =
+      most > 0 ? fmt::format(
+                     "the clock rate of this machine changed by a factor of up to {:.2f} during the study; "
+                     "ratios of times below that mean little where they stand alone",
+                     most)
+               : "they are doubtful";
+  return fmt::format("<p class=\"note drift\"><b>Times:</b> {} ({}). Counts are exact.</p>\n", rate, escapeHtml(drift));
 }
 
 // The page made of the results of one program.
@@ -175,7 +195,8 @@ std::string Page::section(const std::string& study) const {
   } catch (const Misuse& old) {  // a table of another version
     html += fmt::format("<p>{}</p>\n", escapeHtml(old.what()));
   }
-  return html + tableLinks(study) + ordersOf(study) + ratiosOf(study) + figuresOf(study) + "</section>\n";
+  return html + driftHtml(folder(study) / "runs.csv") + tableLinks(study) + ordersOf(study) + ratiosOf(study) +
+         figuresOf(study) + "</section>\n";
 }
 
 std::string Page::studies() const {

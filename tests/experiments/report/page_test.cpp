@@ -135,6 +135,41 @@ TEST_F(ReportPage, AnswersFirst) {
   EXPECT_FALSE(std::filesystem::exists(results_ / "report" / "answers_solver.csv")) << "there is nothing to say";
 }
 
+TEST_F(ReportPage, SaysWhereTheClockRateChanged) {
+  EXPECT_EQ(page().find("the clock rate"), std::string::npos);
+  const auto file = results_ / "scenes" / "runs.csv";
+  Table runs = readTable(file);
+  runs.head.emplace_back("times drift",
+                         "37 % of the calibrations on a take more than 1.1 times its least one, up to 1.27; "
+                         "20 % of the calibrations on b take more than 1.1 times its least one, up to 1.87");
+  writeTable(file, runs);
+  const std::string html = page();
+  const auto at = html.find("the clock rate of this machine changed by a factor of up to 1.87");
+  ASSERT_NE(at, html.npos);
+  EXPECT_GT(at, html.find("id=\"study_scenes\""));
+  EXPECT_EQ(html.find("the clock rate", at + 1), html.npos) << "not in the sections of other studies";
+}
+
+// A question in bold has no second stop; a figure of one named file links that file only.
+TEST_F(ReportPage, CaptionsEndOnceAndLinkWhatIsDrawn) {
+  for (const auto* file : {"stick_slip.radau_iia_5.csv", "stick_slip_Fs_1_k_100_v0_0_vb_0_x0_0.105.radau_iia_5.csv"}) {
+    std::ofstream(results_ / "scenes" / file) << "t,q1\n0,1\n";
+  }
+  std::filesystem::create_directories(results_ / "discontinuity");
+  for (const auto* figure : {"scene_coulomb_decay", "discontinuity_locate"}) {
+    std::ofstream(results_ / "report" / "figures" / (std::string(figure) + ".png")) << "";
+    std::ofstream(results_ / "report" / "figures" / (std::string(figure) + ".svg")) << "<svg width=\"640\">";
+  }
+  const std::string html = page();
+  const auto of = [&](const char* id) {
+    const auto from = html.find("<figure id=\"" + std::string(id) + "\"");
+    return from == html.npos ? std::string() : html.substr(from, html.find("</figure>", from) - from);
+  };
+  EXPECT_TRUE(containsAll(of("scene_coulomb_decay"), {"x0_0.105.radau_iia_5.csv", "<b>Scene: Coulomb decay.</b>"}));
+  EXPECT_EQ(of("scene_coulomb_decay").find("stick_slip.radau_iia_5.csv"), std::string::npos);
+  EXPECT_TRUE(containsAll(of("discontinuity_locate"), {"<b>Located switches: does high order pay again?</b>"}));
+}
+
 TEST_F(ReportPage, NamesEachEnvironmentOnce) {
   const std::string html = page();
   EXPECT_TRUE(containsAll(html, {"A processor", "An OS; Eigen 3", "7.5"}));
