@@ -33,6 +33,23 @@ void replacePlaceholder(std::string& page, std::string_view placeholder, std::st
   }
 }
 
+namespace {
+
+constexpr std::string_view kNoBreak = "&nbsp;";
+
+// A cell with no other spaces is kept in one line by its style, so that paper, which is narrow, may break it.
+bool isKept(const std::string& cell) { return cell.find(kNoBreak) != cell.npos && cell.find(' ') == cell.npos; }
+
+std::string breakable(std::string cell) {
+  if (isKept(cell)) replacePlaceholder(cell, kNoBreak, " ");
+  return cell;
+}
+
+// Phones leave out cells without a value.
+std::string cellClass(const std::string& cell) { return cell == "–" ? "none" : isKept(cell) ? "keep" : ""; }
+
+}  // namespace
+
 std::string htmlOf(const HtmlTable& table) {
   if (table.rows.empty()) return {};
   const std::string caption = escapeHtml(table.caption);
@@ -49,7 +66,8 @@ std::string htmlOf(const HtmlTable& table) {
     html += fmt::format("<tr{}{}>", attribute("class", row.css_class), attribute("id", row.id));
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const auto title = i < table.titles.size() ? table.titles[i] : std::string();
-      html += fmt::format("<td data-label=\"{}\"><div>{}</div></td>", escapeHtml(title), row.cells[i]);
+      html += fmt::format("<td{} data-label=\"{}\"><div>{}</div></td>", attribute("class", cellClass(row.cells[i])),
+                          escapeHtml(title), breakable(row.cells[i]));
     }
     html += "</tr>\n";
   }

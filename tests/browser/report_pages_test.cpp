@@ -144,6 +144,31 @@ TEST_F(ReportInBrowser, FitsAPhone) {
   }
 }
 
+// Chromium shrinks all pages of a print to the widest thing on them. A4 with margins of 12 mm is 703 px wide.
+TEST_F(ReportInBrowser, FitsPaper) {
+  constexpr int kPaper = 703;
+  const auto width = drive(pages().front(), "", R"(
+    for (const box of page.querySelectorAll("details")) box.open = true;
+    for (const sheet of page.styleSheets) {
+      for (const rule of sheet.cssRules) if (rule.media && rule.media.mediaText === "print") rule.media.mediaText = "all";
+    }
+    return Math.max(page.documentElement.scrollWidth, ...[...page.querySelectorAll("table")].map(table => table.scrollWidth));)",
+                           kPaper);
+  EXPECT_LE(width, kPaper);
+}
+
+// On a phone a row is a block; cells without a value take no line of it.
+TEST_F(ReportInBrowser, LeavesOutMissingValuesOnAPhone) {
+  const auto seen = drive(pages().front(), "", R"(
+    for (const box of page.querySelectorAll("details")) box.open = true;
+    const cells = [...page.querySelectorAll("table.data td")], missing = cells.filter(cell => cell.textContent.trim() === "–");
+    return { cells: cells.length, missing: missing.length, seen: missing.filter(cell => cell.offsetHeight > 0).length };)",
+                          400);
+  ASSERT_GT(seen["missing"], 0);
+  EXPECT_GT(seen["cells"], seen["missing"]);
+  EXPECT_EQ(seen["seen"], 0);
+}
+
 // For the eye: in the build's folder, with the run's name.
 TEST_F(ReportInBrowser, IsPhotographed) {
   const std::filesystem::path shots = IRK_SCREENSHOTS;
