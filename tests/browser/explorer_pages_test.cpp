@@ -235,5 +235,71 @@ TEST_F(ExplorerInBrowser, NamesARunAndItsCommand) {
   EXPECT_TRUE(containsAll(seen["command"], {"irk solve van_der_pol --method radau_iia_5", "--tol 0.001"}));
 }
 
+// Envelopes belong to ours against peers, unless they were asked for.
+TEST_F(ExplorerInBrowser, TakesTheEnvelopesOfAViewAwayAgain) {
+  const Json seen = driven("view=all", R"(
+    const click = view => page.querySelector(`[data-view=${view}]`).click();
+    const envelopes = () => page.querySelectorAll("#panels .envelope").length;
+    const seen = {};
+    click("peers"); seen.peers = envelopes();
+    click("all"); seen.left = envelopes();
+    tick(page, "envelope"); seen.wanted = envelopes();
+    click("peers"); click("all"); seen.kept = envelopes();
+    return seen;)");
+  EXPECT_EQ(seen["peers"], 4);
+  EXPECT_EQ(seen["left"], 0);
+  EXPECT_EQ(seen["wanted"], 2) << "one in each panel";
+  EXPECT_EQ(seen["kept"], 2);
+  const Json linked = driven("view=peers&envelope=1", R"(
+    page.querySelector("[data-view=all]").click();
+    return page.querySelectorAll("#panels .envelope").length;)");
+  EXPECT_EQ(linked, 0);
+}
+
+TEST_F(ExplorerInBrowser, SaysWithWhatItCompares) {
+  const Json seen = driven("view=best", R"(
+    const text = () => page.querySelector("#cheapest p").textContent, best = text();
+    page.querySelector("[data-view=all]").click();
+    return { best, all: text() };)");
+  EXPECT_TRUE(containsAll(seen["best"], {"the best of the next family needs"}));
+  EXPECT_TRUE(containsAll(seen["all"], {"the next solver needs"}));
+}
+
+// A long title takes two lines on a phone and stays on the screen.
+TEST_F(ExplorerInBrowser, CutsNoTitleOnAPhone) {
+  Table runs = madeUpRuns();
+  for (auto& row : runs.rows) row[runs.column("error_over_time")] = row[runs.column("error")];
+  write(runs);
+  const Json seen = drive(page_, "view=all", R"(
+    const svg = [...page.querySelectorAll("#panels svg")].pop(), box = svg.getBoundingClientRect();
+    const lines = [...svg.querySelectorAll(".title_below")];
+    const boxes = lines.map(line => line.getBoundingClientRect());
+    return { text: lines.map(line => line.textContent).join(" "), left: Math.min(...boxes.map(b => b.left - box.left)),
+             right: Math.max(...boxes.map(b => b.right - box.right)), low: Math.max(...boxes.map(b => b.bottom - box.bottom)) };)",
+                          320);
+  EXPECT_TRUE(containsAll(seen["text"], {"error, largest at the reference times", "failed runs: tolerance"}));
+  EXPECT_GE(seen["left"], -0.5);
+  EXPECT_LE(seen["right"], 0.5);
+  EXPECT_LE(seen["low"], 12) << "the next panel is not hidden";
+}
+
+TEST_F(ExplorerInBrowser, CapsItsLegend) {
+  Table runs = madeUpRuns();
+  const auto rows = runs.rows;
+  for (int k = 1; k <= 30; ++k) {
+    for (auto row : rows) {
+      if (row[runs.column("method")] != "radau_iia_3") continue;
+      row[runs.column("newton")] = "modified";
+      row[runs.column("contractivity_limit")] = fmt::format("{}", 0.01 * k);
+      runs.rows.push_back(row);
+    }
+  }
+  write(runs);
+  const std::string legend = driven("view=all", "return page.getElementById('legend').innerText;");
+  EXPECT_TRUE(containsAll(legend, {"radau_iia_3", "and 10 more"}));
+  const Json entries = driven("view=all", "return page.querySelectorAll('#legend li').length;");
+  EXPECT_EQ(entries, 24 + 1 + 2) << "solvers, the rest, failed and wrong";
+}
+
 }  // namespace
 }  // namespace irk
