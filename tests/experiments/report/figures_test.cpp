@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -45,6 +46,14 @@ TEST(Figures, ShowEveryScene) {
     if (entry.registered) continue;  // by another test
     EXPECT_TRUE(solved.contains(entry.id)) << entry.id;
     EXPECT_TRUE(shown.contains(entry.id)) << entry.id;
+  }
+}
+
+// Titles and captions are read on the page, where nobody sets formulas: 10⁻², not 10^{-2} or 1e-2.
+TEST(Figures, HaveNoRawNotation) {
+  const std::regex raw("\\^|[{}]|[0-9]e[-+]?[0-9]");
+  for (const auto& figure : readFigures(plots() / "figures.txt")) {
+    EXPECT_FALSE(std::regex_search(figure.title + " " + figure.caption, raw)) << figure.name << ": " << figure.caption;
   }
 }
 
