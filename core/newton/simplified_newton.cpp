@@ -94,7 +94,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
-    double eta = std::pow(std::max(eta_, roundOff<Real>()), 0.8);
+    double eta = std::pow(std::max(eta_, roundOff<Real>()), 0.8), of_step = eta;
     double previous = 0;
     if (updates_) updates_->begin(theta_ > kWorthUpdates);
     for (int m = 0; m < limit; ++m) {
@@ -105,22 +105,24 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
         const double theta = previous > 0 ? norm / previous : 0;
-        if (!updates_ || m == 1) result.theta = theta_ = theta;
+        // From the third increment on a theta of round-off tells nothing.
+        const bool tells = m == 1 || norm > kRoundOffUnits * this->round_off_;
+        if ((!updates_ && tells) || m == 1) result.theta = theta_ = theta;
         // At round-off increments no longer contract; above it this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
-        eta = etaOf(theta);
+        eta = of_step = etaOf(theta);
         const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > limit_.kappa;
         if (theta >= 0.99 || slow) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
           return result;
         }
-        if (m > 1 && slowest_ == kUnknownTheta) slowest_ = theta;
+        if (m > 1 && tells && slowest_ == kUnknownTheta) slowest_ = theta;
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
-        if (m > 1) slowest_ = theta;
+        if (m > 1 && tells) slowest_ = theta;
       }
       if (eta * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
-        eta_ = eta;
+        eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
       }
       previous = norm;
