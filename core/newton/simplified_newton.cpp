@@ -105,9 +105,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
         const double theta = previous > 0 ? norm / previous : 0;
-        // From the third increment on a theta of round-off tells nothing.
-        const bool tells = m == 1 || norm > kRoundOffUnits * this->round_off_;
-        if ((!updates_ && tells) || m == 1) result.theta = theta_ = theta;
+        // An increment of round-off is at least as large as the next one would be: its theta is an upper bound.
+        const bool is_bound = m > 1 && norm <= kRoundOffUnits * this->round_off_;
+        if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
         // At round-off increments no longer contract; above it this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
         eta = of_step = etaOf(theta);
@@ -117,9 +117,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
           result.round_off = norm;
           return result;
         }
-        if (m > 1 && tells && slowest_ == kUnknownTheta) slowest_ = theta;
+        if (m > 1 && slowest_ == kUnknownTheta) slowest_ = theta;
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
-        if (m > 1 && tells) slowest_ = theta;
+        if (m > 1) slowest_ = theta;
       }
       if (eta * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
