@@ -15,8 +15,8 @@ class DrawnRows {
  public:
   /// Links all files of `results` but runs.csv, of which it writes the rows and columns that `figure` draws: those
   /// of its block, scene, cases and `only`, and the columns that its script names. If more than kMostRows are left and
-  /// the script has a line `# Thins by OPTION COLUMN ...`, a mark is left out if another one of the same curve, with the
-  /// same outcome, lies within a small part of a decade in these columns; the part grows until kMostRows are left.
+  /// the script has a line `# Thins by OPTION COLUMN ...`, a mark is left out if another one of the same curve, with
+  /// the same outcome, lies within a small part of a decade in these columns; the part grows until kMostRows are left.
   /// Throws Failure, Misuse.
   DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results);
   ~DrawnRows();
