@@ -30,6 +30,9 @@ class FreeSystem final : public System<double> {
   const System<double>& inner_;
 };
 
+// Of a step and its halves, until one is solved.
+constexpr int kMaxAttempts = 20;
+
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The arithmetic of simplified Newton's convergence test (core/newton/newton.cpp): the contraction, the error that
@@ -61,16 +64,17 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull, storageOf(spec.options)),
       at_(1),
       scheme_(setup.methods.members[setup.methods.start]),
+      options_(spec.options),
       equations_(*system_, scheme_, spec.options.summation, spec.options.threads),
       free_equations_(*free_, scheme_, spec.options.summation, 1),
       kind_(spec.options.solver),
       setup_{scheme_.implicitA(), nullptr, system_->rowPowers(), system_->sizes(), spec.options.threads},
       norm_(*system_, spec.options.tolerances, setup.scale),
-      switches_(*system_),
       controller_(makeController(spec.options.step, scheme_.tableau.order)),
       doubles_(doublesSteps(spec.options.step.estimate)),
-      whole_start_(spec.options.predictor, scheme_),
-      half_start_(spec.options.predictor, scheme_),
+      looks_again_(spec.options.step.estimate == ErrorEstimate::kRichardson && scheme_.s > 1),
+      shared_(counted_, scheme_, options_, counters_),
+      stepper_(counted_, scheme_, options_, shared_, norm_, counters_),
       row_weights_(system_->sizes().n()),
       factor_(Vec<double>::Ones(system_->sizes().components())),
       t_(scheme_.s) {
@@ -99,19 +103,20 @@ void NewtonKernel::moveTo(const State<double>& scene_state) {
 
 // Computes everything that follows from the state and h.
 void NewtonKernel::begin() {
-  W_ = W0_ = R_ = start_.w.replicate(1, scheme_.s);
+  W_ = R_ = start_.w.replicate(1, scheme_.s);
   t_.setConstant(start_.t);
   U_ = start_.u.replicate(1, scheme_.s);
   V_ = start_.v.replicate(1, scheme_.s);
   X_ = start_.x.replicate(1, scheme_.s);
   before_ = {&scheme_, start_.t - h_, h_, W_, true};
-  solved_ = {&scheme_, start_.t, h_, W_, true};
-  coarse_ = fine_ = middle_ = start_;
-  middle_.t += h_ / 2;
+  coarse_ = fine_ = start_;
   norm_.update(start_);
   norm_.rowWeights(h_, row_weights_);
   equations_.begin(start_, h_);
   free_equations_.begin(start_, h_);
+  solvable_h_ = h_;
+  stepper_.forget();
+  shared_.markStale();
 }
 
 void NewtonKernel::countResiduals(const RunSpec& spec) {
@@ -151,6 +156,7 @@ void NewtonKernel::factorize() {
 void NewtonKernel::iteration() {
   if (!equations_.residual(W_, R_)) throw Misuse("a residual is not finite");
   solver_->solve(R_.rightCols(scheme_.implicitStages()));
+  moveBy(R_);
 }
 
 void NewtonKernel::solve() {
@@ -160,29 +166,27 @@ void NewtonKernel::solve() {
 
 void NewtonKernel::update() {
   if (!free_equations_.residual(W_, R_)) throw Misuse("a start value is not finite");
-  W_ -= R_;
-  decided_ = newtonTest(norm_.increment(R_, scheme_.first, row_weights_));
+  moveBy(R_);
 }
 
-void NewtonKernel::solvedStep(StartValues<double>& start_values, const StagePolynomial<double>& past,
-                              const State<double>& from, double h, State<double>& end) {
-  free_equations_.begin(from, h);
-  start_values.fill(past, from, h, W_);
-  W0_ = W_;
-  norm_.rowWeights(h, row_weights_);
-  decided_ = std::pow(std::max(static_cast<double>(decided_), kEpsilon), 0.8);  // Newton's first eta
-  free_equations_.finish(W_, end);
-  if (!switches_.none()) static_cast<void>(switches_.settle(end));
-  solved_.W = W_;
+void NewtonKernel::moveBy(const Mat<double>& increment) {
+  W_ -= increment;
+  decided_ = newtonTest(norm_.increment(increment, scheme_.first, row_weights_));
+}
+
+Counters NewtonKernel::solveStep() {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt, solvable_h_ /= 2) {
+    counters_ = {};
+    const auto use = shared_.evaluatedAt(start_.t) ? JacobianUse::kKeep : JacobianUse::kRefreshIfStale;
+    if (stepper_.attempt(before_, start_, solvable_h_, coarse_, use).outcome == Outcome::kSuccess) return counters_;
+  }
+  throw Misuse("the step cannot be solved");
 }
 
 void NewtonKernel::step() {
   norm_.update(start_);
-  solvedStep(whole_start_, before_, start_, h_, coarse_);
   if (!doubles_) return;
-  // As in `Doubling`: both half steps take their start values from the stages of the whole step.
-  solvedStep(half_start_, solved_, start_, h_ / 2, fine_);
-  solvedStep(half_start_, solved_, middle_, h_ / 2, fine_);
+  for (std::int64_t i = 0; looks_again_ && i < solvedSteps(); ++i) decided_ = stepper_.roughness(start_);
   const double error = norm_.difference(coarse_, fine_, h_, factor_);
   if (controller_) decided_ = controller_->decide(error, h_).h;
 }

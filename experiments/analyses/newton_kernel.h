@@ -8,9 +8,8 @@
 #include "core/stage_solvers/stage_solver.h"
 #include "core/stages/error_norm.h"
 #include "core/stages/stage_equations.h"
-#include "core/stages/start_values.h"
+#include "core/steps/stepper.h"
 #include "core/system/counting.h"
-#include "core/system/switches.h"
 #include "experiments/runs/setup.h"
 
 namespace irk {
@@ -35,19 +34,24 @@ class NewtonKernel {
   void firstMatrices();
   void factorize();  ///< the Newton matrix of all stages. Throws Misuse if it is singular
   void solve();      ///< requires `factorize` before
-  void iteration();  ///< residuals of all stages and one solve
+  /// One iteration: the residuals of all stages, a solve, and `update`, each with what the one before gave. So it takes
+  /// longer than the sum of them alone, where the processor begins a call before the last one has ended.
+  void iteration();
   /// The rest of an iteration: the stages' u, v, x, row scaling, the increment, its norm, and the arithmetic of
   /// Newton's test.
   void update();
-  /// The rest of an attempted step: weights, start values, the step's end, switches, the error norm and the next step
-  /// size; with step doubling for the whole step and both halves.
+  /// One step of the scheme by the integrator's own stepper, with all of its Newton iterations, and what it counted.
+  /// If it fails it is halved. Throws Misuse if that does not help.
+  Counters solveStep();
+  /// The rest of an attempted step: weights, the error norm, the roughness of the stages and the next step size.
   void step();
 
   /// Evaluations of r, over the plain scalar, in one call of `jacobian` and of `firstMatrices`.
   std::int64_t residualsPerJacobian() const { return residuals_per_jacobian_; }
   std::int64_t residualsOfFirst() const { return residuals_of_first_; }
   bool sparse() const { return !at_.front().pattern->full; }
-  std::int64_t steppers() const { return doubles_ ? 2 : 1; }  ///< used by one attempt
+  std::int64_t steppers() const { return doubles_ ? 2 : 1; }     ///< used by one attempt
+  std::int64_t solvedSteps() const { return doubles_ ? 3 : 1; }  ///< in one attempt
 
  private:
   NewtonKernel(const Setup<double>& setup, const RunSpec& spec, double h);
@@ -55,33 +59,34 @@ class NewtonKernel {
   void countResiduals(const RunSpec& spec);
   void begin();
   void makeSolver();
-  void solvedStep(StartValues<double>& start_values, const StagePolynomial<double>& past, const State<double>& from,
-                  double h, State<double>& end);
+  void moveBy(const Mat<double>& increment);
 
   std::shared_ptr<const System<double>> system_;
   std::unique_ptr<const System<double>> free_;  // the same system with r = 0
   Counters counters_;
   CountingSystem<double> counted_;  // counts evaluations, as in an integrator
   State<double> start_;
-  double h_;
+  double h_, solvable_h_;  // the second one, or less, is that of `solveStep`
   Differentiator<double> differentiator_;
   std::vector<Linearization<double>> at_;
   Scheme<double> scheme_;
+  IntegratorOptions options_;
   StageEquations<double> equations_, free_equations_;
   StageSolverKind kind_;
   StageSolverSetup<double> setup_;
   std::unique_ptr<StageSolver<double>> solver_;
   ErrorNorm<double> norm_;
-  Switches<double> switches_;
   std::unique_ptr<StepController> controller_;
-  bool doubles_;  // whether the estimate is by step doubling
-  StartValues<double> whole_start_, half_start_;
-  StagePolynomial<double> before_, solved_;  // the previous step and this one
-  State<double> middle_, coarse_, fine_;
+  bool doubles_;      // whether the estimate is by step doubling
+  bool looks_again_;  // whether it looks at the roughness of the stages
+  SharedJacobian<double> shared_;
+  Stepper<double> stepper_;
+  StagePolynomial<double> before_;  // the previous step
+  State<double> coarse_, fine_;
   Vec<double> row_weights_, factor_, t_;
   Mat<double> U_, V_, X_;        // at all stages
   volatile double decided_ = 0;  // keeps the compiler from removing unused results
-  Mat<double> ones_, rhs_, W_, W0_, R_;
+  Mat<double> ones_, rhs_, W_, R_;
   std::int64_t residuals_per_jacobian_ = 0, residuals_of_first_ = 0;
 };
 

@@ -30,7 +30,7 @@ constexpr double kMinBatch = 2e-3;
 // kMaxSeconds: disturbances only add time, and more to a whole run than to its parts, whose code and data stay in
 // the cache.
 constexpr int kRounds = 5;
-constexpr double kMaxSeconds = 10;
+constexpr double kMaxSeconds = 3;
 constexpr double kMinCovered = 0.9, kMaxCovered = 1.1;
 
 constexpr std::array<std::string_view, 7> kParts = {"residual", "jacobian", "factorization", "solve",
@@ -53,12 +53,24 @@ class PhaseMeasurement {
 
   Index unknowns() const { return kernel_.unknowns(); }
   double runSeconds() const { return run_s_; }
-  const Parts& each() const { return each_; }
+  /// Seconds of each part.
+  Parts each() const {
+    // Each part alone begins before its last call has ended; in an iteration it waits for the part before it. So the
+    // parts of an iteration are stretched to its time.
+    Parts parts = each_;
+    auto& [residual, jacobian, factorization, solve, update, step, start] = parts;
+    const double alone = static_cast<double>(kernel_.stages()) * residual + solve + update;
+    const double stretch = std::max(iteration_s_ / alone, 1.0);
+    for (double* part : {&residual, &solve, &update}) *part *= stretch;
+    step += static_cast<double>(kernel_.solvedSteps()) * std::max(solved_step_s_ - partsOf(solved_step_, parts), 0.0);
+    return parts;
+  }
 
   /// The total time of each part in the run.
   Parts total() const {
     Parts parts = counts();
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] *= each_[i];
+    const Parts seconds = each();
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] *= seconds[i];
     return parts;
   }
 
@@ -113,11 +125,22 @@ class PhaseMeasurement {
     take(factorization, [this] { kernel_.factorize(); });
     take(solve, [this] { kernel_.solve(); });
     take(update, [this] { kernel_.update(); });
+    take(iteration_s_, [this] { kernel_.iteration(); });
     take(step, [this] { kernel_.step(); });
+    take(solved_step_s_, [this] { solved_step_ = kernel_.solveStep(); });
     // One Jacobian and the first factorizations are counted under their own names; the rest is the search for the
     // pattern and its analysis.
     const auto factors = static_cast<double>(kernel_.sparse() ? kernel_.steppers() : 0);
     start = std::min(start, begin + std::max(first - jacobian - factors * factorization, 0.0));
+  }
+
+  // The time of what a step counted; of a Jacobian by differences, the residuals are part of it.
+  double partsOf(const Counters& step, const Parts& parts) const {
+    const auto& [residual, jacobian, factorization, solve, update, rest, start] = parts;
+    const std::int64_t residuals = step.residuals - step.jacobians * kernel_.residualsPerJacobian();
+    const auto time = [](std::int64_t count, double seconds) { return static_cast<double>(count) * seconds; };
+    return time(residuals, residual) + time(step.jacobians, jacobian) + time(step.factorizations, factorization) +
+           time(step.solves, solve) + time(step.newton_iterations, update);
   }
 
   // How often the run used each part. Residuals inside difference quotients belong to the Jacobian; those of
@@ -141,7 +164,9 @@ class PhaseMeasurement {
   std::unique_ptr<PreparedRun> run_, start_;
   Counters counters_, start_counters_;
   Parts each_ = filled();
-  double run_s_ = std::numeric_limits<double>::infinity();
+  double run_s_ = std::numeric_limits<double>::infinity(), iteration_s_ = run_s_;
+  double solved_step_s_ = run_s_;  // of the integrator's stepper, with what it counted
+  Counters solved_step_;
 
   static Parts filled() {
     Parts parts;
