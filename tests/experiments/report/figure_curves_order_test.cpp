@@ -87,6 +87,27 @@ TEST(FigureCurves, EstimateRatio) {
   expectPoints(svg.line('b', 2, kLog, kLog), {{0.2, 0.5}, {0.1, 1}}, "richardson v", 2e-2);
 }
 
+TEST(FigureCurves, Contraction) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* scene, const char* iterations, double c1, double c2) {
+    rows.push_back({{"scene", scene},
+                    {"settings", ""},
+                    {"iterations", iterations},
+                    {"c1", exact(c1)},
+                    {"c2", exact(c2)},
+                    {"c3", "nan"}});
+  };
+  for (const double c : {0.1, 0.2, 0.4}) add("pendulum", "4", c, c / 10);
+  add("pendulum", "3", 5, 5);  // too few iterations to be shown
+  for (const double c : {0.5, 0.5, 0.5}) add("kepler", "5", c, 2 * c);
+  drawing.put("contractions.csv", {"scene", "settings", "iterations", "c1", "c2", "c3", "c4", "c5", "c6"}, rows);
+  const Svg svg = drawing.draw("contraction.gp", "limit=0.3");
+  expectPoints(svg.line('a', 3, kLin, kLog), {{1, 0.2}, {2, 0.02}}, "pendulum's medians", 2e-2);
+  expectPoints(svg.line('b', 3, kLin, kLog), {{1, 0.5}, {2, 1}}, "kepler's medians", 2e-2);
+  EXPECT_NEAR(svg.line('a', 1, kLin, kLog).front().y, 0.3, 6e-3) << "the limit";
+}
+
 TEST(FigureCurves, FailureMap) {
   Drawing drawing;
   std::vector<Cells> rows;
