@@ -24,13 +24,18 @@ enum class StartCheck {
   kNone,         ///< for a restart after a switch: the constraints are violated by the drift so far
 };
 
-/// Makes any number of states of one system consistent. Owns derivatives, factors and scratch.
+/// Makes any number of states of one system consistent. Constraints are judged by the change of (u, v) that would meet
+/// them, relative to |u|, |v| and their scales, as IDACalcIC of SUNDIALS does (Brown, Hindmarsh & Petzold, SIAM J. Sci.
+/// Comput. 19, 1998): neither units nor a factor of a constraint matter. Owns derivatives, factors and scratch.
 template <class Real>
 class ConsistentStart {
  public:
   /// Keeps a reference to the system. `w_required`: if (a, k, z) cannot be determined, the given values have to
   /// satisfy the residual. `counters`, if given, count the Jacobians; they must live as long as this object.
-  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required, Counters* counters = nullptr);
+  /// `scale`: typical magnitudes > 0 of u, v, x, z (2 nu + nx + nz numbers), relative to which constraints are judged;
+  /// empty means 1. Throws Misuse for another length.
+  ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required, Counters* counters = nullptr,
+                  const Vec<double>& scale = {});
 
   /// Resets all history before a new integration: results are then bitwise those of a new object.
   void forgetPattern() { differentiator_.forgetPattern(); }
@@ -47,8 +52,9 @@ class ConsistentStart {
   std::string applyAtEnd(State<Real>& state);
 
  private:
-  StartReport checkConstraints(const State<Real>& state);
-  StartReport determine(State<Real>& state, const char* place, double tolerated);
+  StartReport evaluateConstraints(const State<Real>& state);
+  StartReport judgeConstraints(const State<Real>& state);
+  StartReport determine(State<Real>& state, const char* place, StartCheck check, double tolerated);
   StartReport keep(const State<Real>& state, const char* place);
   bool factorize();
   void solve();
@@ -61,6 +67,8 @@ class ConsistentStart {
   RateLu<Real> lu_;  // for a sparse pattern
   Eigen::FullPivLU<Mat<Real>> dense_lu_;
   Vec<Real> r_, dw_, given_;
+  Vec<double> scale_;                // of u, v, x, z
+  Vec<double> violation_, allowed_;  // of g, then of dg/dt
 };
 
 }  // namespace irk

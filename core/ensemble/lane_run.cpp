@@ -47,7 +47,7 @@ Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
     return Outcome::kNotFinite;
   }
   const CountingSystem<double> counted(*member_.system, counters_);
-  ConsistentStart<double> consistent(counted, options_.derivatives, false, &counters_);
+  ConsistentStart<double> consistent(counted, options_.derivatives, false, &counters_, member_.scale);
   const StartReport report = consistent.apply(start_);
   detail_ = report.detail;
   if (report.outcome != Outcome::kSuccess) return report.outcome;

@@ -58,7 +58,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       order_(attempt_->order()),
       controller_(makeController(options.step, order_)),
       modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
-      start_(system, options.derivatives, schemes[start].first > 0, &counters),
+      start_(system, options.derivatives, schemes[start].first > 0, &counters, scale),
       constraints_(system, norm_, options.tolerances),
       rest_(system, norm_, start_),
       switches_(system),

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "core/base/small_size.h"
+#include "core/system/component_scale.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -26,13 +26,8 @@ ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& toleran
     : sizes_(system.sizes()),
       powers_(system.errorPowers()),
       tolerances_(tolerances),
-      scale_(scale.size() == 0 ? Vec<double>::Ones(sizes_.components()) : scale),
-      weight_(Vec<double>::Ones(sizes_.components())) {
-  if (scale_.size() != sizes_.components()) {
-    throw Misuse("scale has " + std::to_string(scale_.size()) + " entries, the system has " +
-                 std::to_string(sizes_.components()) + " components (u, v, x, z)");
-  }
-}
+      scale_(componentScale(sizes_, scale)),
+      weight_(Vec<double>::Ones(sizes_.components())) {}
 
 template <class Real>
 void ErrorNorm<Real>::update(const State<Real>& y) {

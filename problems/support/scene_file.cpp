@@ -207,7 +207,7 @@ void solveRates(const System<Real>& system, State<Real>& state) {
 template <class Real>
 void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
-  ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true);
+  ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true, nullptr, scene.scale);
   StartReport report = consistent.apply(scene.start);
   if (report.outcome == Outcome::kInconsistentStart) {
     solveRates(*system, scene.start);

@@ -49,8 +49,9 @@ std::unique_ptr<SceneProblem> problemOf(const PeerEntry& entry, const Scene<doub
   if (!determined && !entry.takesConstraints()) {
     refuse("it solves y' = f(t, y), and the scene's index is above 1: D0 is singular");
   }
-  auto problem = makeProblem(formOf(entry, scene, spec), system, system.fromScene(scene.start),
-                             {spec.options.derivatives, spec.options.storage, determined});
+  auto problem = makeProblem(
+      formOf(entry, scene, spec), system, system.fromScene(scene.start),
+      {spec.options.derivatives, spec.options.storage, determined, toleranceScale(scene, spec, system.sizes())});
   const auto& index = problem->layout().index;
   if (std::any_of(index.begin(), index.end(), [&entry](int i) { return i > entry.max_index; })) {
     refuse(fmt::format("it solves up to index {}", entry.max_index));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/system/counting.h"
+#include "irk/misuse.h"
 #include "tests/core/support.h"
 
 namespace irk::test {
@@ -84,6 +86,89 @@ TEST(ConsistentStart, WhatCannotBeDeterminedIsKeptWhereItMayBe) {
   EXPECT_EQ(start(Equation::kNone, 2, 0.7, true).report.outcome, Outcome::kInconsistentStart);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(start(Equation::kNone, nan, 0.7, false).report.outcome, Outcome::kNotFinite);
+}
+
+/// A pendulum of length l in units of which `unit` are one metre; its constraint is multiplied by `factor`.
+struct PendulumIn {
+  double unit, factor;
+  Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 1, .constraints = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T force = p.z[0] * factor;
+    r.u[0] = -p.a[0] - p.u[0] * force;
+    r.u[1] = -p.a[1] - 9.81 * unit - p.u[1] * force;
+  }
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    g[0] = (u[0] * u[0] + u[1] * u[1] - unit * unit) * (0.5 * factor);
+  }
+};
+
+/// A start whose length is off by the part `du`, and whose velocity has the part `dv` along the rod.
+Outcome pendulumOutcome(const PendulumIn& problem, Formulation formulation, double du, double dv) {
+  const auto system = makeSystem<double>(problem, {formulation});
+  const double m = problem.unit;
+  State<double> scene(problem.sizes());
+  scene.u << 0.6 * m * (1 + du), -0.8 * m * (1 + du);
+  scene.v << (0.8 + 0.6 * dv) * m, (0.6 - 0.8 * dv) * m;
+  State<double> state = system->fromScene(scene);
+  Vec<double> scale = Vec<double>::Ones(system->sizes().components());
+  scale.head(4).setConstant(m);
+  return ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false, nullptr, scale).apply(state).outcome;
+}
+
+// Off by a thousandth is a mistake, off by 1e-8 is a start given with eight digits.
+TEST(ConsistentStart, ConstraintsAreJudgedAlikeInAllUnits) {
+  for (const double unit : {1e-10, 1e-3, 1.0, 1e3, 1e6}) {
+    for (const double factor : {1.0, 1e-9, 1e9}) {
+      for (const Formulation f : {Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl}) {
+        const PendulumIn problem{unit, factor};
+        const auto outcome = [&](double du, double dv) { return name(pendulumOutcome(problem, f, du, dv)); };
+        SCOPED_TRACE(testing::Message() << idOf(f) << ", unit " << unit << ", factor " << factor);
+        EXPECT_EQ(outcome(0, 0), "success");
+        EXPECT_EQ(outcome(1e-12, 1e-12), "success");
+        EXPECT_EQ(outcome(1e-8, 1e-8), "success");
+        EXPECT_EQ(outcome(1e-3, 0), "inconsistent_start");
+        EXPECT_EQ(outcome(0, 1e-3), "inconsistent_start");
+        EXPECT_EQ(outcome(-1e-6, 0), "inconsistent_start");
+        EXPECT_EQ(outcome(0, -1e-6), "inconsistent_start");
+      }
+    }
+  }
+}
+
+// The scale decides where the start is zero: a mechanism at rest, whose constraint moves slowly.
+TEST(ConsistentStart, TheScaleJudgesWhatIsZero) {
+  const auto outcome = [](double v, double scale) {
+    const PendulumIn problem{1, 1};
+    const auto system = makeSystem<double>(problem, {});
+    State<double> state(problem.sizes());
+    state.u << 1, 0;
+    state.v << v, 0;
+    Vec<double> scales(5);
+    scales << 1, 1, scale, scale, 1;
+    return ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false, nullptr, scales).apply(state).outcome;
+  };
+  EXPECT_EQ(outcome(1e-9, 1), Outcome::kSuccess);
+  EXPECT_EQ(outcome(1e-9, 1e-3), Outcome::kInconsistentStart);
+  EXPECT_EQ(outcome(1e-5, 1e3), Outcome::kSuccess);
+  EXPECT_EQ(outcome(1e-5, 1), Outcome::kInconsistentStart);
+}
+
+TEST(ConsistentStart, ConstraintsAreJudgedWithTheJacobianThatIsMadeAnyway) {
+  const auto system = makeSystem<double>(CartesianPendulum{}, {});
+  State<double> state = pendulumStart<double>();
+  Counters counters;
+  const CountingSystem<double> counted(*system, counters);
+  EXPECT_EQ(ConsistentStart<double>(counted, DerivativeSource::kAutomatic, false, &counters).apply(state).outcome,
+            Outcome::kSuccess);
+  EXPECT_EQ(counters.jacobians, 1);
+}
+
+TEST(ConsistentStart, AScaleOfAnotherLengthIsRefused) {
+  const auto system = makeSystem<double>(CartesianPendulum{}, {});
+  const Vec<double> scale = Vec<double>::Ones(3);
+  EXPECT_THROW(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false, nullptr, scale), Misuse);
 }
 
 }  // namespace

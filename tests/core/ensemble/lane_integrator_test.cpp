@@ -163,6 +163,21 @@ TEST(LaneIntegrator, RefusesAnInconsistentStartAsARow) {
   EXPECT_NE(lanes[1].detail.find("constraint"), std::string::npos) << lanes[1].detail;
 }
 
+TEST(LaneIntegrator, JudgesAStartRelativeToTheScale) {
+  Members<LongPendulum> members{{1, 1.5}, 1};
+  Ensemble ensemble = members.ensemble();
+  ensemble.member = [&members](std::size_t i) {
+    EnsembleMember member = members.member(i);
+    member.start.v.setConstant(1e-5);
+    member.scale = Vec<double>::Ones(5);
+    if (i == 1) member.scale.segment(2, 2).setConstant(1e3);
+    return member;
+  };
+  const auto lanes = inLanes(ensemble, inOrder(2), "radau_iia_3", lanesAt(1e-3));
+  EXPECT_EQ(lanes[0].outcome, Outcome::kInconsistentStart);
+  EXPECT_EQ(lanes[1].outcome, Outcome::kSuccess) << lanes[1].detail;
+}
+
 TEST(LaneIntegrator, StopsWhenItIsTold) {
   const Members<ForcedOscillator> members{spread(0.5, 300, 20), 5};
   LaneIntegrator integrator(makeTableau<double>("radau_iia_3"), lanesAt(kTolerance));

@@ -146,6 +146,20 @@ TEST(Integrator, AnInconsistentStartIsNamed) {
   EXPECT_NE(s.detail.find("dg/dt = 0.1"), std::string::npos) << s.detail;
 }
 
+TEST(Integrator, AStartIsJudgedRelativeToTheScale) {
+  State<double> slow = pendulumStart<double>();
+  slow.v[0] = 1e-5;
+  const auto outcome = [&](double scale_of_v) {
+    Vec<double> scale(5);
+    scale << 1, 1, scale_of_v, scale_of_v, 1;
+    Integrator<double> integrator(makeSystem<double>(CartesianPendulum{}), makeTableau<double>("radau_iia_2"),
+                                  adaptive(1e-3), scale);
+    return name(integrator.integrate(slow, 0.0).outcome);
+  };
+  EXPECT_EQ(outcome(1), "inconsistent_start");
+  EXPECT_EQ(outcome(1e3), "success");
+}
+
 TEST(Integrator, TheStartGetsItsAccelerationsAndMultiplier) {
   State<double> start = pendulumStart<double>();
   start.v[1] = -2;  // lambda = |v|^2 - g y = 4, a = (-4, -9.81)

@@ -46,5 +46,34 @@ TEST(CompleteStart, RefusesAStartThatTheEquationsContradict) {
   }
 }
 
+// Two coordinates on a circle of radius `m`.
+template <class Real>
+struct OnCircle {
+  double m;
+  Sizes sizes() const { return {.nu = 2, .nz = 1, .constraints = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    for (Index i = 0; i < 2; ++i) r.u[i] = -p.a[i] - p.u[i] * p.z[0];
+  }
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    g[0] = u[0] * u[0] + u[1] * u[1] - m * m;
+  }
+};
+
+TEST(CompleteStart, JudgesConstraintsRelativeToTheScale) {
+  for (const double m : {1e-3, 1.0, 1e6}) {
+    const auto complete = [m](double off) {
+      Scene<double> scene;
+      setProblem(scene, OnCircle<double>{m});
+      setComponents(scene, {{"x", "m", m, m}, {"y", "m", m, m}}, {}, {{"lambda"}});
+      scene.start.u << 0.6 * m * (1 + off), 0.8 * m * (1 + off);
+      completeStart(scene);
+    };
+    EXPECT_NO_THROW(complete(1e-12)) << m;
+    EXPECT_THROW(complete(1e-3), Misuse) << m;
+  }
+}
+
 }  // namespace
 }  // namespace irk

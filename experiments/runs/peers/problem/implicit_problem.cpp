@@ -8,6 +8,7 @@ ImplicitProblem::ImplicitProblem(const System<double>& system, const ProblemOpti
     : SceneProblem(system),
       derivatives_(options.derivatives),
       determined_(options.determined),
+      scale_(options.scale),
       dense_(isDense(options.storage, sizes_.n())),
       differentiator_(system, options.derivatives, JacobianTerms::kFull, options.storage) {}
 
@@ -42,7 +43,7 @@ void ImplicitProblem::setLayout(bool rates) {
 
 StartReport ImplicitProblem::makeConsistent(State<double>& state, bool new_run) {
   const auto check = new_run ? StartCheck::kConstraints : StartCheck::kNone;
-  const StartReport report = ConsistentStart<double>(system_, derivatives_, true).apply(state, check);
+  const StartReport report = ConsistentStart<double>(system_, derivatives_, true, nullptr, scale_).apply(state, check);
   d_ = state.d;
   if (new_run) differentiator_.forgetPattern();
   return report;

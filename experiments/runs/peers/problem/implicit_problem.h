@@ -21,7 +21,9 @@ class ImplicitProblem : public SceneProblem {
   Point<double> point(double t, const double* y, const double* a, const double* k, const double* z) const;
 
   DerivativeSource derivatives_;
-  bool determined_, dense_;
+  bool determined_;
+  Vec<double> scale_;
+  bool dense_;
   Differentiator<double> differentiator_;
   Linearization<double> D_;
   Assembly assembly_;

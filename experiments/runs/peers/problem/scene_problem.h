@@ -19,6 +19,7 @@ struct ProblemOptions {
   DerivativeSource derivatives = DerivativeSource::kAutomatic;
   Storage storage = Storage::kAutomatic;  ///< of Jacobians
   bool determined = true;                 ///< (a, k, z) follow from (u, v, x), so that no index is above 1
+  Vec<double> scale = {};                 ///< magnitudes of u, v, x, z; empty means 1
 };
 
 /// Translates between a system's states and y, counts evaluations, and asks now and then whether the run is over.
