@@ -3,13 +3,15 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/derivatives/constraint_check.h"
 #include "core/system/component_scale.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
 
-// A start given with eight digits is accepted; larger violations count as mistakes.
+// Relative to the magnitudes of (u, v, x): a start given with eight digits is accepted; larger violations count as
+// mistakes.
 constexpr double kConstraintTolerance = 1e-7;
 constexpr int kIterations = 50;
 // The derivatives are kept while each correction is at most this part of the one before.
@@ -51,9 +53,7 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
       r_(system.sizes().n()),
       dw_(system.sizes().n()),
       given_(system.sizes().n()),
-      scale_(componentScale(system.sizes(), scale)),
-      violation_(2 * system.sizes().constraints),
-      allowed_(violation_.size()) {}
+      scale_(componentScale(system.sizes(), scale)) {}
 
 // Returns false if D0 is singular. For a dense D0 this is decided by full pivoting.
 template <class Real>
@@ -79,66 +79,38 @@ void ConsistentStart<Real>::solve() {
   }
 }
 
-// Writes g and dg/dt to violation_. Fails if a residual is not finite.
+// Checks that all residuals are finite and that the constraints hold.
 template <class Real>
-StartReport ConsistentStart<Real>::evaluateConstraints(const State<Real>& state) {
-  const Sizes n = system_.sizes();
+StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
   const double t = static_cast<double>(state.t);
-  const VecView<Real> rows(r_.data(), n.n());
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
-    system_.evaluate(level, pointOf(state), rows);
-    for (Index i = 0; i < n.n(); ++i) {
+    system_.evaluate(level, pointOf(state), VecView<Real>(r_.data(), r_.size()));
+    for (Index i = 0; i < r_.size(); ++i) {
       const double value = static_cast<double>(r_[i]);
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
     }
-    const Index first = level == Level::kPosition ? 0 : n.constraints;
-    for (Index i = 0; i < n.constraints; ++i) {
-      violation_[first + i] = static_cast<double>(r_[n.nu + n.nx + i]);
-    }
   }
-  return {};
-}
-
-// Compares g and dg/dt with the changes of G u and G v for a small relative change of all u and v. G = dg/du are the
-// columns of a in the rows d2g/dt2 of D0.
-template <class Real>
-StartReport ConsistentStart<Real>::judgeConstraints(const State<Real>& state) {
-  const Sizes n = system_.sizes();
-  const Index nu = system_.sceneSizes().nu, first = n.nu + n.nx;
-  const Index a = system_.secondOrder() ? 0 : nu;  // a system of first order has x = (u, v, ...) and k = (v, a, ...)
-  const auto changeOf = [&](Index i) {
-    const Real& y = i < n.nu ? state.u[i] : i < 2 * n.nu ? state.v[i - n.nu] : state.x[i - 2 * n.nu];
-    return kConstraintTolerance * (scale_[i] + std::abs(static_cast<double>(y)));
+  Vec<double> weights = scale_;
+  const auto add = [&](const Vec<Real>& part, Index offset) {
+    for (Index i = 0; i < part.size(); ++i) weights[offset + i] += std::abs(static_cast<double>(part[i]));
   };
-  allowed_.setZero();
-  for (Index j = 0; j < nu; ++j) {
-    const double du = changeOf(j), dv = changeOf(nu + j);
-    D_.pattern->forEachInBlock(first, n.constraints, a + j, 1, [&](Index k) {
-      const Index i = D_.pattern->row[static_cast<std::size_t>(k)] - first;
-      const double G = std::abs(static_cast<double>(D_.d0[k]));
-      allowed_[i] += G * du;
-      allowed_[n.constraints + i] += G * dv;
-    });
-  }
-  for (Index i = 0; i < violation_.size(); ++i) {
-    if (std::abs(violation_[i]) <= allowed_[i]) continue;
-    const bool position = i < n.constraints;
-    return report(Outcome::kInconsistentStart, kStart, static_cast<double>(state.t),
-                  first + (position ? i : i - n.constraints), position ? "constraint g" : "constraint rate dg/dt",
-                  violation_[i], allowed_[i]);
-  }
-  return {};
+  add(state.u, 0);
+  add(state.v, state.u.size());
+  add(state.x, 2 * state.u.size());
+  const std::string violated = constraintViolation<Real>(system_, state, weights * kConstraintTolerance, 1);
+  if (violated.empty()) return {};
+  return {Outcome::kInconsistentStart, std::string(kStart) + ": " + violated, true};
 }
 
 template <class Real>
 StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   if (check == StartCheck::kConstraints) {
-    const StartReport finite = evaluateConstraints(state);
-    if (finite.outcome != Outcome::kSuccess) return finite;
+    const StartReport checked = checkConstraints(state);
+    if (checked.outcome != Outcome::kSuccess) return checked;
   }
   given_ = state.w;
   const char* const place = check == StartCheck::kConstraints ? kStart : kConsistent;
-  StartReport found = determine(state, place, check, kConstraintTolerance);
+  StartReport found = determine(state, place, kConstraintTolerance);
   if (found.outcome != Outcome::kSuccess) state.w = given_;
   return found.outcome == Outcome::kSingular ? keep(state, place) : found;
 }
@@ -146,7 +118,7 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
 template <class Real>
 std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
   given_ = state.w;
-  const StartReport found = determine(state, kConsistent, StartCheck::kNone, 0);
+  const StartReport found = determine(state, kConsistent, 0);
   if (found.outcome == Outcome::kSuccess) return {};
   state.w = given_;
   if (found.outcome == Outcome::kSingular) {
@@ -155,12 +127,10 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
   return "multipliers of the stages: " + found.detail;
 }
 
-// Newton's method for state.w. The first derivatives judge the constraints, if they are checked: evaluateConstraints
-// has been called. Returns kSingular if D0 is singular. If Newton does not converge, a residual up to `tolerated`,
-// relative to 1 + |w|, is accepted.
+// Newton's method for state.w. Returns kSingular if D0 is singular. If Newton does not converge, a residual up to
+// `tolerated`, relative to 1 + |w|, is accepted.
 template <class Real>
-StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, StartCheck check,
-                                             double tolerated) {
+StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, double tolerated) {
   const double t = static_cast<double>(state.t);
   const VecView<Real> rows(r_.data(), r_.size());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
@@ -181,10 +151,6 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
         return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)", static_cast<double>(D_.d0.sum()));
-      }
-      if (i == 0 && check == StartCheck::kConstraints) {
-        const StartReport judged = judgeConstraints(state);
-        if (judged.outcome != Outcome::kSuccess) return judged;
       }
       if (!factorize()) {
         std::ostringstream text;

@@ -24,9 +24,7 @@ enum class StartCheck {
   kNone,         ///< for a restart after a switch: the constraints are violated by the drift so far
 };
 
-/// Makes any number of states of one system consistent. Constraints are judged by the change of (u, v) that would meet
-/// them, relative to |u|, |v| and their scales, as IDACalcIC of SUNDIALS does (Brown, Hindmarsh & Petzold, SIAM J. Sci.
-/// Comput. 19, 1998): neither units nor a factor of a constraint matter. Owns derivatives, factors and scratch.
+/// Makes any number of states of one system consistent. Owns derivatives, factors and scratch.
 template <class Real>
 class ConsistentStart {
  public:
@@ -52,9 +50,8 @@ class ConsistentStart {
   std::string applyAtEnd(State<Real>& state);
 
  private:
-  StartReport evaluateConstraints(const State<Real>& state);
-  StartReport judgeConstraints(const State<Real>& state);
-  StartReport determine(State<Real>& state, const char* place, StartCheck check, double tolerated);
+  StartReport checkConstraints(const State<Real>& state);
+  StartReport determine(State<Real>& state, const char* place, double tolerated);
   StartReport keep(const State<Real>& state, const char* place);
   bool factorize();
   void solve();
@@ -67,8 +64,7 @@ class ConsistentStart {
   RateLu<Real> lu_;  // for a sparse pattern
   Eigen::FullPivLU<Mat<Real>> dense_lu_;
   Vec<Real> r_, dw_, given_;
-  Vec<double> scale_;                // of u, v, x, z
-  Vec<double> violation_, allowed_;  // of g, then of dg/dt
+  Vec<double> scale_;  // of u, v, x, z
 };
 
 }  // namespace irk

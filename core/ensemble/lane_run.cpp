@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/derivatives/consistent_start.h"
+#include "core/derivatives/constraint_check.h"
 #include "core/estimates/embedded.h"
-#include "core/integration/constraint_check.h"
 #include "core/integration/rest_check.h"
 #include "core/system/counting.h"
 #include "irk/system_check.h"
@@ -143,7 +143,7 @@ Solution<double> LaneRun::success(State<double> state) {
   if (system.sizes().constraints > 0) {
     ErrorNorm<double> norm(system, options_.tolerances, member_.scale);
     norm.update(state);
-    note = ConstraintCheck<double>(counted, norm, options_.tolerances).violation(state);
+    note = constraintViolation<double>(counted, state, norm.weights(), allowedDrift(options_.tolerances));
     if (!note.empty()) outcome = Outcome::kDrift;
   }
   if (outcome == Outcome::kSuccess && options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/derivatives/constraint_check.h"
 #include "core/estimates/accumulation.h"
 #include "irk/multiprecision.h"
 
@@ -59,7 +60,6 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       controller_(makeController(options.step, order_)),
       modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
       start_(system, options.derivatives, schemes[start].first > 0, &counters, scale),
-      constraints_(system, norm_, options.tolerances),
       rest_(system, norm_, start_),
       switches_(system),
       inside_(system),
@@ -267,7 +267,8 @@ template <class Real>
 Solution<Real> Trajectory<Real>::success() {
   if (controller_) {
     norm_.update(state_);
-    const std::string violation = constraints_.violation(state_);
+    const std::string violation =
+        constraintViolation(system_, state_, norm_.weights(), allowedDrift(options_.tolerances));
     if (!violation.empty()) return solution(Outcome::kDrift, violation);
   }
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;

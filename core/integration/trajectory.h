@@ -9,7 +9,6 @@
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/projection.h"
 #include "core/estimates/step_attempt.h"
-#include "core/integration/constraint_check.h"
 #include "core/integration/inside_attempt.h"
 #include "core/integration/rest_check.h"
 #include "core/steps/modes.h"
@@ -78,7 +77,6 @@ class Trajectory {
   std::unique_ptr<StepController> controller_;  // null: fixed steps
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;
-  ConstraintCheck<Real> constraints_;
   RestCheck<Real> rest_;
   /// Index 3: positions and velocities obey their constraints to the error of a step only, of which the short
   /// steps after a restart would make velocities and accelerations. Null in other formulations.

@@ -155,14 +155,41 @@ TEST(ConsistentStart, TheScaleJudgesWhatIsZero) {
   EXPECT_EQ(outcome(1e-5, 1), Outcome::kInconsistentStart);
 }
 
-TEST(ConsistentStart, ConstraintsAreJudgedWithTheJacobianThatIsMadeAnyway) {
+// In eight digits its direction is (1, 1e-8), along which a fast mass moves by 1e-5.
+TEST(ConsistentStart, AFastStartMayBeGivenWithEightDigits) {
+  const auto system = makeSystem<double>(CartesianPendulum{}, {});
+  State<double> state = pendulumStart<double>();
+  state.u[1] = 1e-8;
+  state.v[1] = 1e3;
+  EXPECT_EQ(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).apply(state).outcome,
+            Outcome::kSuccess);
+  state.u[1] = 1e-5;
+  EXPECT_EQ(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).apply(state).outcome,
+            Outcome::kInconsistentStart);
+}
+
+// g and dg/dt, and Newton's method, which needs one correction and a look at the next.
+TEST(ConsistentStart, JudgingTakesNoCountedEvaluations) {
   const auto system = makeSystem<double>(CartesianPendulum{}, {});
   State<double> state = pendulumStart<double>();
   Counters counters;
   const CountingSystem<double> counted(*system, counters);
   EXPECT_EQ(ConsistentStart<double>(counted, DerivativeSource::kAutomatic, false, &counters).apply(state).outcome,
             Outcome::kSuccess);
+  EXPECT_EQ(counters.residuals, 4);
   EXPECT_EQ(counters.jacobians, 1);
+}
+
+TEST(ConsistentStart, ConstraintsOfTheFirstOrderFormAreJudged) {
+  const auto system = makeSystem<double>(CartesianPendulum{}, {Formulation::kFirstOrder});
+  State<double> scene = pendulumStart<double>();
+  const auto outcome = [&] {
+    State<double> state = system->fromScene(scene);
+    return ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false).apply(state).outcome;
+  };
+  EXPECT_EQ(outcome(), Outcome::kSuccess);
+  scene.u[0] = 1.01;
+  EXPECT_EQ(outcome(), Outcome::kInconsistentStart);
 }
 
 TEST(ConsistentStart, AScaleOfAnotherLengthIsRefused) {
