@@ -4,15 +4,17 @@
 #include <sstream>
 
 #include "core/derivatives/constraint_check.h"
+#include "core/derivatives/weighted_changes.h"
 #include "core/system/component_scale.h"
+#include "core/system/counting.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
 
-// Relative to the magnitudes of (u, v, x): a start given with eight digits is accepted; larger violations count as
+// Relative to the magnitudes of the components: a start given with eight digits is accepted; larger violations count as
 // mistakes.
-constexpr double kConstraintTolerance = 1e-7;
+constexpr double kStartTolerance = 1e-7;
 constexpr int kIterations = 50;
 // The derivatives are kept while each correction is at most this part of the one before.
 constexpr double kKeepBelow = 1e-3;
@@ -79,6 +81,22 @@ void ConsistentStart<Real>::solve() {
   }
 }
 
+// How much each component may be off. The rates a and k have the scales of v and x.
+template <class Real>
+State<double> ConsistentStart<Real>::weightsOf(const State<Real>& state) const {
+  const Sizes n = system_.sizes();
+  State<double> weights(n);
+  const auto weigh = [](const auto& part, const auto& scale) -> Vec<double> {
+    return kStartTolerance * (scale + part.template cast<double>().cwiseAbs());
+  };
+  const Index rates = n.nu + n.nx;
+  weights.u = weigh(state.u, scale_.head(n.nu));
+  weights.v = weigh(state.v, scale_.segment(n.nu, n.nu));
+  weights.x = weigh(state.x, scale_.segment(2 * n.nu, n.nx));
+  weights.w << weigh(state.w.head(rates), scale_.segment(n.nu, rates)), weigh(state.z(), scale_.tail(n.nz));
+  return weights;
+}
+
 // Checks that all residuals are finite and that the constraints hold.
 template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
@@ -90,14 +108,10 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
     }
   }
-  Vec<double> weights = scale_;
-  const auto add = [&](const Vec<Real>& part, Index offset) {
-    for (Index i = 0; i < part.size(); ++i) weights[offset + i] += std::abs(static_cast<double>(part[i]));
-  };
-  add(state.u, 0);
-  add(state.v, state.u.size());
-  add(state.x, 2 * state.u.size());
-  const std::string violated = constraintViolation<Real>(system_, state, weights * kConstraintTolerance, 1);
+  const State<double> weights = weightsOf(state);
+  Vec<double> of_uvx(weights.carry.size());
+  of_uvx << weights.u, weights.v, weights.x;
+  const std::string violated = constraintViolation<Real>(system_, state, of_uvx, 1);
   if (violated.empty()) return {};
   return {Outcome::kInconsistentStart, std::string(kStart) + ": " + violated, true};
 }
@@ -110,7 +124,7 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   }
   given_ = state.w;
   const char* const place = check == StartCheck::kConstraints ? kStart : kConsistent;
-  StartReport found = determine(state, place, kConstraintTolerance);
+  StartReport found = determine(state, place, kStartTolerance);
   if (found.outcome != Outcome::kSuccess) state.w = given_;
   return found.outcome == Outcome::kSingular ? keep(state, place) : found;
 }
@@ -176,19 +190,27 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
 // Keeps the given (a, k, z) if they are not required or satisfy the residual.
 template <class Real>
 StartReport ConsistentStart<Real>::keep(const State<Real>& state, const char* place) {
-  system_.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(r_.data(), r_.size()));
-  const Index worst = worstRow(r_);
-  const double t = static_cast<double>(state.t), value = static_cast<double>(r_[worst]);
-  if (!std::isfinite(value)) {
-    return report(Outcome::kNotFinite, place, t, worst, "residual", value);
+  const auto residual = [this](const System<Real>& system, const State<Real>& at) {
+    system.evaluate(Level::kFormulated, pointOf(at), VecView<Real>(r_.data(), r_.size()));
+    return r_;
+  };
+  const Vec<Real> r = residual(system_, state);
+  const double t = static_cast<double>(state.t);
+  const Index worst = worstRow(r);
+  if (!std::isfinite(static_cast<double>(r[worst]))) {
+    return report(Outcome::kNotFinite, place, t, worst, "residual", static_cast<double>(r[worst]));
   }
-  if (!w_required_ || std::abs(value) <= kConstraintTolerance) {
-    return {Outcome::kSuccess, {}, false};
+  if (!w_required_) return {Outcome::kSuccess, {}, false};
+  const Vec<double> allowed = weightedChanges(state, weightsOf(state), r,
+                                              [&](const State<Real>& at) { return residual(uncounted(system_), at); });
+  for (Index i = 0; i < r.size(); ++i) {
+    const double value = static_cast<double>(r[i]);
+    if (std::abs(value) <= allowed[i]) continue;
+    return report(Outcome::kInconsistentStart, place, t, i,
+                  "accelerations cannot be determined (D0 is singular) and the given ones leave the residual", value,
+                  allowed[i]);
   }
-  return report(Outcome::kInconsistentStart, place, t, worst,
-                "accelerations cannot be determined (D0 is singular) and the given ones leave the "
-                "residual",
-                value, kConstraintTolerance);
+  return {Outcome::kSuccess, {}, false};
 }
 
 IRK_INSTANTIATE_CLASS(ConsistentStart)

@@ -30,7 +30,7 @@ class ConsistentStart {
  public:
   /// Keeps a reference to the system. `w_required`: if (a, k, z) cannot be determined, the given values have to
   /// satisfy the residual. `counters`, if given, count the Jacobians; they must live as long as this object.
-  /// `scale`: typical magnitudes > 0 of u, v, x, z (2 nu + nx + nz numbers), relative to which constraints are judged;
+  /// `scale`: typical magnitudes > 0 of u, v, x, z (2 nu + nx + nz numbers), relative to which a start is judged;
   /// empty means 1. Throws Misuse for another length.
   ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required, Counters* counters = nullptr,
                   const Vec<double>& scale = {});
@@ -50,6 +50,7 @@ class ConsistentStart {
   std::string applyAtEnd(State<Real>& state);
 
  private:
+  State<double> weightsOf(const State<Real>& state) const;
   StartReport checkConstraints(const State<Real>& state);
   StartReport determine(State<Real>& state, const char* place, double tolerated);
   StartReport keep(const State<Real>& state, const char* place);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <sstream>
 
 #include "core/derivatives/first_order.h"
+#include "core/derivatives/weighted_changes.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
 
@@ -21,15 +21,11 @@ constexpr double kAllowed = 10;
 constexpr double kFinest = 1e-12;
 constexpr double kCoarsest = 0.1;
 
-// Random directions over which the squares of a constraint's changes are averaged: no row is blind to all of them.
-constexpr int kSamples = 8;
-
 template <class Real>
 const System<Real>& constrainedIn(const System<Real>& system) {
-  if (const auto* counting = dynamic_cast<const CountingSystem<Real>*>(&system))
-    return constrainedIn(counting->inner());
-  const auto* first_order = dynamic_cast<const FirstOrderForm<Real>*>(&system);
-  return first_order ? first_order->inner() : system;
+  const System<Real>& inner = uncounted(system);
+  const auto* first_order = dynamic_cast<const FirstOrderForm<Real>*>(&inner);
+  return first_order ? first_order->inner() : inner;
 }
 
 // g or dg/dt.
@@ -41,30 +37,12 @@ Vec<Real> constraintsAt(const System<Real>& system, Level level, const State<Rea
   return r.segment(n.nu + n.nx, n.constraints);
 }
 
-// The root of the sum of squares of the changes that the components' weights make of the constraints.
 template <class Real>
-Vec<double> changes(const System<Real>& system, Level level, const State<Real>& state, const Vec<Real>& at_state,
-                    const Vec<double>& weights) {
-  std::minstd_rand random(1);
-  std::normal_distribution<double> normal;
-  Vec<double> squares = Vec<double>::Zero(at_state.size());
-  for (int k = 0; k < kSamples; ++k) {
-    State<Real> moved = state;
-    Index component = 0;
-    for (Vec<Real>* part : {&moved.u, &moved.v, &moved.x}) {
-      for (Real& y : *part) y += Real(normal(random) * weights[component++]);
-    }
-    const Vec<Real> change = constraintsAt(system, level, moved) - at_state;
-    squares += change.template cast<double>().cwiseAbs2() / kSamples;
-  }
-  return squares.cwiseSqrt();
-}
-
-template <class Real>
-std::string violationAt(const System<Real>& system, Level level, const State<Real>& state, const Vec<double>& weights,
+std::string violationAt(const System<Real>& system, Level level, const State<Real>& state, const State<double>& weights,
                         double allowed) {
-  const Vec<Real> r = constraintsAt(system, level, state);
-  const Vec<double> most = allowed * changes(system, level, state, r, weights);
+  const auto constraints = [&](const State<Real>& at) { return constraintsAt(system, level, at); };
+  const Vec<Real> r = constraints(state);
+  const Vec<double> most = allowed * weightedChanges(state, weights, r, constraints);
   for (Index i = 0; i < r.size(); ++i) {
     const double value = static_cast<double>(r[i]);
     if (std::abs(value) <= most[i]) continue;
@@ -84,8 +62,13 @@ std::string constraintViolation(const System<Real>& system, const State<Real>& s
   const System<Real>& constrained = constrainedIn(system);
   if (constrained.sizes().constraints == 0) return {};
   const State<Real> scene = system.sizes().constraints == 0 ? system.toScene(state) : state;
-  const std::string g = violationAt(constrained, Level::kPosition, scene, weights, allowed);
-  return g.empty() ? violationAt(constrained, Level::kVelocity, scene, weights, allowed) : g;
+  const Sizes n = constrained.sizes();
+  State<double> moves(n);
+  moves.u = weights.head(n.nu);
+  moves.v = weights.segment(n.nu, n.nu);
+  moves.x = weights.segment(2 * n.nu, n.nx);
+  const std::string g = violationAt(constrained, Level::kPosition, scene, moves, allowed);
+  return g.empty() ? violationAt(constrained, Level::kVelocity, scene, moves, allowed) : g;
 }
 
 double allowedDrift(const Tolerances& tolerances) {

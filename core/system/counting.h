@@ -58,4 +58,11 @@ class CountingSystem final : public System<Real> {
   int threads_;
 };
 
+/// The system that `system` counts, or `system` itself.
+template <class Real>
+const System<Real>& uncounted(const System<Real>& system) {
+  const auto* counting = dynamic_cast<const CountingSystem<Real>*>(&system);
+  return counting ? uncounted(counting->inner()) : system;
+}
+
 }  // namespace irk

@@ -192,6 +192,35 @@ TEST(ConsistentStart, ConstraintsOfTheFirstOrderFormAreJudged) {
   EXPECT_EQ(outcome(), Outcome::kInconsistentStart);
 }
 
+/// x' = c z with an algebraic unknown that the equations do not determine at once: x = `unit`.
+struct Unknown {
+  double unit;
+  Sizes sizes() const { return {.nx = 1, .nz = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.z[0] - p.k[0];
+    r.z[0] = (p.x[0] - unit) * 1e3;
+  }
+};
+
+TEST(ConsistentStart, AResidualThatIsKeptIsJudgedAlikeInAllUnits) {
+  for (const double unit : {1e-12, 1.0, 1e9}) {
+    const auto outcome = [unit](double x_off, double k_off) {
+      const auto system = makeSystem<double>(Unknown{unit}, {});
+      State<double> state(system->sizes());
+      state.x[0] = unit * (1 + x_off);
+      state.w << unit * (1 + k_off), unit;
+      const Vec<double> scale = Vec<double>::Constant(2, unit);
+      ConsistentStart<double> start(*system, DerivativeSource::kAutomatic, true, nullptr, scale);
+      return name(start.apply(state).outcome);
+    };
+    EXPECT_EQ(outcome(0, 0), "success") << unit;
+    EXPECT_EQ(outcome(1e-12, 1e-12), "success") << unit;
+    EXPECT_EQ(outcome(1e-3, 0), "inconsistent_start") << unit;
+    EXPECT_EQ(outcome(0, 1e-3), "inconsistent_start") << unit;
+  }
+}
+
 TEST(ConsistentStart, AScaleOfAnotherLengthIsRefused) {
   const auto system = makeSystem<double>(CartesianPendulum{}, {});
   const Vec<double> scale = Vec<double>::Ones(3);
