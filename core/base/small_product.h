@@ -6,14 +6,17 @@
 namespace irk {
 namespace detail {
 
+/// Square matrices of this size at most are unrolled by columns, too.
+inline constexpr Index kUnrolledColumns = 3;
+
 /// Computes N rows, out(:, j) = start(j) + sum_k A(:, k) B(k, j), with N accumulators in registers.
 template <Index N, class Real, class RightHand, class Start>
-void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Index out_stride, Index row,
-                 const Start& start) {
+[[gnu::always_inline]] inline void productRows(const Real* A, Index stride, const RightHand& B, Real* out,
+                                               Index out_stride, Index row, const Start& start) {
   // Small products are unrolled: the control of their loops would cost more than their arithmetic.
   constexpr Index kMaxInner = N <= 3 && std::is_same_v<Real, double> ? 9 : 0;
-  withSize<kMaxInner>(B.rows(), [&](auto inner) {
-    for (Index j = 0; j < B.cols(); ++j) {
+  const auto columns = [&](auto inner, auto count) {
+    for (Index j = 0; j < count; ++j) {
       Real sum[static_cast<std::size_t>(N)];
       for (Index i = 0; i < N; ++i) sum[i] = start(row + i, j);
       const Real* const b = B.data() + j * inner;
@@ -22,6 +25,14 @@ void productRows(const Real* A, Index stride, const RightHand& B, Real* out, Ind
       }
       for (Index i = 0; i < N; ++i) out[j * out_stride + i] = sum[i];
     }
+  };
+  withSize<kMaxInner>(B.rows(), [&](auto inner) {
+    if constexpr (!std::is_same_v<decltype(inner), Index>) {
+      if constexpr (decltype(inner)::value <= kUnrolledColumns) {
+        if (B.cols() == inner) return columns(inner, inner);
+      }
+    }
+    columns(inner, B.cols());
   });
 }
 

@@ -8,9 +8,10 @@
 namespace irk {
 
 /// Calls f(n). If n <= Most (at most 9), f gets n as a compile-time constant, so that the compiler unrolls the
-/// loops in f; otherwise f gets n as a plain number. f is written once for both cases.
+/// loops in f; otherwise f gets n as a plain number. f is written once for both cases. Always inlined: what f captures
+/// would else be stored and loaded again, which takes longer than a few entries.
 template <Index Most, class F>
-decltype(auto) withSize(Index n, const F& f) {
+[[gnu::always_inline]] inline decltype(auto) withSize(Index n, const F& f) {
   static_assert(Most <= 9);
   const auto at = [&](auto size) -> decltype(auto) {
     if constexpr (decltype(size)::value <= Most) {

@@ -118,7 +118,7 @@ template <int Parts, class Real, class Size>
 
 /// y := A y, A m x m by columns, m <= 2 kSmallInverse.
 template <class Real, class Size>
-void multiplySmall(const Real* A, Real* y, Size m) {
+[[gnu::always_inline]] inline void multiplySmall(const Real* A, Real* y, Size m) {
   constexpr auto kMax = static_cast<std::size_t>(2 * kSmallInverse);
   std::array<Real, kMax> even, odd;  // two independent sums: neither waits for the other
   for (Index i = 0; i < m; ++i) even[static_cast<std::size_t>(i)] = A[i] * y[0];

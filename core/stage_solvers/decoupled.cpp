@@ -244,20 +244,6 @@ template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
   const auto& block = form_.blocks[index];
   const Index i = block.start;
-  if (small_) {
-    withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
-      Real* const y = Y_.data() + i * n;
-      const Real* const inverse = inverses_[index].data();
-      if (block.size == 1) {
-        multiplySmall(inverse, y, n);
-      } else if constexpr (std::is_same_v<decltype(n), Index>) {
-        multiplySmall(inverse, y, 2 * n);
-      } else {
-        multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
-      }
-    });
-    return;
-  }
   if (block.size == 1) {
     real_lu_[lu_index_[index]].solve(Y_.col(i).data());
     return;
@@ -270,6 +256,30 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
     Y_(k, i) = eta_[k].real();
     Y_(k, i + 1) = eta_[k].imag() / block.sigma;
   }
+}
+
+// Multiplies by the inverses of the blocks. One decision on n serves for all loops.
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride) {
+  withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
+    smallProduct(rhs, stride, n, to_basis_, Y_.data(), n);
+    for (std::size_t k = form_.blocks.size(); k-- > 0;) {
+      const auto& block = form_.blocks[k];
+      if (!form_.diagonal) coupleRows(block);
+      Real* const y = Y_.data() + block.start * n;
+      const Real* const inverse = inverses_[k].data();
+      if (block.size == 1) {
+        multiplySmall(inverse, y, n);
+      } else if constexpr (std::is_same_v<decltype(n), Index>) {
+        multiplySmall(inverse, y, 2 * n);
+      } else {
+        multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
+      }
+      if (form_.diagonal || k == 0) continue;
+      for (Index j = block.start; j < block.start + block.size; ++j) multiply(j);
+    }
+    smallProduct(Y_.data(), n, n, from_basis_, rhs, stride);
+  });
 }
 
 template <class Real, template <class> class Lu>
@@ -294,6 +304,7 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
 
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
+  if (small_) return solveSmall(rhs.data(), rhs.outerStride());
   smallProduct<Real>(rhs, to_basis_, Y_);
   if (gathered_) together_->solve(lanes_);
   for (std::size_t k = form_.blocks.size(); k-- > 0 && !gathered_;) {

@@ -35,6 +35,7 @@ class Decoupled final : public StageSolver<Real> {
   void coupleRows(const typename BlockForm<Real>::Block& block);
   void multiply(Index column);
   void solveBlock(std::size_t index);
+  void solveSmall(Real* rhs, Index stride);
   Outcome invertBlock(std::size_t index);
 
   StageSolverSetup<Real> setup_;

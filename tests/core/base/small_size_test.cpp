@@ -31,6 +31,10 @@ TEST(SmallSize, ProductsOfEverySize) {
       Vec<double> one = Vec<double>::Constant(rows, 7.0);
       smallProduct<double>(A, B.col(1), one);
       EXPECT_LT((one - A * B.col(1)).norm(), 1e-14 * static_cast<double>(rows * inner));
+      const Mat<double> square = Mat<double>::Random(inner, inner);
+      Mat<double> all = Mat<double>::Constant(rows, inner, 7.0);
+      smallProduct<double>(A, square, all);
+      EXPECT_LT((all - A * square).norm(), 1e-14 * static_cast<double>(rows * inner * inner));
     }
   }
 }
