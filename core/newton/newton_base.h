@@ -75,7 +75,9 @@ class NewtonBase : public Newton<Real> {
     matrix.solve(R_.rightCols(R_.cols() - first_));
     VecView<Real> increment = implicit();
     if (updates) updates->apply(increment);
-    VecView<Real>(W.col(first_).data(), increment.size()) -= increment;
+    Real* const w = W.col(first_).data();
+    const Real* const d = increment.data();
+    for (Index i = 0; i < increment.size(); ++i) w[i] -= d[i];
     return c.norm.increment(R_, first_, row_weights_);
   }
   VecView<Real> implicit() { return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)}; }

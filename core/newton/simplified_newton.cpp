@@ -94,7 +94,8 @@ class SimplifiedNewton : public NewtonBase<Real> {
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
-    double eta = std::pow(std::max(eta_, roundOff<Real>()), 0.8), of_step = eta;
+    const double last = std::max(eta_, roundOff<Real>());
+    double eta = last, of_step = eta;
     double previous = 0;
     if (updates_) updates_->begin(theta_ > kWorthUpdates);
     for (int m = 0; m < limit; ++m) {
@@ -120,6 +121,8 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (m > 1 && slowest_ == kUnknownTheta) slowest_ = theta;
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
         if (m > 1) slowest_ = theta;
+      } else if (std::min(last, 1.0) * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
+        eta = of_step = std::pow(last, 0.8);  // at least min(last, 1): where that is too large, so is this
       }
       if (eta * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
