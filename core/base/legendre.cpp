@@ -53,8 +53,9 @@ template <class Real>
 void legendre(const Real& x, Eigen::Ref<Vec<Real>> p) {
   const Real X = Real(2) * x - Real(1);
   Real now(1), before(0);
+  const Table<Real>& known = table<Real>();
   for (Index k = 0; k < p.size(); ++k) {
-    const Coefficients<Real> c = table<Real>().at(k);
+    const Coefficients<Real> c = known.at(k);
     if (k > 0) {
       const Real next = c.up * X * now - c.down * before;
       before = now;

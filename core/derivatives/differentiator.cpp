@@ -182,6 +182,13 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
   if (colour == group.colours()) return check(change, out);
   const bool exact = source_ == DerivativeSource::kAutomatic;
   Real* const values[] = {out.d0.data(), out.d1.data(), out.d2.data()};
+  if (exact && !looked_) {
+    for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
+      const auto& entry = group.entries[e];
+      values[entry.matrix][entry.slot] = change(entry.row);
+    }
+    return;
+  }
   for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
     const auto& entry = group.entries[e];
     const Real value = change(entry.row);

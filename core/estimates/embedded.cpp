@@ -73,6 +73,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       stages_(stages),
       own_(jacobian, options.solver, filterSetup(system, mu_), counters),
       row_powers_(system.rowPowers()),
+      scaled_(std::any_of(row_powers_.begin(), row_powers_.end(), [](int power) { return power != 0; })),
       scales_(sizes_.n()),
       basis_(scheme.s),
       start_{atStart(scheme), scheme.A_transposed * atStart(scheme)},
@@ -95,7 +96,7 @@ template <class Real>
 Outcome EmbeddedEstimate<Real>::filter(const Real& h, EquationsAt at) {
   at_.w = defect_;
   system_.evaluate(Level::kFormulated, pointOf(at_), VecView<Real>(e_.data(), e_.rows()));
-  e_.col(0).array() *= scales_.array();
+  if (scaled_) e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
   if (at == EquationsAt::kGap) {
     const auto& powers = system_.errorPowers().z;
@@ -121,7 +122,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
                                       const AtStart& at_start, double again_above) -> Result {
   const Real& h = stages.h;
   Result result;
-  rowScales(row_powers_, h, scales_);
+  if (scaled_) rowScales(row_powers_, h, scales_);
   smallProduct<Real>(stages.W, at_start.weights, defect_);
   // v0 - V(0) = -h sum_j (A^T l)_j a_j
   smallProduct(stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
@@ -159,7 +160,7 @@ auto EmbeddedEstimate<Real>::missed(const StagePolynomial<Real>& stages, const V
                                     const Real& filter_h) -> Result {
   Result result;
   if (part <= Real(0)) return result;
-  rowScales(row_powers_, filter_h, scales_);
+  if (scaled_) rowScales(row_powers_, filter_h, scales_);
   smallProduct<Real>(stages.W, weights, defect_);
   slip_.setZero();
   const auto filtered = [&] {

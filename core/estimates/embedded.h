@@ -80,6 +80,7 @@ class EmbeddedEstimate {
   NewtonMatrix<Real>& stages_;
   NewtonMatrix<Real> own_;
   std::vector<int> row_powers_;
+  bool scaled_;  // whether any row is
   Vec<Real> scales_;
   Vec<Real> basis_;
   AtStart start_, lower_;  // of full and of lower degree

@@ -88,7 +88,7 @@ template <class Real>
 bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   place(W);
   const Index first = scheme_.first, s = scheme_.s;
-  R.leftCols(first).setZero();
+  if (first > 0) R.leftCols(first).setZero();
   const StagePoints<Real> at = points(W);
   if (threads_ > 1) {
 #pragma omp parallel for num_threads(threads_) schedule(static)
