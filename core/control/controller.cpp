@@ -135,10 +135,12 @@ class PredictiveController final : public StepController {
     rejected_ = true;
     failed_h_ = h;
     barred_ = kBarredSteps;
-    return h / 2;
+    const bool far_off = last_h_ == 0 && first_failures_++ > 0;
+    return far_off ? h * kFarOff : h / 2;
   }
   void forget() override {
     last_h_ = 0;
+    first_failures_ = 0;
     barred_ = 0;
     futile_ = 0;
     rejected_ = false;
@@ -157,6 +159,8 @@ class PredictiveController final : public StepController {
   static constexpr double kGrowAtMost = 8;
   static constexpr double kErrorFloor = 1e-2;
   static constexpr double kKeepUpTo = 1.2;
+  // After the second failure before any step is accepted: a first guess may be off by orders of magnitude.
+  static constexpr double kFarOff = 0.1;
   static constexpr double kFutile = 0.98;  // of error^exponent
   static constexpr int kFutileSteps = 40;  // in a row
   static constexpr int kBarredSteps = 10;
@@ -164,6 +168,7 @@ class PredictiveController final : public StepController {
   double exponent_, least_root_;       // and kErrorFloor^exponent
   double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
   double failed_h_ = 0;
+  int first_failures_ = 0;
   int barred_ = 0;
   int futile_ = 0;
   bool rejected_ = false;

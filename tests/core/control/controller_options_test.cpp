@@ -84,6 +84,19 @@ TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
 }
 
 // The later source of the paper's controller: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
+// Before a step is accepted the first guess may be off by orders of magnitude; later, and after one failure, it is not.
+TEST(Predictive, GoesDownFastWhereTheFirstStepFailsAgain) {
+  const auto controller = makeController(controlled(StepControl::kPredictive), 3);
+  for (int start = 0; start < 2; ++start) {
+    EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
+    EXPECT_NEAR(controller->afterFailure(0.05), 0.005, 1e-15);
+    EXPECT_NEAR(controller->afterFailure(0.005), 0.0005, 1e-15);
+    EXPECT_TRUE(controller->decide(0.5, 0.0005).accept);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
+    controller->forget();
+  }
+}
+
 TEST(Hotint, HasItsOwnExponentAndSafety) {
   const auto fresh = [](int p) { return makeController(controlled(StepControl::kHotint), p); };
   EXPECT_NEAR(fresh(2)->decide(0.05, 0.1).h, 0.1 * std::sqrt(10.0), 1e-13);
