@@ -83,7 +83,6 @@ TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
   EXPECT_GT(controller->decide(1e-6, 0.05).h, 0.1) << "a restart knows of no failure";
 }
 
-// The later source of the paper's controller: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
 // Before a step is accepted the first guess may be off by orders of magnitude; later, and after one failure, it is not.
 TEST(Predictive, GoesDownFastWhereTheFirstStepFailsAgain) {
   const auto controller = makeController(controlled(StepControl::kPredictive), 3);
@@ -97,6 +96,7 @@ TEST(Predictive, GoesDownFastWhereTheFirstStepFailsAgain) {
   }
 }
 
+// The later source of the paper's controller: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
 TEST(Hotint, HasItsOwnExponentAndSafety) {
   const auto fresh = [](int p) { return makeController(controlled(StepControl::kHotint), p); };
   EXPECT_NEAR(fresh(2)->decide(0.05, 0.1).h, 0.1 * std::sqrt(10.0), 1e-13);
