@@ -72,8 +72,8 @@ void requireSystem(const System<Real>* system, const Vec<double>& scale) {
   if (scale.size() == 0) return;
   requireCount("scale", scale.size(), n.components());
   for (Index i = 0; i < scale.size(); ++i) {
-    if (scale[i] > 0) continue;
-    throw Misuse("scale[" + std::to_string(i) + "] = " + text(scale[i]) + ": > 0 is expected");
+    if (scale[i] > 0 && std::isfinite(scale[i])) continue;
+    throw Misuse("scale[" + std::to_string(i) + "] = " + text(scale[i]) + ": a finite number > 0 is expected");
   }
 }
 
