@@ -108,8 +108,8 @@ class PaperWithoutGamma final : public PaperController {
 /// rejection it does not grow at once.
 class PredictiveController final : public StepController {
  public:
-  PredictiveController(const StepOptions&, int order)
-      : exponent_(1.0 / (order + 1)), least_root_(std::pow(kErrorFloor, exponent_)) {}
+  PredictiveController(const StepOptions& options, int order)
+      : h_min_(options.h_min), exponent_(1.0 / (order + 1)), least_root_(std::pow(kErrorFloor, exponent_)) {}
 
   StepDecision decide(double error, double h) override {
     const double eps = std::max(error, kTinyError);
@@ -136,7 +136,7 @@ class PredictiveController final : public StepController {
     failed_h_ = h;
     barred_ = kBarredSteps;
     const bool far_off = last_h_ == 0 && first_failures_++ > 0;
-    return far_off ? h * kFarOff : h / 2;
+    return far_off ? std::max(h * kFarOff, std::min(h / 2, h_min_)) : h / 2;
   }
   void forget() override {
     last_h_ = 0;
@@ -165,6 +165,7 @@ class PredictiveController final : public StepController {
   static constexpr int kFutileSteps = 40;  // in a row
   static constexpr int kBarredSteps = 10;
 
+  double h_min_;
   double exponent_, least_root_;       // and kErrorFloor^exponent
   double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
   double failed_h_ = 0;

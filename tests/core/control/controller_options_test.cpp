@@ -96,6 +96,14 @@ TEST(Predictive, GoesDownFastWhereTheFirstStepFailsAgain) {
   }
 }
 
+TEST(Predictive, DoesNotJumpOverTheSmallestStep) {
+  auto options = controlled(StepControl::kPredictive);
+  options.h_min = 1e-3;
+  const auto controller = makeController(options, 3);
+  EXPECT_NEAR(controller->afterFailure(1e-2), 5e-3, 1e-15);
+  EXPECT_NEAR(controller->afterFailure(5e-3), 1e-3, 1e-15);
+}
+
 // The later source of the paper's controller: f = (1 / (2 eps))^(1/p), growth only below 1 / 4, no gamma.
 TEST(Hotint, HasItsOwnExponentAndSafety) {
   const auto fresh = [](int p) { return makeController(controlled(StepControl::kHotint), p); };
