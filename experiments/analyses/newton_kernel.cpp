@@ -31,7 +31,9 @@ class FreeSystem final : public System<double> {
 };
 
 // Of a step and its halves, until one is solved.
-constexpr int kMaxAttempts = 20;
+constexpr int kMaxTrials = 20;
+// Of an estimate, for the controller.
+constexpr double kGoodError = 0.3;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
@@ -64,6 +66,7 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull, storageOf(spec.options)),
       at_(1),
       scheme_(setup.methods.members[setup.methods.start]),
+      schemes_(setup.methods.members),
       options_(spec.options),
       equations_(*system_, scheme_, spec.options.summation, spec.options.threads),
       free_equations_(*free_, scheme_, spec.options.summation, 1),
@@ -72,11 +75,9 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       norm_(*system_, spec.options.tolerances, setup.scale),
       controller_(makeController(spec.options.step, scheme_.tableau.order)),
       doubles_(doublesSteps(spec.options.step.estimate)),
-      looks_again_(spec.options.step.estimate == ErrorEstimate::kRichardson && scheme_.s > 1),
       shared_(counted_, scheme_, options_, counters_),
-      stepper_(counted_, scheme_, options_, shared_, norm_, counters_),
+      attempt_(makeStepAttempt<double>({counted_, schemes_, setup.methods.start, options_, shared_, norm_, counters_})),
       row_weights_(system_->sizes().n()),
-      factor_(Vec<double>::Ones(system_->sizes().components())),
       t_(scheme_.s) {
   setup_.form = makeBlockForm(kind_, setup_.A);
   countResiduals(spec);
@@ -103,20 +104,20 @@ void NewtonKernel::moveTo(const State<double>& scene_state) {
 
 // Computes everything that follows from the state and h.
 void NewtonKernel::begin() {
-  W_ = R_ = start_.w.replicate(1, scheme_.s);
+  W_ = W0_ = R_ = start_.w.replicate(1, scheme_.s);
   t_.setConstant(start_.t);
   U_ = start_.u.replicate(1, scheme_.s);
   V_ = start_.v.replicate(1, scheme_.s);
   X_ = start_.x.replicate(1, scheme_.s);
-  before_ = {&scheme_, start_.t - h_, h_, W_, true};
-  coarse_ = fine_ = start_;
+  middle_ = end_ = start_;
   norm_.update(start_);
   norm_.rowWeights(h_, row_weights_);
   equations_.begin(start_, h_);
   free_equations_.begin(start_, h_);
   solvable_h_ = h_;
-  stepper_.forget();
-  shared_.markStale();
+  if (!attempts()) return;
+  const StepPieces<double> solved = attempt_->pieces(middle_);
+  W0_ = solved.at[solved.count - 1].stages->W;
 }
 
 void NewtonKernel::countResiduals(const RunSpec& spec) {
@@ -154,7 +155,8 @@ void NewtonKernel::factorize() {
 }
 
 void NewtonKernel::iteration() {
-  if (!equations_.residual(W_, R_)) throw Misuse("a residual is not finite");
+  W_ = W0_;
+  static_cast<void>(equations_.residual(W_, R_));  // takes as long where it is not finite
   solver_->solve(R_.rightCols(scheme_.implicitStages()));
   moveBy(R_);
 }
@@ -165,7 +167,8 @@ void NewtonKernel::solve() {
 }
 
 void NewtonKernel::update() {
-  if (!free_equations_.residual(W_, R_)) throw Misuse("a start value is not finite");
+  W_ = W0_;
+  static_cast<void>(free_equations_.residual(W_, R_));
   moveBy(R_);
 }
 
@@ -174,21 +177,21 @@ void NewtonKernel::moveBy(const Mat<double>& increment) {
   decided_ = newtonTest(norm_.increment(increment, scheme_.first, row_weights_));
 }
 
-Counters NewtonKernel::solveStep() {
-  for (int attempt = 0; attempt < kMaxAttempts; ++attempt, solvable_h_ /= 2) {
+std::optional<Counters> NewtonKernel::attempts() {
+  for (int trial = 0; trial < kMaxTrials; ++trial, solvable_h_ /= 2) {
     counters_ = {};
-    const auto use = shared_.evaluatedAt(start_.t) ? JacobianUse::kKeep : JacobianUse::kRefreshIfStale;
-    if (stepper_.attempt(before_, start_, solvable_h_, coarse_, use).outcome == Outcome::kSuccess) return counters_;
+    // So that all calls do the same.
+    attempt_->begin();
+    shared_.markStale();
+    if (attempt_->attempt(start_, solvable_h_, middle_).outcome != Outcome::kSuccess) continue;
+    if (attempt_->attempt(middle_, solvable_h_, end_).outcome == Outcome::kSuccess) return counters_;
   }
-  throw Misuse("the step cannot be solved");
+  return {};
 }
 
 void NewtonKernel::step() {
   norm_.update(start_);
-  if (!doubles_) return;
-  for (std::int64_t i = 0; looks_again_ && i < solvedSteps(); ++i) decided_ = stepper_.roughness(start_);
-  const double error = norm_.difference(coarse_, fine_, h_, factor_);
-  if (controller_) decided_ = controller_->decide(error, h_).h;
+  if (controller_) decided_ = controller_->decide(kGoodError, h_).h;
 }
 
 }  // namespace irk

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/control/controller.h"
+#include "core/estimates/step_attempt.h"
 #include "core/stage_solvers/stage_solver.h"
 #include "core/stages/error_norm.h"
 #include "core/stages/stage_equations.h"
-#include "core/steps/stepper.h"
 #include "core/system/counting.h"
 #include "experiments/runs/setup.h"
 
@@ -34,24 +35,24 @@ class NewtonKernel {
   void firstMatrices();
   void factorize();  ///< the Newton matrix of all stages. Throws Misuse if it is singular
   void solve();      ///< requires `factorize` before
-  /// One iteration: the residuals of all stages, a solve, and `update`, each with what the one before gave. So it takes
-  /// longer than the sum of them alone, where the processor begins a call before the last one has ended.
+  /// One iteration, always the same one: the residuals of all stages, a solve, and `update`, each with what the one
+  /// before gave. So it takes longer than the sum of them alone, where the processor begins a call before the last one
+  /// has ended.
   void iteration();
   /// The rest of an iteration: the stages' u, v, x, row scaling, the increment, its norm, and the arithmetic of
   /// Newton's test.
   void update();
-  /// One step of the scheme by the integrator's own stepper, with all of its Newton iterations, and what it counted.
-  /// If it fails it is halved. Throws Misuse if that does not help.
-  Counters solveStep();
-  /// The rest of an attempted step: weights, the error norm, the roughness of the stages and the next step size.
+  /// Two attempted steps in a row, always the same ones, by the integrator's own error estimate, with all that belongs
+  /// to them but the step control, and what they counted. If they fail they are halved; nothing if that does not help.
+  std::optional<Counters> attempts();
+  /// The rest of an attempted step: the weights of the error norm, and the step control.
   void step();
 
   /// Evaluations of r, over the plain scalar, in one call of `jacobian` and of `firstMatrices`.
   std::int64_t residualsPerJacobian() const { return residuals_per_jacobian_; }
   std::int64_t residualsOfFirst() const { return residuals_of_first_; }
   bool sparse() const { return !at_.front().pattern->full; }
-  std::int64_t steppers() const { return doubles_ ? 2 : 1; }     ///< used by one attempt
-  std::int64_t solvedSteps() const { return doubles_ ? 3 : 1; }  ///< in one attempt
+  std::int64_t steppers() const { return doubles_ ? 2 : 1; }  ///< used by one attempt
 
  private:
   NewtonKernel(const Setup<double>& setup, const RunSpec& spec, double h);
@@ -66,10 +67,11 @@ class NewtonKernel {
   Counters counters_;
   CountingSystem<double> counted_;  // counts evaluations, as in an integrator
   State<double> start_;
-  double h_, solvable_h_;  // the second one, or less, is that of `solveStep`
+  double h_, solvable_h_;  // the second one, or less, is that of `attempts`
   Differentiator<double> differentiator_;
   std::vector<Linearization<double>> at_;
   Scheme<double> scheme_;
+  SchemeList<double> schemes_;
   IntegratorOptions options_;
   StageEquations<double> equations_, free_equations_;
   StageSolverKind kind_;
@@ -77,16 +79,14 @@ class NewtonKernel {
   std::unique_ptr<StageSolver<double>> solver_;
   ErrorNorm<double> norm_;
   std::unique_ptr<StepController> controller_;
-  bool doubles_;      // whether the estimate is by step doubling
-  bool looks_again_;  // whether it looks at the roughness of the stages
+  bool doubles_;  // whether the estimate is by step doubling
   SharedJacobian<double> shared_;
-  Stepper<double> stepper_;
-  StagePolynomial<double> before_;  // the previous step
-  State<double> coarse_, fine_;
-  Vec<double> row_weights_, factor_, t_;
+  std::unique_ptr<StepAttempt<double>> attempt_;
+  State<double> middle_, end_;
+  Vec<double> row_weights_, t_;
   Mat<double> U_, V_, X_;        // at all stages
   volatile double decided_ = 0;  // keeps the compiler from removing unused results
-  Mat<double> ones_, rhs_, W_, R_;
+  Mat<double> ones_, rhs_, W_, W0_, R_;
   std::int64_t residuals_per_jacobian_ = 0, residuals_of_first_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "experiments/analyses/newton_kernel.h"
 #include "experiments/base/clock.h"
@@ -62,7 +63,8 @@ class PhaseMeasurement {
     const double alone = static_cast<double>(kernel_.stages()) * residual + solve + update;
     const double stretch = std::max(iteration_s_ / alone, 1.0);
     for (double* part : {&residual, &solve, &update}) *part *= stretch;
-    step += static_cast<double>(kernel_.solvedSteps()) * std::max(solved_step_s_ - partsOf(solved_step_, parts), 0.0);
+    const double rest = attempts_ ? attempts_s_ - partsOf(*attempts_, parts) : 0;
+    step += std::max(rest / 2, 0.0);
     return parts;
   }
 
@@ -126,8 +128,8 @@ class PhaseMeasurement {
     take(solve, [this] { kernel_.solve(); });
     take(update, [this] { kernel_.update(); });
     take(iteration_s_, [this] { kernel_.iteration(); });
+    take(attempts_s_, [this] { attempts_ = kernel_.attempts(); });
     take(step, [this] { kernel_.step(); });
-    take(solved_step_s_, [this] { solved_step_ = kernel_.solveStep(); });
     // One Jacobian and the first factorizations are counted under their own names; the rest is the search for the
     // pattern and its analysis.
     const auto factors = static_cast<double>(kernel_.sparse() ? kernel_.steppers() : 0);
@@ -165,8 +167,8 @@ class PhaseMeasurement {
   Counters counters_, start_counters_;
   Parts each_ = filled();
   double run_s_ = std::numeric_limits<double>::infinity(), iteration_s_ = run_s_;
-  double solved_step_s_ = run_s_;  // of the integrator's stepper, with what it counted
-  Counters solved_step_;
+  double attempts_s_ = run_s_;  // of two attempted steps, with what they counted
+  std::optional<Counters> attempts_;
 
   static Parts filled() {
     Parts parts;

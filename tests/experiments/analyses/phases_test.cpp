@@ -64,6 +64,21 @@ methods = "gauss_2"
   ADD_FAILURE() << "the parts of a run do not make up the run";
 }
 
+// A step that Newton's method solves from good start values only must not end the study of all other runs.
+TEST(Phases, MeasureStiffRunsAtLooseTolerances) {
+  const auto [study, runs] = runsOf(R"(
+phases = true
+[[block]]
+scene = ["robertson", "chemakzo"]
+methods = "radau_iia_3"
+tolerances = 1e-3
+)");
+  std::ostringstream quiet;
+  const Table table = phaseTable(study, runs, quiet);
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (const auto& row : table.rows) EXPECT_GT(numberAt(table, row, "covered"), 0.3);
+}
+
 // Forgotten parts and parts that count twice are reported.
 TEST(Phases, WhatIsNotCoveredIsNamed) {
   Table table;
