@@ -1,4 +1,4 @@
-# How fast Newton's increments fall: the contractivity of each iteration, its median and quartiles over all solves of at
+# How fast Newton's residuals fall: the contractivity of each iteration, its median and quartiles over all solves of at
 # least four iterations, one panel per scene.
 #   gnuplot -e "data='results/contraction'; out='contraction'" contraction.gp
 # Reads contractions.csv. Options: limit (a line).
@@ -15,8 +15,10 @@ stats file using (column("iterations") >= least_iterations ? (collect(caseOfRow(
 if (!exists("N_sum") || N_sum == 0) { eval absence(file) }
 cases = collected
 n = words(cases)
-of(i, k) = column("iterations") >= least_iterations && caseOfRow(0) eq word(cases, i) && !absent(sprintf("c%d", k)) \
-  && column(sprintf("c%d", k)) > 0
+of(i, k) = column("iterations") >= least_iterations && caseOfRow(0) eq word(cases, i) && !absent(sprintf("c%d", k))
+
+# Values below the panel are drawn at its lower edge.
+least = 1e-4
 array Count[n * iterations]; array Median[n * iterations]; array Low[n * iterations]; array High[n * iterations]
 slot(i, k) = (i - 1) * iterations + k
 do for [i = 1 : n] { do for [k = 1 : iterations] {
@@ -25,7 +27,7 @@ do for [i = 1 : n] { do for [k = 1 : iterations] {
   Count[slot(i, k)] = N_sum
   Median[slot(i, k)] = NaN; Low[slot(i, k)] = NaN; High[slot(i, k)] = NaN
   if (Count[slot(i, k)] > 0) {
-    stats file using (of(i, k) ? column(sprintf("c%d", k)) : NaN) name "C" nooutput
+    stats file using (of(i, k) ? (column(sprintf("c%d", k)) > least ? column(sprintf("c%d", k)) : least) : NaN) name "C" nooutput
     Median[slot(i, k)] = C_median; Low[slot(i, k)] = C_lo_quartile; High[slot(i, k)] = C_up_quartile
   }
 } }
@@ -41,7 +43,7 @@ do for [format in formats] {
   eval open(format, width, height)
   set multiplot
   unset key
-  set xrange [0.5 : iterations + 0.5]; set xtics 1 nomirror; set yrange [1e-3 : 10]
+  set xrange [0.5 : iterations + 0.5]; set xtics 1 nomirror; set yrange [least : 10]
   do for [i = 1 : n] {
     eval panel(i, columns, lines)
     eval decades("y")
