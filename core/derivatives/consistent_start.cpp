@@ -119,7 +119,7 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
 template <class Real>
 StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   if (check == StartCheck::kConstraints) {
-    const StartReport checked = checkConstraints(state);
+    StartReport checked = checkConstraints(state);
     if (checked.outcome != Outcome::kSuccess) return checked;
   }
   given_ = state.w;

@@ -191,7 +191,7 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
   }
   for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
     const auto& entry = group.entries[e];
-    const Real value = change(entry.row);
+    const Real& value = change(entry.row);
     values[entry.matrix][entry.slot] = exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
     if (!looked_) continue;
     const Real part = Real(group.weights[entry.direction]) * value;
@@ -207,7 +207,7 @@ void Differentiator<Real>::check(const Change& change, Linearization<Real>& out)
   using std::abs;
   using std::isfinite;
   for (Index row = 0; row < sizes_.n(); ++row) {
-    const Real all = change(row);
+    const Real& all = change(row);
     if (!isfinite(all)) {  // the entry may be outside of the pattern
       out.d0.setConstant(std::numeric_limits<Real>::quiet_NaN());
       return;
