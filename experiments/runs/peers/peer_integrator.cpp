@@ -141,7 +141,7 @@ StartReport PeerIntegrator::leg(bool new_run, double t_end, const Monitor<double
     if (stopped_.outcome == Outcome::kSuccess) stopped_ = mayGoOn(monitor);
     return stopped_.outcome != Outcome::kSuccess;
   });
-  const StartReport begun = problem_->begin(state_, new_run, values_);
+  StartReport begun = problem_->begin(state_, new_run, values_);
   if (begun.outcome != Outcome::kSuccess || state_.t >= t_end) return begun;
   const double* const yp = values_.yp.size() > 0 ? values_.yp.data() : nullptr;
   const Outcome outcome = peer_->integrate({state_.t, values_.y.data(), yp, new_run}, t_end,
@@ -243,7 +243,7 @@ StartReport PeerIntegrator::locatedSwitch(const PeerStep& step, const Monitor<do
 // Restarts only if the state jumps; jumps of the derivatives are left to the error estimate.
 StartReport PeerIntegrator::ignoredSwitches(const Monitor<double>& monitor) {
   const State<double> before = state_;
-  const StartReport report = settle(monitor);
+  StartReport report = settle(monitor);
   if (report.outcome != Outcome::kSuccess) return report;
   if (chatter_.step(state_.d != before.d)) ++counters_.chattering;
   const bool jumped = state_.u != before.u || state_.v != before.v || state_.x != before.x;
