@@ -35,7 +35,7 @@ do for [i = 1 : n] { do for [k = 1 : iterations] {
 columns = n < 4 ? n : 4
 lines = (n + columns - 1) / columns
 width = columns == 1 ? 560.0 : columns == 2 ? 820.0 : 1080.0
-height = (exists("quick") ? 128.0 : 110) + 220 * lines
+height = (exists("quick") ? 128.0 : 110.0) + 220 * lines
 legend_height = 40.0 / height
 margin_left = 66 / width; margin_right = 0.02; margin_top = (exists("quick") ? 54 : 36) / height
 margin_bottom = legend_height + 56 / height; gap_x = 0.02; gap_y = 68 / height

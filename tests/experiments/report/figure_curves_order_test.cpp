@@ -106,6 +106,7 @@ TEST(FigureCurves, Contraction) {
   expectPoints(svg.line('a', 3, kLin, kLog), {{1, 0.2}, {2, 0.02}}, "pendulum's medians", 2e-2);
   expectPoints(svg.line('b', 3, kLin, kLog), {{1, 0.5}, {2, 1}}, "kepler's medians", 2e-2);
   EXPECT_NEAR(svg.line('a', 1, kLin, kLog).front().y, 0.3, 6e-3) << "the limit";
+  for (const auto& label : svg.panel('a').y) EXPECT_GT(label.pixel, 25) << "no room for the title";
 }
 
 TEST(FigureCurves, FailureMap) {
