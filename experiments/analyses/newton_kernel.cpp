@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/stages/scheme.h"
 #include "experiments/runs/setup.h"
@@ -34,8 +33,8 @@ class FreeSystem final : public System<double> {
 constexpr int kMaxTrials = 20;
 // Of an estimate, for the controller.
 constexpr double kGoodError = 0.3;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// Above every contraction.
+constexpr double kAlways = 1e300;
 
 // The arithmetic of simplified Newton's convergence test (core/newton/newton.cpp): the contraction, the error that
 // the remaining iterations can reach, and whether the increment is small enough.
@@ -53,6 +52,12 @@ bool doublesSteps(ErrorEstimate estimate) {
   return estimate != ErrorEstimate::kEmbedded && estimate != ErrorEstimate::kNone;
 }
 
+// Steps keep their first Jacobian, and with it the factors: what those take would hide the rest of a step.
+IntegratorOptions withoutNewJacobians(IntegratorOptions options) {
+  options.newton.keep_jacobian_below = kAlways;
+  return options;
+}
+
 }  // namespace
 
 NewtonKernel::NewtonKernel(const RunSpec& spec, double h) : NewtonKernel(makeSetup<double>(spec), spec, h) {}
@@ -65,9 +70,9 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       h_(h),
       differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull, storageOf(spec.options)),
       at_(1),
-      scheme_(setup.methods.members[setup.methods.start]),
       schemes_(setup.methods.members),
-      options_(spec.options),
+      scheme_(schemes_[setup.methods.start]),
+      options_(withoutNewJacobians(spec.options)),
       equations_(*system_, scheme_, spec.options.summation, spec.options.threads),
       free_equations_(*free_, scheme_, spec.options.summation, 1),
       kind_(spec.options.solver),
@@ -115,6 +120,7 @@ void NewtonKernel::begin() {
   equations_.begin(start_, h_);
   free_equations_.begin(start_, h_);
   solvable_h_ = h_;
+  shared_.markStale();
   if (!attempts()) return;
   const StepPieces<double> solved = attempt_->pieces(middle_);
   W0_ = solved.at[solved.count - 1].stages->W;
@@ -180,9 +186,7 @@ void NewtonKernel::moveBy(const Mat<double>& increment) {
 std::optional<Counters> NewtonKernel::attempts() {
   for (int trial = 0; trial < kMaxTrials; ++trial, solvable_h_ /= 2) {
     counters_ = {};
-    // So that all calls do the same.
-    attempt_->begin();
-    shared_.markStale();
+    attempt_->begin();  // so that all calls do the same
     if (attempt_->attempt(start_, solvable_h_, middle_).outcome != Outcome::kSuccess) continue;
     if (attempt_->attempt(middle_, solvable_h_, end_).outcome == Outcome::kSuccess) return counters_;
   }

@@ -43,7 +43,8 @@ class NewtonKernel {
   /// Newton's test.
   void update();
   /// Two attempted steps in a row, always the same ones, by the integrator's own error estimate, with all that belongs
-  /// to them but the step control, and what they counted. If they fail they are halved; nothing if that does not help.
+  /// to them but the step control and new Jacobians, and what they counted. If they fail they are halved; nothing if
+  /// that does not help.
   std::optional<Counters> attempts();
   /// The rest of an attempted step: the weights of the error norm, and the step control.
   void step();
@@ -70,8 +71,8 @@ class NewtonKernel {
   double h_, solvable_h_;  // the second one, or less, is that of `attempts`
   Differentiator<double> differentiator_;
   std::vector<Linearization<double>> at_;
-  Scheme<double> scheme_;
   SchemeList<double> schemes_;
+  const Scheme<double>& scheme_;
   IntegratorOptions options_;
   StageEquations<double> equations_, free_equations_;
   StageSolverKind kind_;
