@@ -192,7 +192,7 @@ TEST(UserSystem, SystemsMadeByHandAreChecked) {
   EXPECT_NE(with([](Handmade& h) { h.rows = {}; }).find("rows: 0 numbers, 1 are expected"), std::string::npos);
   EXPECT_NE(with([](Handmade& h) { h.errors.x = {0, 0}; }).find("of x: 2 numbers"), std::string::npos);
   EXPECT_NE(refused(good, Vec<double>::Ones(3)).find("scale: 3 numbers, 1 are expected"), std::string::npos);
-  for (const double scale : {0.0, -1.0, kNan}) {
+  for (const double scale : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
     EXPECT_NE(refused(good, Vec<double>::Constant(1, scale)).find("scale[0]"), std::string::npos) << scale;
   }
 }
