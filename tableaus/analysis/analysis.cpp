@@ -23,7 +23,7 @@ void requireShape(const Tableau<mp80>& tableau) {
                              tableau.A.cols(), s, tableau.c.size()));
   }
   const auto finite = [](const Mat<mp80>& block) {
-    return std::ranges::all_of(block.reshaped(), [](const mp80& x) { return boost::multiprecision::isfinite(x); });
+    return std::ranges::all_of(block.reshaped(), [](const mp80& x) { return isfinite(x); });
   };
   if (!finite(tableau.A) || !finite(tableau.b) || !finite(tableau.c)) {
     throw Misuse(fmt::format("tableau '{}' has a coefficient that is not finite", tableau.id));

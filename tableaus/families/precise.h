@@ -6,10 +6,10 @@
 namespace irk {
 
 /// 30 digits more than mp50: the construction loses at most 8 of them up to s = 100.
-using mp80 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
+using mp80 = BigFloat<80>;
 
 /// The same for mp100.
-using mp130 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<130>, boost::multiprecision::et_off>;
+using mp130 = BigFloat<130>;
 
 /// The number of digits in tableau files that the program writes, and in the files of tableaus/data.
 inline constexpr int kFileDigits = 50;
