@@ -64,20 +64,24 @@ class Accumulation {
   double t_ = 0, h_ = 0, error_ = 0;  // of the last attempt
 };
 
+/// The error of a result, in tolerances, above which it is not called a success. A success should be right to 1000
+/// tolerances and 1e-9; the bar is a fifth of that, since a motion amplifies errors a few times as a rule.
+inline double largestError(const Tolerances& tolerances) {
+  constexpr double kBar = 200, kRoundOff = 2e-10;  // tolerances; absolute
+  return kBar + kRoundOff / std::max(tolerances.rtol, tolerances.atol);
+}
+
 /// The estimated errors of all steps, added up: where errors of stiff components decay the result is better, where
-/// the motion amplifies them it is worse. Above the bar nothing speaks for the result. A success should be right to
-/// 1000 tolerances and 1e-9; the bar is a fifth of that, since a motion amplifies errors a few times as a rule.
+/// the motion amplifies them it is worse. Above the bar nothing speaks for the result.
 class ErrorSum {
  public:
-  explicit ErrorSum(const Tolerances& tolerances)
-      : bar_(kBar + kRoundOff / std::max(tolerances.rtol, tolerances.atol)) {}
+  explicit ErrorSum(const Tolerances& tolerances) : bar_(largestError(tolerances)) {}
   void begin() { sum_ = 0; }
   /// In tolerances.
   void add(double error) { sum_ += error; }
   bool aboveBar() const { return sum_ > bar_; }
 
  private:
-  static constexpr double kBar = 200, kRoundOff = 2e-10;  // tolerances; absolute
   double bar_, sum_ = 0;
 };
 

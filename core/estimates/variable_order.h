@@ -36,7 +36,7 @@ class VariableOrder final : public StepAttempt<Real> {
   int order() const override;
   Index worstComponent() const override { return member().estimate.worstComponent(); }
   StepPieces<Real> pieces(const State<Real>& from) const override {
-    return {{{{&from, &member().stepper.stages()}, {nullptr, nullptr}}}, 1};
+    return {{{{&from, past_}, {nullptr, nullptr}}}, 1};  // the order may have changed since
   }
 
  private:

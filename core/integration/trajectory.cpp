@@ -38,6 +38,16 @@ ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, c
   return norm;
 }
 
+// Whether no unknown has a higher index than 1.
+template <class Real>
+bool isPlain(const System<Real>& system) {
+  const ErrorPowers& powers = system.errorPowers();
+  const auto none = [](const std::vector<int>& p) {
+    return std::all_of(p.begin(), p.end(), [](int power) { return power == 0; });
+  };
+  return none(powers.v) && none(powers.x) && none(powers.z);
+}
+
 // Algebraic unknowns of index 2 that are no multipliers: D0 is singular, and (a, k) follow from a step only.
 template <class Real>
 bool hidesRates(const System<Real>& system) {
@@ -68,6 +78,11 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
   const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
   if (isIndex3(system) && stops) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
+  }
+  const Scheme<Real>& scheme = schemes[start];
+  const bool keeps = catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
+  if (controller_ && keeps && scheme.regular && scheme.first == 0 && !dampsStiffErrors(scheme) && isPlain(system)) {
+    stiff_rest_ = std::make_unique<StiffRest<Real>>(system, options, jacobian_, norm_, counters);
   }
 }
 
@@ -263,6 +278,21 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
 }
 
+// Why the end is too far off the slow motion; empty if it is not, or if its method damps such errors.
+template <class Real>
+std::string Trajectory<Real>::undampedRest() {
+  if (!stiff_rest_ || counters_.steps_accepted == 0) return {};
+  const StepPieces<Real> last = attempt_->pieces(next_);
+  const double rest = stiff_rest_->error(last.at[last.count - 1], state_);
+  if (!(rest > largestError(options_.tolerances))) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "the result is off the slow motion of stiff components by " << rest
+       << " tolerances, and this method does not damp such errors; largest in "
+       << componentName(system_.sizes(), stiff_rest_->worstComponent());
+  return text.str();
+}
+
 template <class Real>
 Solution<Real> Trajectory<Real>::success() {
   if (controller_) {
@@ -270,6 +300,8 @@ Solution<Real> Trajectory<Real>::success() {
     const std::string violation =
         constraintViolation(system_, state_, norm_.weights(), allowedDrift(options_.tolerances));
     if (!violation.empty()) return solution(Outcome::kDrift, violation);
+    const std::string rest = undampedRest();
+    if (!rest.empty()) return solution(Outcome::kInaccurate, rest);
   }
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
   if (solved_anew) addNote(start_.applyAtEnd(state_));

@@ -11,6 +11,7 @@
 #include "core/estimates/step_attempt.h"
 #include "core/integration/inside_attempt.h"
 #include "core/integration/rest_check.h"
+#include "core/integration/stiff_rest.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
 #include "irk/monitor.h"
@@ -49,7 +50,7 @@ class Trajectory {
   /// Sets the time to t_end, after a switch so close to it that the rest is too short for a step.
   void endAt(const Real& t_end) { state_.t = t_end; }
 
-  /// At the end: kSuccess, or kDrift.
+  /// At the end: kSuccess, kDrift or kInaccurate.
   Solution<Real> success();
   Solution<Real> failed(Outcome outcome, double h, const std::string& what) const;
   /// For messages, why steps are small: rejections, and the component with the largest error.
@@ -65,6 +66,7 @@ class Trajectory {
   void addNote(const std::string& text);
   void restart();
   void tell(Index i) const;
+  std::string undampedRest();
   Solution<Real> solution(Outcome outcome, std::string detail) const;
 
   const System<Real>& system_;
@@ -81,6 +83,7 @@ class Trajectory {
   /// Index 3: positions and velocities obey their constraints to the error of a step only, of which the short
   /// steps after a restart would make velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;
+  std::unique_ptr<StiffRest<Real>> stiff_rest_;  // null where such errors decay
   Switches<Real> switches_;
   ChatterDetector chatter_;
   InsideAttempt<Real> inside_;
