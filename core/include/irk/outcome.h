@@ -21,7 +21,7 @@ enum class Outcome {
   kChattering,         ///< switches follow each other without time passing
   kStalled,            ///< steps stay so small that the end is out of reach
   kDrift,              ///< the end is reached, but it violates the position constraints
-  kInaccurate,         ///< the estimated errors of all steps add up to more than 200 tolerances
+  kInaccurate,         ///< errors of all steps, or of undamped stiff components, are more than 200 tolerances
 };
 
 /// Whether a shorter step may end better: Newton's method failed, or its matrix is singular.

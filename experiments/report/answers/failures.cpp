@@ -200,8 +200,8 @@ Answer failureAnswer(const claims::ResultTables& tables) {
     answer.note =
         "Failed: the run says so itself. Wrong: a success with an error above 1000 tolerances. A solver is asked only "
         "for problems that it can treat. Steps stay tiny: so small that the end is out of reach. Errors add up: the "
-        "estimates of all steps exceed 200 tolerances. Drift: of a constraint. Studies that provoke failures are not "
-        "counted here.";
+        "estimates of all steps, or what is left of stiff components, exceed 200 tolerances. Drift: of a constraint. "
+        "Studies that provoke failures are not counted here.";
   } catch (const claims::MissingResults&) {
   }
   if (auto sentence = wrongSentence(tables); !sentence.empty()) answer.sentences.push_back(std::move(sentence));
