@@ -12,13 +12,14 @@
 
 namespace irk::values {
 
-/// Calls f; a Misuse that it throws gets the value's place.
+/// Calls f; a Misuse that it throws gets the value's place, unless it names a place in this file already.
 template <class F>
 auto atPlace(const StudyValue& value, F&& f) {
   try {
     return f();
   } catch (const Misuse& misuse) {
-    throw Misuse(value.place + ": " + misuse.what());
+    const std::string reason = misuse.what(), file = value.place.substr(0, value.place.rfind(':') + 1);
+    throw Misuse(!file.empty() && reason.starts_with(file) ? reason : value.place + ": " + reason);
   }
 }
 
