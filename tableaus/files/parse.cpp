@@ -122,6 +122,9 @@ class Parser {
       }
       const std::string key = trimmed(std::string_view(text).substr(0, colon));
       const std::string value = trimmed(std::string_view(text).substr(colon + 1));
+      if (key == "A" || key == "b" || key == "c") {
+        fail(number, fmt::format("'{}': a block begins with a line '{}' without ':'", shown(), key));
+      }
       if (std::ranges::find(headerKeys(), key) == headerKeys().end()) {
         fail(number, unknownName("key", key, headerKeys()));
       }
