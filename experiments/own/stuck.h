@@ -9,7 +9,9 @@ namespace irk::own {
 /// CPU time without stillGoing(). Of several files the last is named.
 void askWhenStuck(const std::filesystem::path& file, int seconds);
 
-/// A step has ended. Safe for threads; costs nothing that could be measured.
-void stillGoing();
+/// A run begins, or a step has ended. If the run has a time limit (> 0), the program ends with status 1 when the code
+/// is still silent after these seconds and another time limit for each processor, all of which may be at work. Safe for
+/// threads; costs nothing that could be measured.
+void stillGoing(double time_limit);
 
 }  // namespace irk::own

@@ -28,7 +28,7 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
   auto integrator = setup.integrator();
   Monitor<Real> monitor;
   monitor.interrupt = [&] {
-    own::stillGoing();
+    own::stillGoing(0);
     if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
     const bool late = watch.budget && watch.budget->exceededBy(threadSeconds() - start);
     return late ? Outcome::kTimeout : Outcome::kSuccess;

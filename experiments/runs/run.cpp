@@ -82,7 +82,7 @@ class PeerMethod {
 // `start`.
 std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
   return [&watch, start, limit] {
-    own::stillGoing();
+    own::stillGoing(limit);
     if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
     const bool late = limit > 0 && threadSeconds() - start > limit;
     return late ? Outcome::kTimeout : Outcome::kSuccess;
@@ -295,6 +295,7 @@ double largestChange(const std::vector<InvariantChange>& invariants) {
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   validate(spec);
   requireKnownStep(spec);
+  own::stillGoing(spec.time_limit);
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
   switch (spec.scalar) {
     case ScalarKind::kDouble:

@@ -1,6 +1,7 @@
 // What the program says about users' files that do not do what they should.
 #include <algorithm>
 #include <ctime>
+#include <thread>
 
 #include "experiments/own/compiler.h"
 #include "experiments/own/stuck.h"
@@ -90,11 +91,25 @@ TEST(StuckDeathTest, CodeThatDoesNotReturnIsToldOnce) {
     own::askWhenStuck("mine.cpp", 2);
     for (int i = 0; i < 30; ++i) {
       compute(0.1);
-      own::stillGoing();
+      own::stillGoing(0);
     }
     std::_Exit(3);
   };
   EXPECT_EXIT(going(), testing::ExitedWithCode(3), "^$");
+}
+
+// With a time limit it does not wait for the user.
+TEST(StuckDeathTest, CodeThatDoesNotReturnEndsAfterTheTimeLimit) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const auto stuck = [](double limit) {
+    own::askWhenStuck("mine.cpp", 1);
+    own::stillGoing(limit);
+    compute(2.5 + std::thread::hardware_concurrency());
+    std::_Exit(3);
+  };
+  const std::string asked = "^irk: no step has ended for 1 s of CPU time[^\n]*mine.cpp[^\n]*\n";
+  EXPECT_EXIT(stuck(1), testing::ExitedWithCode(1), asked + "irk: no step[^\n]*time limit[^\n]*mine.cpp[^\n]*\n$");
+  EXPECT_EXIT(stuck(1000), testing::ExitedWithCode(3), asked + "$");
 }
 
 }  // namespace
