@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -86,12 +87,17 @@ void requireName(const std::string& what, const std::string& name, const std::st
   throw Misuse(what + " '" + name + "' (" + sourceOf(source) + "): small letters, digits and '_' are allowed");
 }
 
-// A default that is a number lies in the parameter's range.
-void requireDefault(const Parameter& p, const SceneEntry& entry) {
+// The range of a number is not empty, and a default that is a number lies in it.
+void requireRange(const Parameter& p, const SceneEntry& entry) {
+  if (!p.choices.empty() || p.text) return;
+  if (!(p.min <= p.max)) {
+    throw Misuse(fmt::format("scene {} ({}): the parameter {} has the range [{}, {}]: the smaller end comes first",
+                             entry.id, sourceOf(entry.source), p.name, p.min, p.max));
+  }
   char* end = nullptr;
   const double value = std::strtod(p.default_value.c_str(), &end);
-  const bool is_number = p.choices.empty() && !p.text && end != p.default_value.c_str() && *end == '\0';
-  if (!is_number || !std::isfinite(value) || p.min >= p.max || (value >= p.min && value <= p.max)) return;
+  const bool is_number = end != p.default_value.c_str() && *end == '\0';
+  if (!is_number || !std::isfinite(value) || (value >= p.min && value <= p.max)) return;
   throw Misuse(fmt::format("scene {} ({}): the default {} of the parameter {} is not in [{}, {}]", entry.id,
                            sourceOf(entry.source), p.default_value, p.name, p.min, p.max));
 }
@@ -107,7 +113,7 @@ void registerScene(SceneEntry entry) {
   for (const auto& name : entry.collections) requireName("collection", name, entry.source);
   std::set<std::string_view> parameters;
   for (const Parameter& p : entry.parameters) {
-    requireDefault(p, entry);
+    requireRange(p, entry);
     if (parameters.insert(p.name).second) continue;
     throw Misuse(
         fmt::format("scene {} ({}): two parameters are called '{}'", entry.id, sourceOf(entry.source), p.name));
@@ -233,6 +239,27 @@ void requireComponents(const std::string& scene, const std::vector<std::string>&
   }
 }
 
+// Columns of panels that the scene does not have would be left out of its figures without a word. With other settings
+// than the defaults a scene may have fewer components.
+template <class Real>
+void requirePanels(const SceneEntry& entry, const Scene<Real>& scene, const Settings& completed) {
+  const bool defaults = std::all_of(entry.parameters.begin(), entry.parameters.end(),
+                                    [&](const Parameter& p) { return completed.at(p.name) == p.default_value; });
+  if (!entry.registered || !defaults) return;
+  std::vector<std::string> known = scene.names;
+  for (const auto& output : scene.outputs) known.push_back(output.name);
+  for (const Panel& panel : entry.panels) {
+    for (const std::string& column : panel.columns) {
+      const auto colon = column.find(':');
+      for (const auto& name : {column.substr(0, colon), column.substr(colon == column.npos ? 0 : colon + 1)}) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        throw Misuse(
+            fmt::format("scene {}: panel '{}': {}", entry.id, panel.title, unknownName("column", name, known)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -251,6 +278,7 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
                  std::to_string(components) + ": u, v, x and z (setComponents)");
   }
   requireComponents(entry.id, scene.names, scene.scale);
+  requirePanels(entry, scene, completed);
   return scene;
 }
 

@@ -23,6 +23,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -82,10 +83,46 @@ void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const st
 /// Tolerances for ReferenceCase: many digits for cheap scenes, few for thousands of elastic oscillations.
 inline constexpr double kManyDigits = 1e-28, kFewDigits = 1e-19;
 
+namespace detail {
+
+struct Names {
+  int constraints, switching, onSwitch, jump, snap, smoothed, times, onTime, start, exact, with;
+};
+/// A name is ambiguous in it if P has a member of this name, too.
+template <class P>
+struct WithNames : P, Names {};
+
+/// Stops the compiler at functions that have a known name but another form: nothing would call them. Data may have
+/// these names.
+template <class Real, class P>
+constexpr void requireForms() {
+  using Named = WithNames<P>;
+#define IRK_FORM(name, call, form)                                                                                \
+  static_assert(                                                                                                  \
+      requires { &Named::name; } || requires { requires std::is_member_object_pointer_v<decltype(&P::name)>; } || \
+          requires(const P& p, const Point<Real>& at, Real* y, State<Real>& s, const Settings& values) { call; }, \
+      form " is expected")
+  IRK_FORM(constraints, p.constraints(at.t, at.u, y), "constraints(const T& t, const U& u, G&& g) const");
+  IRK_FORM(switching, p.switching(at, y), "switching(const Point<T>& p, T* g) const");
+  IRK_FORM(onSwitch, p.onSwitch(Index(0), at, y), "onSwitch(Index i, const Point<T>& p, T* d) const");
+  IRK_FORM(jump, p.jump(Index(0), at, y, y, y), "jump(Index i, const Point<T>& p, T* u, T* v, T* x) const");
+  IRK_FORM(snap, p.snap(Index(0), at, y, y, y), "snap(Index i, const Point<T>& p, T* u, T* v, T* x) const");
+  IRK_FORM(smoothed, p.smoothed(at, y), "smoothed(const Point<T>& p, T* d) const");
+  IRK_FORM(times, std::vector<Real>(p.times()), "std::vector<Real> times() const");
+  IRK_FORM(onTime, p.onTime(Index(0), at, y), "onTime(Index i, const Point<T>& p, T* d) const");
+  IRK_FORM(start, p.start(s), "start(State<Real>& s) const");
+  IRK_FORM(exact, State<Real>(p.exact(s.t)), "State<Real> exact(const Real& t) const");
+  IRK_FORM(with, P(P::with(values)), "static P with(const Settings& values)");
+#undef IRK_FORM
+}
+
+}  // namespace detail
+
 /// Sets scene.system from a problem struct, which is copied, and scene.start to zeros of its sizes: to be called before
 /// the start is filled. Throws Misuse for sizes that cannot be.
 template <class Real, class P>
 void setProblem(Scene<Real>& scene, P problem) {
+  detail::requireForms<Real, P>();
   scene.start = State<Real>(makeSystem<Real>(problem)->sceneSizes());
   scene.system = [problem = std::move(problem)](const SystemOptions& options) {
     return makeSystem<Real>(problem, options);

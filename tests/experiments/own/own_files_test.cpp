@@ -81,14 +81,24 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   write("taken.cpp", replaced("lift.cpp", "\"lift\"", "\"pendulum\""));
   write("id.cpp", replaced("lift.cpp", "\"lift\"", "\"My Lift\""));
   write("default.cpp", replaced("lift.cpp", "\"mass\", \"1\"", "\"mass\", \"-1\""));
+  write("range.cpp", replaced("lift.cpp", "positiveParameter(\"m\", \"kg\", \"mass\", \"1\")",
+                              "numberParameter(\"m\", \"kg\", \"mass\", \"1\", 2, 0)"));
+  write("panel.cpp", replaced("lift.cpp", "\"9.81\")}}", "\"9.81\")}, .panels = {{\"path\", {\"x:z\"}}}}"));
   write("undeclared.cpp", replaced("lift.cpp", "number<Real>(values, \"k\")", "number<Real>(values, \"q\")"));
+  write("start.cpp", replaced("lift.cpp", "void start(State<Real>& s) const", "void start(State<Real>& s)"));
+  write("jump.cpp", replaced("lift.cpp", "  void start", "  void jump(Index, T*, T*) const {}\n  void start"));
+  write("jump.cpp", replaced("jump.cpp", "  void jump", "  template <class T>\n  void jump"));
   write("empty.cpp", "int unused = 0;\n");
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
       {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp:", ": it does not compile: "}},
       {"taken.cpp", {"'pendulum' (taken.cpp) is taken by a scene of the program"}},
       {"id.cpp", {"'My Lift' (id.cpp)", "small letters"}},
       {"default.cpp", {"scene lift (default.cpp)", "the default -1 of the parameter m", "1e-15"}},
+      {"range.cpp", {"scene lift (range.cpp)", "the parameter m has the range [2, 0]"}},
+      {"panel.cpp", {"scene lift: panel 'path': unknown column 'z'; did you mean 'x'?"}},
       {"undeclared.cpp", {"scene lift", "parameter 'q'"}},
+      {"start.cpp", {"irk: start.cpp:", "it does not compile", "start(State<Real>& s) const is expected"}},
+      {"jump.cpp", {"irk: jump.cpp:", "jump(Index i, const Point<T>& p, T* u, T* v, T* x) const is expected"}},
       {"empty.cpp", {"empty.cpp: it registers nothing"}},
       {"missing.cpp", {"'missing.cpp' cannot be read"}}};
   for (const auto& [file, parts] : cases) {
@@ -122,6 +132,9 @@ TEST_F(OwnFiles, AnUnknownMethodHasANearestOne) {
   }
   write("wrong.toml", "[[block]]\nscene = 'van_der_pol'\nmethods = ['cvode']\n");
   EXPECT_TRUE(containsAll(irk("run wrong.toml").text, {"wrong.toml:3", "'cvode_bdf'"}));
+  write("wrong.toml", "[[block]]\nscene = 'keplr'\nmethods = ['gauss_2']\n");
+  const Ran scene = irk("run wrong.toml");
+  EXPECT_TRUE(scene.text.starts_with("irk: wrong.toml:2: unknown scene 'keplr'")) << scene.text;
   write("no_library.so", "text");
   const Ran library = irk("solve van_der_pol --method ./no_library.so");
   EXPECT_EQ(library.status, 2);
