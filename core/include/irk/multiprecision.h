@@ -17,11 +17,11 @@
 #include <type_traits>
 
 // Calls F(name) for the functions of <cmath> that a BigFloat has.
-#define IRK_BIG_FLOAT_FUNCTIONS(F)                                                                              \
-  F(abs)                                                                                                        \
-  F(fabs)                                                                                                       \
-  F(sqrt) F(cbrt) F(exp) F(expm1) F(log) F(log1p) F(log2) F(log10) F(sin) F(cos) F(tan) F(asin) F(acos) F(atan) \
-      F(sinh) F(cosh) F(tanh) F(asinh) F(acosh) F(atanh) F(floor) F(ceil) F(round) F(trunc)
+#define IRK_BIG_FLOAT_FUNCTIONS(F) IRK_POWERS(F) IRK_ANGLES(F) IRK_HYPERBOLIC(F) IRK_ROUNDED(F)
+#define IRK_POWERS(F) F(sqrt) F(cbrt) F(exp) F(expm1) F(log) F(log1p) F(log2) F(log10)
+#define IRK_ANGLES(F) F(sin) F(cos) F(tan) F(asin) F(acos) F(atan)
+#define IRK_HYPERBOLIC(F) F(sinh) F(cosh) F(tanh) F(asinh) F(acosh) F(atanh)
+#define IRK_ROUNDED(F) F(abs) F(fabs) F(floor) F(ceil) F(round) F(trunc)
 #define IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(F) F(pow) F(atan2) F(hypot) F(fmod)
 
 namespace irk {
@@ -75,16 +75,14 @@ class BigFloat {
   friend bool operator==(const BigFloat& a, const BigFloat& b) { return order(a, b) == 0; }
   friend std::partial_ordering operator<=>(const BigFloat& a, const BigFloat& b) { return order(a, b); }
 
-#define IRK_DECLARE(name)                                         \
-  friend BigFloat name(const BigFloat& x) { return name##Of(x); } \
-  static BigFloat name##Of(const BigFloat& x);
-  IRK_BIG_FLOAT_FUNCTIONS(IRK_DECLARE)
-#undef IRK_DECLARE
-#define IRK_DECLARE(name)                                                               \
-  friend BigFloat name(const BigFloat& x, const BigFloat& y) { return name##Of(x, y); } \
-  static BigFloat name##Of(const BigFloat& x, const BigFloat& y);
-  IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(IRK_DECLARE)
-#undef IRK_DECLARE
+#define IRK_FRIEND(name) \
+  friend BigFloat name(const BigFloat& x) { return name##Of(x); }
+  IRK_BIG_FLOAT_FUNCTIONS(IRK_FRIEND)
+#undef IRK_FRIEND
+#define IRK_FRIEND(name) \
+  friend BigFloat name(const BigFloat& x, const BigFloat& y) { return name##Of(x, y); }
+  IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(IRK_FRIEND)
+#undef IRK_FRIEND
   template <std::integral I>
   friend BigFloat pow(const BigFloat& x, I n) {
     return powerOf(x, n);
@@ -109,6 +107,12 @@ class BigFloat {
   static BigFloat product(const BigFloat& a, const BigFloat& b);
   static BigFloat quotient(const BigFloat& a, const BigFloat& b);
   static std::partial_ordering order(const BigFloat& a, const BigFloat& b);
+#define IRK_MEMBER(name) static BigFloat name##Of(const BigFloat& x);
+  IRK_BIG_FLOAT_FUNCTIONS(IRK_MEMBER)
+#undef IRK_MEMBER
+#define IRK_MEMBER(name) static BigFloat name##Of(const BigFloat& x, const BigFloat& y);
+  IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(IRK_MEMBER)
+#undef IRK_MEMBER
   static BigFloat powerOf(const BigFloat& x, long long n);
   static BigFloat ldexpOf(const BigFloat& x, int n);
   static BigFloat frexpOf(const BigFloat& x, int* n);
