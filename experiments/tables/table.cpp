@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
@@ -19,14 +18,6 @@ std::string quoted(const std::string& cell) {
   std::string text = "\"";
   for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + '"';
-}
-
-std::string startOf(const Table& table) {
-  std::string text;
-  for (const auto& [key, value] : table.head) text += fmt::format("# {}: {}\n", key, value);
-  text += csvLine(table.columns) + '\n';
-  for (const auto& row : table.rows) text += csvLine(row) + '\n';
-  return text;
 }
 
 [[noreturn]] void cannotWrite(const std::filesystem::path& path) {
@@ -52,16 +43,6 @@ std::string csvLine(const TableRow& row) {
     line += quoted(cell);
   }
   return line;
-}
-
-void writeTable(const std::filesystem::path& path, const Table& table) {
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-  const std::filesystem::path beside = path.string() + ".new";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    if (!(out << startOf(table)).flush()) cannotWrite(beside);
-  }
-  std::filesystem::rename(beside, path);
 }
 
 RowWriter::RowWriter(const std::filesystem::path& path, const Table& table) {

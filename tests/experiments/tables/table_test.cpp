@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <vector>
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
@@ -36,6 +38,48 @@ TEST(Table, ReadsBackWhatWasWritten) {
 }
 
 TEST(Table, QuotesAsRfc4180Says) { EXPECT_EQ(csvLine({"a", "b,c", "say \"x\"", ""}), "a,\"b,c\",\"say \"\"x\"\"\","); }
+
+TEST(Table, IsWrittenRowByRow) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "deep" / "runs.csv", whole = folder.path() / "whole.csv";
+  writeTable(whole, sample());
+  {
+    TableWriter writer(path, sample().head, sample().columns);
+    for (const auto& row : sample().rows) writer.add(row);
+    EXPECT_FALSE(std::filesystem::exists(path)) << "not before it is whole";
+    writer.close();
+  }
+  EXPECT_EQ(contents(path), contents(whole));
+  {
+    TableWriter given_up(path, {}, {"other"});
+    given_up.add({"1"});
+  }
+  EXPECT_EQ(contents(path), contents(whole));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1) << "nothing is left beside";
+  EXPECT_THROW(TableWriter("/dev/full/runs.csv", {}, {"key"}), std::exception);
+}
+
+TEST(Table, RowsAreReadFromWhereTheyBegin) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "runs.csv";
+  writeTable(path, sample());
+  TableFile file(path);
+  EXPECT_EQ(file.names().head, sample().head);
+  std::vector<std::uint64_t> begins;
+  for (begins.push_back(file.position()); file.next(); begins.push_back(file.position())) {
+  }
+  ASSERT_EQ(begins.size(), sample().rows.size() + 1);
+  std::filesystem::remove(path);  // it stays open
+  for (const std::size_t i : {3u, 0u, 2u, 2u, 1u}) {
+    file.seek(begins[i]);
+    EXPECT_EQ(file.next(), sample().rows[i]);
+    EXPECT_EQ(file.position(), begins[i + 1]);
+  }
+  file.seek(begins.back());
+  EXPECT_EQ(file.next(), std::nullopt);
+  file.seek(begins[1]);
+  EXPECT_EQ(file.next(), sample().rows[1]) << "behind the end, too";
+}
 
 // One row at a time, they are those of the whole table.
 TEST(Table, RowsTakeNoMoreMemoryThanTheirCells) {
