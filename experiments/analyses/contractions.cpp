@@ -76,7 +76,8 @@ void registerObserved() {
   static_cast<void>(done);
 }
 
-void appendRun(const TableRow& start, const std::string& rtol, const std::vector<Contractions>& solves, Table& table) {
+void appendRun(const TableRow& start, const std::string& rtol, const std::vector<Contractions>& solves,
+               TableWriter& table) {
   std::vector<std::size_t> long_ones;
   for (std::size_t i = 0; i < solves.size(); ++i) {
     if (solves[i].size() >= kLeastIterations) long_ones.push_back(i);
@@ -87,7 +88,7 @@ void appendRun(const TableRow& start, const std::string& rtol, const std::vector
     TableRow row = start;
     row.insert(row.end(), {rtol, std::to_string(long_ones[i] + 1), std::to_string(c.size())});
     for (std::size_t k = 0; k < kMostIterations; ++k) row.push_back(k < c.size() ? numberText(c[k]) : "nan");
-    table.rows.push_back(std::move(row));
+    table.add(row);
   }
 }
 
@@ -109,22 +110,24 @@ std::vector<Contractions> observedContractions(const RunSpec& spec) {
   return solves;
 }
 
-Table contractionTable(const Study& study, const Table& runs) {
-  Table table{runs.head, seriesColumns(runs), {}};
-  table.columns.insert(table.columns.end(), {"rtol", "solve", "iterations"});
-  for (std::size_t k = 1; k <= kMostIterations; ++k) table.columns.push_back("c" + std::to_string(k));
+void writeContractions(const Study& study, const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  auto columns = seriesColumns(names);
+  columns.insert(columns.end(), {"rtol", "solve", "iterations"});
+  for (std::size_t k = 1; k <= kMostIterations; ++k) columns.push_back("c" + std::to_string(k));
+  TableWriter table(file, names.head, columns);
   const SpecsByKey specs(study);
-  for (const auto& series : seriesOf(runs)) {
+  runs.forEachSeries([&](const RunSeries& series) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
-      if (!spec || !succeededAt(runs, *run) || interruptFlag() || findPeer(spec->method) ||
+      if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method) ||
           spec->options.newton.kind != NewtonKind::kModified || spec->scalar != ScalarKind::kDouble) {
         continue;
       }
-      appendRun(series.name, textAt(runs, *run, "rtol"), observedContractions(*spec), table);
+      appendRun(series.name, textAt(names, *run, "rtol"), observedContractions(*spec), table);
     }
-  }
-  return table;
+  });
+  table.close();
 }
 
 Analysis contractionsAnalysis() {
@@ -135,7 +138,7 @@ Analysis contractionsAnalysis() {
           .writes = "contractions.csv",
           .one_method = "the iterations of one method are counted",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "contractions.csv", contractionTable(in.study, in.runs));
+            writeContractions(in.study, in.runs, in.folder / "contractions.csv");
             return {};
           }};
 }

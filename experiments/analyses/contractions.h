@@ -1,10 +1,11 @@
 // contractions.csv: how fast the paper's Newton method contracts, iteration by iteration.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
+#include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -19,6 +20,6 @@ std::vector<Contractions> observedContractions(const RunSpec& spec);
 /// A sample of the solves with at least four iterations of successful runs with newton 'modified', one row each:
 /// columns of a series, rtol, solve (its number in the run), iterations, and c1, c2, ... c6 (NaN where it needed
 /// fewer).
-Table contractionTable(const Study& study, const Table& runs);
+void writeContractions(const Study& study, const RunFile& runs, const std::filesystem::path& file);
 
 }  // namespace irk

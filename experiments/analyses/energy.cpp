@@ -77,14 +77,16 @@ EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>&
   return result;
 }
 
-Table energyTable(const Study& study, const Table& runs) {
-  Table table{runs.head, seriesColumns(runs), {}};
-  table.columns.insert(table.columns.end(), {"h", "t", "energy_error", "drift", "scatter", "largest"});
+void writeEnergy(const Study& study, const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  auto columns = seriesColumns(names);
+  columns.insert(columns.end(), {"h", "t", "energy_error", "drift", "scatter", "largest"});
+  TableWriter table(file, names.head, columns);
   const SpecsByKey specs(study);
-  for (const auto& series : seriesOf(runs)) {
+  runs.forEachSeries([&](const RunSeries& series) {
     for (const auto* run : series.rows) {
       const auto found = specs.find(run->front());
-      if (!found || !succeededAt(runs, *run) || interruptFlag()) continue;
+      if (!found || !succeededAt(names, *run) || interruptFlag()) continue;
       const RunSpec& spec = *found;
       const auto scene = sceneOf<mp50>(spec);
       const auto* energy = energyOf(scene);
@@ -98,11 +100,11 @@ Table energyTable(const Study& study, const Table& runs) {
              {spec.options.step.h, errors.t[i], errors.error[i], drift.drift, drift.scatter, drift.largest}) {
           row.push_back(numberText(x));
         }
-        table.rows.push_back(std::move(row));
+        table.add(row);
       }
     }
-  }
-  return table;
+  });
+  table.close();
 }
 
 Analysis energyAnalysis() {
@@ -112,7 +114,7 @@ Analysis energyAnalysis() {
           .reads = "runs.csv",
           .writes = "energy.csv",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "energy.csv", energyTable(in.study, in.runs));
+            writeEnergy(in.study, in.runs, in.folder / "energy.csv");
             return {};
           }};
 }

@@ -1,10 +1,11 @@
 // energy.csv: the effect of round-off on a conserved energy over many steps.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
+#include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -21,6 +22,6 @@ EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>&
 /// the error of the energy (in the scene's unit) after every k-th step, with k such that about 2000 values are
 /// recorded. The energy is computed in 50 digits from u + carry, v + carry, so that its evaluation adds no round-off.
 /// Columns: those of a series, h, t, energy_error, drift, scatter, largest (the last three are of the whole run).
-Table energyTable(const Study& study, const Table& runs);
+void writeEnergy(const Study& study, const RunFile& runs, const std::filesystem::path& file);
 
 }  // namespace irk

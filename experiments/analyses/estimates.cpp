@@ -93,7 +93,7 @@ double largest(const Vec<double>& y, const Vec<double>& scale, const Group& grou
 
 // Divides the error of the two half steps by the estimate computed from their difference to the whole step.
 void appendStep(const StepSampler& sampler, const Step& step, const TableRow& start, const Table& runs,
-                const TableRow& run, Table& table) {
+                const TableRow& run, TableWriter& table) {
   const auto& tableau = sampler.tableau();
   const auto accurate = makeTableau<double>("radau_iia_" + std::to_string(tableau.stages() + kMoreStages));
   const auto coarse = sampler.end(step, tableau, 1), fine = sampler.end(step, tableau, 2);
@@ -117,31 +117,32 @@ void appendStep(const StepSampler& sampler, const Step& step, const TableRow& st
                {textAt(runs, run, "rtol"), numberText(step.from.t), numberText(step.h), std::string(1, group.name),
                 numberText(difference), numberText(error), numberText(error / (difference * all[group.first])),
                 numberText(error / (difference * own[group.first]))});
-    table.rows.push_back(std::move(row));
+    table.add(row);
   }
 }
 
 }  // namespace
 
-Table estimateTable(const Study& study, const Table& runs) {
-  Table table{runs.head, seriesColumns(runs), {}};
-  table.columns.insert(table.columns.end(),
-                       {"rtol", "t", "h", "group", "difference", "error", "doubling", "richardson"});
+void writeEstimates(const Study& study, const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  auto columns = seriesColumns(names);
+  columns.insert(columns.end(), {"rtol", "t", "h", "group", "difference", "error", "doubling", "richardson"});
+  TableWriter table(file, names.head, columns);
   const SpecsByKey specs(study);
-  for (const auto& series : seriesOf(runs)) {
+  runs.forEachSeries([&](const RunSeries& series) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
-      if (!spec || !succeededAt(runs, *run) || interruptFlag() || findPeer(spec->method) ||
+      if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method) ||
           spec->options.step.estimate == ErrorEstimate::kNone || spec->scalar != ScalarKind::kDouble) {
         continue;
       }
       const StepSampler sampler(*spec);
       for (const Step& step : sampler.steps()) {
-        appendStep(sampler, step, series.name, runs, *run, table);
+        appendStep(sampler, step, series.name, names, *run, table);
       }
     }
-  }
-  return table;
+  });
+  table.close();
 }
 
 Analysis estimatesAnalysis() {
@@ -152,7 +153,7 @@ Analysis estimatesAnalysis() {
           .writes = "estimates.csv",
           .one_method = "the error of a step is compared with one method's estimate",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "estimates.csv", estimateTable(in.study, in.runs));
+            writeEstimates(in.study, in.runs, in.folder / "estimates.csv");
             return {};
           }};
 }

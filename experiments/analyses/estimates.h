@@ -1,8 +1,10 @@
 // estimates.csv: the estimated and the true error of single steps.
 #pragma once
 
+#include <filesystem>
+
+#include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -13,6 +15,6 @@ namespace irk {
 /// Columns: those of a series, rtol, t, h, group (u, v, x, z), difference (between the two solutions), error (of the
 /// two half steps), doubling and richardson (true error divided by each estimate). Values are the largest of the
 /// group, in units of the scene's scales; rows at round-off are left out.
-Table estimateTable(const Study& study, const Table& runs);
+void writeEstimates(const Study& study, const RunFile& runs, const std::filesystem::path& file);
 
 }  // namespace irk

@@ -224,24 +224,25 @@ std::vector<std::string> uncoveredRuns(const Table& phases) {
   return lines;
 }
 
-Table phaseTable(const Study& study, const Table& runs, std::ostream& out) {
-  Table table{runs.head, phaseColumns(runs), {}};
+Table phaseTable(const Study& study, const RunFile& runs, std::ostream& out) {
+  const Table& names = runs.names();
+  Table table{names.head, phaseColumns(names), {}};
   const SpecsByKey specs(study);
   Progress progress(out, study.id + " phases");
-  for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
-  for (const auto& series : seriesOf(runs)) {
+  runs.forEachRow([&](const TableRow& row) { progress.expect(textAt(names, row, "settings")); });
+  runs.forEachSeries([&](const RunSeries& series) {
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
-      const auto& kind = textAt(runs, *run, "settings");
-      if (!spec || !succeededAt(runs, *run) || interruptFlag() || findPeer(spec->method)) {
+      const auto& kind = textAt(names, *run, "settings");
+      if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method)) {
         progress.skipped(kind);
         continue;
       }
       const double start = wallSeconds();
-      table.rows.push_back(phaseRow(runs, *run, series.name, *spec));
+      table.rows.push_back(phaseRow(names, *run, series.name, *spec));
       progress.finished(kind, wallSeconds() - start);
     }
-  }
+  });
   return table;
 }
 

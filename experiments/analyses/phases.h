@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -17,7 +17,7 @@ namespace irk {
 /// the rest of an iteration; the rest of an attempted step; the start of an integration with its search for a
 /// pattern); share_residual, ... share_start (shares of their sum); run_s (the whole run); covered (their sum divided
 /// by run_s). Studies with variable order are refused.
-Table phaseTable(const Study& study, const Table& runs, std::ostream& progress);
+Table phaseTable(const Study& study, const RunFile& runs, std::ostream& progress);
 
 /// One line for each row whose parts cover less than 0.9 or more than 1.1 of the whole run. Such shares are
 /// unreliable.

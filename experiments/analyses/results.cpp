@@ -43,10 +43,10 @@ void tellDrift(const std::string& study, const std::filesystem::path& runs, std:
       << "; calibrations.csv has all of them, --fresh measures again\n";
 }
 
-std::vector<std::string> writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
+std::vector<std::string> writeSummaries(const Study& study, const RunFile& runs, const std::filesystem::path& folder,
                                         std::ostream& progress) {
   std::vector<std::string> doubts;
-  const std::string refusal = refusedTimes(runs.head);
+  const std::string refusal = refusedTimes(runs.names().head);
   if (!refusal.empty()) doubts.push_back(refusal);
   for (const Analysis* analysis : study.analyses) {
     for (auto& line : analysis->run({study, runs, folder, progress})) doubts.push_back(std::move(line));

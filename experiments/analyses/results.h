@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -25,7 +25,7 @@ void tellDrift(const std::string& study, const std::filesystem::path& runs, std:
 /// Writes the tables of the study's analyses (experiments/study/analysis.h). If times come from several processors
 /// (store::kTimesRefused), it writes no profile, and costs without times. Returns one line for every number that must
 /// not be trusted; all tables are written nevertheless.
-[[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
+[[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const RunFile& runs,
                                                       const std::filesystem::path& folder, std::ostream& progress);
 
 }  // namespace irk

@@ -75,18 +75,19 @@ TableRow slopeRow(TableRow row, const Points& points) {
 
 }  // namespace
 
-Table scalingTable(const Study& study, const Table& runs, std::ostream& out) {
-  Table table{runs.head, seriesColumns(runs), {}};
+Table scalingTable(const Study& study, const RunFile& runs, std::ostream& out) {
+  const Table& names = runs.names();
+  Table table{names.head, seriesColumns(names), {}};
   table.columns.insert(table.columns.end(), {"n", "step_s", "step_cpu_s", "iterations"});
   const SpecsByKey specs(study);
   Progress progress(out, study.id + " steps");
-  for (const auto& row : runs.rows) progress.expect(textAt(runs, row, "settings"));
-  for (const auto& series : seriesOf(runs)) {
+  runs.forEachRow([&](const TableRow& row) { progress.expect(textAt(names, row, "settings")); });
+  runs.forEachSeries([&](const RunSeries& series) {
     for (const auto* run : series.rows) {
-      const auto& kind = textAt(runs, *run, "settings");
+      const auto& kind = textAt(names, *run, "settings");
       const auto found = specs.find(run->front());
       const bool ours = found && !findPeer(found->method);
-      if (!ours || !succeededAt(runs, *run) || interruptFlag()) {
+      if (!ours || !succeededAt(names, *run) || interruptFlag()) {
         progress.skipped(kind);
         continue;
       }
@@ -99,7 +100,7 @@ Table scalingTable(const Study& study, const Table& runs, std::ostream& out) {
       table.rows.push_back(std::move(row));
       progress.finished(kind, wallSeconds() - start);
     }
-  }
+  });
   return table;
 }
 

@@ -3,8 +3,8 @@
 
 #include <iosfwd>
 
+#include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -12,7 +12,7 @@ namespace irk {
 /// rejected attempts before them. The first three steps do not count, because the start finds the pattern of the
 /// Jacobian and the order of elimination. Columns: those of a series, n (unknowns of one stage), step_s (wall clock),
 /// step_cpu_s (of the calling thread), iterations (of Newton per step).
-Table scalingTable(const Study& study, const Table& runs, std::ostream& progress);
+Table scalingTable(const Study& study, const RunFile& runs, std::ostream& progress);
 
 /// Least-squares slopes of log step_s over log n for n >= 200 and over log stages, from rows of scaling.csv that
 /// differ in nothing else. Columns: scene, formulation, solver, storage, threads, over (`n` or `stages`), at (the

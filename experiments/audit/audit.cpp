@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/tables/keyed_file.h"
 
 namespace irk::audit {
 namespace {
@@ -97,38 +100,40 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
 
 }  // namespace
 
-Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
-                 const std::map<std::string, Vec<double>>& states, const Answers& answers) {
-  std::map<std::string, const TableRow*> rows;
-  for (const auto& row : runs.rows) rows[row.front()] = &row;
-  Table table{runs.head, kColumns, {}};
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const auto row = rows.find(specKey(drawn[i].spec));
-    if (row == rows.end()) continue;  // not run because of an interrupt
-    const auto state = states.find(row->first);
-    const auto answer = answers.find(questionOf(drawn[i].spec));
-    table.rows.push_back(auditRow(i, drawn[i], runs, *row->second, state == states.end() ? nullptr : &state->second,
-                                  answer == answers.end() ? nullptr : &answer->second));
+void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::filesystem::path& states,
+                const Answers& answers, const std::filesystem::path& file) {
+  KeyedFile made(runs), ends(states);
+  const auto state_column = ends.names().column("state");
+  TableWriter table(file, made.names().head, kColumns);
+  for (std::size_t i = 0; i < draw.size(); ++i) {
+    const DrawnRun drawn = draw[i];
+    const auto key = specKey(drawn.spec);
+    const auto row = made.find(key);
+    if (!row) continue;  // not run because of an interrupt
+    const auto end = ends.find(key);
+    const auto state = end ? std::optional(parseVector((*end)[state_column])) : std::nullopt;
+    const auto answer = answers.find(questionOf(drawn.spec));
+    table.add(auditRow(i, drawn, made.names(), *row, state ? &*state : nullptr,
+                       answer == answers.end() ? nullptr : &answer->second));
   }
-  return table;
+  table.close();
 }
 
-std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder, int jobs,
-                      std::ostream& progress) {
+std::string auditRuns(const Study& study, const std::filesystem::path& folder, int jobs, std::ostream& progress) {
   constexpr std::size_t kWorst = 5;
-  const auto drawn = drawnRuns(study.audit.value());
+  const Draw draw(study.audit.value());
   std::set<Question> questions;
-  for (const auto& run : drawn) questions.insert(questionOf(run.spec));
+  for (std::size_t i = 0; i < draw.size(); ++i) questions.insert(questionOf(draw[i].spec));
   const Answers answers = answersTo(questions, folder / "references.csv", jobs, progress);
+  const auto audit = folder / "audit.csv", summary_file = folder / "audit_summary.csv";
   if (interruptFlag()) {
     // Without their references runs would count as unjudged, and there would seem to be few wrong ones.
-    for (const char* table : {"audit.csv", "audit_summary.csv"}) std::filesystem::remove(folder / table);
+    for (const auto& table : {audit, summary_file}) std::filesystem::remove(table);
     return "interrupted: not all references are known, so no run is judged yet\n";
   }
-  const Table audit = auditTable(drawn, runs, readStates(folder / "states.csv"), answers);
+  writeAudit(draw, folder / "runs.csv", folder / "states.csv", answers, audit);
   const Table summary = summaryTable(audit);
-  writeTable(folder / "audit.csv", audit);
-  writeTable(folder / "audit_summary.csv", summary);
+  writeTable(summary_file, summary);
   return summaryText(audit, summary, kWorst);
 }
 

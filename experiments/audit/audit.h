@@ -3,9 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
-#include <map>
 #include <string>
-#include <vector>
 
 #include "experiments/audit/answers.h"
 #include "experiments/audit/judge.h"
@@ -16,20 +14,21 @@ namespace irk::audit {
 
 /// audit.csv: one row per drawn run that has been made, in the order of the draw; `run` counts from 0. `states` has
 /// the final u, v, x, z by the key of the run.
-Table auditTable(const std::vector<DrawnRun>& drawn, const Table& runs,
-                 const std::map<std::string, Vec<double>>& states, const Answers& answers);
+void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::filesystem::path& states,
+                const Answers& answers, const std::filesystem::path& file);
 
-/// audit_summary.csv: counts of judgements over all runs, and grouped by configuration, treatment, scene, family,
-/// formulation, and configuration with treatment. The group `bar` counts by configuration the runs that must not be
-/// wrong: those whose switches are treated by default or located, and those of scenes without switches.
-Table summaryTable(const Table& audit);
+/// audit_summary.csv of an audit.csv: counts of judgements over all runs, and grouped by configuration, treatment,
+/// scene, family, formulation, and configuration with treatment. The group `bar` counts by configuration the runs that
+/// must not be wrong: those whose switches are treated by default or located, and those of scenes without switches.
+Table summaryTable(const std::filesystem::path& audit);
 
-/// Writes references.csv, audit.csv and audit_summary.csv of the study's runs to `folder`; returns the lines of
-/// summaryText. After an interrupt audit.csv and its summary do not exist; the references found so far are kept.
-std::string auditRuns(const Study& study, const Table& runs, const std::filesystem::path& folder, int jobs,
-                      std::ostream& progress);
+/// Reads runs.csv and states.csv in the study's folder, and writes references.csv, audit.csv and audit_summary.csv
+/// there; returns the lines of summaryText. After an interrupt audit.csv and its summary do not exist; the references
+/// found so far are kept.
+std::string auditRuns(const Study& study, const std::filesystem::path& folder, int jobs, std::ostream& progress);
 
-/// A few lines: counts by configuration, and the `worst` largest wrong successes with their commands.
-std::string summaryText(const Table& audit, const Table& summary, std::size_t worst);
+/// A few lines about an audit.csv: counts by configuration, and the `worst` largest wrong successes with their
+/// commands.
+std::string summaryText(const std::filesystem::path& audit, const Table& summary, std::size_t worst);
 
 }  // namespace irk::audit

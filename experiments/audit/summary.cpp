@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "experiments/audit/audit.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/tables/table_rows.h"
 
 namespace irk::audit {
 namespace {
@@ -57,35 +62,51 @@ Counts& operator+=(Counts& counts, std::string_view judgement) {
   return counts;
 }
 
-std::vector<const TableRow*> wrongOnes(const Table& audit) {
-  std::vector<const TableRow*> wrong;
-  for (const auto& row : audit.rows) {
-    if (textAt(audit, row, "judgement") == nameOf(Judgement::kWrong)) wrong.push_back(&row);
-  }
-  // The ratio of the error to the bar.
-  const auto excess = [&](const TableRow* row) {
-    return numberAt(audit, *row, "error") / bar(numberAt(audit, *row, "tolerance"));
-  };
-  std::stable_sort(wrong.begin(), wrong.end(),
-                   [&](const TableRow* a, const TableRow* b) { return excess(a) > excess(b); });
+struct WrongSuccess {
+  double excess;  // the ratio of its error to the bar
+  double error;
+  std::string command;
+};
+
+struct WrongSuccesses {
+  std::size_t count = 0;
+  std::size_t unseen = 0;           // off by more than local errors of one tolerance can add up to
+  std::vector<WrongSuccess> worst;  // the first of equal ones first
+};
+
+WrongSuccesses wrongOnes(const std::filesystem::path& file, std::size_t most) {
+  WrongSuccesses wrong;
+  forEachRow(file, [&](const Table& audit, const TableRow& row) {
+    if (textAt(audit, row, "judgement") != nameOf(Judgement::kWrong)) return;
+    const double error = numberAt(audit, row, "error");
+    ++wrong.count;
+    if (!(error <= numberAt(audit, row, "accumulated"))) ++wrong.unseen;
+    const WrongSuccess one{error / bar(numberAt(audit, row, "tolerance")), error, textAt(audit, row, "command")};
+    const auto at = std::upper_bound(wrong.worst.begin(), wrong.worst.end(), one,
+                                     [](const auto& a, const auto& b) { return a.excess > b.excess; });
+    wrong.worst.insert(at, one);
+    if (wrong.worst.size() > most) wrong.worst.pop_back();
+  });
   return wrong;
 }
 
 }  // namespace
 
-Table summaryTable(const Table& audit) {
+Table summaryTable(const std::filesystem::path& file) {
+  std::map<std::string, Counts> groups[std::size(kGroupings)];
+  const Table audit = forEachRow(file, [&](const Table& names, const TableRow& row) {
+    for (std::size_t by = 0; by < std::size(kGroupings); ++by) {
+      const std::string group = kGroupings[by].group(names, row);
+      if (!group.empty()) groups[by][group] += textAt(names, row, "judgement");
+    }
+  });
   Table table{audit.head, {"by", "group", "runs"}, {}};
   for (const auto name : judgementNames()) table.columns.emplace_back(name);
-  for (const auto& grouping : kGroupings) {
-    std::map<std::string, Counts> groups;
-    for (const auto& row : audit.rows) {
-      const std::string group = grouping.group(audit, row);
-      if (!group.empty()) groups[group] += textAt(audit, row, "judgement");
-    }
-    for (const auto& [group, counts] : groups) {
+  for (std::size_t by = 0; by < std::size(kGroupings); ++by) {
+    for (const auto& [group, counts] : groups[by]) {
       int all = 0;
       for (const int count : counts) all += count;
-      TableRow row{grouping.by, group, std::to_string(all)};
+      TableRow row{kGroupings[by].by, group, std::to_string(all)};
       for (const int count : counts) row.push_back(std::to_string(count));
       table.rows.push_back(std::move(row));
     }
@@ -93,7 +114,7 @@ Table summaryTable(const Table& audit) {
   return table;
 }
 
-std::string summaryText(const Table& audit, const Table& summary, std::size_t worst) {
+std::string summaryText(const std::filesystem::path& audit, const Table& summary, std::size_t worst) {
   std::string text;
   const auto print = [&](std::string_view by, std::string_view title) {
     text += fmt::format("{:<42}{:>7}", title, "runs");
@@ -108,21 +129,15 @@ std::string summaryText(const Table& audit, const Table& summary, std::size_t wo
   };
   print("configuration", "by configuration");
   print("bar", "the same, switches by default or located");
-  const auto wrong = wrongOnes(audit);
-  if (!wrong.empty()) {
-    const auto unseen = std::count_if(wrong.begin(), wrong.end(), [&](const TableRow* row) {
-      return !(numberAt(audit, *row, "error") <= numberAt(audit, *row, "accumulated"));
-    });
+  const auto wrong = wrongOnes(audit, worst);
+  if (wrong.count > 0) {
     text += fmt::format(
         "{} of {} wrong successes are off by more than steps x kappa x tolerance, what local errors of one tolerance "
         "can "
         "add up to\nthe worst successes that are wrong:\n",
-        unseen, wrong.size());
+        wrong.unseen, wrong.count);
   }
-  for (std::size_t i = 0; i < std::min(worst, wrong.size()); ++i) {
-    text +=
-        fmt::format("  error {:.1e}  {}\n", numberAt(audit, *wrong[i], "error"), textAt(audit, *wrong[i], "command"));
-  }
+  for (const auto& one : wrong.worst) text += fmt::format("  error {:.1e}  {}\n", one.error, one.command);
   return text;
 }
 

@@ -122,13 +122,13 @@ int mergeCommand(MergeOptions options, Streams streams) {
   for (const auto& store : stores) merged.takeOver(*store);
   merged.exportTables(keys);
   keepFigures(figures, folder);
-  const Table runs = readTable(folder / "runs.csv");
+  const RunFile runs(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);
-  fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows.size(), options.folders.size(),
+  fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows(), options.folders.size(),
              folder.string());
   if (study.audit) {
     const InterruptScope interrupts;
-    streams.out << audit::auditRuns(study, runs, folder, threadCount(0), streams.err);
+    streams.out << audit::auditRuns(study, folder, threadCount(0), streams.err);
     if (interruptFlag()) return kInterruptedStatus;
   }
   for (const auto& line : doubts) streams.err << line << '\n';

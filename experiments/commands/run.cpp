@@ -111,8 +111,8 @@ bool isStudyFile(const std::string& id_or_file) {
   return path.extension() == ".toml" || path.has_parent_path();
 }
 
-// Whether a table of all runs is needed; it takes some kilobytes of memory per run.
-bool needsTable(const Study& study) { return !study.analyses.empty() || study.audit; }
+// Whether tables are made from the runs.
+bool hasSummaries(const Study& study) { return !study.analyses.empty() || study.audit; }
 
 // This rank's share of the timing pass; nothing if it must be idle, because another one on its host measures.
 std::optional<TimingShare> timingShare(Ranks& ranks) {
@@ -189,14 +189,13 @@ int runStored(const Study& study, const FigureTables& figures, const RunnerOptio
   if (ranks.asTheFirst(times)) timeTogether(study, keys, options, ranks, opened, streams.err);
   const store::Store& store = *opened;
   const Outcomes outcomes = outcomesOf(store, keys);
-  if (!whole || !needsTable(study)) {
+  if (!whole || !hasSummaries(study)) {
     printSummary(study, store, outcomes, streams.out);
   } else {
-    const Table runs = readTable(file);
-    doubts = writeSummaries(study, runs, folder, streams.err);
+    doubts = writeSummaries(study, RunFile(file), folder, streams.err);
     printSummary(study, store, outcomes, streams.out);
     if (study.audit) {
-      streams.out << audit::auditRuns(study, runs, folder, threadCount(options.jobs), streams.err);
+      streams.out << audit::auditRuns(study, folder, threadCount(options.jobs), streams.err);
     }
   }
   for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);

@@ -9,16 +9,15 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/tables/table.h"
-
 namespace irk {
 
+class RunFile;  // experiments/analyses/run_file.h
 struct Study;
 
 /// The input of an analysis. The references are valid while it runs.
 struct AnalysisInput {
   const Study& study;
-  const Table& runs;                    ///< of runs.csv
+  const RunFile& runs;
   const std::filesystem::path& folder;  ///< results/<study>
   std::ostream& progress;
 };

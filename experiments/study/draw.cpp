@@ -144,8 +144,10 @@ void set(RunSpec& spec, std::string_view field, std::string_view value) {
   if (!value.empty()) findField(field).set(spec, value);
 }
 
+}  // namespace
+
 /// Draws the runs of one audit. Caches what the draws of a scene share.
-class Drawer {
+class Draw::Drawer {
  public:
   explicit Drawer(const AuditOptions& options) : options_(options) {
     for (const auto& id : options.scenes) scenes_.push_back(&findScene(id));
@@ -253,8 +255,6 @@ class Drawer {
   std::map<std::string, bool> legal_;
 };
 
-}  // namespace
-
 Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant, Discontinuity treatment) {
   const double t_end = makeScene<double>(scene.id).t_end;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
@@ -265,11 +265,14 @@ Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index varian
   return {};
 }
 
-std::vector<DrawnRun> drawnRuns(const AuditOptions& options) {
-  Drawer drawer(options);
-  std::vector<DrawnRun> runs;
-  for (int i = 0; i < options.runs; ++i) runs.push_back(drawer.run(i));
-  return runs;
+Draw::Draw(const AuditOptions& options)
+    : size_(static_cast<std::size_t>(options.runs)), drawer_(std::make_unique<Drawer>(options)) {}
+
+Draw::~Draw() = default;
+
+DrawnRun Draw::operator[](std::size_t i) const {
+  const std::lock_guard lock(mutex_);
+  return drawer_->run(static_cast<int>(i));
 }
 
 std::string commandOf(const DrawnRun& run) {

@@ -1,8 +1,10 @@
 // The runs of an audit: drawn at random from the catalogues, the same for the same seed.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <mutex>
 #include <string>
-#include <vector>
 
 #include "experiments/runs/run_spec.h"
 #include "experiments/study/study.h"
@@ -19,15 +21,29 @@ struct DrawnRun {
   std::string treatment;  ///< kDefaultTreatment, kNoSwitches, or the id of a Discontinuity
 };
 
-/// `options.runs` legal runs. Run i depends only on the seed and on i, so a shorter audit is the beginning of a
-/// longer one. Values that a run leaves at their defaults are not drawn: after a change of a default the same runs
-/// are drawn, with the new default.
+/// `options.runs` legal runs, made on demand. Run i depends only on the seed and on i, so a shorter audit is the
+/// beginning of a longer one. Values that a run leaves at their defaults are not drawn: after a change of a default the
+/// same runs are drawn, with the new default.
 ///
-/// Scenes are drawn with equal probability, among options.scenes (Misuse for an unknown one) or else those of the
-/// library, never those that users add; then settings (the defaults half of the time, else one of
-/// `options.variants` drawn variants of the scene), configuration, treatment of switches, formulation, method and
-/// tolerance. A combination that is refused is drawn again.
-std::vector<DrawnRun> drawnRuns(const AuditOptions& options);
+/// Scenes are drawn with equal probability, among options.scenes or else those of the library, never those that users
+/// add; then settings (the defaults half of the time, else one of `options.variants` drawn variants of the scene),
+/// configuration, treatment of switches, formulation, method and tolerance. A combination that is refused is drawn
+/// again. Thread-safe.
+class Draw {
+ public:
+  /// Throws Misuse for an unknown scene.
+  explicit Draw(const AuditOptions& options);
+  ~Draw();
+
+  std::size_t size() const { return size_; }
+  DrawnRun operator[](std::size_t i) const;
+
+ private:
+  class Drawer;
+  std::size_t size_;
+  std::unique_ptr<Drawer> drawer_;
+  mutable std::mutex mutex_;
+};
 
 /// Variant i of the scene's settings. Each number with a default other than 0 is multiplied by 4^x, x uniform in [-1,
 /// 1], clipped to its range and rounded to three digits; words are drawn among the choices; integers stay small.

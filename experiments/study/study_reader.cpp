@@ -146,9 +146,10 @@ AuditOptions auditOptions(const StudyKeys& keys) {
   return audit;
 }
 
-std::vector<Series> auditSeries(const AuditOptions& options) {
-  std::vector<Series> series;
-  for (const auto& run : audit::drawnRuns(options)) series.push_back({run.spec, SeriesEnd::kAll, {}});
+SeriesList auditSeries(const AuditOptions& options) {
+  const auto draw = std::make_shared<const audit::Draw>(options);
+  SeriesList series;
+  series.append(draw->size(), [draw](std::size_t i) { return Series{(*draw)[i].spec, SeriesEnd::kAll, {}}; });
   return series;
 }
 

@@ -77,31 +77,31 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
   return costAtError(std::move(points), target);
 }
 
-Table costTable(const Table& runs, const std::vector<double>& targets) {
-  Table costs;
-  costs.head = runs.head;
-  costs.columns = seriesColumns(runs);
-  costs.columns.emplace_back("target_error");
-  costs.columns.insert(costs.columns.end(), std::begin(kCosts), std::end(kCosts));
-  costs.columns.insert(costs.columns.end(), {"reached", "cause", "least_tolerance", std::string(kBlockColumn)});
-  for (const auto& series : seriesOf(runs)) {
+void writeCosts(const RunFile& runs, const std::vector<double>& targets, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  auto columns = seriesColumns(names);
+  columns.emplace_back("target_error");
+  columns.insert(columns.end(), std::begin(kCosts), std::end(kCosts));
+  columns.insert(columns.end(), {"reached", "cause", "least_tolerance", std::string(kBlockColumn)});
+  TableWriter costs(file, names.head, columns);
+  runs.forEachSeries([&](const RunSeries& series) {
     for (const double target : targets) {
       TableRow row = series.name;
       row.push_back(numberText(target));
       bool reached = false;
       for (const auto cost : kCosts) {
-        const double value = seriesCostAtError(runs, series, cost, target);
+        const double value = seriesCostAtError(names, series, cost, target);
         reached = reached || !std::isnan(value);
         row.push_back(numberText(value));
       }
       row.emplace_back(reached ? "1" : "0");
-      row.push_back(reached ? "" : causeOf(runs, series));
-      row.push_back(numberText(leastTolerance(runs, series)));
+      row.push_back(reached ? "" : causeOf(names, series));
+      row.push_back(numberText(leastTolerance(names, series)));
       row.push_back(series.blocks);
-      costs.rows.push_back(row);
+      costs.add(row);
     }
-  }
-  return costs;
+  });
+  costs.close();
 }
 
 Analysis costAnalysis() {
@@ -111,7 +111,7 @@ Analysis costAnalysis() {
           .reads = "runs.csv",
           .writes = "cpu_at_error.csv",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "cpu_at_error.csv", costTable(in.runs, in.study.targets));
+            writeCosts(in.runs, in.study.targets, in.folder / "cpu_at_error.csv");
             return {};
           }};
 }

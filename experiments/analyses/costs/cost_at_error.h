@@ -1,10 +1,11 @@
 // cpu_at_error.csv: the cost of each method at given errors.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
-#include "experiments/runs/run_table.h"
+#include "experiments/analyses/run_file.h"
 
 namespace irk {
 
@@ -33,6 +34,6 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
 /// reached (0 if the series does not reach the error; its costs are then nan), cause (the reason: `no reference`,
 /// `below the reference's accuracy`, `not accurate enough`, or `no success: ` with the outcome of the last run),
 /// least_tolerance (the smallest tolerance of the series, nan for fixed steps), block.
-Table costTable(const Table& runs, const std::vector<double>& targets);
+void writeCosts(const RunFile& runs, const std::vector<double>& targets, const std::filesystem::path& file);
 
 }  // namespace irk

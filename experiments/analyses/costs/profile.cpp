@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/analyses/results.h"
@@ -18,42 +24,72 @@
 namespace irk {
 namespace {
 
-constexpr double kEnd = 1e6;  // where the curves end
+constexpr double kEnd = 1e6;                           // where the curves end
+constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15;  // odd, with bits at random places
 
-// Solver -> problem that it was given -> time; infinity if the solver does not solve it.
-using Costs = std::map<std::string, std::map<std::string, double>>;
+/// A cost that counts.
+struct Given {
+  std::uint64_t problem;  // hash of scene and settings
+  double time;            // infinity if the solver does not solve it
+  std::uint32_t solver, scene, target;
+};
 
-// The least time of every problem that some solver solves.
-std::map<std::string, double> bestTimes(const Costs& costs) {
-  std::map<std::string, double> best;
-  for (const auto& [solver, times] : costs) {
-    for (const auto& [problem, time] : times) {
-      if (std::isinf(time)) continue;
-      const auto [at, added] = best.try_emplace(problem, time);
-      if (!added) at->second = std::min(at->second, time);
-    }
-  }
-  return best;
+/// Numbers for texts, in their order of appearance; visited in alphabetical order.
+using Ids = std::map<std::string, std::uint32_t>;
+
+std::uint32_t idOf(const std::string& text, Ids& ids) {
+  return ids.try_emplace(text, static_cast<std::uint32_t>(ids.size())).first->second;
 }
 
-void appendProfile(const std::string& collection, const std::string& target, const Costs& costs, Table& table) {
-  const auto best = bestTimes(costs);
+struct AllCosts {
+  Ids solvers, scenes, targets;
+  std::vector<Given> given;
+};
+
+/// A time of one curve.
+struct Time {
+  std::uint64_t problem;
+  double seconds;
+  std::uint32_t solver;
+};
+
+// Keeps the least time of each problem, of each solver if they are told apart.
+template <class Key>
+void keepLeast(std::vector<Time>& times, Key key) {
+  std::sort(times.begin(), times.end(), [&](const Time& a, const Time& b) {
+    return std::tuple(key(a), a.problem, a.seconds) < std::tuple(key(b), b.problem, b.seconds);
+  });
+  const auto same = [&](const Time& a, const Time& b) { return key(a) == key(b) && a.problem == b.problem; };
+  times.erase(std::unique(times.begin(), times.end(), same), times.end());
+}
+
+void appendProfile(const TableRow& start, std::vector<Time> times, const Ids& solvers, TableWriter& table) {
+  keepLeast(times, [](const Time& time) { return time.solver; });
+  std::vector<Time> best;  // of every problem that some solver solves
+  std::copy_if(times.begin(), times.end(), std::back_inserter(best),
+               [](const Time& time) { return !std::isinf(time.seconds); });
+  keepLeast(best, [](const Time&) { return 0; });
   const std::string problems = std::to_string(best.size());
-  for (const auto& [solver, times] : costs) {
+  for (const auto& [solver, id] : solvers) {
     std::vector<double> ratios;  // time over best time, of the problems that it solves
     std::size_t given = 0;
-    for (const auto& [problem, time] : times) {
-      const auto solved = best.find(problem);
-      if (solved == best.end()) continue;
+    const auto first = std::lower_bound(times.begin(), times.end(), id,
+                                        [](const Time& time, std::uint32_t its) { return time.solver < its; });
+    for (auto time = first; time != times.end() && time->solver == id; ++time) {
+      const auto solved =
+          std::lower_bound(best.begin(), best.end(), time->problem,
+                           [](const Time& its, std::uint64_t problem) { return its.problem < problem; });
+      if (solved == best.end() || solved->problem != time->problem) continue;
       ++given;
-      if (!std::isinf(time)) ratios.push_back(time / solved->second);
+      if (!std::isinf(time->seconds)) ratios.push_back(time->seconds / solved->seconds);
     }
     if (given == 0) continue;
     std::sort(ratios.begin(), ratios.end());
     const auto addRow = [&](double ratio, std::size_t count) {
       const double fraction = static_cast<double>(count) / static_cast<double>(given);
-      table.rows.push_back(
-          {collection, target, solver, numberText(ratio), numberText(fraction), std::to_string(given), problems});
+      TableRow row = start;
+      row.insert(row.end(), {solver, numberText(ratio), numberText(fraction), std::to_string(given), problems});
+      table.add(row);
     };
     if (ratios.empty()) addRow(1, 0);
     for (std::size_t i = 0; i < ratios.size(); ++i) addRow(ratios[i], i + 1);
@@ -69,30 +105,55 @@ bool wasAsked(const Table& costs, const TableRow& row) {
   return !(least > numberAt(costs, row, "target_error") * (1 + 1e-9));
 }
 
-}  // namespace
-
-Table profileTable(const Table& costs) {
-  Table table{costs.head, {"collection", "target_error", "integrator", "ratio", "fraction", "given", "problems"}, {}};
-  std::map<std::pair<std::string, std::string>, Costs> curves;  // collection and target
-  for (const auto& row : costs.rows) {
-    const auto& target = textAt(costs, row, "target_error");
-    const std::string problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
-    const auto& solver = textAt(costs, row, "integrator");
+AllCosts readCosts(TableFile& file) {
+  AllCosts all;
+  const Table& costs = file.names();
+  while (const auto next = file.next()) {
+    const TableRow& row = *next;
     const auto& cause = textAt(costs, row, "cause");
     if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable || !wasAsked(costs, row)) continue;
     const double cost = numberAt(costs, row, "cpu_s");
-    const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
-    auto collections = collectionsOf(textAt(costs, row, "scene"));
-    collections.emplace_back("all");
-    for (const auto& collection : collections) {
-      for (const auto& [key, name] : {std::pair(target, problem), {"all", problem + " " + target}}) {
-        const auto [at, added] = curves[{collection, key}][solver].try_emplace(name, time);
-        if (!added) at->second = std::min(at->second, time);
+    const auto& scene = textAt(costs, row, "scene");
+    all.given.push_back({fnv1a(scene + " " + textAt(costs, row, "settings")),
+                         std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost,
+                         idOf(textAt(costs, row, "integrator"), all.solvers), idOf(scene, all.scenes),
+                         idOf(textAt(costs, row, "target_error"), all.targets)});
+  }
+  return all;
+}
+
+// The scenes of each collection, by their ids.
+std::map<std::string, std::set<std::uint32_t>> collectionsIn(const Ids& scenes) {
+  std::map<std::string, std::set<std::uint32_t>> collections;
+  for (const auto& [scene, id] : scenes) {
+    for (const auto& collection : collectionsOf(scene)) collections[collection].insert(id);
+    collections["all"].insert(id);
+  }
+  return collections;
+}
+
+}  // namespace
+
+void writeProfile(const std::filesystem::path& costs, const std::filesystem::path& file) {
+  TableFile read(costs);
+  const AllCosts all = readCosts(read);
+  TableWriter table(file, read.names().head,
+                    {"collection", "target_error", "integrator", "ratio", "fraction", "given", "problems"});
+  std::map<std::string, std::optional<std::uint32_t>> targets{{"all", std::nullopt}};
+  targets.insert(all.targets.begin(), all.targets.end());
+  for (const auto& [collection, scenes] : collectionsIn(all.scenes)) {
+    for (const auto& [name, target] : targets) {
+      std::vector<Time> times;
+      for (const auto& given : all.given) {
+        if (!scenes.contains(given.scene) || (target && given.target != *target)) continue;
+        // Over all targets, each is a problem of its own.
+        const auto problem = target ? given.problem : given.problem ^ ((given.target + 1) * kSpread);
+        times.push_back({problem, given.time, given.solver});
       }
+      if (!times.empty()) appendProfile({collection, name}, std::move(times), all.solvers, table);
     }
   }
-  for (const auto& [key, solvers] : curves) appendProfile(key.first, key.second, solvers, table);
-  return table;
+  table.close();
 }
 
 Analysis profileAnalysis() {
@@ -104,8 +165,8 @@ Analysis profileAnalysis() {
           .needs = "targets",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
             // Without times no profile is written, and an older one must not remain beside these runs.
-            if (refusedTimes(in.runs.head).empty()) {
-              writeTable(in.folder / "profile.csv", profileTable(readTable(in.folder / "cpu_at_error.csv")));
+            if (refusedTimes(in.runs.names().head).empty()) {
+              writeProfile(in.folder / "cpu_at_error.csv", in.folder / "profile.csv");
             } else {
               std::filesystem::remove(in.folder / "profile.csv");
             }

@@ -1,7 +1,7 @@
 // profile.csv: performance profiles of the solvers over all problems of a study.
 #pragma once
 
-#include "experiments/tables/table.h"
+#include <filesystem>
 
 namespace irk {
 
@@ -14,6 +14,8 @@ namespace irk {
 /// a solver cannot be applied (refused runs), and errors below a solver's smallest tolerance (least_tolerance), which
 /// it was never asked for. There is one row per step of the curve, the last one at ratio 1e6; a curve without other
 /// steps begins with ratio 1, fraction 0.
-Table profileTable(const Table& costs);
+///
+/// Memory holds 32 bytes per row of `costs`, and 40 more for those of one curve.
+void writeProfile(const std::filesystem::path& costs, const std::filesystem::path& file);
 
 }  // namespace irk

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/base/median.h"
@@ -21,37 +24,44 @@ namespace {
 // What is solved, and by which method: no choices of a block. `integrator` follows from others.
 constexpr std::string_view kNotCompared[] = {"scene", "settings", "method", "family", "stages", "integrator", "t_end"};
 
+/// A block's series: memory holds their numbers, not their rows.
 class Block {
  public:
-  Block(const Table& runs, std::string name, const std::vector<RunSeries>& all)
-      : runs_(runs), name_(std::move(name)), columns_(seriesColumns(runs)) {
-    for (const auto& series : all) {
-      if (hasBlock(series.blocks, name_)) series_.push_back(&series);
+  Block(const RunFile& runs, std::string name, std::vector<std::uint32_t> series)
+      : runs_(runs), name_(std::move(name)), series_(std::move(series)), columns_(seriesColumns(runs.names())) {
+    base_ = runs_[series_.front()].series.name;
+    std::vector<bool> differs(columns_.size(), false);
+    for (const auto i : series_) {
+      const auto held = runs_[i];
+      for (std::size_t c = 0; c < columns_.size(); ++c) differs[c] = differs[c] || held.series.name[c] != base_[c];
     }
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const auto differs = [&](const RunSeries* series) { return series->name[c] != series_.front()->name[c]; };
       const bool compared =
           std::find(std::begin(kNotCompared), std::end(kNotCompared), columns_[c]) == std::end(kNotCompared);
-      if (compared && std::any_of(series_.begin(), series_.end(), differs)) choices_.push_back(c);
+      if (compared && differs[c]) choices_.push_back(c);
     }
   }
 
-  void append(const std::vector<double>& targets, Table& ratios) const {
+  void append(const std::vector<double>& targets, TableWriter& ratios) const {
     for (const std::size_t choice : choices_) {
-      const std::string& base = series_.front()->name[choice];
-      for (const auto* series : series_) {
-        if (series->name[choice] == base) continue;
-        TableRow partner = series->name;
-        partner[choice] = base;
-        const auto at = std::find_if(series_.begin(), series_.end(), [&](auto* s) { return s->name == partner; });
-        if (at != series_.end()) ratios.rows.push_back(row(choice, **at, *series, targets));
+      for (const auto i : series_) {
+        const auto other = runs_[i];
+        if (other.series.name[choice] == base_[choice]) continue;
+        TableRow partner = other.series.name;
+        partner[choice] = base_[choice];
+        const auto at = runs_.find(partner);
+        if (!at) continue;
+        const auto base = runs_[*at];
+        if (base.series.name == partner && hasBlock(base.series.blocks, name_)) {
+          ratios.add(row(choice, base.series, other.series, targets));
+        }
       }
     }
   }
 
  private:
   const std::string& cell(const RunSeries& series, std::string_view column) const {
-    return textAt(runs_, *series.rows.front(), column);
+    return textAt(runs_.names(), *series.rows.front(), column);
   }
 
   std::string others(std::size_t choice, const RunSeries& series) const {
@@ -78,8 +88,8 @@ class Block {
       std::vector<double> found;
       both = lost = won = 0;
       for (const double target : targets) {
-        const double a = seriesCostAtError(runs_, base, cost, target),
-                     b = seriesCostAtError(runs_, other, cost, target);
+        const double a = seriesCostAtError(runs_.names(), base, cost, target),
+                     b = seriesCostAtError(runs_.names(), other, cost, target);
         lost += !std::isnan(a) && std::isnan(b) ? 1 : 0;
         won += std::isnan(a) && !std::isnan(b) ? 1 : 0;
         if (std::isnan(a) || std::isnan(b)) continue;
@@ -94,28 +104,40 @@ class Block {
     return row;
   }
 
-  const Table& runs_;
+  const RunFile& runs_;
   std::string name_;
+  std::vector<std::uint32_t> series_;
   std::vector<std::string> columns_;
-  std::vector<const RunSeries*> series_;
+  TableRow base_;                     // the name of the block's first series
   std::vector<std::size_t> choices_;  // the columns that vary
 };
 
+/// The series of each block, blocks in the order of their first series.
+std::vector<std::pair<std::string, std::vector<std::uint32_t>>> blocksOf(const RunFile& runs) {
+  std::vector<std::pair<std::string, std::vector<std::uint32_t>>> blocks;
+  std::uint32_t number = 0;
+  runs.forEachSeries([&](const RunSeries& series) {
+    std::istringstream names(series.blocks);
+    for (std::string name; names >> name;) {
+      auto at = std::find_if(blocks.begin(), blocks.end(), [&](const auto& block) { return block.first == name; });
+      if (at == blocks.end()) at = blocks.insert(at, {name, {}});
+      at->second.push_back(number);
+    }
+    ++number;
+  });
+  return blocks;
+}
+
 }  // namespace
 
-Table ratioTable(const Table& runs, const std::vector<double>& targets) {
-  Table ratios{runs.head, {"block", "scene", "settings", "method", "column", "value", "base", "others", "errors"}, {}};
-  ratios.columns.insert(ratios.columns.end(), std::begin(kRatioCosts), std::end(kRatioCosts));
-  ratios.columns.insert(ratios.columns.end(), {"lost", "won"});
-  const auto series = seriesOf(runs);
-  std::string blocks;
-  for (const auto& one : series) addBlocks(blocks, one.blocks);
-  for (std::size_t at = 0; at < blocks.size();) {
-    const auto end = std::min(blocks.find(' ', at), blocks.size());
-    Block(runs, blocks.substr(at, end - at), series).append(targets, ratios);
-    at = end + 1;
-  }
-  return ratios;
+void writeRatios(const RunFile& runs, const std::vector<double>& targets, const std::filesystem::path& file) {
+  std::vector<std::string> columns{"block", "scene", "settings", "method", "column",
+                                   "value", "base",  "others",   "errors"};
+  columns.insert(columns.end(), std::begin(kRatioCosts), std::end(kRatioCosts));
+  columns.insert(columns.end(), {"lost", "won"});
+  TableWriter ratios(file, runs.names().head, columns);
+  for (auto& [name, series] : blocksOf(runs)) Block(runs, name, std::move(series)).append(targets, ratios);
+  ratios.close();
 }
 
 Analysis ratiosAnalysis() {
@@ -126,7 +148,7 @@ Analysis ratiosAnalysis() {
           .writes = "ratios.csv",
           .needs = "targets",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "ratios.csv", ratioTable(in.runs, in.study.targets));
+            writeRatios(in.runs, in.study.targets, in.folder / "ratios.csv");
             return {};
           }};
 }

@@ -1,9 +1,10 @@
 // ratios.csv: what each choice of a block costs, relative to the first one, at equal errors.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
-#include "experiments/tables/table.h"
+#include "experiments/analyses/run_file.h"
 
 namespace irk {
 
@@ -15,6 +16,6 @@ inline constexpr const char* kRatioCosts[] = {"cpu_s", "residuals", "newton_iter
 /// settings, method, column, value, base, others (the other columns that vary in the block, `newton=modified`), errors
 /// (how many of `targets` both reach), the medians over these errors of the ratios of kRatioCosts, lost and won (how
 /// many errors only the base reaches, and only the other value).
-Table ratioTable(const Table& runs, const std::vector<double>& targets);
+void writeRatios(const RunFile& runs, const std::vector<double>& targets, const std::filesystem::path& file);
 
 }  // namespace irk

@@ -35,24 +35,25 @@ std::string failuresText(const std::map<std::string, int>& failures) {
 
 }  // namespace
 
-Table robustnessTable(const Table& runs) {
+void writeRobustness(const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
   std::map<Group, Counts> groups;
-  for (const auto& row : runs.rows) {
-    const double tolerance = audit::toleranceOf(runs, row);
-    const auto& outcome = textAt(runs, row, "outcome");
-    if (outcome == "refused" || std::isnan(tolerance)) continue;
-    const auto judgement = audit::judgeRow(runs, row);
-    auto collections = collectionsOf(textAt(runs, row, "scene"));
+  runs.forEachRow([&](const TableRow& row) {
+    const double tolerance = audit::toleranceOf(names, row);
+    const auto& outcome = textAt(names, row, "outcome");
+    if (outcome == "refused" || std::isnan(tolerance)) return;
+    const auto judgement = audit::judgeRow(names, row);
+    auto collections = collectionsOf(textAt(names, row, "scene"));
     collections.emplace_back("all");
     for (const auto& collection : collections) {
       for (const double part : {-1.0, tolerance}) {
-        Counts& counts = groups[{collection, textAt(runs, row, "integrator"), part}];
+        Counts& counts = groups[{collection, textAt(names, row, "integrator"), part}];
         ++counts.judged[judgement];
         if (judgement == audit::Judgement::kFailed) ++counts.failures[outcome];
       }
     }
-  }
-  Table table{runs.head,
+  });
+  Table table{names.head,
               {"collection", "integrator", "tolerance", "runs", "right", "failed", "wrong", "unjudged", "outcomes"},
               {}};
   for (auto& [group, counts] : groups) {
@@ -69,7 +70,7 @@ Table robustnessTable(const Table& runs) {
     row.push_back(failuresText(counts.failures));
     table.rows.push_back(std::move(row));
   }
-  return table;
+  writeTable(file, table);
 }
 
 Analysis robustnessAnalysis() {
@@ -79,7 +80,7 @@ Analysis robustnessAnalysis() {
           .reads = "runs.csv",
           .writes = "robustness.csv",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "robustness.csv", robustnessTable(in.runs));
+            writeRobustness(in.runs, in.folder / "robustness.csv");
             return {};
           }};
 }

@@ -1,7 +1,9 @@
 // robustness.csv: how runs end, by collection, solver and tolerance.
 #pragma once
 
-#include "experiments/tables/table.h"
+#include <filesystem>
+
+#include "experiments/analyses/run_file.h"
 
 namespace irk {
 
@@ -10,6 +12,6 @@ namespace irk {
 /// (of the failed ones: `timeout 2; newton_failed 1`). The bar of a wrong success is that of the audit
 /// (experiments/audit/judge.h). A run that is refused because the solver cannot be applied to the scene does not count,
 /// nor does one with constant steps.
-Table robustnessTable(const Table& runs);
+void writeRobustness(const RunFile& runs, const std::filesystem::path& file);
 
 }  // namespace irk

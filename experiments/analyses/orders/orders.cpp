@@ -71,7 +71,7 @@ TableRow orderRow(const Table& runs, const TableRow& run, char component, std::s
   return row;
 }
 
-void appendOrders(const Table& runs, const std::vector<const TableRow*>& series, Table& orders) {
+void appendOrders(const Table& runs, const std::vector<const TableRow*>& series, TableWriter& orders) {
   // The fine end of the steps is asymptotic; it also decides whether the system counts as stiff.
   const TableRow& finest = *series.back();
   const auto kind = kindOf(runs, finest, numberAt(runs, finest, "h"));
@@ -87,34 +87,34 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
     const OrderFit fit = fitOrder(points, fitOptions(runs, finest, kind));
     const Theory theory = theoryFor(runs, finest, kind, component);
     const auto reason = reasonText(fit, theory.order, kind.value_or(SystemKind::kOde));
-    orders.rows.push_back(orderRow(runs, finest, component, "h", fit, theory, reason));
+    orders.add(orderRow(runs, finest, component, "h", fit, theory, reason));
   }
 }
 
-/// Errors of one method at one step over z = h lambda.
-using OverZ = std::map<double, std::vector<std::pair<double, const TableRow*>>>;  // by h
+/// Errors of one method at one step over 1 / |z|, z = h lambda.
+struct AtStep {
+  TableRow first;  // of its runs
+  std::vector<ErrorPoint> points;
+};
+using OverZ = std::map<double, AtStep>;  // by h
 
-void appendPowerOfZ(const Table& runs, const OverZ& over_z, Table& orders) {
+void appendPowerOfZ(const Table& runs, const OverZ& over_z, TableWriter& orders) {
   // The finest step at which all values of z have runs.
   std::size_t most = 0;
-  for (const auto& [h, found] : over_z) most = std::max(most, found.size());
+  for (const auto& [h, found] : over_z) most = std::max(most, found.points.size());
   for (const auto& [h, found] : over_z) {
-    if (found.size() < most) continue;
-    std::vector<ErrorPoint> points;
-    for (const auto& [z, row] : found) {
-      points.push_back({1 / std::abs(z), numberAt(runs, *row, "error_x")});
-    }
-    const TableRow& run = *found.front().second;
+    const auto& [run, points] = found;
+    if (points.size() < most) continue;
     OrderFit fit = fitOrder(points, fitOptions(runs, run, SystemKind::kStiffPowerOfZ));
     fit.order = -fit.order;
     const Theory theory = theoryFor(runs, run, SystemKind::kStiffPowerOfZ, 'x');
-    orders.rows.push_back(orderRow(runs, run, 'x', "z", fit, theory, fit.reason));
+    orders.add(orderRow(runs, run, 'x', "z", fit, theory, fit.reason));
     return;
   }
 }
 
 // Adds rows for a method without successful runs, one for each group of components of the system.
-void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
+void appendFailure(const Table& runs, const TableRow& run, TableWriter& orders) {
   const auto kind = kindOf(runs, run, numberAt(runs, run, "h"));
   const Sizes n = sizesOf(runs, run);
   OrderFit fit;
@@ -123,7 +123,7 @@ void appendFailure(const Table& runs, const TableRow& run, Table& orders) {
       (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") + std::string(n.nz > 0 ? "z" : "");
   for (const char component : components) {
     const Theory theory = theoryFor(runs, run, kind, component);
-    orders.rows.push_back(orderRow(runs, run, component, "h", fit, theory, fit.reason));
+    orders.add(orderRow(runs, run, component, "h", fit, theory, fit.reason));
   }
 }
 
@@ -137,33 +137,33 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
 
 }  // namespace
 
-Table orderTable(const Table& runs) {
-  Table orders;
-  orders.head = runs.head;
-  orders.columns = {"scene",  "settings",   "formulation", "multipliers", "scalar",
-                    "method", "family",     "stages",      "component",   "power_of",
-                    "order",  "confidence", "h_min",       "h_max",       "points",
-                    "theory", "source",     "verdict",     "reason",      std::string(kBlockColumn)};
+void writeOrders(const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  TableWriter orders(file, names.head,
+                     {"scene",  "settings",   "formulation", "multipliers", "scalar",
+                      "method", "family",     "stages",      "component",   "power_of",
+                      "order",  "confidence", "h_min",       "h_max",       "points",
+                      "theory", "source",     "verdict",     "reason",      std::string(kBlockColumn)});
   std::map<std::string, OverZ> over_z;  // by method
-  for (const auto& series : seriesOf(runs)) {
-    const bool fixed = hasFixedStepsAt(runs, *series.rows.front());
-    const auto rows = successes(runs, series);
-    if (!fixed) continue;
+  runs.forEachSeries([&](const RunSeries& series) {
+    if (!hasFixedStepsAt(names, *series.rows.front())) return;
+    const auto rows = successes(names, series);
     if (rows.empty()) {
-      appendFailure(runs, *series.rows.back(), orders);
-      continue;
+      appendFailure(names, *series.rows.back(), orders);
+      return;
     }
-    appendOrders(runs, rows, orders);
-    const SceneEntry& scene = findScene(textAt(runs, *rows.front(), "scene"));
-    const std::string z = stiffnessText(scene, textAt(runs, *rows.front(), "settings"));
-    if (scene.kind != SceneKind::kStiffTest || !z.ends_with("/h")) continue;
+    appendOrders(names, rows, orders);
+    const SceneEntry& scene = findScene(textAt(names, *rows.front(), "scene"));
+    const std::string z = stiffnessText(scene, textAt(names, *rows.front(), "settings"));
+    if (scene.kind != SceneKind::kStiffTest || !z.ends_with("/h")) return;
     for (const auto* row : rows) {
-      over_z[textAt(runs, *row, "method")][numberAt(runs, *row, "h")].emplace_back(std::strtod(z.c_str(), nullptr),
-                                                                                   row);
+      auto& [first, points] = over_z[textAt(names, *row, "method")][numberAt(names, *row, "h")];
+      if (points.empty()) first = *row;
+      points.push_back({1 / std::abs(std::strtod(z.c_str(), nullptr)), numberAt(names, *row, "error_x")});
     }
-  }
-  for (const auto& [method, errors] : over_z) appendPowerOfZ(runs, errors, orders);
-  return orders;
+  });
+  for (const auto& [method, errors] : over_z) appendPowerOfZ(names, errors, orders);
+  orders.close();
 }
 
 Analysis ordersAnalysis() {
@@ -173,8 +173,8 @@ Analysis ordersAnalysis() {
           .reads = "runs.csv",
           .writes = "orders.csv order_theory.csv",
           .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeTable(in.folder / "orders.csv", orderTable(in.runs));
-            writeTable(in.folder / "order_theory.csv", theoryTable(in.runs));
+            writeOrders(in.runs, in.folder / "orders.csv");
+            writeTheory(in.runs, in.folder / "order_theory.csv");
             return {};
           }};
 }

@@ -1,7 +1,9 @@
 // orders.csv: the observed order of every series of steps, the theoretical order, and a verdict.
 #pragma once
 
-#include "experiments/tables/table.h"
+#include <filesystem>
+
+#include "experiments/analyses/run_file.h"
 
 namespace irk {
 
@@ -11,6 +13,6 @@ namespace irk {
 /// is fitted over series that differ only in a setting `z/h`; h_min and h_max are then 1/|z|. source is the origin of
 /// the theoretical value (theory.h), or `tableau` for an order that a user's file declares. Verdicts: `agrees` (within
 /// orderTolerance), `differs`, `not_measurable`, `no_theory`.
-Table orderTable(const Table& runs);
+void writeOrders(const RunFile& runs, const std::filesystem::path& file);
 
 }  // namespace irk

@@ -50,7 +50,7 @@ TableRow withStages(const Table& runs, TableRow row, const std::string& family, 
   return row;
 }
 
-void append(const Table& runs, const Group& group, const FamilyEntry& entry, Table& table) {
+void append(const Table& runs, const Group& group, const FamilyEntry& entry, TableWriter& table) {
   const auto found = group.families.find(entry.id);
   if (found == group.families.end() || !found->second.one_kind) return;
   const auto& [row, kind, one_kind] = found->second;
@@ -68,33 +68,33 @@ void append(const Table& runs, const Group& group, const FamilyEntry& entry, Tab
       for (const auto name : kNames) line.push_back(textAt(runs, row, name));
       for (const auto* name : {"method", "family", "stages"}) line.push_back(textAt(runs, member, name));
       line.insert(line.end(), {std::string(1, component), "h", numberText(theory.order), theory.source, group.blocks});
-      table.rows.push_back(line);
+      table.add(line);
     }
   }
 }
 
 }  // namespace
 
-Table theoryTable(const Table& runs) {
-  Table table;
-  table.head = runs.head;
-  table.columns = {"scene",  "settings",  "formulation", "multipliers", "method", "family",
-                   "stages", "component", "power_of",    "theory",      "source", std::string(kBlockColumn)};
+void writeTheory(const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  TableWriter table(file, names.head,
+                    {"scene", "settings", "formulation", "multipliers", "method", "family", "stages", "component",
+                     "power_of", "theory", "source", std::string(kBlockColumn)});
   std::map<std::vector<std::string>, std::size_t> places;
   std::vector<Group> groups;  // in the order of the runs
-  for (const auto& series : seriesOf(runs)) {
+  runs.forEachSeries([&](const RunSeries& series) {
     const TableRow& row = *series.rows.back();
-    if (!hasFixedStepsAt(runs, row)) continue;
+    if (!hasFixedStepsAt(names, row)) return;
     std::vector<std::string> name;
-    for (const auto column : kNames) name.push_back(textAt(runs, row, column));
+    for (const auto column : kNames) name.push_back(textAt(names, row, column));
     const auto [at, added] = places.try_emplace(name, groups.size());
     if (added) groups.emplace_back();
-    add(runs, series, groups[at->second]);
-  }
+    add(names, series, groups[at->second]);
+  });
   for (const Group& group : groups) {
-    for (const FamilyEntry& entry : familyCatalogue()) append(runs, group, entry, table);
+    for (const FamilyEntry& entry : familyCatalogue()) append(names, group, entry, table);
   }
-  return table;
+  table.close();
 }
 
 }  // namespace irk

@@ -10,6 +10,7 @@
 
 #include "experiments/analyses/results.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/runs/run_table.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

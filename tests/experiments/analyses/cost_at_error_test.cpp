@@ -1,4 +1,5 @@
 #include "experiments/analyses/costs/cost_at_error.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

@@ -6,6 +6,7 @@
 
 #include "experiments/analyses/energy.h"
 #include "experiments/runs/run_table.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

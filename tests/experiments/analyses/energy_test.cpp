@@ -7,6 +7,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

@@ -6,6 +6,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 
 namespace irk {
 namespace {

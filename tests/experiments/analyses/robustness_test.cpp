@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/runs/run_table.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 
 namespace irk {
 namespace {

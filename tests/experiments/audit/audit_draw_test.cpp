@@ -38,6 +38,13 @@ TEST(AuditDice, AreTheSameOnEveryMachine) {
   EXPECT_EQ(seen, (std::set<Index>{3, 4, 5, 6, 7}));
 }
 
+std::vector<DrawnRun> drawnRuns(const AuditOptions& options) {
+  const Draw draw(options);
+  std::vector<DrawnRun> runs;
+  for (std::size_t i = 0; i < draw.size(); ++i) runs.push_back(draw[i]);
+  return runs;
+}
+
 std::vector<std::string> texts(const std::vector<DrawnRun>& runs) {
   std::vector<std::string> all;
   for (const auto& run : runs) all.push_back(run.treatment + " " + canonicalText(run.spec));
@@ -50,6 +57,10 @@ TEST(AuditDraw, DependsOnTheSeedAlone) {
   auto longer = texts(drawnRuns({.runs = 80}));
   longer.resize(60);
   EXPECT_EQ(first, longer) << "a shorter audit is the beginning of a longer one";
+  const Draw draw({.runs = 60});
+  for (const std::size_t i : {47u, 5u, 47u}) {
+    EXPECT_EQ(texts({draw[i]}).front(), first[i]) << "in any order";
+  }
   const auto other = texts(drawnRuns({.runs = 60, .seed = 2}));
   int same = 0;
   for (std::size_t i = 0; i < other.size(); ++i) same += first[i] == other[i];

@@ -19,6 +19,7 @@
 #include "experiments/study/dice.h"
 #include "experiments/study/study_reader.h"
 #include "irk/collections.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"
 
@@ -33,7 +34,7 @@ TEST(Audit, StudyDrawsInsteadOfBlocks) {
   EXPECT_EQ(study(quick, StudyVariant::kFull).series.size(), 30u);
   const auto small = study(quick, StudyVariant::kQuick);
   ASSERT_EQ(small.series.size(), 10u);
-  EXPECT_EQ(specKey(small.series[9].runs[0]), specKey(drawnRuns({.runs = 10, .seed = 3})[9].spec));
+  EXPECT_EQ(specKey(small.series[9].runs[0]), specKey(Draw({.runs = 10, .seed = 3})[9].spec));
   EXPECT_TRUE(
       containsAll(misuseOf([&] { study("[audit]\nrun = 3\n", StudyVariant::kFull); }), {"audit.toml", "run", "runs"}));
   EXPECT_TRUE(
@@ -71,7 +72,7 @@ class SmallAudit : public testing::Test {
     folder_ = new TemporaryFolder;
     study_ = new Study(parseStudy(kSmall, "audit.toml", StudyVariant::kFull));
     runs_ = new Table(run());
-    text_ = new std::string(auditRuns(*study_, *runs_, folder(), 2, quiet_));
+    text_ = new std::string(auditRuns(*study_, folder(), 2, quiet_));
   }
   static void TearDownTestSuite() {
     delete folder_;
@@ -124,26 +125,33 @@ TEST_F(SmallAudit, JudgesEveryRun) {
 }
 
 TEST_F(SmallAudit, FindsADamagedResult) {
-  const auto drawn = drawnRuns(*study_->audit);
-  auto states = readStates(folder() / "states.csv");
+  const Draw drawn(*study_->audit);
+  const auto states = readStates(folder() / "states.csv");
   std::set<Question> questions;
-  for (const auto& run : drawn) questions.insert(questionOf(run.spec));
+  for (std::size_t i = 0; i < drawn.size(); ++i) questions.insert(questionOf(drawn[i].spec));
   std::ostringstream quiet;
   const Answers answers = answersTo(questions, folder() / "references.csv", 2, quiet);
   EXPECT_EQ(quiet.str().find("runs made"), std::string::npos) << "all of them are known";
-  const Table table = auditTable(drawn, *runs_, states, answers);
+  const auto audited = [&](const std::map<std::string, Vec<double>>& ends) {
+    Table written{{}, {"key", "state"}, {}};
+    for (const auto& [key, state] : ends) written.rows.push_back({key, vectorText(state)});
+    return ofFile(written, [&](const auto& file) {
+      return writtenBy([&](const auto& to) { writeAudit(drawn, folder() / "runs.csv", file, answers, to); });
+    });
+  };
+  const Table table = audited(states);
   // Moves the first component of all right runs by `bars` times the bar.
   const auto moved = [&](double bars) {
     auto other = states;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-      const auto& spec = drawn[i].spec;
+      const auto spec = drawn[i].spec;
       if (textAt(table, table.rows[i], "judgement") != "right") continue;
       const auto scale = makeScene<double>(spec.scene, spec.settings).scale;
       const Vec<double>& state = states.at(table.rows[i][1]);
       const double size = std::max(std::abs(state[0]), scale.size() > 0 ? scale[0] : 1);
       other.at(table.rows[i][1])[0] = state[0] + bars * bar(spec.options.tolerances.atol) * size;
     }
-    return auditTable(drawn, *runs_, other, answers);
+    return audited(other);
   };
   const Table same = moved(0), damaged = moved(3);
   int checked = 0;
@@ -156,8 +164,8 @@ TEST_F(SmallAudit, FindsADamagedResult) {
     ++checked;
   }
   EXPECT_GT(checked, 20);
-  EXPECT_TRUE(containsAll(summaryText(damaged, summaryTable(damaged), 3),
-                          {"the worst successes that are wrong", "irk solve "}));
+  const auto text = ofFile(damaged, [](const auto& file) { return summaryText(file, summaryTable(file), 3); });
+  EXPECT_TRUE(containsAll(text, {"the worst successes that are wrong", "irk solve "}));
 }
 
 TEST_F(SmallAudit, GoesOnWhereItWas) {
@@ -185,14 +193,14 @@ TEST_F(SmallAudit, InterruptedLeavesNoCounts) {
   {
     const InterruptScope interrupts;
     std::raise(SIGINT);
-    text = auditRuns(*study_, *runs_, copy.path(), 2, quiet_);
+    text = auditRuns(*study_, copy.path(), 2, quiet_);
   }
   EXPECT_TRUE(containsAll(text, {"interrupted"}));
   EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit.csv"));
   EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit_summary.csv"));
   EXPECT_EQ(readTable(copy.path() / "references.csv").rows, references.rows);
   const InterruptScope uninterrupted;  // the flag is false again
-  EXPECT_EQ(auditRuns(*study_, *runs_, copy.path(), 2, quiet_), *text_);
+  EXPECT_EQ(auditRuns(*study_, copy.path(), 2, quiet_), *text_);
 }
 
 TEST_F(SmallAudit, IsDrawn) {

@@ -17,6 +17,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"
 
@@ -189,7 +190,7 @@ TEST(AuditSummary, CountsAndSortsByExcess) {
       {"paper", "smooth", "kaps", "radau_ia", "ggl", "ill_conditioned", "nan", "1e-6", "e", "nan"},
       {"paper", "iterate", "kaps", "radau_ia", "ggl", "failed", "nan", "1e-6", "f", "nan"},
   });
-  const Table summary = summaryTable(audit);
+  const Table summary = ofFile(audit, summaryTable);
   const auto row = [&](const std::string& by, const std::string& group) {
     for (const auto& r : summary.rows) {
       if (r[0] == by && r[1] == group) return TableRow(r.begin() + 2, r.end());
@@ -203,11 +204,14 @@ TEST(AuditSummary, CountsAndSortsByExcess) {
   EXPECT_EQ(row("bar", "paper"), (TableRow{"1", "0", "0", "0", "0", "1"}));
   EXPECT_EQ(row("configuration_treatment", "paper: smooth"), (TableRow{"1", "0", "0", "0", "1", "0"}));
   EXPECT_EQ(row("formulation", "ggl"), (TableRow{"3", "0", "1", "0", "1", "1"}));
-  const std::string text = summaryText(audit, summary, 2);
+  const auto textOf = [&](std::size_t worst) {
+    return ofFile(audit, [&](const auto& file) { return summaryText(file, summary, worst); });
+  };
+  const std::string text = textOf(2);
   ASSERT_NE(text.find("five times"), text.npos);
   EXPECT_NE(text.find("1 of 2 wrong successes are off by more"), text.npos) << text;
   EXPECT_LT(text.find("nine times the bar"), text.find("five times"));
-  EXPECT_EQ(summaryText(audit, summary, 1).find("five times"), std::string::npos);
+  EXPECT_EQ(textOf(1).find("five times"), std::string::npos);
 }
 
 TEST(FinalStates, AreWrittenAsTextAndReadBack) {

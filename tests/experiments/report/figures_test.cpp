@@ -14,6 +14,7 @@
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
 #include "irk/scene.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

@@ -14,6 +14,7 @@
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {

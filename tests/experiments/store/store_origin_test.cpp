@@ -11,6 +11,7 @@
 #include "experiments/runner/status.h"
 #include "experiments/runner/timing.h"
 #include "experiments/study/series_walk.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/stored_runs.h"
 
 namespace irk {

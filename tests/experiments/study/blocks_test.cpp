@@ -10,6 +10,7 @@
 #include "experiments/report/report.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/stored_runs.h"
 
 namespace irk {

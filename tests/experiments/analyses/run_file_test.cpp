@@ -1,0 +1,237 @@
+// Tables that are read series by series, against the same tables in memory.
+#include "experiments/analyses/run_file.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/base/numbers.h"
+#include "experiments/runs/block_names.h"
+#include "experiments/tables/keyed_file.h"
+#include "irk/collections.h"
+#include "tests/experiments/analyses/analysis_tables.h"
+#include "tests/experiments/study_runs.h"
+
+namespace irk {
+namespace {
+
+// Two blocks with a common run, two scenes, failures, a solver that is refused, a word with a comma, no reference.
+constexpr char kMixed[] = R"(
+targets = [1e-2, 1e-4, 1e-6, 1e-12]
+ratios = true
+profile = true
+robustness = true
+
+[[block]]
+name = "rules"
+scene = "van_der_pol"
+t_end = 0.5
+reference = "auto"
+methods = ["radau_iia_2", "radau_iia_3"]
+newton = ["simplified", "modified"]
+estimate = ["embedded", "richardson"]
+tolerances = [1e-3, 1e-5, 1e-7]
+
+[[block]]
+name = "more"
+scene = "van_der_pol"
+t_end = 0.5
+reference = "auto"
+methods = ["radau_iia_3", "cvode_bdf"]
+tolerances = [1e-4, 1e-5]
+
+[[block]]
+name = "few_steps"
+scene = "hires"
+max_steps = 10
+methods = ["gauss_2", "gauss_3"]
+newton = ["simplified", "modified"]
+tolerances = [1e-2, 1e-6]
+
+[[block]]
+name = "refused"
+scene = "pendulum"
+formulation = "index3"
+methods = ["cvode_bdf", "radau_iia_3"]
+tolerances = [1e-3]
+)";
+
+class WholeTables : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    made_ = new StudyRuns(runsOf(kMixed));
+    // Rows in another order: no two rows of a series follow each other.
+    auto& rows = made_->runs.rows;
+    std::vector<TableRow> mixed;
+    for (const std::size_t start : {1u, 0u, 2u}) {
+      for (std::size_t i = start; i < rows.size(); i += 3) mixed.push_back(rows[i]);
+    }
+    mixed[3][made_->runs.column("detail")] = "a \"quoted\" word, and\na line";
+    rows = std::move(mixed);
+    file_ = new TemporaryFolder;
+    writeTable(file(), runs());
+  }
+  static void TearDownTestSuite() {
+    delete made_;
+    delete file_;
+  }
+  static const Table& runs() { return made_->runs; }
+  static const std::vector<double>& targets() { return made_->study.targets; }
+  static std::filesystem::path file() { return file_->path() / "runs.csv"; }
+
+  static inline StudyRuns* made_;
+  static inline TemporaryFolder* file_;
+};
+
+TEST_F(WholeTables, SeriesHaveTheSameRowsInTheSameOrder) {
+  const auto whole = seriesOf(runs());
+  const RunFile read(file());
+  ASSERT_EQ(read.size(), whole.size());
+  ASSERT_GT(whole.size(), 10u);
+  EXPECT_EQ(read.rows(), runs().rows.size());
+  for (const std::size_t first : {std::size_t{3}, std::size_t{0}}) {  // in any order
+    for (std::size_t i = first; i < whole.size(); ++i) {
+      const auto held = read[i];
+      EXPECT_EQ(held.series.name, whole[i].name);
+      EXPECT_EQ(held.series.blocks, whole[i].blocks);
+      EXPECT_EQ(read.find(whole[i].name), i);
+      ASSERT_EQ(held.series.rows.size(), whole[i].rows.size());
+      for (std::size_t k = 0; k < held.rows.size(); ++k) EXPECT_EQ(*held.series.rows[k], *whole[i].rows[k]);
+    }
+  }
+  auto unknown = whole[0].name;
+  unknown.back() += "?";
+  EXPECT_EQ(read.find(unknown), std::nullopt);
+  std::vector<TableRow> rows;
+  read.forEachRow([&](const TableRow& row) { rows.push_back(row); });
+  EXPECT_EQ(rows, runs().rows);
+}
+
+TEST_F(WholeTables, RowsAreFoundByTheirKeys) {
+  Table twice = runs();
+  twice.rows.push_back(twice.rows[2]);
+  twice.rows.back().back() = "later";
+  ofFile(twice, [&](const auto& path) {
+    KeyedFile keyed(path);
+    for (std::size_t i = twice.rows.size(); i-- > 0;) {
+      EXPECT_EQ(keyed.find(twice.rows[i].front()), twice.rows[i == 2 ? twice.rows.size() - 1 : i]);
+    }
+    EXPECT_EQ(keyed.find("0"), std::nullopt);
+    return 0;
+  });
+}
+
+// All pairs of series of a block, compared by their cells.
+Table plainRatios(const Table& runs, const std::vector<double>& targets) {
+  Table ratios{{}, {}, {}};
+  const auto columns = seriesColumns(runs);
+  const auto all = seriesOf(runs);
+  const auto isIn = [](const std::string& name, const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string block : {"more", "rules", "few_steps", "refused"}) {
+    std::vector<const RunSeries*> its;
+    for (const auto& one : all) {
+      if (hasBlock(one.blocks, block)) its.push_back(&one);
+    }
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (isIn(columns[c], {"scene", "settings", "method", "family", "stages", "integrator", "t_end"})) continue;
+      for (const auto* other : its) {
+        for (const auto* base : its) {
+          auto name = other->name;
+          name[c] = its.front()->name[c];
+          if (other == base || name == other->name || base->name != name) continue;
+          TableRow row{block, textAt(runs, *base->rows.front(), "scene"), columns[c], other->name[c], base->name[c]};
+          int both = 0, lost = 0, won = 0;
+          for (const double target : targets) {
+            const double a = seriesCostAtError(runs, *base, "residuals", target);
+            const double b = seriesCostAtError(runs, *other, "residuals", target);
+            both += !std::isnan(a) && !std::isnan(b);
+            lost += !std::isnan(a) && std::isnan(b);
+            won += std::isnan(a) && !std::isnan(b);
+          }
+          for (const int count : {both, lost, won}) row.push_back(std::to_string(count));
+          ratios.rows.push_back(row);
+        }
+      }
+    }
+  }
+  std::sort(ratios.rows.begin(), ratios.rows.end());
+  return ratios;
+}
+
+TEST_F(WholeTables, RatiosAreThoseOfAllPairs) {
+  const Table ratios = ratioTable(runs(), targets());
+  std::vector<TableRow> found;
+  for (const auto& row : ratios.rows) {
+    TableRow cells;
+    for (const char* column : {"block", "scene", "column", "value", "base", "errors", "lost", "won"}) {
+      cells.push_back(textAt(ratios, row, column));
+    }
+    found.push_back(cells);
+  }
+  std::sort(found.begin(), found.end());
+  // Of `rules` two methods with two estimates for newton, with two rules of Newton for estimate; of `few_steps` two
+  // methods.
+  EXPECT_EQ(found.size(), 4u + 4u + 2u);
+  EXPECT_EQ(found, plainRatios(runs(), targets()).rows);
+}
+
+// By the definition: for each curve, the times of each solver by problem, in maps.
+TEST_F(WholeTables, ProfilesAreThoseOfMaps) {
+  const Table costs = costTable(runs(), targets());
+  std::map<std::pair<std::string, std::string>, std::map<std::string, std::map<std::string, double>>> curves;
+  for (const auto& row : costs.rows) {
+    const auto& cause = textAt(costs, row, "cause");
+    if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable) continue;
+    if (numberAt(costs, row, "least_tolerance") > numberAt(costs, row, "target_error") * (1 + 1e-9)) continue;
+    auto collections = collectionsOf(textAt(costs, row, "scene"));
+    collections.emplace_back("all");
+    const double cost = numberAt(costs, row, "cpu_s");
+    const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
+    const auto& target = textAt(costs, row, "target_error");
+    const auto problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
+    for (const auto& collection : collections) {
+      for (const std::string& curve : {target, std::string("all")}) {
+        auto& least = curves[{collection, curve}][textAt(costs, row, "integrator")];
+        const auto [at, added] = least.try_emplace(curve == "all" ? problem + target : problem, time);
+        at->second = std::min(at->second, time);
+      }
+    }
+  }
+  std::vector<TableRow> expected;
+  for (const auto& [curve, solvers] : curves) {
+    std::map<std::string, double> best;
+    for (const auto& [solver, times] : solvers) {
+      for (const auto& [problem, time] : times) {
+        if (std::isinf(time)) continue;
+        best[problem] = best.contains(problem) ? std::min(best[problem], time) : time;
+      }
+    }
+    for (const auto& [solver, times] : solvers) {
+      std::vector<double> ratios;
+      std::size_t given = 0;
+      for (const auto& [problem, time] : times) {
+        given += best.contains(problem);
+        if (std::isfinite(time)) ratios.push_back(time / best[problem]);
+      }
+      if (given == 0) continue;
+      std::sort(ratios.begin(), ratios.end());
+      const auto add = [&](double ratio, std::size_t count) {
+        expected.push_back({curve.first, curve.second, solver, numberText(ratio),
+                            numberText(static_cast<double>(count) / static_cast<double>(given)), std::to_string(given),
+                            std::to_string(best.size())});
+      };
+      if (ratios.empty()) add(1, 0);
+      for (std::size_t i = 0; i < ratios.size(); ++i) add(ratios[i], i + 1);
+      add(1e6, ratios.size());
+    }
+  }
+  EXPECT_GT(expected.size(), 20u);
+  EXPECT_EQ(profileTable(costs).rows, expected);
+}
+
+}  // namespace
+}  // namespace irk
