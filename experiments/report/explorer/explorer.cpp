@@ -53,13 +53,19 @@ std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options,
             "turn round.</p>\n"
           : "");
   replacePlaceholder(page, "@TABLES@", tablesHtml(studies));
-  replacePlaceholder(page, "@DATA@", explorerData(options.results));
   replacePlaceholder(page, "@D3@", readInputFile(library));
+  const std::string_view data = "@DATA@";
+  const auto at = page.find(data);
   std::filesystem::create_directories(path.parent_path());
-  std::ofstream out(path, std::ios::binary);
-  if (!(out << page).flush()) {
-    throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  const std::filesystem::path beside = path.string() + ".new";
+  std::ofstream out(beside, std::ios::binary);
+  out << page.substr(0, at);
+  writeExplorerData(options.results, out);
+  if (!(out << page.substr(at + data.size())).flush()) {
+    throw Failure(fmt::format("cannot write {}: {}", beside.string(), std::strerror(errno)));
   }
+  out.close();
+  std::filesystem::rename(beside, path);
   return path;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace irk {
 /// and the user's own.
 std::vector<std::string> exploredStudies(const std::filesystem::path& results);
 
-/// One object:
+/// Writes one object; memory does not grow with the runs, but for 44 bytes per series (RunFile) and 40 per distinct
+/// text:
 ///   studies  [{id, title, no_times: why there are no CPU times, or ""}]
 ///   series   [{study, scene, settings, t_end, method, family, stages, peer, integrator, options: [[field, value]],
 ///            command}]; runs of one series differ in tolerances and steps only
@@ -20,6 +22,6 @@ std::vector<std::string> exploredStudies(const std::filesystem::path& results);
 ///            (1: a success whose error in u, v or x is above the bar of experiments/audit/judge.h), and every column
 ///            of runs.csv that is an error, a counter or a time, with four digits; null: unknown
 /// Safe inside <script> (no '<') and against placeholders (no '@').
-std::string explorerData(const std::filesystem::path& results);
+void writeExplorerData(const std::filesystem::path& results, std::ostream& out);
 
 }  // namespace irk

@@ -9,6 +9,7 @@
 #include "experiments/report/explorer/explorer.h"
 #include "experiments/report/explorer/explorer_data.h"
 #include "experiments/report/explorer/run_command.h"
+#include "experiments/report/explorer/spilled_text.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
@@ -20,11 +21,34 @@ namespace {
 
 using Json = nlohmann::json;
 
+std::string dataOf(const std::filesystem::path& results) {
+  std::ostringstream out;
+  writeExplorerData(results, out);
+  return out.str();
+}
+
 std::vector<std::string> wordsOf(const std::string& command) {
   std::istringstream in(command);
   std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
   words.erase(words.begin());  // irk
   return words;
+}
+
+TEST(Explorer, TextsMayBeLargerThanTheMemory) {
+  std::string whole;
+  SpilledText text;
+  for (int i = 0; whole.size() < 3 * SpilledText::kHeld; ++i) {
+    const auto piece = std::to_string(i * i) + std::string(static_cast<std::size_t>(i % 7), '\n');
+    whole += piece;
+    text.append(piece);
+    if (i % 5000 != 0) continue;
+    std::ostringstream so_far;
+    text.write(so_far);
+    EXPECT_EQ(so_far.str(), whole);
+  }
+  std::ostringstream out;
+  text.write(out);
+  EXPECT_EQ(out.str(), whole);
 }
 
 // Peers, configurations, settings that are words, fixed steps, options of strategies, an end of its own.
@@ -157,7 +181,7 @@ TEST(ExplorerData, HasTheDigitsOfTheIvpTestSet) {
   runs.rows[0][runs.column("scd")] = "1.5";
   std::filesystem::create_directories(folder.path() / "peers");
   writeTable(folder.path() / "peers" / "runs.csv", runs);
-  const Json data = Json::parse(explorerData(folder.path()))["runs"];
+  const Json data = Json::parse(dataOf(folder.path()))["runs"];
   EXPECT_DOUBLE_EQ(data["error_mescd"][0].get<double>(), 0.01);
   EXPECT_DOUBLE_EQ(data["error_scd"][0].get<double>(), 0.03162);
   EXPECT_TRUE(data["error_mescd"][1].is_null());
@@ -169,10 +193,10 @@ TEST(ExplorerData, HasNoTimesOfSeveralProcessors) {
   const auto file = folder.path() / "peers" / "runs.csv";
   std::filesystem::create_directories(file.parent_path());
   writeTable(file, runs);
-  EXPECT_TRUE(Json::parse(explorerData(folder.path()))["runs"].contains("cpu_s"));
+  EXPECT_TRUE(Json::parse(dataOf(folder.path()))["runs"].contains("cpu_s"));
   runs.head.emplace_back(store::kTimesRefused, "two processors");
   writeTable(file, runs);
-  const Json data = Json::parse(explorerData(folder.path()));
+  const Json data = Json::parse(dataOf(folder.path()));
   EXPECT_FALSE(data["runs"].contains("cpu_s"));
   EXPECT_NE(data["studies"][0]["no_times"], "");
 }
@@ -194,7 +218,7 @@ class ExplorerPage : public testing::Test {
 };
 
 TEST_F(ExplorerPage, HasRunsSeriesAndJudgements) {
-  const Json data = Json::parse(explorerData(results()));
+  const Json data = Json::parse(dataOf(results()));
   ASSERT_EQ(data["studies"].size(), 1u);
   EXPECT_EQ(data["studies"][0]["id"], "peers");
   ASSERT_EQ(data["series"].size(), 2u);
