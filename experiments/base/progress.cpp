@@ -49,6 +49,11 @@ void Progress::skipped(const std::string& kind) {
   show();
 }
 
+void Progress::stored(std::size_t runs) {
+  total_ += runs;
+  skipped_ += runs;
+}
+
 void Progress::show() {
   const double now = wallSeconds();
   if (now - shown_ < interval_ || made_ == 0) return;

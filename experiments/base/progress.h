@@ -24,6 +24,8 @@ class Progress {
   void finished(const std::string& kind, double seconds);
   /// A run is stored already or need not be made.
   void skipped(const std::string& kind);
+  /// So many runs are stored that were not announced.
+  void stored(std::size_t runs);
 
  private:
   void show();

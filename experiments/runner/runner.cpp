@@ -68,11 +68,17 @@ class Sweep {
         references_({.jobs = threadCount(options.jobs),
                      .stop = &interruptFlag(),
                      .tell = [this](const std::string& line) { told_.push_back(line); }}) {
-    for (std::size_t i = 0; i < study.series.size(); ++i) {
-      if (!keys_.isLeftOut(i)) work_.push_back(i);
-    }
     lookForRows(out);
     progress_.emplace(out, study.id);
+    for (std::size_t i = 0; i < study.series.size(); ++i) {
+      if (keys_.isLeftOut(i)) continue;
+      const auto its = keys_[i];
+      if (areFinished(its)) {
+        progress_->stored(its.size());
+      } else {
+        work_.push_back(i);
+      }
+    }
     for (const std::size_t i : work_) {
       const Series& series = study.series[i];
       if (asksForReference(series)) asking_.push_back(i);
@@ -83,7 +89,6 @@ class Sweep {
 
   /// Makes the references that the missing runs need. Ranks read from the cache what the first one has made.
   void makeReferences(Ranks& ranks, std::ostream& out) {
-    if (asking_.empty()) return;
     constexpr std::size_t kAtOnce = 10'000;  // specs
     std::vector<RunSpec> missing;
     const auto prepare = [&] {
@@ -133,6 +138,14 @@ class Sweep {
         "{}: {} runs were made by other code than this program's (column code) and are kept; --stale remake makes "
         "them again\n",
         study_.id, stale);
+  }
+
+  // Whether all runs of a series are stored, so that it need not be made. Trajectories are named by specs.
+  bool areFinished(const std::vector<std::uint64_t>& keys) const {
+    if (study_.trajectories) return false;
+    return std::all_of(keys.begin(), keys.end(), [this](std::uint64_t key) {
+      return store_.finished(key) && (!study_.states || store_.hasState(key));
+    });
   }
 
   // Another rank makes the series: count its runs as done.
@@ -224,7 +237,7 @@ class Sweep {
   store::Store& store_;
   RunKeys keys_;
   const Table columns_{{}, runColumns(), {}};
-  std::vector<std::size_t> work_;    // indices of series
+  std::vector<std::size_t> work_;    // indices of series with missing runs
   std::vector<std::size_t> asking_;  // those of work_ whose runs may need a computed reference
   bool is_any_missing_ = false;
   std::mutex mutex_;

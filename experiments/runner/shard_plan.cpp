@@ -75,6 +75,10 @@ std::vector<int> readPlan(const Study& study, const RunnerOptions& options) {
 }  // namespace
 
 std::vector<std::uint64_t> keysOf(const Series& series) {
+  if (series.runs.size() == 1) {
+    const RunSpec only = series.runs.front();
+    return {fnv1a(keyText(only, findScene(only.scene).parameters))};
+  }
   std::vector<std::uint64_t> keys;
   keys.reserve(series.runs.size());
   const SweptKeys all(series.runs.front());
