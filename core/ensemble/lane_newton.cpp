@@ -113,8 +113,8 @@ Lanes LaneNewton::update(Context& c, LaneMask& running) {
   return norm;
 }
 
-// HW II (IV.8): done when eta |dw| <= kappa, in the result, too (see SimplifiedNewton). The first time the last step's
-// eta, raised to 0.8, stands in for the contraction: its fifth power needs no root.
+// HW II (IV.8): done when eta |dw| <= kappa. The first time the last step's eta, raised to 0.8, stands in for the
+// contraction: its fifth power needs no root.
 void LaneNewton::iterate(Context& c, const LaneMask& which) {
   LaneMask running = prepare(c, which);
   LaneMask converged;
@@ -122,12 +122,11 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
   const Lanes floor = kRoundOffUnits * round_off_;
   for (int m = 0; m < limit_ && running.any(); ++m) {
     const Lanes norm = update(c, running);
-    const Lanes most = c.norm.reducesRows() ? largest(norm, c.norm.inResult(R_.data(), s_)) : norm;
     LaneMask done = lessOrEqual(norm, floor);
     LaneMask ends;
     if (m == 0) {
       const Lanes eta = largest(eta_, roundOff<double>());
-      const LaneMask small = lessOrEqual(power(eta, 4) * power(most / stop_.kappa, 5), 1.0);
+      const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / stop_.kappa, 5), 1.0);
       done = (done | small) & running;
       forEachLane(done, [&](std::size_t i) { eta_.set(i, std::pow(eta[i], 0.8)); });
     } else {
@@ -139,7 +138,7 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
       const LaneMask hopeless = running & ~ends & (lessOrEqual(0.99, theta) | slow);
       if (stop_.by_round_off) eta = etaOf(largest(theta, slowest_));
       if (m > 1) slowest_ = select(running & ~ends & ~hopeless, theta, slowest_);
-      done = (done | lessOrEqual(eta * most, stop_.kappa)) & running & ~ends & ~hopeless;
+      done = (done | lessOrEqual(eta * norm, stop_.kappa)) & running & ~ends & ~hopeless;
       eta_ = select(done, eta, eta_);
       if (hopeless.any()) {
         const LaneMask rounded = isRoundOff(c, hopeless, norm);

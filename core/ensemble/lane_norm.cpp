@@ -1,17 +1,11 @@
 #include "core/ensemble/lane_norm.h"
 
-#include <algorithm>
-
 #include "core/ensemble/lane_matrix.h"
 
 namespace irk {
 namespace {
 
 std::size_t count(Index n) { return static_cast<std::size_t>(n); }
-
-bool anyPositive(const std::vector<int>& powers) {
-  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
-}
 
 }  // namespace
 
@@ -21,9 +15,7 @@ LaneNorm::LaneNorm(const Sizes& sizes, const ErrorPowers& powers, const Toleranc
       tolerances_(tolerances),
       atol_(count(sizes.components()), tolerances.atol),
       inverse_(atol_.size()),
-      squares_(count(sizes.n())),
-      reduces_rows_(anyPositive(powers.v) || anyPositive(powers.x)),
-      result_squares_(squares_.size(), Lanes(0.0)) {}
+      squares_(count(sizes.n())) {}
 
 void LaneNorm::setScale(std::size_t i, const Vec<double>& scale) {
   for (std::size_t k = 0; k < atol_.size(); ++k) {
@@ -45,11 +37,6 @@ void LaneNorm::update(const LaneState& from, const Lanes& h) {
   }
   for (std::size_t i = 0; i < nx; ++i) squares_[nu + i] = square(powerOf(h, powers_.x[i] + 1) * inverse_[2 * nu + i]);
   for (std::size_t i = 0; i < nz; ++i) squares_[nu + nx + i] = square(inverse_[known + i]);
-  if (!reduces_rows_) return;
-  for (std::size_t i = 0; i < nu; ++i) {
-    result_squares_[i] = square(h * inverse_[nu + i]) + square(h * h * inverse_[i]);
-  }
-  for (std::size_t i = 0; i < nx; ++i) result_squares_[nu + i] = square(h * inverse_[2 * nu + i]);
 }
 
 Lanes LaneNorm::magnitude(const Lanes* y, const Lanes* z) const {
@@ -62,16 +49,13 @@ Lanes LaneNorm::magnitude(const Lanes* y, const Lanes* z) const {
   return sqrt(sum * (1.0 / static_cast<double>(sizes_.components())));
 }
 
-Lanes LaneNorm::weighted(const std::vector<Lanes>& squares, const Lanes* dw, Index s) const {
+Lanes LaneNorm::increment(const Lanes* dw, Index s) const {
   Lanes sum;
   for (Index j = 0; j < s; ++j) {
-    for (std::size_t i = 0; i < squares.size(); ++i) sum += squares[i] * (dw[i] * dw[i]);
-    dw += squares.size();
+    for (std::size_t i = 0; i < squares_.size(); ++i) sum += squares_[i] * (dw[i] * dw[i]);
+    dw += squares_.size();
   }
   return sqrt(sum * (1.0 / static_cast<double>(sizes_.components() * s)));
 }
-
-Lanes LaneNorm::increment(const Lanes* dw, Index s) const { return weighted(squares_, dw, s); }
-Lanes LaneNorm::inResult(const Lanes* dw, Index s) const { return weighted(result_squares_, dw, s); }
 
 }  // namespace irk

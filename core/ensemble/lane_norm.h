@@ -21,21 +21,14 @@ class LaneNorm {
   Lanes magnitude(const Lanes* y, const Lanes* z) const;
   /// Of Newton's increments of (a, k, z) in s stages.
   Lanes increment(const Lanes* dw, Index s) const;
-  /// Whether `increment` reduces components of higher index; and the norm without this, see ErrorNorm::resultWeights.
-  bool reducesRows() const { return reduces_rows_; }
-  Lanes inResult(const Lanes* dw, Index s) const;
 
  private:
-  Lanes weighted(const std::vector<Lanes>& squares, const Lanes* dw, Index s) const;
-
   Sizes sizes_;
   const ErrorPowers& powers_;
   Tolerances tolerances_;
   std::vector<Lanes> atol_;     // times the magnitudes
   std::vector<Lanes> inverse_;  // 1 / weights of u, v, x; h^power / weight of z
   std::vector<Lanes> squares_;  // weights of increments
-  bool reduces_rows_;
-  std::vector<Lanes> result_squares_;  // the same for `inResult`
 };
 
 }  // namespace irk

@@ -51,10 +51,6 @@ constexpr int kFixedStepFactor = 4;
 /// the theta of the last step's last increment counts as well: what is left of each step's stage equations has the same
 /// sign in many steps, and no error estimate sees it. Until a step has had a third increment, none ends with the
 /// second.
-///
-/// In index 3 the norm multiplies increments of velocities by h, as their errors in the direction of the constraints go
-/// with the next step. Along the constraints they stay, and what is left of them adds up over the steps: the test asks
-/// for h da as well, theta is that of the norm.
 template <class Real>
 class SimplifiedNewton : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
@@ -63,7 +59,6 @@ class SimplifiedNewton : public NewtonBase<Real> {
   SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
       : Base(options, sizes, scheme),
         limit_(incrementLimit<Real>(options, scheme.s)),
-        result_weights_(sizes.n()),
         adaptive_(!hasFixedSteps(options.step)) {}
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
@@ -98,8 +93,6 @@ class SimplifiedNewton : public NewtonBase<Real> {
     NewtonResult result;
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
-    const bool reduces = c.norm.reducesRows();
-    if (reduces) c.norm.resultWeights(static_cast<double>(c.eq.h()), result_weights_);
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
@@ -111,7 +104,6 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
       const double norm = this->update(c, c.matrix, W, updates_ ? &*updates_ : nullptr);
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
-      const double most = reduces ? std::max(norm, inResult(c)) : norm;
       if (m > 0) {
         const double theta = previous > 0 ? norm / previous : 0;
         // An increment of round-off is at least as large as the next one would be: its theta is an upper bound.
@@ -129,10 +121,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (m > 1 && slowest_ == kUnknownTheta) slowest_ = theta;
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
         if (m > 1) slowest_ = theta;
-      } else if (std::min(last, 1.0) * most <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
+      } else if (std::min(last, 1.0) * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta = of_step = std::pow(last, 0.8);  // at least min(last, 1): where that is too large, so is this
       }
-      if (eta * most <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
+      if (eta * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
       }
@@ -140,10 +132,6 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (updates_) updates_->learn(this->implicit(), this->row_weights_);
     }
     return fail(result, Outcome::kNewtonFailed);
-  }
-  // What the last increment changes in (u, v, x), in tolerances.
-  double inResult(const NewtonContext<Real>& c) const {
-    return c.norm.increment(this->R_, this->first_, result_weights_);
   }
   static double etaOf(double theta) {
     return theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
@@ -186,7 +174,6 @@ class SimplifiedNewton : public NewtonBase<Real> {
   }
 
   IncrementLimit limit_;
-  Vec<double> result_weights_;
   bool adaptive_;
   double eta_ = 1, theta_ = 1;
   double slowest_ = kUnknownTheta;  // theta of the last step's third or later increment

@@ -1,9 +1,7 @@
 #include "core/stages/error_norm.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "core/base/small_size.h"
 #include "core/system/component_scale.h"
@@ -13,10 +11,6 @@ namespace irk {
 namespace {
 
 double square(double x) { return x * x; }
-
-bool anyPositive(const std::vector<int>& powers) {
-  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
-}
 
 // h^power for a small integer power >= 0.
 double powerOf(double h, int power) {
@@ -33,8 +27,7 @@ ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& toleran
       powers_(system.errorPowers()),
       tolerances_(tolerances),
       scale_(componentScale(sizes_, scale)),
-      weight_(Vec<double>::Ones(sizes_.components())),
-      reduces_rows_(anyPositive(powers_.v) || anyPositive(powers_.x)) {}
+      weight_(Vec<double>::Ones(sizes_.components())) {}
 
 template <class Real>
 void ErrorNorm<Real>::update(const State<Real>& y) {
@@ -124,33 +117,22 @@ double ErrorNorm<Real>::total(double sum) const {
   return std::sqrt(sum / static_cast<double>(sizes_.components()));
 }
 
-// Squared weights of (a, k): f h da in v, h^2 da in u, f h dk in x, with f = h^power.
 template <class Real>
-template <class Power>
-void ErrorNorm<Real>::weighRates(double h, const Power& power, Vec<double>& squares) const {
-  const Index nu = sizes_.nu;
+void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
+  const Index nu = sizes_.nu, nx = sizes_.nx, nz = sizes_.nz;
   const double* const wu = weight_.data();
   const double* const wv = wu + nu;
   const double* const wx = wv + nu;
-  for (Index i = 0; i < nu; ++i) squares[i] = square(power(powers_.v, i) * h / wv[i]) + square(h * h / wu[i]);
-  for (Index i = 0; i < sizes_.nx; ++i) squares[nu + i] = square(power(powers_.x, i) * h / wx[i]);
-}
-
-template <class Real>
-void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
-  weighRates(
-      h, [h](const std::vector<int>& powers, Index i) { return powerOf(h, powers[static_cast<std::size_t>(i)]); },
-      squares);
-  const Index known = sizes_.nu + sizes_.nx;
-  const double* const wz = weight_.data() + known + sizes_.nu;
-  for (Index i = 0; i < sizes_.nz; ++i) squares[known + i] = square(zFactor(h, i) / wz[i]);
-}
-
-template <class Real>
-void ErrorNorm<Real>::resultWeights(double h, Vec<double>& squares) const {
-  weighRates(
-      h, [](const std::vector<int>&, Index) { return 1.0; }, squares);
-  squares.tail(sizes_.nz).setZero();
+  const double* const wz = wx + nx;
+  for (Index i = 0; i < nu; ++i) {
+    const double f = powerOf(h, powers_.v[static_cast<std::size_t>(i)]);
+    squares[i] = square(f * h / wv[i]) + square(h * h / wu[i]);
+  }
+  for (Index i = 0; i < nx; ++i) {
+    const double f = powerOf(h, powers_.x[static_cast<std::size_t>(i)]);
+    squares[nu + i] = square(f * h / wx[i]);
+  }
+  for (Index i = 0; i < nz; ++i) squares[nu + nx + i] = square(zFactor(h, i) / wz[i]);
 }
 
 template <class Real>

@@ -39,18 +39,12 @@ class ErrorNorm {
   /// (u, v, x, z): h^2 da, h da, h dk, dz. Components of index i, here of u, v, x as well, are multiplied by
   /// h^(i-1): Newton corrects those of higher index later, and its contraction is that of the others.
   void rowWeights(double h, Vec<double>& squares) const;
-  /// Whether h^(i-1) makes increments of (a, k) count less there than what they change in (u, v, x).
-  bool reducesRows() const { return reduces_rows_; }
-  /// The same weights without h^(i-1), and none for z: the change of (u, v, x) itself, in tolerances.
-  void resultWeights(double h, Vec<double>& squares) const;
   /// Norm of a Newton increment dW (n x s), columns from `first` on. Always an RMS norm, whatever the error norm is.
   double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const;
 
  private:
   double total(double sum_of_squares) const;
   double zFactor(double h, Index i) const;
-  template <class Power>
-  void weighRates(double h, const Power& power, Vec<double>& squares) const;
   template <class F>
   void forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor, F&& f) const;
 
@@ -60,7 +54,6 @@ class ErrorNorm {
   Vec<double> scale_;   // of u, v, x, z
   Vec<double> weight_;  // of u, v, x, z
   bool leaves_multipliers_out_ = false;
-  bool reduces_rows_;
 };
 
 }  // namespace irk
