@@ -65,6 +65,7 @@ TEST(HeavyTop, KeepsItsInvariantsAndConstraints) {
     const auto scene = makeScene<double>("heavy_top", {{"coordinates", coordinates}});
     for (const Formulation formulation : {Formulation::kIndex3, Formulation::kIndex2, Formulation::kGgl}) {
       const Drift drift = driftOf(scene, 1e-10, formulation);
+      EXPECT_EQ(drift.outcome, Outcome::kSuccess);
       ASSERT_EQ(drift.invariants.size(), 3U);
       EXPECT_LT(drift.invariants.at("energy"), 1e-5 * 5273);  // of its energy of rotation, J
       EXPECT_LT(drift.invariants.at("Lz"), 1e-7 * 70);        // of J3 spin, N m s

@@ -26,10 +26,10 @@ Real valueByName(const Scene<Real>& scene, const std::string& name, const State<
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The state at t_end, with radau_iia of `stages`.
+/// The integration to t_end, with radau_iia of `stages`.
 template <class Real>
-State<Real> stateAfter(const Scene<Real>& scene, const Real& t_end, double tolerance, int stages,
-                       Formulation formulation = Formulation::kIndex2, const Monitor<Real>& monitor = {}) {
+Solution<Real> integrated(const Scene<Real>& scene, const Real& t_end, double tolerance, int stages,
+                          Formulation formulation, const Monitor<Real>& monitor) {
   IntegratorOptions options;
   options.tolerances.rtol = options.tolerances.atol = tolerance;
   options.newton.max_iterations = 100;
@@ -38,14 +38,22 @@ State<Real> stateAfter(const Scene<Real>& scene, const Real& t_end, double toler
   Vec<double> scale = Vec<double>::Ones(system->sizes().components());  // mu of GGL is behind those of the scene
   scale.head(scene.scale.size()) = scene.scale;
   Integrator<Real> integrator(system, tableau, options, scale);
-  const auto solution = integrator.integrate(scene.start, t_end, monitor);
+  return integrator.integrate(scene.start, t_end, monitor);
+}
+
+/// The state at t_end, which is reached.
+template <class Real>
+State<Real> stateAfter(const Scene<Real>& scene, const Real& t_end, double tolerance, int stages,
+                       Formulation formulation = Formulation::kIndex2, const Monitor<Real>& monitor = {}) {
+  const auto solution = integrated(scene, t_end, tolerance, stages, formulation, monitor);
   EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   return solution.state;
 }
 
-/// The largest violation of the position constraints and of their first derivatives over a run, and the largest change
-/// of each output that is invariant.
+/// How a run ended, the largest violation of the position constraints and of their first derivatives over it, and the
+/// largest change of each output that is invariant.
 struct Drift {
+  Outcome outcome = Outcome::kSuccess;
   double position = 0, velocity = 0;
   std::map<std::string, double> invariants;
 };
@@ -70,7 +78,7 @@ inline Drift driftOf(const Scene<double>& scene, double tolerance, Formulation f
       largest = std::max(largest, std::abs(output.value(step.state) - output.value(scene.start)));
     }
   };
-  stateAfter<double>(scene, scene.t_end, tolerance, 5, formulation, monitor);
+  drift.outcome = integrated<double>(scene, scene.t_end, tolerance, 5, formulation, monitor).outcome;
   return drift;
 }
 

@@ -23,19 +23,24 @@ TEST(SlidingMass, JointAndInsertedMassAgreeToFourteenDigits) {
   }
 }
 
+// In index 3 the small steps after a switch may end a run (step too small) by its last digits, in about one of fifty.
 TEST(SlidingMass, KeepsItsEnergyAndConstraints) {
+  int ended = 0;
   for (const char* coordinates : {"joint", "inserted"}) {
     for (const char* elements : {"1", "2", "4"}) {
       SCOPED_TRACE(std::string(coordinates) + " " + elements);
       const auto scene = makeScene<double>("sliding_mass", {{"coordinates", coordinates}, {"elements", elements}});
       for (const Formulation formulation : {Formulation::kIndex3, Formulation::kIndex2, Formulation::kGgl}) {
-        // The small steps after a switch end index 3 at tighter tolerances: step too small.
-        const Drift drift = driftOf(scene, formulation == Formulation::kIndex3 ? 1e-7 : 1e-9, formulation);
+        const bool is_index3 = formulation == Formulation::kIndex3;
+        const Drift drift = driftOf(scene, is_index3 ? 1e-7 : 1e-9, formulation);
+        ended += drift.outcome != Outcome::kSuccess;
+        EXPECT_TRUE(drift.outcome == Outcome::kSuccess || (is_index3 && drift.outcome == Outcome::kStepTooSmall));
         EXPECT_LT(drift.invariants.at("energy"), 1e-7);
         EXPECT_LT(drift.position, 1e-8);
       }
     }
   }
+  EXPECT_LE(ended, 2);
 }
 
 // The mass crosses each node once, where s is that of the node.

@@ -54,6 +54,7 @@ TEST(SpatialSliderCrank, KeepsItsEnergyAndConstraints) {
     const auto scene = makeScene<double>("spatial_slider_crank", {{"coordinates", coordinates}, {"T", "0.01"}});
     for (const Formulation formulation : {Formulation::kIndex3, Formulation::kIndex2, Formulation::kGgl}) {
       const Drift drift = driftOf(scene, 1e-10, formulation);
+      EXPECT_EQ(drift.outcome, Outcome::kSuccess);
       EXPECT_LT(drift.invariants.at("energy"), 1e-8);
       EXPECT_LT(drift.position, 1e-9);
     }
