@@ -126,7 +126,7 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
     LaneMask ends;
     if (m == 0) {
       const Lanes eta = largest(eta_, roundOff<double>());
-      const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / stop_.kappa, 5), 1.0);
+      const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / c.kappa, 5), 1.0);
       done = (done | small) & running;
       forEachLane(done, [&](std::size_t i) { eta_.set(i, std::pow(eta[i], 0.8)); });
     } else {
@@ -134,11 +134,11 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
       theta_ = select(running, theta, theta_);
       ends = running & lessOrEqual(0.5, theta) & lessOrEqual(norm, kStagnationUnits * round_off_);
       Lanes eta = etaOf(theta);
-      const LaneMask slow = less(stop_.kappa, power(theta, limit_ - 1 - m) * eta * norm);
+      const LaneMask slow = less(c.kappa, power(theta, limit_ - 1 - m) * eta * norm);
       const LaneMask hopeless = running & ~ends & (lessOrEqual(0.99, theta) | slow);
       if (stop_.by_round_off) eta = etaOf(largest(theta, slowest_));
       if (m > 1) slowest_ = select(running & ~ends & ~hopeless, theta, slowest_);
-      done = (done | lessOrEqual(eta * norm, stop_.kappa)) & running & ~ends & ~hopeless;
+      done = (done | lessOrEqual(eta * norm, c.kappa)) & running & ~ends & ~hopeless;
       eta_ = select(done, eta, eta_);
       if (hopeless.any()) {
         const LaneMask rounded = isRoundOff(c, hopeless, norm);
@@ -173,9 +173,9 @@ LaneMask LaneNewton::isRoundOff(Context& c, const LaneMask& which, const Lanes& 
 }
 
 LaneSolved LaneNewton::solve(LaneStages& stages, const LaneNorm& norm, const LaneState& from, const Lanes& h,
-                             const LaneMask& which, std::vector<Lanes>& W, LaneCounters& counters) {
+                             const LaneMask& which, const Lanes& kappa, std::vector<Lanes>& W, LaneCounters& counters) {
   LaneSolved result;
-  Context c{stages, norm, from, h, W, counters, result};
+  Context c{stages, norm, from, h, kappa, W, counters, result};
   differentiate(c, which & (stale_ | ~differentiated_));
   const LaneMask had_old = ~equal(jacobian_t_, from.t);
   W0_ = W;

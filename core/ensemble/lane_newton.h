@@ -29,9 +29,12 @@ class LaneNewton {
   /// Lanes whose last attempt failed: forgets this attempt.
   void forget(const LaneMask& which);
 
+  /// What increments have to fall below after so many accepted steps, in tolerances.
+  double kappa(std::int64_t accepted) const { return stop_.after(accepted); }
+
   /// One step of size h from the states `from`, in the lanes of `which`. W: start values in, solutions out.
   LaneSolved solve(LaneStages& stages, const LaneNorm& norm, const LaneState& from, const Lanes& h,
-                   const LaneMask& which, std::vector<Lanes>& W, LaneCounters& counters);
+                   const LaneMask& which, const Lanes& kappa, std::vector<Lanes>& W, LaneCounters& counters);
 
   /// For the error estimate of the lanes of `which`. A matrix of its own counts as one more factorization where it is
   /// new, as it does in a single run.
@@ -42,7 +45,7 @@ class LaneNewton {
     LaneStages& stages;
     const LaneNorm& norm;
     const LaneState& from;
-    Lanes h;
+    Lanes h, kappa;
     std::vector<Lanes>& W;
     LaneCounters& counters;
     LaneSolved& result;

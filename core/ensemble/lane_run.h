@@ -36,6 +36,7 @@ class LaneRun {
   Outcome plan(double t);
   double h() const { return size_; }
   bool filtersAgain() const { return again_; }
+  std::int64_t stepsAccepted() const { return steps_; }
 
   /// The attempt failed: Newton's method or its matrix.
   void failed(Outcome outcome);

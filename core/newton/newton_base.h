@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/newton/broyden.h"
 #include "core/newton/newton.h"
@@ -29,6 +30,15 @@ double unitRoundOff(const IntegratorOptions& options) {
 struct IncrementLimit {
   double kappa;
   bool by_round_off;  ///< less would be wanted, but increments do not become smaller than round-off
+  double least;       ///< of round-off; kappa itself where the caller has chosen it
+
+  /// kappa after so many accepted steps. What Newton's method leaves has the same sign in step after step and no error
+  /// estimate sees it, so that N steps would leave N kappa tolerances: from kMany steps on it falls as kMany / N.
+  double after(std::int64_t accepted) const {
+    constexpr std::int64_t kMany = 1000;
+    if (accepted <= kMany) return kappa;
+    return std::max(least, kappa * static_cast<double>(kMany) / static_cast<double>(accepted));
+  }
 };
 /// kappa shrinks with s: at high order a loose stage equation spoils the step.
 template <class Real>
@@ -38,7 +48,8 @@ IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
   const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
   const double kappa = options.newton.kappa;
   const double wanted = kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1)));
-  return {std::max(floor, wanted), floor > wanted};
+  const double limit = std::max(floor, wanted);
+  return {limit, floor > wanted, kappa > 0 ? limit : floor};
 }
 
 /// Iterations that share their pieces: residual, solve, update.

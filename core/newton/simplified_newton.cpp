@@ -94,6 +94,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
+    const double kappa = limit_.after(c.counters.steps_accepted);
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
     double previous = 0;
@@ -112,7 +113,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         // At round-off increments no longer contract; above it this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
         eta = of_step = etaOf(theta);
-        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > limit_.kappa;
+        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa;
         if (theta >= 0.99 || slow) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
@@ -121,10 +122,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (m > 1 && slowest_ == kUnknownTheta) slowest_ = theta;
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
         if (m > 1) slowest_ = theta;
-      } else if (std::min(last, 1.0) * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
+      } else if (std::min(last, 1.0) * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta = of_step = std::pow(last, 0.8);  // at least min(last, 1): where that is too large, so is this
       }
-      if (eta * norm <= limit_.kappa || norm <= kRoundOffUnits * this->round_off_) {
+      if (eta * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
       }

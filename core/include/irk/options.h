@@ -164,7 +164,8 @@ struct NewtonOptions {
   /// Paper, section 3: 25 iterations without convergence are a failure.
   int max_iterations = 25;
   /// 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
-  /// that shrinks with s. `simplified`, `broyden`: done when eta |dw| <= kappa in the error norm.
+  /// that shrinks with s; from 1000 accepted steps on it falls with their number, down to 10 eps/rtol. `simplified`,
+  /// `broyden`: done when eta |dw| <= kappa in the error norm.
   double kappa = 0;
   /// `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
   double keep_jacobian_below = 1e-3;

@@ -1,0 +1,86 @@
+// What Newton's method leaves in each of very many steps does not add up.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/newton/newton_base.h"
+#include "irk/integrator.h"
+#include "irk/scene.h"
+#include "irk/tableaus.h"
+
+namespace irk::test {
+namespace {
+
+IntegratorOptions tight(double tolerance, ErrorEstimate estimate) {
+  IntegratorOptions options;
+  options.tolerances = {tolerance, tolerance, NormKind::kMixed};
+  options.step.estimate = estimate;
+  return options;
+}
+
+TEST(ManySteps, KappaFallsWithTheNumberOfSteps) {
+  const IncrementLimit limit = incrementLimit<double>(tight(1e-6, ErrorEstimate::kEmbedded), 2);
+  EXPECT_EQ(limit.kappa, 0.01);
+  EXPECT_EQ(limit.after(0), 0.01);
+  EXPECT_EQ(limit.after(1000), 0.01);
+  EXPECT_DOUBLE_EQ(limit.after(1'000'000), 1e-5);
+  // The sum over all steps, were they all as large as they may be and of one sign.
+  double sum = 0;
+  for (int n = 0; n < 1'000'000; ++n) sum += limit.after(n);
+  EXPECT_LT(sum, 100);
+  // Not below round-off: 10 eps / tol.
+  EXPECT_DOUBLE_EQ(limit.after(std::int64_t{1} << 60), 10 * 2.220446049250313e-16 / 1e-6);
+}
+
+TEST(ManySteps, TheCallersKappaStays) {
+  IntegratorOptions options = tight(1e-6, ErrorEstimate::kEmbedded);
+  options.newton.kappa = 0.1;
+  const IncrementLimit limit = incrementLimit<double>(options, 2);
+  EXPECT_EQ(limit.after(0), 0.1);
+  EXPECT_EQ(limit.after(1'000'000), 0.1);
+}
+
+struct Ended {
+  Scene<double> scene;
+  Solution<double> solution;
+};
+
+Ended ended(const char* id, const char* method, Formulation formulation, const IntegratorOptions& options) {
+  auto scene = makeScene<double>(id);
+  Integrator<double> integrator(scene.system({.formulation = formulation}), makeTableau<double>(method), options,
+                                scene.scale);
+  auto solution = integrator.integrate(scene.start, scene.t_end);
+  return {std::move(scene), std::move(solution)};
+}
+
+// 80 000 steps. With one kappa for all of them the end was off by 2000 tolerances, of components that have a scale of
+// 1e-6: y1 = 2e-8 by a thousandth of itself.
+TEST(ManySteps, OfGaussOnRobertsonKeepTheTolerance) {
+  const auto options = tight(1e-8, ErrorEstimate::kEmbedded);
+  const Ended gauss = ended("robertson", "gauss_5", Formulation::kIndex2, options);
+  const Ended radau = ended("robertson", "radau_iia_5", Formulation::kIndex2, tight(1e-10, ErrorEstimate::kRichardson));
+  ASSERT_EQ(gauss.solution.outcome, Outcome::kSuccess) << gauss.solution.detail;
+  ASSERT_EQ(radau.solution.outcome, Outcome::kSuccess) << radau.solution.detail;
+  EXPECT_GT(gauss.solution.counters.steps_accepted, 10'000);
+  for (Index i = 0; i < 3; ++i) {
+    const double y = radau.solution.state.x[i];
+    EXPECT_NEAR(gauss.solution.state.x[i], y, 1e-6 * std::max(std::abs(y), 1e-6)) << "y" << i + 1;
+  }
+}
+
+// 320 000 steps; with one kappa for all of them the end was off by 2500 tolerances.
+TEST(ManySteps, OfAMethodOfOrderTwoOnThePendulumKeepTheTolerance) {
+  const auto options = tight(1e-6, ErrorEstimate::kEmbedded);
+  const Ended lobatto = ended("pendulum", "lobatto_iiid_2", Formulation::kIndex2Projected, options);
+  const Ended radau = ended("pendulum", "radau_iia_5", Formulation::kIndex2, tight(1e-10, ErrorEstimate::kRichardson));
+  ASSERT_EQ(lobatto.solution.outcome, Outcome::kSuccess) << lobatto.solution.detail;
+  ASSERT_EQ(radau.solution.outcome, Outcome::kSuccess) << radau.solution.detail;
+  EXPECT_GT(lobatto.solution.counters.steps_accepted, 50'000);
+  EXPECT_LT((lobatto.solution.state.u - radau.solution.state.u).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((lobatto.solution.state.v - radau.solution.state.v).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+}  // namespace
+}  // namespace irk::test
