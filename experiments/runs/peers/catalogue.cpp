@@ -45,6 +45,7 @@ void registerPeer(PeerEntry entry) {
   if (entry.id.empty() || entry.id.find_first_not_of(kAllowed) != std::string::npos) {
     refuse("an id consists of letters, digits, '_', '-' and '.'");
   }
+  if (entry.title.empty()) refuse("it has no title, the line of `irk list methods`");
   if (!entry.make) refuse("it has no function 'make'");
   if (entry.max_index < 1 || entry.max_index > 3) {
     refuse(fmt::format("max_index = {}: 1 to 3 is allowed", entry.max_index));
