@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLeastIterations = 4;  // of a solve that counts: fewer show no course
 constexpr std::size_t kMostIterations = 6;   // in the table
-constexpr std::size_t kSamples = 100;        // solves of one run
+constexpr std::size_t kSampledSolves = 100;  // solves of one run
 
 constexpr NewtonKind kObserved{{"modified_observed"}};
 
@@ -82,7 +82,7 @@ void appendRun(const TableRow& start, const std::string& rtol, const std::vector
   for (std::size_t i = 0; i < solves.size(); ++i) {
     if (solves[i].size() >= kLeastIterations) long_ones.push_back(i);
   }
-  const std::size_t stride = long_ones.size() / kSamples + 1;
+  const std::size_t stride = long_ones.size() / kSampledSolves + 1;
   for (std::size_t i = stride / 2; i < long_ones.size(); i += stride) {
     const Contractions& c = solves[long_ones[i]];
     TableRow row = start;

@@ -17,7 +17,7 @@
 namespace irk {
 namespace {
 
-constexpr double kSamples = 2000;
+constexpr double kEnergySamples = 2000;
 
 struct EnergyErrors {
   std::vector<double> t, error;
@@ -49,7 +49,7 @@ EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
   const auto setup = makeSetup<double>(spec);
   const mp50 start = energy.value(exactly(setup.scene.start));
   const auto stride =
-      static_cast<std::int64_t>(std::max(1.0, std::round(setup.spec.t_end / spec.options.step.h / kSamples)));
+      static_cast<std::int64_t>(std::max(1.0, std::round(setup.spec.t_end / spec.options.step.h / kEnergySamples)));
   EnergyErrors errors;
   std::int64_t steps = 0;
   Monitor<double> monitor;

@@ -19,9 +19,9 @@
 namespace irk {
 namespace {
 
-constexpr int kSamples = 24;      // steps of one run
-constexpr Index kMoreStages = 4;  // of the accurate solution, beyond those of the method
-constexpr int kSubsteps = 4;      // steps of the accurate solution per sampled step
+constexpr int kSampledSteps = 24;  // steps of one run
+constexpr Index kMoreStages = 4;   // of the accurate solution, beyond those of the method
+constexpr int kSubsteps = 4;       // steps of the accurate solution per sampled step
 constexpr double kRoundOff = 1000 * std::numeric_limits<double>::epsilon();
 
 struct Step {
@@ -50,7 +50,7 @@ class StepSampler {
     auto integrator = setup_.integrator();
     static_cast<void>(integrator.integrate(setup_.scene.start, setup_.spec.t_end, monitor));
     std::vector<Step> some;
-    const std::size_t stride = all.size() / kSamples + 1;
+    const std::size_t stride = all.size() / kSampledSteps + 1;
     for (std::size_t i = stride / 2; i < all.size(); i += stride) some.push_back(all[i]);
     return some;
   }
@@ -74,16 +74,16 @@ class StepSampler {
   Setup<double> setup_;
 };
 
-struct Group {
+struct ErrorGroup {
   char name;
   Index first, count;
 };
 
-std::vector<Group> groupsOf(const Sizes& n) {
+std::vector<ErrorGroup> groupsOf(const Sizes& n) {
   return {{'u', 0, n.nu}, {'v', n.nu, n.nu}, {'x', 2 * n.nu, n.nx}, {'z', 2 * n.nu + n.nx, n.nz}};
 }
 
-double largest(const Vec<double>& y, const Vec<double>& scale, const Group& group) {
+double largest(const Vec<double>& y, const Vec<double>& scale, const ErrorGroup& group) {
   double most = 0;
   for (Index i = group.first; i < group.first + group.count; ++i) {
     most = std::max(most, std::abs(y[i]) / (i < scale.size() ? scale[i] : 1));
@@ -104,7 +104,7 @@ void appendStep(const StepSampler& sampler, const Step& step, const TableRow& st
     return doublingFactors(Scheme<double>(tableau), sampler.system(), estimate);
   };
   const auto all = factors(ErrorEstimate::kDoubling), own = factors(ErrorEstimate::kRichardson);
-  for (const Group& group : groupsOf(sampler.scene().sizes())) {
+  for (const ErrorGroup& group : groupsOf(sampler.scene().sizes())) {
     const double size = largest(*exact, scale, group);
     const double difference = largest(*coarse - *fine, scale, group);
     const double error = largest(*fine - *exact, scale, group);

@@ -17,7 +17,7 @@
 namespace irk::audit {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotJudged = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<std::string> kColumns{"run",
                                         "key",
@@ -47,7 +47,7 @@ const std::vector<std::string> kColumns{"run",
 
 // Errors of u, v, x together, and of z.
 struct StateErrors {
-  double judged = kUnknown, multipliers = kUnknown;
+  double judged = kNotJudged, multipliers = kNotJudged;
 };
 
 StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Vec<double>& state, const Answer& answer) {

@@ -18,7 +18,7 @@ namespace irk::audit {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFirstMethod = "radau_iia_7";
 constexpr const char* kFirstFamily = "radau";
 constexpr const char* kOtherMethod = "lobatto_iiic_6";
@@ -80,7 +80,7 @@ class Search {
       const Vec<double> exact = components(scene_.exact(question_.t_end));
       if (complete(exact)) return keep("exact", exact, 0);
     }
-    Vec<double> state = Vec<double>::Constant(n_.components(), kUnknown);
+    Vec<double> state = Vec<double>::Constant(n_.components(), kNoValue);
     double accuracy = 0;
     RunSpec spec;
     findField("settings").set(spec, question_.settings);

@@ -61,7 +61,7 @@ TableRow joined(const Table& runs, const std::vector<const TableRow*>& times) {
       ++known;
       if (!(largest >= error)) largest = error;
     }
-    row[runs.column(column)] = numberText(known >= kReferenceTimes ? largest : kUnknown);
+    row[runs.column(column)] = irk::numberText(known >= kReferenceTimes ? largest : kUnknown);
   }
   return row;
 }

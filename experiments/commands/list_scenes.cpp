@@ -40,7 +40,7 @@ std::string sizesText(const SceneEntry& scene) {
   return text + "\n";
 }
 
-std::string sourceOf(const SceneEntry& scene) {
+std::string originOf(const SceneEntry& scene) {
   if (!scene.literature.empty()) return scene.literature;
   return scene.source.empty() ? "this suite" : scene.source;
 }
@@ -49,7 +49,7 @@ void printScene(const SceneEntry& scene, std::ostream& out) {
   fmt::print(out, "{}\n    {}\n    kind: {}\n    index: {}\n{}    shows: {}\n", scene.id, scene.title,
              meaningOf(scene.kind), indexOf(scene.kind), sizesText(scene), scene.shows);
   if (!scene.collections.empty()) fmt::print(out, "    in: {}\n", fmt::join(scene.collections, ", "));
-  fmt::print(out, "    from: {}\n", sourceOf(scene));
+  fmt::print(out, "    from: {}\n", originOf(scene));
   for (const auto& p : scene.parameters) {
     fmt::print(out, "    --set {}={}  {} [{}]  {}\n", p.name, p.default_value, p.meaning, p.unit, rangeText(p));
   }

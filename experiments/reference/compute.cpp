@@ -15,7 +15,6 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kRuns = kReferenceRuns;
 // Accuracy of exact values: the closed forms lose some of their 50 digits.
 constexpr double kExact = 1e-38;
 
@@ -73,8 +72,8 @@ class Assembly {
   }
 
   void addValue(std::size_t i, std::size_t j, const mp50& exact) {
-    std::array<mp50, kRuns> values;
-    for (std::size_t run = 0; run < kRuns; ++run) values[run] = runs_[run].rows[i][j];
+    std::array<mp50, kReferenceRuns> values;
+    for (std::size_t run = 0; run < kReferenceRuns; ++run) values[run] = runs_[run].rows[i][j];
     if (!isfinite(values.back())) return;  // the output is not defined here
     const auto at = static_cast<Index>(j);
     const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
@@ -118,26 +117,26 @@ bool samePlace(const ReferenceValue& a, const ReferenceValue& b) {
 }
 
 void expectRuns(const ReferenceTask& task, Progress& progress) {
-  for (std::size_t run = 0; run < kRuns; ++run) progress.expect(nameOf(task));
+  for (std::size_t run = 0; run < kReferenceRuns; ++run) progress.expect(nameOf(task));
 }
 
 std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
                                   const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch) {
-  std::vector<Integrated> runs(kRuns * tasks.size());
+  std::vector<Integrated> runs(kReferenceRuns * tasks.size());
   std::mutex mutex;
   // The last runs of a task have the finer tolerance and take longest: start with them.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(watch.jobs)
   for (std::size_t turn = 0; turn < runs.size(); ++turn) {
-    const std::size_t i = runs.size() - 1 - turn, task = i / kRuns;
+    const std::size_t i = runs.size() - 1 - turn, task = i / kReferenceRuns;
     const double start = threadSeconds();
-    runs[i] = integrated(referenceRun(tasks[task], i % kRuns), times[task], {.stop = watch.stop});
+    runs[i] = integrated(referenceRun(tasks[task], i % kReferenceRuns), times[task], {.stop = watch.stop});
     const std::lock_guard lock(mutex);
     if (watch.progress) watch.progress->finished(nameOf(tasks[task]), threadSeconds() - start);
   }
   std::vector<ComputedTask> computed;
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     const std::span all(runs);
-    computed.push_back(Assembly(tasks[task], times[task], all.subspan(kRuns * task, kRuns)).result());
+    computed.push_back(Assembly(tasks[task], times[task], all.subspan(kReferenceRuns * task, kReferenceRuns)).result());
   }
   return computed;
 }

@@ -16,8 +16,7 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kRuns = kReferenceRuns;
-using Specs = std::array<RunSpec, kRuns>;  // the best one last
+using Specs = std::array<RunSpec, kReferenceRuns>;  // the best one last
 
 // Values in double are not better than this, relative to the magnitude of the component.
 constexpr double kDoubleRoundOff = 1e-14;
@@ -48,7 +47,7 @@ ReferenceCase caseOf(const ReferenceQuestion& question) {
 
 Specs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase& of) {
   Specs specs;
-  for (std::size_t i = 0; i < kRuns; ++i) {
+  for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     specs[i] = referenceRun({question.scene, of}, i);
     if (question.smooth) specs[i].discontinuity = Discontinuity::kSmooth;
   }
@@ -58,7 +57,7 @@ Specs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase&
 // All options are given, so that changed defaults change no reference.
 Specs specsInDouble(const ReferenceQuestion& question, double length, const Strictness& strictness) {
   Specs specs;
-  for (std::size_t i = 0; i < kRuns; ++i) {
+  for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     const bool fine = i >= 2, radau = i % 2 == 1;
     const std::string tolerance = numberText(strictness.tolerance * (fine ? 0.1 : 1));
     specs[i] = resolved(parseSpec(fmt::format(
@@ -123,13 +122,13 @@ class Making {
 
   // Makes the four runs and keeps what they agree on. Returns why there is nothing to keep.
   std::string attempt(const Specs& specs, double least) {
-    std::array<Integrated, kRuns> runs;
+    std::array<Integrated, kReferenceRuns> runs;
     CpuBudget budget(limits_.cpu_s);
     const std::vector<std::string> times{numberText(question_.t_end)};
     // The last runs take longest: start with them.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(jobs_)
-    for (std::size_t turn = 0; turn < kRuns; ++turn) {
-      const std::size_t i = kRuns - 1 - turn;
+    for (std::size_t turn = 0; turn < kReferenceRuns; ++turn) {
+      const std::size_t i = kReferenceRuns - 1 - turn;
       runs[i] = integrated(specs[i], times, {.stop = stop_, .budget = &budget});
     }
     for (const auto& run : runs) {
@@ -138,13 +137,13 @@ class Making {
     return agree(specs, runs, least);
   }
 
-  std::string agree(const Specs& specs, const std::array<Integrated, kRuns>& runs, double least) {
+  std::string agree(const Specs& specs, const std::array<Integrated, kReferenceRuns>& runs, double least) {
     result_.values.clear();
     result_.accuracy = 0;
     const auto names = namesOf();
     for (std::size_t j = 0; j < names.size(); ++j) {
-      std::array<mp50, kRuns> values;
-      for (std::size_t i = 0; i < kRuns; ++i) values[i] = runs[i].rows.front()[j];
+      std::array<mp50, kReferenceRuns> values;
+      for (std::size_t i = 0; i < kReferenceRuns; ++i) values[i] = runs[i].rows.front()[j];
       if (!std::all_of(values.begin(), values.end(), [](const mp50& x) { return isfinite(x); })) continue;
       const double size = std::max(std::abs(static_cast<double>(values.back())), scaleOf(j));
       const AgreedValue found = agreed(values, least * size);

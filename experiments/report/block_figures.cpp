@@ -17,6 +17,11 @@
 #include "irk/tableaus.h"
 
 namespace irk {
+
+void addNew(std::vector<std::string>& list, const std::string& item) {
+  if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+}
+
 namespace {
 
 constexpr std::size_t kMostFigures = 6;  // of one kind for one block
@@ -30,10 +35,6 @@ struct Axis {
   std::string column;
   std::function<std::string(const RunSpec&)> value;
 };
-
-void addNew(Cells& list, const std::string& item) {
-  if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
-}
 
 Cells valuesOf(const Axis& axis, const std::vector<RunSpec>& specs) {
   Cells values;

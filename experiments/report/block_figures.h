@@ -12,4 +12,7 @@ namespace irk {
 /// Appends the figures; their names are left empty.
 void appendBlockFigures(const Study& study, const std::string& block, std::vector<FigureTable>& figures);
 
+/// Appends `item` unless the list has it.
+void addNew(std::vector<std::string>& list, const std::string& item);
+
 }  // namespace irk

@@ -15,10 +15,6 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-void addNew(Cells& list, const std::string& item) {
-  if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
-}
-
 // The figures of analyses, which need no choice of a block.
 void appendAnalyses(const Study& study, std::vector<FigureTable>& figures) {
   const auto add = [&](const std::string& script, const std::string& title, std::vector<FigureOption> options = {}) {

@@ -28,7 +28,7 @@ namespace {
 constexpr double kFinestPart = 0.005;  // of a decade; about a quarter of a pixel
 constexpr double kCoarser = 1.25;
 
-using Cells = std::vector<std::string_view>;
+using CellViews = std::vector<std::string_view>;
 using Columns = std::map<std::string, std::size_t, std::less<>>;
 
 // The words of a list in gnuplot's way: 'a b' or '"a c" b'.
@@ -74,7 +74,7 @@ class Selection {
     }
   }
 
-  bool takes(const Cells& cells) const {
+  bool takes(const CellViews& cells) const {
     if (!block_.empty() && !isIn(cells, block_)) return false;
     for (const auto& [column, value] : equal_) {
       if (!is(cells, column, value)) return false;
@@ -84,21 +84,21 @@ class Selection {
   }
 
  private:
-  std::optional<std::string> cell(const Cells& cells, std::string_view column) const {
+  std::optional<std::string> cell(const CellViews& cells, std::string_view column) const {
     const auto at = at_.find(column);
     return at == at_.end() ? std::nullopt : std::optional(store::plainCell(cells[at->second]));
   }
   // Rows without the column are left to gnuplot.
-  bool is(const Cells& cells, std::string_view column, std::string_view value) const {
+  bool is(const CellViews& cells, std::string_view column, std::string_view value) const {
     const auto text = cell(cells, column);
     return !text || (value.empty() ? isAbsent(*text) : *text == value);
   }
-  bool isIn(const Cells& cells, std::string_view block) const {
+  bool isIn(const CellViews& cells, std::string_view block) const {
     const auto text = cell(cells, kBlockColumn);
     return !text || hasBlock(*text, block);
   }
   // block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS
-  bool isCase(const Cells& cells, std::string_view one) const {
+  bool isCase(const CellViews& cells, std::string_view one) const {
     constexpr std::string_view kBlock = "block=";
     const auto colon = one.find(':');
     const auto first = one.substr(0, colon), second = colon == one.npos ? std::string_view() : one.substr(colon + 1);
@@ -119,7 +119,7 @@ class Thinned {
   Thinned(std::vector<std::size_t> kept, std::vector<std::size_t> same, std::vector<std::size_t> near, Columns at)
       : kept_(std::move(kept)), same_(std::move(same)), near_(std::move(near)), at_(std::move(at)) {}
 
-  void add(const Cells& cells) {
+  void add(const CellViews& cells) {
     Row row;
     for (const auto at : kept_) row.text.append(cells[at]).append(at == kept_.back() ? "\n" : ",");
     for (const auto at : same_) row.curve = fnv1a(fmt::format("{:x},{}", row.curve, cells[at]));
@@ -144,7 +144,7 @@ class Thinned {
   };
 
   // Wrong successes have a mark of their own: isWrong in plots/style.gp.
-  bool isWrong(const Cells& cells) const {
+  bool isWrong(const CellViews& cells) const {
     const auto number = [&](std::string_view column) {
       const auto at = at_.find(column);
       return at == at_.end() ? std::nan("") : cellNumber(cells[at->second]);
@@ -257,7 +257,7 @@ DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, co
   std::ofstream out(folder_ / "runs.csv", std::ios::binary);
   std::string line;
   while (std::getline(in, line) && line.starts_with('#')) out << line << '\n';
-  Cells cells;
+  CellViews cells;
   if (!store::splitLine(line, cells)) throw Failure(fmt::format("{}: no line with column names", results.string()));
   const TableRow header = store::plainRow(cells);
   Columns at;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kEqual = 0.05;  // CPU times that are closer than this do not differ
 
 // A choice on a scene, with all methods and all other choices of its block.
-struct Choice {
+struct ComparedChoice {
   std::string scene, value, base;
   std::vector<std::vector<double>> ratios;  // of kRatioCosts, one per method and other choices
   double lost = 0, won = 0;
@@ -26,9 +26,9 @@ struct Choice {
   double median(std::size_t cost) const { return irk::median(ratios[cost]); }
 };
 
-std::vector<Choice> choicesOf(const Table& table) {
+std::vector<ComparedChoice> choicesOf(const Table& table) {
   std::map<std::vector<std::string>, std::size_t> place;
-  std::vector<Choice> choices;
+  std::vector<ComparedChoice> choices;
   for (const auto& row : table.rows) {
     std::vector<std::string> key;
     for (const char* column : {"block", "scene", "settings", "column", "value", "base"}) {
@@ -41,7 +41,7 @@ std::vector<Choice> choicesOf(const Table& table) {
                          .base = key[5],
                          .ratios = std::vector<std::vector<double>>(std::size(kRatioCosts))});
     }
-    Choice& choice = choices[at->second];
+    ComparedChoice& choice = choices[at->second];
     for (std::size_t i = 0; i < std::size(kRatioCosts); ++i) {
       const double ratio = numberAt(table, row, kRatioCosts[i]);
       if (!std::isnan(ratio)) choice.ratios[i].push_back(ratio);
@@ -82,13 +82,15 @@ HtmlTable ratiosHtml(const Table& ratios) {
 
 std::string ratiosSentence(const Table& ratios) {
   auto choices = choicesOf(ratios);
-  std::erase_if(choices, [](const Choice& choice) { return std::isnan(choice.median(0)); });
+  std::erase_if(choices, [](const ComparedChoice& choice) { return std::isnan(choice.median(0)); });
   if (choices.empty()) return {};
-  const auto [least, most] = std::minmax_element(
-      choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.median(0) < b.median(0); });
-  const auto equal = std::count_if(choices.begin(), choices.end(),
-                                   [](const Choice& choice) { return std::abs(choice.median(0) - 1) <= kEqual; });
-  const auto text = [](const Choice& choice) {
+  const auto [least, most] =
+      std::minmax_element(choices.begin(), choices.end(),
+                          [](const ComparedChoice& a, const ComparedChoice& b) { return a.median(0) < b.median(0); });
+  const auto equal = std::count_if(choices.begin(), choices.end(), [](const ComparedChoice& choice) {
+    return std::abs(choice.median(0) - 1) <= kEqual;
+  });
+  const auto text = [](const ComparedChoice& choice) {
     return fmt::format("{:.2f} (`{}` instead of `{}`, {})", choice.median(0), choice.value, choice.base, choice.scene);
   };
   return fmt::format(

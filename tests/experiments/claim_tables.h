@@ -30,6 +30,9 @@ inline Verdict verdict(std::string_view id, const ResultTables& tables, Setting 
   return finding(id, tables, setting).judged.verdict;
 }
 
+inline constexpr Verdict kYes = Verdict::kConfirmed, kNo = Verdict::kContradicted, kOpen = Verdict::kUndecided,
+                         kUnknown = Verdict::kNotMeasurable;
+
 inline const ResultTables kNoResults;
 
 /// Multibody systems, as most claims want them.

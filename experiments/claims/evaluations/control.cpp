@@ -11,7 +11,7 @@
 namespace irk::claims {
 namespace {
 
-TableRow placeOf(const Table& runs, const TableRow& run) {
+TableRow methodPlace(const Table& runs, const TableRow& run) {
   return {textAt(runs, run, "scene"), textAt(runs, run, "settings"), textAt(runs, run, "method")};
 }
 
@@ -79,10 +79,10 @@ Measurement costOfDoubling(const ResultTables& tables, Setting setting) {
   };
   const Table plain = inBlock("plain_steps"), doubled = inBlock("doubled_steps");
   std::map<TableRow, const TableRow*> same;
-  for (const auto& run : plain.rows) same[placeOf(plain, run)] = &run;
+  for (const auto& run : plain.rows) same[methodPlace(plain, run)] = &run;
   Measurement measured;
   for (const auto& run : doubled.rows) {
-    const auto at = same.find(placeOf(doubled, run));
+    const auto at = same.find(methodPlace(doubled, run));
     if (at == same.end()) continue;
     // The same steps: two halves for each doubled one, and none rejected.
     const bool same_steps =
@@ -119,14 +119,14 @@ Measurement absoluteTolerances(const ResultTables& tables, Setting setting) {
       for (const double error : comparedErrors()) {
         const double cost = seriesCost(*runs, series, "cpu_s", "error", error);
         if (std::isnan(cost)) continue;
-        const auto at = others.try_emplace({placeOf(*runs, *series.rows.front()), error}, cost).first;
+        const auto at = others.try_emplace({methodPlace(*runs, *series.rows.front()), error}, cost).first;
         at->second = std::min(at->second, cost);
       }
     }
   }
   Measurement measured;
   for (const auto& series : seriesOf(absolute)) {
-    const TableRow place = placeOf(absolute, *series.rows.front());
+    const TableRow place = methodPlace(absolute, *series.rows.front());
     for (const double error : comparedErrors()) {
       const double cost = seriesCost(absolute, series, "cpu_s", "error", error);
       const auto other = others.find({place, error});

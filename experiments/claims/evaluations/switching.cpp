@@ -35,7 +35,7 @@ const Blocks kWithJumps = {"contact",  "friction",     "yielding",          "cho
 const Blocks kWithoutJumps = {"orbit", "pendulum", "tracking", "singular_perturbation",
                               "stiff", "beam",     "index1",   "index2"};
 
-TableRow placeOf(const Table& runs, const TableRow& run) {
+TableRow tolerancePlace(const Table& runs, const TableRow& run) {
   return {textAt(runs, run, "scene"), textAt(runs, run, "settings"), textAt(runs, run, "method"),
           textAt(runs, run, "rtol")};
 }
@@ -125,11 +125,11 @@ Measurement costOverLocating(const ResultTables& tables, Setting setting, std::s
   const Table runs = timedRuns(tables, "reliability", kWithJumps, setting);
   std::map<TableRow, double> located;
   for (const auto& run : where(runs, {{"discontinuity", "locate"}, {"outcome", "success"}}).rows) {
-    located[placeOf(runs, run)] = numberAt(runs, run, "residuals");
+    located[tolerancePlace(runs, run)] = numberAt(runs, run, "residuals");
   }
   Measurement measured;
   for (const auto& run : where(runs, {{"discontinuity", treatment}, {"outcome", "success"}}).rows) {
-    const auto at = located.find(placeOf(runs, run));
+    const auto at = located.find(tolerancePlace(runs, run));
     if (at == located.end()) continue;
     measured.cases.push_back({textAt(runs, run, "scene"), numberAt(runs, run, "residuals") / at->second});
   }
@@ -164,7 +164,7 @@ Measurement repairedByFullNewton(const ResultTables& tables, Setting) {
   const Table& runs = tables.runs("newton_contact");
   std::map<std::pair<TableRow, TableRow>, const TableRow*> full;
   const auto keyOf = [&](const TableRow& run) {
-    return std::pair(placeOf(runs, run), TableRow{textAt(runs, run, "discontinuity"), textAt(runs, run, "h")});
+    return std::pair(tolerancePlace(runs, run), TableRow{textAt(runs, run, "discontinuity"), textAt(runs, run, "h")});
   };
   for (const auto& run : runs.rows) {
     if (textAt(runs, run, "newton") == "full") full[keyOf(run)] = &run;
@@ -191,7 +191,7 @@ Measurement rejectedWithGamma(const ResultTables& tables, Setting) {
   std::map<TableRow, std::map<std::string, int>> found;
   for (const auto& run : runs.rows) {
     if (!succeededAt(runs, run)) continue;
-    TableRow place = placeOf(runs, run);
+    TableRow place = tolerancePlace(runs, run);
     place.pop_back();
     const auto& rtol = textAt(runs, run, "rtol");
     const double rejected = numberAt(runs, run, "steps_rejected_error");

@@ -11,8 +11,8 @@
 namespace irk::report {
 namespace {
 
-constexpr const char* kQuestion = "Where do methods fail?";
-constexpr const char* kStudy = "work_precision";  // the same problems and tolerances for every solver
+constexpr const char* kFailureQuestion = "Where do methods fail?";
+constexpr const char* kFailureStudy = "work_precision";  // the same problems and tolerances for every solver
 constexpr std::string_view kSuccess = "success";
 constexpr std::string_view kRefused = "refused";  // combinations that are not allowed; no runs
 
@@ -178,14 +178,14 @@ std::string wrongSentence(const claims::ResultTables& tables) {
 }
 
 Answer failureAnswer(const claims::ResultTables& tables) {
-  Answer answer = unknownAnswer("failures", kQuestion, kStudy);
+  Answer answer = unknownAnswer("failures", kFailureQuestion, kFailureStudy);
   answer.links = {{"#robustness", "by tolerance"},
                   {"#study_audit", "can success be believed?"},
                   {"#study_failure_constraints", "maps of failures: constraints"},
                   {"#study_failure_stability", "stiffness"},
                   {"#study_failure_newton", "Newton's method"}};
   try {
-    const Table& runs = tables.runs(kStudy);
+    const Table& runs = tables.runs(kFailureStudy);
     const EndsOf by_solver = endsBy("integrator", runs);
     answer.sentences = sentencesOf(by_solver, endsBy("scene", runs));
     Counts causes;

@@ -17,7 +17,7 @@
 namespace irk::report {
 namespace {
 
-constexpr const char* kStudy = "order";
+constexpr const char* kOrderStudy = "order";
 
 struct Family {
   const char *id, *title;
@@ -192,7 +192,7 @@ Answer orderAnswer(const claims::ResultTables& tables) {
                          .css_class = "formulas"}};
   std::map<Place, OrderCheck> checks;
   try {
-    const Table& orders = tables.table(kStudy, "orders");
+    const Table& orders = tables.table(kOrderStudy, "orders");
     answer.table.head = orders.head;
     checks = checksOf(orders);
     answer.sentences.push_back(sentenceOf(checkOf(orders)));

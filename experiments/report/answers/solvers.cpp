@@ -18,8 +18,8 @@
 namespace irk::report {
 namespace {
 
-constexpr const char* kStudy = "work_precision";
-constexpr const char* kQuestion = "Which solver should I use?";
+constexpr const char* kCostStudy = "work_precision";
+constexpr const char* kSolverQuestion = "Which solver should I use?";
 constexpr double kAskedErrors[] = {1e-4, 1e-8, 1e-11};
 constexpr double kAsGood = 1.15;  // times of the same runs differ by that much from one day to the next
 
@@ -201,10 +201,10 @@ Costs costsOf(const Table& costs, std::string_view solver, const std::function<b
 }
 
 Answer solverAnswer(const claims::ResultTables& tables) {
-  Answer answer = unknownAnswer("solver", kQuestion, kStudy);
+  Answer answer = unknownAnswer("solver", kSolverQuestion, kCostStudy);
   try {
-    const Table& costs = tables.table(kStudy, "cpu_at_error");
-    const Table& runs = tables.runs(kStudy);
+    const Table& costs = tables.table(kCostStudy, "cpu_at_error");
+    const Table& runs = tables.runs(kCostStudy);
     std::vector<Choice> choices;
     for (const auto& kind : kindsOf(costs)) {
       for (const double error : errorsOf(costs)) choices.push_back(choiceOf(costs, runs, kind, error));

@@ -14,7 +14,7 @@ namespace {
 constexpr int kOrder = 5;
 // With the default of 3 iterations, Newton's method halves the steps of stiff problems more often than the error
 // does.
-constexpr int kNewtonIterations = 10;
+constexpr int kArkodeIterations = 10;
 
 struct Arkode {
   IRK_SUNDIALS_API(ARKStep, ARKLsJacFn, ARKRootFn)
@@ -27,7 +27,7 @@ struct Arkode {
     IRK_SUNDIALS(ARKStepSetOrder(memory, kOrder));
     IRK_SUNDIALS(ARKStepSetInterpolantDegree(memory, kOrder));
     IRK_SUNDIALS(ARKStepSetDeduceImplicitRhs(memory, SUNTRUE));
-    IRK_SUNDIALS(ARKStepSetMaxNonlinIters(memory, kNewtonIterations));
+    IRK_SUNDIALS(ARKStepSetMaxNonlinIters(memory, kArkodeIterations));
   }
   static int reInit(void* memory, ARKRhsFn rates, double t, N_Vector y) {
     return ARKStepReInit(memory, nullptr, rates, t, y);

@@ -22,7 +22,7 @@ using sundials::statusOf;
 
 // Limits of Newton's method; IDA's defaults are 0.33 of the tolerance and 4 iterations.
 constexpr double kNewtonTolerance = 0.0033;
-constexpr int kNewtonIterations = 8;
+constexpr int kIdaIterations = 8;
 // An absolute tolerance so large that the component passes every test.
 constexpr double kNoTest = 1e100;
 
@@ -81,7 +81,7 @@ class Ida final : public Peer {
     Vec<double> atol = Vec<double>::Zero(n_);
     if (!excludeAlgebraic(problem_.layout(), atol)) return;
     IRK_SUNDIALS(IDASetNonlinConvCoef(memory, kNewtonTolerance));
-    IRK_SUNDIALS(IDASetMaxNonlinIters(memory, kNewtonIterations));
+    IRK_SUNDIALS(IDASetMaxNonlinIters(memory, kIdaIterations));
   }
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* self) {

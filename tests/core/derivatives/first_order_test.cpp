@@ -18,7 +18,8 @@ struct FirstOrderRun {
 
 // The first-order form starts from the problem's own state.
 template <class P>
-FirstOrderRun run(const P& problem, const State<double>& start, Formulation formulation, const IntegratorOptions& o) {
+FirstOrderRun firstOrderRun(const P& problem, const State<double>& start, Formulation formulation,
+                            const IntegratorOptions& o) {
   const auto system = makeSystem<double>(problem, {formulation});
   Integrator<double> integrator(system, makeTableau<double>("radau_iia_3"), o);
   auto solution = integrator.integrate(start, 1);
@@ -33,8 +34,8 @@ TEST(FirstOrder, FactorizesOncePerStep) {
   for (const auto source : {DerivativeSource::kAutomatic, DerivativeSource::kCentral}) {
     IntegratorOptions o = fixedSteps(0.05);
     o.derivatives = source;
-    const auto point = run(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrder, o);
-    const auto step = run(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, o);
+    const auto point = firstOrderRun(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrder, o);
+    const auto step = firstOrderRun(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, o);
     EXPECT_EQ(step.solution.counters.steps_accepted, 20);
     EXPECT_GT(point.factorizations, 3 * 20) << "at every stage of every iteration";
     EXPECT_GE(step.factorizations, 20) << idOf(source);
@@ -46,11 +47,14 @@ TEST(FirstOrder, FactorizesOncePerStep) {
 
 // Refined solves are as exact as those with factors of their own, also over long steps.
 TEST(FirstOrder, RefinesToRoundOff) {
-  const auto point = run(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrder, adaptive(1e-11));
-  const auto step = run(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, adaptive(1e-11));
+  const auto point =
+      firstOrderRun(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrder, adaptive(1e-11));
+  const auto step =
+      firstOrderRun(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, adaptive(1e-11));
   EXPECT_LT((step.solution.state.u - point.solution.state.u).norm(), 1e-10);
   EXPECT_LT(step.factorizations, point.factorizations);
-  const auto coarse = run(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, adaptive(1e-3));
+  const auto coarse =
+      firstOrderRun(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, adaptive(1e-3));
   EXPECT_LT((coarse.solution.state.u - point.solution.state.u).norm(), 1e-2);
 }
 
@@ -69,13 +73,13 @@ TEST(FirstOrder, LeavesAConstantMassAlone) {
   State<double> start(Springs{}.sizes());
   start.u << 1, 0.5;
   for (const auto formulation : {Formulation::kFirstOrder, Formulation::kFirstOrderPerStep}) {
-    EXPECT_EQ(run(Springs{}, start, formulation, adaptive(1e-6)).factorizations, 0) << idOf(formulation);
+    EXPECT_EQ(firstOrderRun(Springs{}, start, formulation, adaptive(1e-6)).factorizations, 0) << idOf(formulation);
   }
 }
 
 /// Masses in a row, coupled by springs and by inertia: M is tridiagonal, depends on u with `bends`, and the residual is
 /// not linear in a with `hardens`.
-struct Chain {
+struct SpringChain {
   Index n;
   double coupling = 0.5, bends = 0, hardens = 0;
 
@@ -97,7 +101,8 @@ struct Chain {
 // quotients of f.
 TEST(FirstOrder, SolvesSparseSystems) {
   constexpr Index n = 40;
-  for (const Chain& chain : {Chain{n, 0}, Chain{n}, Chain{n, 0.5, 0.7}, Chain{n, 0.5, 0.7, 0.3}}) {
+  for (const SpringChain& chain :
+       {SpringChain{n, 0}, SpringChain{n}, SpringChain{n, 0.5, 0.7}, SpringChain{n, 0.5, 0.7, 0.3}}) {
     SCOPED_TRACE(std::to_string(chain.coupling) + " " + std::to_string(chain.bends) + " " +
                  std::to_string(chain.hardens));
     const auto inner = makeSystem<double>(chain);
@@ -142,7 +147,7 @@ TEST(FirstOrder, SolvesSparseSystems) {
 
 // A dense matrix would take 20 GB.
 TEST(FirstOrder, LargeSystemsNeedNoDenseMatrix) {
-  const Chain chain{50000};
+  const SpringChain chain{50000};
   const FirstOrderForm<double> form(makeSystem<double>(chain));
   State<double> start(chain.sizes());
   start.u.setConstant(0.2);

@@ -11,7 +11,7 @@
 namespace irk::test {
 namespace {
 
-constexpr double kTolerance = 1e-6;
+constexpr double kLaneTolerance = 1e-6;
 
 std::vector<double> spread(double first, double last, int count) {
   std::vector<double> values;
@@ -21,7 +21,7 @@ std::vector<double> spread(double first, double last, int count) {
 
 template <template <class> class P>
 std::vector<Solution<double>> lanesOf(const Members<P>& members, const std::string& method,
-                                      const IntegratorOptions& options = lanesAt(kTolerance)) {
+                                      const IntegratorOptions& options = lanesAt(kLaneTolerance)) {
   return inLanes(members.ensemble(), inOrder(members.parameters.size()), method, options);
 }
 
@@ -48,7 +48,7 @@ std::vector<std::int64_t> countsOf(const Counters& counters) {
 // decision the results differ by less than ten tolerances.
 template <template <class> class P>
 void expectSingleRuns(const Members<P>& members, const std::string& method,
-                      const IntegratorOptions& options = lanesAt(kTolerance)) {
+                      const IntegratorOptions& options = lanesAt(kLaneTolerance)) {
   const auto lanes = lanesOf(members, method, options);
   std::size_t same = 0;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -61,7 +61,7 @@ void expectSingleRuns(const Members<P>& members, const std::string& method,
     EXPECT_EQ(lanes[i].state.t, single.state.t);
     const bool equal = countsOf(lanes[i].counters) == countsOf(single.counters);
     same += equal;
-    EXPECT_LT(differenceOf(lanes[i].state, single.state, kTolerance), equal ? 0.01 : 10);
+    EXPECT_LT(differenceOf(lanes[i].state, single.state, kLaneTolerance), equal ? 0.01 : 10);
   }
   EXPECT_GE(10 * same, 9 * lanes.size()) << method;
 }
@@ -69,7 +69,7 @@ void expectSingleRuns(const Members<P>& members, const std::string& method,
 TEST(LaneIntegrator, EqualsSingleRunsOnAForcedOscillator) {
   const Members<ForcedOscillator> members{spread(0.5, 300, 21), 5}, brief{spread(0.5, 300, 21), 0.2};
   for (const auto* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "lobatto_iiic_3"}) {
-    expectSingleRuns(members, method, lanesAt(kTolerance));
+    expectSingleRuns(members, method, lanesAt(kLaneTolerance));
   }
   expectSingleRuns(brief, "radau_iia_1", lanesAt(1e-3));
 }
@@ -82,7 +82,7 @@ TEST(LaneIntegrator, EqualsSingleRunsOnAConstrainedMechanism) {
 
 // Where old Jacobians let Newton's method converge slowly, rounding soon changes decisions: a mild problem.
 TEST(LaneIntegrator, EqualsSingleRunsWithOtherControl) {
-  IntegratorOptions options = lanesAt(kTolerance);
+  IntegratorOptions options = lanesAt(kLaneTolerance);
   options.step.control = StepControl::kPaper;
   options.newton.keep_jacobian_below = 0.1;
   options.step.h_max = 0.05;
@@ -101,7 +101,7 @@ TEST(LaneIntegrator, GivesAMemberTheSameBitsBesideAnyOthers) {
   auto order = inOrder(members.parameters.size());
   std::reverse(order.begin(), order.end());
   std::rotate(order.begin(), order.begin() + 5, order.end());
-  const auto others = inLanes(members.ensemble(), order, "radau_iia_3", lanesAt(kTolerance));
+  const auto others = inLanes(members.ensemble(), order, "radau_iia_3", lanesAt(kLaneTolerance));
   for (std::size_t i = 0; i < lanes.size(); ++i) expectSameBits(lanes, others, i);
   for (const std::size_t alone : {std::size_t(0), std::size_t(7), std::size_t(20)}) {
     const Members<ForcedOscillator> one{{members.parameters[alone]}, 5};
@@ -134,7 +134,7 @@ TEST(LaneIntegrator, FailsInTheLanesThatFailAlone) {
 }
 
 TEST(LaneIntegrator, EndsRunsAtTheLimitOfSteps) {
-  IntegratorOptions options = lanesAt(kTolerance);
+  IntegratorOptions options = lanesAt(kLaneTolerance);
   options.step.max_steps = 150;
   const Members<ForcedOscillator> members{spread(0.5, 300, 10), 5};
   const auto lanes = lanesOf(members, "radau_iia_3", options);
@@ -157,7 +157,7 @@ TEST(LaneIntegrator, RefusesAnInconsistentStartAsARow) {
     if (i == 1) member.start.u[0] = 1.6;
     return member;
   };
-  const auto lanes = inLanes(ensemble, inOrder(2), "radau_iia_3", lanesAt(kTolerance));
+  const auto lanes = inLanes(ensemble, inOrder(2), "radau_iia_3", lanesAt(kLaneTolerance));
   EXPECT_EQ(lanes[0].outcome, Outcome::kSuccess);
   EXPECT_EQ(lanes[1].outcome, Outcome::kInconsistentStart);
   EXPECT_NE(lanes[1].detail.find("constraint"), std::string::npos) << lanes[1].detail;
@@ -180,7 +180,7 @@ TEST(LaneIntegrator, JudgesAStartRelativeToTheScale) {
 
 TEST(LaneIntegrator, StopsWhenItIsTold) {
   const Members<ForcedOscillator> members{spread(0.5, 300, 20), 5};
-  LaneIntegrator integrator(makeTableau<double>("radau_iia_3"), lanesAt(kTolerance));
+  LaneIntegrator integrator(makeTableau<double>("radau_iia_3"), lanesAt(kLaneTolerance));
   std::size_t next = 0, steps = 0, interrupted = 0;
   integrator.integrate(
       members.ensemble(), [&] { return next < 20 ? std::optional(next++) : std::nullopt; },
@@ -269,7 +269,7 @@ TEST(LaneIntegrator, RefusesSystems) {
       if (i == 1) member = {system, State<double>(system->sceneSizes()), 1};
       return member;
     };
-    return misuseOf([&] { inLanes(ensemble, inOrder(2), "radau_iia_3", lanesAt(kTolerance)); });
+    return misuseOf([&] { inLanes(ensemble, inOrder(2), "radau_iia_3", lanesAt(kLaneTolerance)); });
   };
   EXPECT_NE(with(makeSystem<double>(Bouncing{})).find("switches"), std::string::npos);
   EXPECT_NE(with(makeSystem<double>(LongPendulum<double>{1}, {Formulation::kGgl})).find("ggl"), std::string::npos);

@@ -18,14 +18,15 @@ IntegratorOptions variable(double tol) {
 }
 
 template <class P>
-Solution<double> run(P problem, const State<double>& start, double t_end, const Methods<double>& methods,
-                     const IntegratorOptions& options) {
+Solution<double> variableRun(P problem, const State<double>& start, double t_end, const Methods<double>& methods,
+                             const IntegratorOptions& options) {
   return Integrator<double>(makeSystem<double>(problem), methods, options).integrate(start, t_end);
 }
 
 TEST(VariableOrder, KeepsItsTolerance) {
   for (const double tol : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    const auto s = run(Riccati{}, riccatiStart<double>(), 10, makeMethods<double>("radau_iia_3", 13, 5), variable(tol));
+    const auto s =
+        variableRun(Riccati{}, riccatiStart<double>(), 10, makeMethods<double>("radau_iia_3", 13, 5), variable(tol));
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(10.0))), 20 * tol) << tol;
   }
@@ -35,8 +36,8 @@ TEST(VariableOrder, TakesFewerStepsThanALowOrderAtATightTolerance) {
   auto fixed = variable(1e-11);
   fixed.order = OrderControl::kFixed;
   const auto start = oscillatorsStart<double>();
-  const auto low = run(Oscillators{}, start, 10, makeTableau<double>("radau_iia_3"), fixed);
-  const auto s = run(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13, 5), variable(1e-11));
+  const auto low = variableRun(Oscillators{}, start, 10, makeTableau<double>("radau_iia_3"), fixed);
+  const auto s = variableRun(Oscillators{}, start, 10, makeMethods<double>("radau_iia_3", 13, 5), variable(1e-11));
   ASSERT_EQ(low.outcome, Outcome::kSuccess);
   ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
   EXPECT_LT(s.counters.steps_accepted, low.counters.steps_accepted / 5);
@@ -47,16 +48,16 @@ TEST(VariableOrder, OfOneMemberIsThatMethod) {
   fixed.order = OrderControl::kFixed;
   const auto start = oscillatorsStart<double>();
   const auto method = makeTableau<double>("radau_iia_5");
-  const auto a = run(Oscillators{}, start, 3, method, fixed);
-  const auto b = run(Oscillators{}, start, 3, Methods<double>({method}, 0), variable(1e-8));
+  const auto a = variableRun(Oscillators{}, start, 3, method, fixed);
+  const auto b = variableRun(Oscillators{}, start, 3, Methods<double>({method}, 0), variable(1e-8));
   EXPECT_EQ(a.counters.steps_accepted, b.counters.steps_accepted);
   EXPECT_EQ(a.state.u, b.state.u);
 }
 
 TEST(VariableOrder, GoesThroughConstraintsAndIsReproducible) {
   const auto methods = makeMethods<double>("radau_iia_3", 13, 5);
-  const auto a = run(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
-  const auto b = run(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
+  const auto a = variableRun(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
+  const auto b = variableRun(CartesianPendulum{}, pendulumStart<double>(), 3, methods, variable(1e-9));
   ASSERT_EQ(a.outcome, Outcome::kSuccess) << a.detail;
   EXPECT_EQ(a.state.u, b.state.u);
   EXPECT_EQ(a.state.w, b.state.w);

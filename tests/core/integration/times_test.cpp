@@ -46,8 +46,8 @@ struct Integrated {
   std::vector<double> ends;
 };
 
-Integrated integrate(const Pulses& problem, const IntegratorOptions& options, double t_end,
-                     Formulation formulation = Formulation::kIndex2) {
+Integrated integratePulses(const Pulses& problem, const IntegratorOptions& options, double t_end,
+                           Formulation formulation = Formulation::kIndex2) {
   Integrated run;
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>& step) { run.ends.push_back(step.t); };
@@ -67,7 +67,7 @@ TEST(Times, StepsOfAnySizeEndThere) {
   IntegratorOptions options;
   options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
   for (const auto formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
-    const Integrated run = integrate({}, options, 2, formulation);
+    const Integrated run = integratePulses({}, options, 2, formulation);
     ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
     expectStepsEndAtTimes(run);
     EXPECT_NEAR(run.solution.state.x[0], Pulses{}.exact(2), 1e-8);
@@ -79,7 +79,7 @@ TEST(Times, FixedStepsAreSplitThere) {
   IntegratorOptions options;
   options.step.control = StepControl::kFixed;
   options.step.h = 0.125;
-  const Integrated run = integrate({}, options, 2);
+  const Integrated run = integratePulses({}, options, 2);
   ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
   expectStepsEndAtTimes(run);
   EXPECT_EQ(run.ends.size(), 16u + 2u);  // 1.5 is a multiple of h
@@ -89,12 +89,12 @@ TEST(Times, FixedStepsAreSplitThere) {
 TEST(Times, AtTheEndAndTheStartNothingHappens) {
   IntegratorOptions options;
   options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
-  const Integrated at_end = integrate({}, options, kTimes.front());
+  const Integrated at_end = integratePulses({}, options, kTimes.front());
   EXPECT_EQ(at_end.solution.state.d[0], 0);
   EXPECT_NEAR(at_end.solution.state.x[0], Pulses{}.exact(kTimes.front()), 1e-9);
   Pulses at_start;
   at_start.at = {0};
-  EXPECT_EQ(integrate(at_start, options, 1).solution.state.d[0], 0);
+  EXPECT_EQ(integratePulses(at_start, options, 1).solution.state.d[0], 0);
 }
 
 TEST(Times, OutOfOrderAreRefused) {

@@ -34,7 +34,7 @@ struct Logistic {
 };
 
 template <class P>
-Taken run(const P& problem, double x0, double t_end, std::string_view newton, IntegratorOptions o) {
+Taken stepsOf(const P& problem, double x0, double t_end, std::string_view newton, IntegratorOptions o) {
   State<double> start(problem.sizes());
   start.x[0] = x0;
   o.newton.kind = newtonNamed(newton);
@@ -46,7 +46,7 @@ Taken run(const P& problem, double x0, double t_end, std::string_view newton, In
 // Three steps of 0.3 and one of 0.1.
 TEST(ReuseByStep, CountsTheJacobiansOfFixedSteps) {
   const auto jacobians = [](std::string_view newton) {
-    return run(Linear{}, 1, 1, newton, fixedSteps(0.3)).solution.counters.jacobians;
+    return stepsOf(Linear{}, 1, 1, newton, fixedSteps(0.3)).solution.counters.jacobians;
   };
   EXPECT_EQ(jacobians("modified"), kOfStart + 1);
   EXPECT_EQ(jacobians("modified_each_step"), kOfStart + 4);
@@ -65,8 +65,8 @@ TEST(ReuseByStep, CountsAttemptsOfChangingSteps) {
     o.step.estimate = ErrorEstimate::kDoubling;
     o.step.h = 1e-3;
     const std::string name(method);
-    const Taken each = run(Logistic{}, 0.01, 3, name + "_each_step", o);
-    const Taken change = run(Logistic{}, 0.01, 3, name + "_step_change", o);
+    const Taken each = stepsOf(Logistic{}, 0.01, 3, name + "_each_step", o);
+    const Taken change = stepsOf(Logistic{}, 0.01, 3, name + "_step_change", o);
     const auto& c = each.solution.counters;
     const auto attempts = c.steps_accepted + c.steps_rejected_error + c.steps_rejected_newton;
     EXPECT_EQ(c.jacobians, kOfStart + attempts + c.newton_restarts) << name;

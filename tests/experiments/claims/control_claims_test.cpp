@@ -7,9 +7,6 @@
 namespace irk::claims {
 namespace {
 
-constexpr Verdict kYes = Verdict::kConfirmed, kNo = Verdict::kContradicted, kOpen = Verdict::kUndecided,
-                  kUnknown = Verdict::kNotMeasurable;
-
 // --- C3a
 
 Verdict doubling(const std::vector<double>& factors, const char* doubled_steps = "100", const char* rejected = "0") {

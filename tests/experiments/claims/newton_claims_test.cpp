@@ -7,9 +7,6 @@
 namespace irk::claims {
 namespace {
 
-constexpr Verdict kYes = Verdict::kConfirmed, kNo = Verdict::kContradicted, kOpen = Verdict::kUndecided,
-                  kUnknown = Verdict::kNotMeasurable;
-
 // --- C4 and C15b
 
 struct Shares {

@@ -7,9 +7,6 @@
 namespace irk::claims {
 namespace {
 
-constexpr Verdict kYes = Verdict::kConfirmed, kNo = Verdict::kContradicted, kOpen = Verdict::kUndecided,
-                  kUnknown = Verdict::kNotMeasurable;
-
 // --- C1
 
 Verdict orderOf(const char* order, const char* judged = "agrees", const char* stages = "10", int rows = 1) {

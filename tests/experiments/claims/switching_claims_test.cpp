@@ -35,7 +35,6 @@ Table withColumns(std::vector<std::string> names) {
 }
 std::string text(double x) { return std::to_string(x); }
 
-constexpr auto kYes = Verdict::kConfirmed, kNo = Verdict::kContradicted, kUnknown = Verdict::kNotMeasurable;
 constexpr const char* kScenes[] = {"kepler", "pendulum", "slider_crank"};
 
 // --- C3b, steps

@@ -169,7 +169,7 @@ TEST_F(ReferenceLibraryTest, SolveSaysWhatIsNotMeasurable) {
   EXPECT_TRUE(containsAll(run.out, {"error below ", "ten times the reference's accuracy: not measurable"}));
 }
 
-constexpr std::string_view kStudy = R"(
+constexpr std::string_view kLibraryStudy = R"(
 targets = [1e-3, 1e-6]
 [[block]]
 scene = "mechanical_dae"
@@ -180,10 +180,10 @@ tolerances = [1e-4, 1e-6, 1e-8]
 )";
 
 TEST_F(ReferenceLibraryTest, SweepsMakeEachOnceAndHaveErrors) {
-  const auto without = runsOf(kStudy);
+  const auto without = runsOf(kLibraryStudy);
   for (const auto& row : without.runs.rows) EXPECT_TRUE(std::isnan(numberAt(without.runs, row, "error")));
   EXPECT_TRUE(cached().empty());
-  const auto with = runsOf(std::string(kStudy) + "reference = \"auto\"\n");
+  const auto with = runsOf(std::string(kLibraryStudy) + "reference = \"auto\"\n");
   EXPECT_EQ(cached().size(), 2u) << "one for each t_end";
   ASSERT_EQ(with.runs.rows.size(), 18u);
   for (std::size_t i = 0; i < with.runs.rows.size(); ++i) {
@@ -205,7 +205,8 @@ TEST_F(ReferenceLibraryTest, FinishedSweepsNeedNone) {
   RunnerOptions options;
   options.results = results.path();
   options.jobs = 1;
-  const Study study = parseStudy(std::string(kStudy) + "reference = \"auto\"\n", "small.toml", StudyVariant::kFull);
+  const Study study =
+      parseStudy(std::string(kLibraryStudy) + "reference = \"auto\"\n", "small.toml", StudyVariant::kFull);
   std::ostringstream first, second;
   static_cast<void>(runStudy(study, options, first));
   EXPECT_TRUE(containsAll(first.str(), {"small references: 2 runs made", "reference mechanical_dae, t = 0.02: ",

@@ -48,7 +48,7 @@ TEST(TimingRanks, AreOnePerHost) {
 
 #ifdef IRK_MPIEXEC
 
-constexpr char kStudy[] = R"(
+constexpr char kRankStudy[] = R"(
 [[block]]
 scene = ["kepler", "van_der_pol"]
 methods = ["radau_iia_2", "radau_iia_3", "gauss_2", "radau_iia_5", "lobatto_iiic_3", "gauss_5"]
@@ -58,7 +58,7 @@ tolerances = [1e-4, 1e-7, 1e-10]
 class RanksOfMpi : public StoredRuns {
  protected:
   void SetUp() override {
-    std::ofstream(folder_.path() / "small.toml") << kStudy;
+    std::ofstream(folder_.path() / "small.toml") << kRankStudy;
     // Settings for Open MPI: allow root, and more ranks than cores.
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);

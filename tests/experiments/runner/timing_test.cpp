@@ -71,7 +71,7 @@ TEST(TimingOf, MinimumMedianSpreadAndNumber) {
   EXPECT_EQ(one.spread, 0);
 }
 
-constexpr char kStudy[] = R"(
+constexpr char kTimedStudy[] = R"(
 [[block]]
 scene = "pendulum"
 t_end = 0.5
@@ -91,7 +91,7 @@ Table timed(const Study& study, store::Store& store) {
 TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
   const TemporaryFolder folder;
   std::ostringstream quiet;
-  Study study = parseStudy(kStudy, "small.toml", StudyVariant::kFull);
+  Study study = parseStudy(kTimedStudy, "small.toml", StudyVariant::kFull);
   RunnerOptions options;
   options.results = folder.path();
   options.jobs = 1;
@@ -168,7 +168,7 @@ TEST(TimeStudy, TimesTheLastOfTenEnds) {
 TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   const TemporaryFolder folder;
   std::ostringstream quiet;
-  Study study = parseStudy(kStudy, "small.toml", StudyVariant::kFull);
+  Study study = parseStudy(kTimedStudy, "small.toml", StudyVariant::kFull);
   RunnerOptions options;
   options.results = folder.path();
   options.jobs = 1;

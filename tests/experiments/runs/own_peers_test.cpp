@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 std::string solver(const std::string& name) { return std::string(IRK_SOLVERS "/") + name + ".so"; }
 
-RunSpec spec(const std::string& method, const std::string& rest, double tol = 1e-6) {
+RunSpec ownSpec(const std::string& method, const std::string& rest, double tol = 1e-6) {
   RunSpec run = parseSpec("method=" + method + ";" + rest);
   run.options.tolerances.rtol = run.options.tolerances.atol = tol;
   return run;
 }
 
-RunRecord success(const RunSpec& run) {
+RunRecord ownSuccess(const RunSpec& run) {
   RunRecord record = execute(run);
   EXPECT_TRUE(record.succeeded()) << run.method << ": " << record.outcome << " " << record.detail;
   return record;
@@ -63,11 +63,11 @@ TEST(OwnPeers, ARegisteredPeerRunsAsAnyOther) {
   const PeerEntry* const found = findPeer("explicit_euler");
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(found->source, "0123456789abcdef");
-  RunSpec run = spec("explicit_euler", "scene=kepler;t_end=1");
+  RunSpec run = ownSpec("explicit_euler", "scene=kepler;t_end=1");
   double coarser = 0;
   for (const double h : {1e-3, 5e-4}) {
     run.options.step.h = h;
-    const RunRecord record = success(run);
+    const RunRecord record = ownSuccess(run);
     EXPECT_EQ(record.counters.residuals, record.counters.steps_accepted);
     EXPECT_NEAR(static_cast<double>(record.counters.steps_accepted), 1 / h, 1);
     const double size = record.u.norm();
@@ -94,13 +94,16 @@ TEST(OwnPeers, TakenAndBadIdsAreRefused) {
   EXPECT_TRUE(containsAll(refusal("radau_iia_5"), {"radau_iia_5", "mine", "radau_iia", "family"}));
   EXPECT_TRUE(containsAll(refusal("a;b"), {"a;b", "letters"}));
   EXPECT_TRUE(containsAll(misuseOf([] { registerPeer({.id = "no_make", .title = "mine"}); }), {"no_make", "make"}));
+  EXPECT_TRUE(
+      containsAll(misuseOf([] { registerPeer({.id = "no_title", .title = "", .make = makePeerOf<ExplicitEuler>}); }),
+                  {"no_title", "it has no title"}));
 }
 
 TEST(OwnPeers, ALibraryInCFollowsTheToleranceInEveryForm) {
   for (const char* name : {"euler_ode", "euler_mass", "euler_dae"}) {
     double coarser = 1;
     for (const double tol : {1e-3, 1e-5}) {
-      const RunRecord run = success(spec(solver(name), "scene=riccati_tracking", tol));
+      const RunRecord run = ownSuccess(ownSpec(solver(name), "scene=riccati_tracking", tol));
       EXPECT_EQ(run.family, name);
       EXPECT_EQ(run.spec.method, name);
       EXPECT_LT(run.errors.all, 1000 * tol) << name;
@@ -118,9 +121,9 @@ TEST(OwnPeers, MassAndDaeFormsSolveConstraints) {
   for (const char* name : {"euler_mass", "euler_dae"}) {
     for (const char* rest : {"scene=pendulum;t_end=1;formulation=index1", "scene=pendulum;t_end=1",
                              "scene=slider_crank;t_end=0.1;formulation=index1"}) {
-      const RunRecord run = success(spec(solver(name), rest, 1e-5));
-      RunSpec reference = spec("radau_iia_5", rest, 1e-10);
-      const RunRecord exact = success(reference);
+      const RunRecord run = ownSuccess(ownSpec(solver(name), rest, 1e-5));
+      RunSpec reference = ownSpec("radau_iia_5", rest, 1e-10);
+      const RunRecord exact = ownSuccess(reference);
       EXPECT_LT((run.u - exact.u).norm(), 1e-3 * exact.u.norm()) << name << " " << rest;
       EXPECT_LT((run.v - exact.v).norm(), 1e-2 * exact.v.norm()) << name << " " << rest;
       EXPECT_GT((run.u - exact.u).norm(), 1e-12) << name << " " << rest;
@@ -129,9 +132,9 @@ TEST(OwnPeers, MassAndDaeFormsSolveConstraints) {
 }
 
 TEST(OwnPeers, ALibraryInCLocatesSwitches) {
-  const RunSpec run = spec(solver("euler_roots"), "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-5);
-  const RunRecord record = success(run);
-  const RunRecord exact = success(spec("radau_iia_5", "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-10));
+  const RunSpec run = ownSpec(solver("euler_roots"), "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-5);
+  const RunRecord record = ownSuccess(run);
+  const RunRecord exact = ownSuccess(ownSpec("radau_iia_5", "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-10));
   EXPECT_EQ(record.counters.located_events, record.counters.switches);
   ASSERT_EQ(record.switches.size(), exact.switches.size());
   ASSERT_FALSE(exact.switches.empty());
@@ -143,7 +146,7 @@ TEST(OwnPeers, ALibraryInCLocatesSwitches) {
 
 TEST(OwnPeers, WhatALibraryCannotDoIsRefused) {
   const auto refusal = [](const std::string& method, const std::string& rest) {
-    return misuseOf([&] { prepare(spec(solver(method), rest)); });
+    return misuseOf([&] { prepare(ownSpec(solver(method), rest)); });
   };
   EXPECT_TRUE(containsAll(refusal("euler_ode", "scene=stick_slip;discontinuity=locate"), {"euler_ode", "locate"}));
   EXPECT_TRUE(containsAll(refusal("euler_ode", "scene=pendulum"), {"euler_ode", "index1"}));
@@ -152,7 +155,7 @@ TEST(OwnPeers, WhatALibraryCannotDoIsRefused) {
 }
 
 TEST(OwnPeers, TheClockAndTheUserEndALibrarysRun) {
-  RunSpec run = spec(solver("euler_ode"), "scene=kepler", 1e-9);
+  RunSpec run = ownSpec(solver("euler_ode"), "scene=kepler", 1e-9);
   run.options.step.max_steps = 3;
   EXPECT_EQ(execute(run).outcome, "max_steps");
   run.options.step.max_steps = 1'000'000;
@@ -164,14 +167,14 @@ TEST(OwnPeers, TheClockAndTheUserEndALibrarysRun) {
 }
 
 TEST(OwnPeers, FailuresOfALibraryAreRows) {
-  RunSpec run = spec(solver("euler_ode"), "scene=kepler", 1e-300);
+  RunSpec run = ownSpec(solver("euler_ode"), "scene=kepler", 1e-300);
   const RunRecord record = execute(run);
   EXPECT_EQ(record.outcome, "step_too_small");
   EXPECT_TRUE(containsAll(record.detail, {"the step is too small", "at t ="}));
 }
 
 TEST(OwnPeers, TheKeyContainsTheLibrarysContents) {
-  const RunSpec run = spec(solver("euler_ode"), "scene=kepler");
+  const RunSpec run = ownSpec(solver("euler_ode"), "scene=kepler");
   const std::string hash = findPeer("euler_ode")->source;
   EXPECT_EQ(hash.size(), 16U);
   EXPECT_NE(hash, findPeer(loadMethod(solver("euler_roots")))->source);

@@ -13,13 +13,13 @@
 namespace irk {
 namespace {
 
-RunSpec spec(const std::string& method, const std::string& rest, double tol = 1e-8) {
+RunSpec peerSpec(const std::string& method, const std::string& rest, double tol = 1e-8) {
   RunSpec run = parseSpec("method=" + method + ";" + rest);
   run.options.tolerances.rtol = run.options.tolerances.atol = tol;
   return run;
 }
 
-RunRecord success(const RunSpec& run) {
+RunRecord peerSuccess(const RunSpec& run) {
   RunRecord record = execute(run);
   EXPECT_TRUE(record.succeeded()) << run.method << ": " << record.outcome << " " << record.detail;
   return record;
@@ -41,7 +41,7 @@ TEST(Peers, AllFollowTheToleranceOnAnOde) {
   for (const auto& peer : builtinPeers()) {
     double coarser = 1;
     for (const double tol : {1e-5, 1e-7, 1e-9}) {
-      const RunRecord run = success(spec(peer.id, "scene=riccati_tracking", tol));
+      const RunRecord run = peerSuccess(peerSpec(peer.id, "scene=riccati_tracking", tol));
       EXPECT_LT(run.errors.all, 100 * tol) << peer.id;
       EXPECT_LE(run.errors.all, coarser) << peer.id;
       coarser = run.errors.all;
@@ -56,7 +56,7 @@ TEST(Peers, AllFollowTheToleranceOnAnOde) {
 TEST(Peers, StiffProblems) {
   for (const char* peer : {"arkode_dirk", "cvode_bdf", "ida_bdf", "gsl_msbdf", "gsl_bsimp"}) {
     // Each of two transitions of the relaxation oscillation amplifies errors; together by about 1e3.
-    const RunRecord run = success(spec(peer, "scene=van_der_pol"));
+    const RunRecord run = peerSuccess(peerSpec(peer, "scene=van_der_pol"));
     EXPECT_LT(run.errors.all, 1e-5) << peer;
     EXPECT_GT(run.errors.all, 1e-10) << peer;
     EXPECT_GT(run.counters.jacobians, 0) << peer;
@@ -65,7 +65,7 @@ TEST(Peers, StiffProblems) {
 
 TEST(Peers, AllSolveTheConstrainedPendulumInIndex1) {
   for (const auto& peer : builtinPeers()) {
-    const RunRecord run = success(spec(peer.id, "scene=pendulum;t_end=10;formulation=index1"));
+    const RunRecord run = peerSuccess(peerSpec(peer.id, "scene=pendulum;t_end=10;formulation=index1"));
     EXPECT_LT(run.errors.all, 1e-3) << peer.id;  // the constraint drifts, and five turns amplify errors
     EXPECT_GT(run.errors.all, 1e-9) << peer.id;
     EXPECT_FALSE(std::isnan(run.errors.z)) << peer.id;
@@ -75,7 +75,7 @@ TEST(Peers, AllSolveTheConstrainedPendulumInIndex1) {
 TEST(Peers, IdasMultipliersAreSolvedAnewAtTheEnd) {
   const auto scene = makeScene<double>("pendulum");
   const auto change = [&](const std::string& multipliers) {
-    const RunSpec run = spec("ida_bdf", "scene=pendulum;t_end=1;multipliers=" + multipliers, 1e-5);
+    const RunSpec run = peerSpec("ida_bdf", "scene=pendulum;t_end=1;multipliers=" + multipliers, 1e-5);
     PeerIntegrator peer(*findPeer("ida_bdf"), scene, run);
     const auto solution = peer.integrate(scene.start, 1);
     EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
@@ -91,7 +91,7 @@ TEST(Peers, IdasMultipliersAreSolvedAnewAtTheEnd) {
 TEST(Peers, IdaSolvesIndex2) {
   for (const char* rest :
        {"scene=pendulum", "scene=pendulum;formulation=ggl", "scene=slider_crank;t_end=1", "scene=index2_nonlinear"}) {
-    const RunRecord run = success(spec("ida_bdf", rest));
+    const RunRecord run = peerSuccess(peerSpec("ida_bdf", rest));
     EXPECT_LT(run.errors.all, 2e-4) << rest;
     EXPECT_GT(run.errors.all, 1e-8) << rest;
   }
@@ -99,7 +99,7 @@ TEST(Peers, IdaSolvesIndex2) {
 
 TEST(Peers, APreparedRunLeavesNothingBehind) {
   for (const auto& peer : builtinPeers()) {
-    const auto run = prepare(spec(peer.id, "scene=pendulum;t_end=1;formulation=index1"));
+    const auto run = prepare(peerSpec(peer.id, "scene=pendulum;t_end=1;formulation=index1"));
     const RunRecord first = run->execute({}), second = run->execute({});
     EXPECT_EQ(first.u, second.u) << peer.id;
     EXPECT_EQ(first.counters.residuals, second.counters.residuals) << peer.id;
@@ -108,7 +108,7 @@ TEST(Peers, APreparedRunLeavesNothingBehind) {
 
 TEST(Peers, TheWatchIsHeard) {
   for (const auto& peer : builtinPeers()) {
-    RunSpec run = spec(peer.id, "scene=kepler");
+    RunSpec run = peerSpec(peer.id, "scene=kepler");
     std::int64_t heard = 0;
     const RunRecord all = execute(run, {nullptr, [&heard](const AcceptedStep&) { ++heard; }, {}});
     EXPECT_EQ(heard, all.counters.steps_accepted + 1) << peer.id;
@@ -123,7 +123,7 @@ TEST(Peers, TheWatchIsHeard) {
 
 TEST(Peers, WhatCannotWorkIsRefused) {
   const auto refusal = [](const std::string& method, const std::string& rest) {
-    return misuseOf([&] { prepare(spec(method, rest)); });
+    return misuseOf([&] { prepare(peerSpec(method, rest)); });
   };
   for (const auto& peer : builtinPeers()) {
     const auto& id = peer.id;
@@ -140,7 +140,7 @@ TEST(Peers, WhatCannotWorkIsRefused) {
       EXPECT_TRUE(containsAll(refusal(id, "scene=stick_slip;discontinuity=locate"), {id, "locate"}));
     }
   }
-  const RunSpec fixed = spec("cvode_bdf", "scene=kepler;control=fixed;h=0.1");
+  const RunSpec fixed = peerSpec("cvode_bdf", "scene=kepler;control=fixed;h=0.1");
   const RunRecord row = orRefused(fixed, [&] { return execute(fixed); });
   EXPECT_EQ(row.outcome, "refused");
   EXPECT_EQ(row.family, "cvode_bdf");
@@ -183,7 +183,7 @@ TEST(Peers, LocatedSwitchesRestart) {
   const auto scene = relayScene();
   for (const auto& peer : builtinPeers()) {
     if (!peer.finds_roots) continue;
-    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=stick_slip;discontinuity=locate"));
+    PeerIntegrator integrator(peer, scene, peerSpec(peer.id, "scene=stick_slip;discontinuity=locate"));
     double at = 0;
     Monitor<double> monitor;
     monitor.switched = [&at](const SwitchRecord<double>& record) { at = record.t; };
@@ -205,7 +205,7 @@ TEST(Peers, LocatedSwitchesRestart) {
 TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
   const auto scene = relayScene();
   for (const auto& peer : builtinPeers()) {
-    PeerIntegrator integrator(peer, scene, spec(peer.id, "scene=kepler;discontinuity=ignore"));
+    PeerIntegrator integrator(peer, scene, peerSpec(peer.id, "scene=kepler;discontinuity=ignore"));
     const auto end = integrator.integrate(scene.start, kRelayEnd);
     ASSERT_EQ(end.outcome, Outcome::kSuccess) << peer.id << ": " << end.detail;
     EXPECT_EQ(end.counters.switches, 1) << peer.id;
@@ -246,8 +246,8 @@ TEST(FirstOrderForm, ImplicitDerivativesAreThoseOfDifferences) {
 TEST(FirstOrderForm, AgreesWithTheKForm) {
   for (const char* id : {"slider_crank", "pendulum"}) {
     const std::string scene = std::string("scene=") + id + ";t_end=1;formulation=";
-    const RunRecord k = success(spec("radau_iia_5", scene + "index1", 1e-10));
-    const RunRecord first = success(spec("radau_iia_5", scene + "first_order", 1e-10));
+    const RunRecord k = peerSuccess(peerSpec("radau_iia_5", scene + "index1", 1e-10));
+    const RunRecord first = peerSuccess(peerSpec("radau_iia_5", scene + "first_order", 1e-10));
     EXPECT_LT((k.u - first.u).norm(), 1e-8 * k.u.norm()) << id;
     EXPECT_LT((k.z - first.z).norm(), 1e-7 * k.z.norm()) << id;
     EXPECT_TRUE(containsAll(first.detail, {"mass factorizations"}));

@@ -32,11 +32,12 @@ methods = ["radau_iia_2", "gauss_2"]
 tolerances = [1e-3, 1e-4]
 )";
 
-Study parse(const std::string& toml) { return parseStudy(toml, "mine.toml", StudyVariant::kFull); }
+Study parseBlocks(const std::string& toml) { return parseStudy(toml, "mine.toml", StudyVariant::kFull); }
 
 TEST(Blocks, AreNamedOrNumbered) {
   const std::string block = "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\n";
-  const Study study = parse(block + "[[block]]\nname = \"orbit\"\nscene = \"kepler\"\nmethods = \"gauss_3\"\n" + block);
+  const Study study =
+      parseBlocks(block + "[[block]]\nname = \"orbit\"\nscene = \"kepler\"\nmethods = \"gauss_3\"\n" + block);
   ASSERT_EQ(study.series.size(), 3u);
   EXPECT_EQ(study.series[0].block, "block_1");
   EXPECT_EQ(study.series[1].block, "orbit");
@@ -45,7 +46,7 @@ TEST(Blocks, AreNamedOrNumbered) {
 
 TEST(Blocks, BadNamesAreRefusedWithTheirLine) {
   const std::string body = "scene = \"kepler\"\nmethods = \"gauss_2\"\n";
-  const auto misuse = [](const std::string& toml) { return misuseOf([&] { parse(toml); }); };
+  const auto misuse = [](const std::string& toml) { return misuseOf([&] { parseBlocks(toml); }); };
   const auto named = [&](const std::string& name) { return misuse("[[block]]\n" + body + "name = " + name + "\n"); };
   EXPECT_TRUE(containsAll(named("\"two words\""), {"mine.toml:4", "name", "'two words'", "letters, digits and _"}));
   EXPECT_TRUE(containsAll(named("\"\""), {"mine.toml:4", "name"}));

@@ -23,31 +23,32 @@ std::size_t runsOf(const Study& study) {
 // Lines 1 to 3 of every study in these tests.
 const std::string kStart = "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\n";
 
-std::string misuse(const std::string& lines) {
+std::string misuseOfLines(const std::string& lines) {
   return misuseOf([&] { parse(kStart + lines); });
 }
 
 TEST(StudyReader, RefusesKeysThatExcludeEachOther) {
-  EXPECT_TRUE(containsAll(misuse("tolerances = 0.1\nsteps = 0.1"), {"mine.toml:5", "steps and tolerances"}));
-  EXPECT_TRUE(containsAll(misuse("refine_most = 8\nsteps = 0.1"), {"mine.toml:4", "refine_most and steps"}));
-  EXPECT_TRUE(containsAll(misuse("tolerances = 0.1\nrtol = 0.1"), {"mine.toml:5", "rtol beside tolerances"}));
-  EXPECT_TRUE(containsAll(misuse("steps = 0.1\nh = 0.1"), {"mine.toml:5", "h beside steps"}));
-  EXPECT_TRUE(containsAll(misuse("steps = 0.1\ncontrol = \"paper\""), {"mine.toml:5", "control", "'fixed'"}));
-  EXPECT_TRUE(containsAll(misuse("refine_most = 8\nestimate = \"doubling\""), {"mine.toml:5", "estimate", "'none'"}));
-  EXPECT_TRUE(containsAll(misuse("method = \"gauss_3\""), {"mine.toml:4", "'methods'"}));
-  EXPECT_TRUE(containsAll(misuse("stages = 3"), {"mine.toml:4", "stages without families"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("tolerances = 0.1\nsteps = 0.1"), {"mine.toml:5", "steps and tolerances"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("refine_most = 8\nsteps = 0.1"), {"mine.toml:4", "refine_most and steps"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("tolerances = 0.1\nrtol = 0.1"), {"mine.toml:5", "rtol beside tolerances"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("steps = 0.1\nh = 0.1"), {"mine.toml:5", "h beside steps"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("steps = 0.1\ncontrol = \"paper\""), {"mine.toml:5", "control", "'fixed'"}));
+  EXPECT_TRUE(
+      containsAll(misuseOfLines("refine_most = 8\nestimate = \"doubling\""), {"mine.toml:5", "estimate", "'none'"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("method = \"gauss_3\""), {"mine.toml:4", "'methods'"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("stages = 3"), {"mine.toml:4", "stages without families"}));
   EXPECT_NO_THROW(parse(kStart + "steps = 0.1\ncontrol = \"fixed\"\nestimate = \"none\"\n"));
   EXPECT_NO_THROW(parse(kStart + "tolerances = 0.1\nh = 0.1\n"));
 }
 
 TEST(StudyReader, RefusesEmptyRangesAndTwins) {
-  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = \"3..1\""), {"mine.toml:5", "'3..1'"}));
-  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = [\"3..5\", 4]"), {"mine.toml:5", "4 twice"}));
-  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = 2"), {"mine.toml:4", "gauss_2", "twice"}));
-  EXPECT_TRUE(containsAll(misuse("tolerances = [1e-3, 1e-4,\n 0.001]"), {"mine.toml:5", "tolerances", "twice"}));
-  EXPECT_TRUE(containsAll(misuse("newton = [\"full\", \"full\"]"), {"mine.toml:4", "newton", "'full' twice"}));
-  EXPECT_TRUE(containsAll(misuse("newton = []"), {"mine.toml:4", "newton", "empty"}));
-  EXPECT_TRUE(containsAll(misuse("families = \"gauss\"\nstages = \"1..\""), {"mine.toml:5", "stages"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("families = \"gauss\"\nstages = \"3..1\""), {"mine.toml:5", "'3..1'"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("families = \"gauss\"\nstages = [\"3..5\", 4]"), {"mine.toml:5", "4 twice"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("families = \"gauss\"\nstages = 2"), {"mine.toml:4", "gauss_2", "twice"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("tolerances = [1e-3, 1e-4,\n 0.001]"), {"mine.toml:5", "tolerances", "twice"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("newton = [\"full\", \"full\"]"), {"mine.toml:4", "newton", "'full' twice"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("newton = []"), {"mine.toml:4", "newton", "empty"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("families = \"gauss\"\nstages = \"1..\""), {"mine.toml:5", "stages"}));
   EXPECT_NO_THROW(parse(kStart + "families = \"gauss\"\nstages = [1, \"3..5\", \"7..7\"]\n"));
 }
 
@@ -74,8 +75,8 @@ TEST(StudyReader, WantsIntegersWhereIntegersAreMeant) {
   const auto head = [&](const std::string& lines) { return misuseOf([&] { parse(lines + block); }); };
   EXPECT_TRUE(containsAll(head("[timing]\nrepetitions = 3.7"), {"mine.toml:2", "repetitions", "3.7", "1 to 1000"}));
   EXPECT_TRUE(containsAll(head("[timing]\nrepetitions = true"), {"mine.toml:2", "repetitions"}));
-  EXPECT_TRUE(containsAll(misuse("refine_most = 6.5"), {"mine.toml:4", "refine_most", "6.5"}));
-  EXPECT_TRUE(containsAll(misuse("max_steps = 1.5"), {"mine.toml:4", "max_steps", "1.5"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("refine_most = 6.5"), {"mine.toml:4", "refine_most", "6.5"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("max_steps = 1.5"), {"mine.toml:4", "max_steps", "1.5"}));
   EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 1.5\n"); }), {"mine.toml:2", "runs", "1.5"}));
   EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\nseed = 0.5\n"); }), {"mine.toml:3", "seed"}));
   EXPECT_EQ(parse("[timing]\nrepetitions = 3.0\n" + block).timing.repetitions, 3);
@@ -87,15 +88,16 @@ TEST(StudyReader, RefusesMoreRunsThanABlockMayHave) {
       "tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12]\n"
       "predictor = [\"extrapolated\", \"previous\"]\nsolver = [\"schur\", \"eigen\", \"coupled_dense\"]\n"
       "max_iterations = [5, 6, 7, 8, 9, 10, 11]\n";
-  EXPECT_TRUE(containsAll(misuse(sweep), {"mine.toml:2", "203616 runs", "200000", "most_runs", "newton 4"}));
-  EXPECT_TRUE(containsAll(misuse("tolerances = [0.1, 0.2, 0.3]\nmost_runs = 2"), {"mine.toml:2", "3 runs", "up to 2"}));
-  EXPECT_TRUE(containsAll(misuse("most_runs = 0"), {"mine.toml:4", "most_runs"}));
+  EXPECT_TRUE(containsAll(misuseOfLines(sweep), {"mine.toml:2", "203616 runs", "200000", "most_runs", "newton 4"}));
+  EXPECT_TRUE(
+      containsAll(misuseOfLines("tolerances = [0.1, 0.2, 0.3]\nmost_runs = 2"), {"mine.toml:2", "3 runs", "up to 2"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("most_runs = 0"), {"mine.toml:4", "most_runs"}));
   EXPECT_EQ(runsOf(parse(kStart + "tolerances = [0.1, 0.2, 0.3]\nmost_runs = 3\n")), 3u);
 }
 
 TEST(StudyReader, RefusesTablesWithoutEffect) {
-  EXPECT_TRUE(containsAll(misuse("[defaults.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
-  EXPECT_TRUE(containsAll(misuse("[block.quick.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[defaults.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[block.quick.quick]\nnewton = \"full\""), {"mine.toml:4", "quick"}));
   EXPECT_TRUE(containsAll(misuseOf([] { parse("[audit]\nruns = 2\n[defaults]\nscene = \"kepler\"\n"); }),
                           {"mine.toml:3", "defaults", "[audit]"}));
   EXPECT_TRUE(
@@ -112,17 +114,17 @@ TEST(StudyReader, RefusesListsThatPeersDoNotTake) {
 
 // These texts ended the program inside toml++.
 TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
-  EXPECT_TRUE(containsAll(misuse("[\n[[block]]\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuse("[[\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuse("[.a]\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuse("[\rtiming]\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuse("newton = [\"full\", }\"modified\"]\n"), {"mine.toml:4", "brace"}));
-  EXPECT_TRUE(containsAll(misuse("steps = [2,\n \xe2\x80\xa8 3]\n"), {"mine.toml:5", "ASCII"}));
-  EXPECT_TRUE(containsAll(misuse("t_end = 1979-05-27T\\u000007:32:00Z\n"), {"mine.toml:4", "colon"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[\n[[block]]\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[[\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[.a]\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[\rtiming]\n"), {"mine.toml:4", "name"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("newton = [\"full\", }\"modified\"]\n"), {"mine.toml:4", "brace"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("steps = [2,\n \xe2\x80\xa8 3]\n"), {"mine.toml:5", "ASCII"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("t_end = 1979-05-27T\\u000007:32:00Z\n"), {"mine.toml:4", "colon"}));
   std::string parts = "a";
   for (int i = 0; i < 300'000; ++i) parts += ".a";
-  EXPECT_TRUE(containsAll(misuse(parts + " = 1\n"), {"mine.toml:4", "key", "16 parts"}));
-  EXPECT_TRUE(containsAll(misuse("[" + parts + "]\n"), {"mine.toml:4", "key", "16 parts"}));
+  EXPECT_TRUE(containsAll(misuseOfLines(parts + " = 1\n"), {"mine.toml:4", "key", "16 parts"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[" + parts + "]\n"), {"mine.toml:4", "key", "16 parts"}));
   // Numbers have dots, too.
   EXPECT_NO_THROW(parse(kStart + "steps = [1.01, 1.02, 1.03, 1.04, 1.05, 1.06, 1.07, 1.08, 1.09, 1.1, 1.11, 1.12,\n"
                                  "1.13, 1.14, 1.15, 1.16, 1.17, 1.18, 1.19, 1.2, 1.21, 1.22, 1.23, 1.24, 1.25, 1.26, "
@@ -180,7 +182,7 @@ const std::string kPieces[] = {"[",
                                "1979-05-27T07:32:00Z",
                                std::string(1, '\0')};
 
-// 100 000 texts made from two valid ones by a few random changes: each gives a study or a misuse of one line.
+// 100 000 texts made from two valid ones by a few random changes: each gives a study or a misuseOfLines of one line.
 TEST(StudyReader, SurvivesMutatedTexts) {
   test::Mutations mutations(kSeeds, kPieces, 20041);
   int studies = 0, refused = 0;

@@ -9,7 +9,7 @@
 namespace irk {
 namespace {
 
-Study parse(const std::string& toml, StudyVariant variant = StudyVariant::kFull) {
+Study parsed(const std::string& toml, StudyVariant variant = StudyVariant::kFull) {
   return parseStudy(toml, "mine.toml", variant);
 }
 
@@ -32,7 +32,7 @@ stages = 2
 )";
 
 TEST(Study, IsACartesianProduct) {
-  const Study study = parse(kSweep);
+  const Study study = parsed(kSweep);
   EXPECT_EQ(study.id, "mine");
   EXPECT_EQ(study.title, "A sweep");
   EXPECT_EQ(study.targets, (std::vector<double>{1e-4, 1e-6}));
@@ -52,12 +52,12 @@ TEST(Study, IsACartesianProduct) {
 }
 
 TEST(Study, QuickVariantReplacesKeys) {
-  const Study quick = parse(kSweep, StudyVariant::kQuick);
+  const Study quick = parsed(kSweep, StudyVariant::kQuick);
   EXPECT_EQ(quick.series.size(), 2u * 2);
 }
 
 TEST(Study, StepsForOrdersAreCandidatesOfThePlanner) {
-  const Study study = parse(R"(
+  const Study study = parsed(R"(
 [[block]]
 scene = "kepler"
 t_end = 6
@@ -74,7 +74,7 @@ refine_most = 6
 
 TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
   const std::string start = "[[block]]\nscene = \"kepler\"\nmethods = \"gauss_2\"\n";
-  const auto misuse = [&](const std::string& line) { return misuseOf([&] { parse(start + line + "\n"); }); };
+  const auto misuse = [&](const std::string& line) { return misuseOf([&] { parsed(start + line + "\n"); }); };
   EXPECT_TRUE(containsAll(misuse("newtn = \"full\""), {"mine.toml:4", "newtn", "'newton'"}));
   EXPECT_TRUE(containsAll(misuse("newton = \"ful\""), {"mine.toml:4", "'ful'", "'full'"}));
   EXPECT_TRUE(containsAll(misuse("tolerances = [1e-3, -1]"), {"mine.toml:4", "tolerances", "-1", "> 0"}));
@@ -85,14 +85,14 @@ TEST(Study, ErrorsNameFileLineKeyAndWhatIsAllowed) {
   EXPECT_TRUE(containsAll(misuse("steps = []"), {"mine.toml:4", "steps", "empty"}));
   EXPECT_TRUE(containsAll(misuse("settings = \"eccentricty=0.5\""), {"mine.toml:", "eccentricty"}));
   EXPECT_TRUE(containsAll(misuse("x = = 1"), {"mine.toml:4"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("titel = 1\n[[block]]\n"); }), {"mine.toml:1", "titel", "'title'"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("title = \"x\"\n"); }), {"mine.toml", "[[block]]"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("[[block]]\nmethods=\"gauss_2\"\n"); }), {"mine.toml:1", "scene"}));
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("[[block]]\nscene=\"kepler\"\nmethods=\"radau_iia\"\n"); }),
+  EXPECT_TRUE(containsAll(misuseOf([] { parsed("titel = 1\n[[block]]\n"); }), {"mine.toml:1", "titel", "'title'"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parsed("title = \"x\"\n"); }), {"mine.toml", "[[block]]"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parsed("[[block]]\nmethods=\"gauss_2\"\n"); }), {"mine.toml:1", "scene"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { parsed("[[block]]\nscene=\"kepler\"\nmethods=\"radau_iia\"\n"); }),
                           {"mine.toml:3", "'radau_iia': that is a family", "order 'variable' only", "radau_iia_5"}));
-  const Study family = parse("[[block]]\nscene=\"kepler\"\nconfiguration=\"variable\"\nmethods=\"radau_iia\"\n");
+  const Study family = parsed("[[block]]\nscene=\"kepler\"\nconfiguration=\"variable\"\nmethods=\"radau_iia\"\n");
   EXPECT_EQ(family.series.front().runs.front().method, "radau_iia");
-  EXPECT_TRUE(containsAll(misuseOf([] { parse("orders = 3\n[[block]]\nscene=\"kepler\"\nmethods=\"gauss_2\"\n"); }),
+  EXPECT_TRUE(containsAll(misuseOf([] { parsed("orders = 3\n[[block]]\nscene=\"kepler\"\nmethods=\"gauss_2\"\n"); }),
                           {"mine.toml:1", "orders", "true or false"}));
   EXPECT_TRUE(containsAll(misuseOf([] { loadStudy("ordr", StudyVariant::kFull); }), {"ordr", "'order'"}));
 }
@@ -104,14 +104,14 @@ TEST(Study, AnalysesOfOneMethodRefuseVariableOrder) {
     const std::string wanted = analysis + " = true";
     for (const std::string methods : {"radau_iia", "radau_iia_5"}) {
       const std::string text = wanted + block + "methods = \"" + methods + "\"\n";
-      EXPECT_TRUE(containsAll(misuseOf([&] { parse(text + "configuration = \"variable\"\n"); }),
+      EXPECT_TRUE(containsAll(misuseOf([&] { parsed(text + "configuration = \"variable\"\n"); }),
                               {"mine.toml:5", "order 'variable'", wanted}));
-      EXPECT_TRUE(containsAll(misuseOf([&] { parse(text + "estimate = \"embedded\"\norder = \"variable\"\n"); }),
+      EXPECT_TRUE(containsAll(misuseOf([&] { parsed(text + "estimate = \"embedded\"\norder = \"variable\"\n"); }),
                               {"mine.toml:6", "order 'variable'", wanted}));
     }
-    EXPECT_NO_THROW(parse(wanted + block + "methods = \"radau_iia_5\"\n"));
+    EXPECT_NO_THROW(parsed(wanted + block + "methods = \"radau_iia_5\"\n"));
   }
-  EXPECT_NO_THROW(parse("title = \"none\"" + block + "methods = \"radau_iia\"\nconfiguration = \"variable\"\n"));
+  EXPECT_NO_THROW(parsed("title = \"none\"" + block + "methods = \"radau_iia\"\nconfiguration = \"variable\"\n"));
 }
 
 TEST(Study, BuiltInStudiesLoadInBothVariants) {

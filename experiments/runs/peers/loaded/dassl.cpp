@@ -26,7 +26,7 @@ using Daspk = void(DaspkRes*, int* neq, double* t, double* y, double* yp, double
                    DaeJac*, void (*psol)());
 }
 
-struct Loaded {
+struct LoadedDassl {
   std::shared_ptr<const SharedLibrary> library;
   std::string id;
   Dassl* dassl;
@@ -36,7 +36,7 @@ struct Loaded {
 
 class DasslPeer final : public Peer {
  public:
-  DasslPeer(Loaded loaded, const PeerSetup& setup)
+  DasslPeer(LoadedDassl loaded, const PeerSetup& setup)
       : loaded_(std::move(loaded)), setup_(setup), problem_(setup.problem), n_(problem_.layout().n) {}
 
   Outcome integrate(const PeerStart& start, double t_end, const PeerAccepted& accepted) override {
@@ -173,7 +173,7 @@ class DasslPeer final : public Peer {
     });
   }
 
-  Loaded loaded_;
+  LoadedDassl loaded_;
   PeerSetup setup_;
   PeerProblem& problem_;
   Index n_, lower_ = 0, upper_ = 0, leading_ = 0;
@@ -190,7 +190,7 @@ class DasslPeer final : public Peer {
 }  // namespace
 
 PeerEntry dasslPeer(const std::shared_ptr<const SharedLibrary>& library, std::string_view code) {
-  Loaded loaded{library, std::string(code), nullptr, nullptr, std::make_shared<std::mutex>()};
+  LoadedDassl loaded{library, std::string(code), nullptr, nullptr, std::make_shared<std::mutex>()};
   if (code == "ddassl") {
     loaded.dassl = library->get<Dassl>("ddassl_");
   } else if (code == "ddaspk") {

@@ -53,7 +53,7 @@ constexpr Code kCodes[] = {
     {"seulex", "seulex_", "Hairer and Wanner's SEULEX, extrapolated linearly implicit Euler", Sequence::kSeulex, 1, 1,
      1}};
 
-struct Loaded {
+struct LoadedHairer {
   std::shared_ptr<const SharedLibrary> library;
   const Code* code;
   void (*function)();
@@ -84,7 +84,8 @@ struct Shape {
 
 class Hairer final : public Peer {
  public:
-  Hairer(Loaded loaded, const PeerSetup& setup) : loaded_(std::move(loaded)), setup_(setup), problem_(setup.problem) {}
+  Hairer(LoadedHairer loaded, const PeerSetup& setup)
+      : loaded_(std::move(loaded)), setup_(setup), problem_(setup.problem) {}
 
   Outcome integrate(const PeerStart& start, double t_end, const PeerAccepted& accepted) override {
     accepted_ = &accepted;
@@ -275,7 +276,7 @@ class Hairer final : public Peer {
     if (returned_ || outgrown_) *irtrn = -1;
   }
 
-  Loaded loaded_;
+  LoadedHairer loaded_;
   PeerSetup setup_;
   PeerProblem& problem_;
   Shape shape_;
@@ -295,7 +296,7 @@ class Hairer final : public Peer {
 PeerEntry hairerPeer(const std::shared_ptr<const SharedLibrary>& library, std::string_view code) {
   const auto at = std::find_if(std::begin(kCodes), std::end(kCodes), [code](const Code& c) { return c.id == code; });
   if (at == std::end(kCodes)) return {};
-  const Loaded loaded{library, at, library->get<void()>(at->symbol.data()), std::make_shared<std::mutex>()};
+  const LoadedHairer loaded{library, at, library->get<void()>(at->symbol.data()), std::make_shared<std::mutex>()};
   return {.id = std::string(code),
           .title = std::string(at->title),
           .form = PeerForm::kMass,
