@@ -41,9 +41,8 @@ class SplitMatrix {
     }
   }
   void swap(Index a, Index b) {
-    for (int part = 0; part < Parts; ++part) {
-      std::swap(data_[part * imaginary_ + a], data_[part * imaginary_ + b]);
-    }
+    std::swap(data_[a], data_[b]);
+    if constexpr (Parts == 2) std::swap(data_[imaginary_ + a], data_[imaginary_ + b]);
   }
   /// A copy of one column, so that the numbers read and the numbers written cannot overlap.
   struct Column {
