@@ -149,6 +149,15 @@ Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real&
   return J;
 }
 
+/// Not a number if the scene has no such output.
+template <class Real>
+Real outputOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
+  for (const auto& output : scene.outputs) {
+    if (output.name == name) return output.value(s);
+  }
+  return std::numeric_limits<Real>::quiet_NaN();
+}
+
 /// The sum of the magnitudes of the terms in each row, which limits its round-off.
 inline Vec<double> rowSizes(const Mat<double>& J, const Vec<double>& y, const Vec<double>& scale) {
   return J.cwiseAbs() * y.cwiseAbs().cwiseMax(scale);

@@ -7,19 +7,11 @@
 #include <functional>
 
 #include "experiments/claims/verdict.h"
+#include "tests/experiments/claim_tables.h"
 #include "tests/experiments/support.h"
 
 namespace irk::claims {
 namespace {
-
-const Part& partOf(std::string_view id) {
-  for (const auto& claim : protocol().claims) {
-    for (const auto& part : claim.parts) {
-      if (part.id == id) return part;
-    }
-  }
-  throw std::runtime_error("no part " + std::string(id));
-}
 
 Measurement measured(std::string_view id, const ResultTables& tables, Setting setting = Setting::kPaper) {
   return evaluationOf(id)(tables, setting);

@@ -20,7 +20,7 @@
 namespace irk {
 namespace {
 
-constexpr char kToml[] = R"(
+constexpr char kSmallStudy[] = R"(
 title = "Small"
 orders = true
 [[block]]
@@ -35,7 +35,7 @@ methods = ["radau_iia_2", "lobatto_iiib_3"]
 tolerances = [1e-3, 1e-5]
 )";
 
-Study small() { return parseStudy(kToml, "small.toml", StudyVariant::kFull); }
+Study small() { return parseStudy(kSmallStudy, "small.toml", StudyVariant::kFull); }
 
 RunnerOptions options(const TemporaryFolder& folder, int jobs) {
   RunnerOptions options;

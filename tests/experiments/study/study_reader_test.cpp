@@ -182,7 +182,7 @@ const std::string kPieces[] = {"[",
                                "1979-05-27T07:32:00Z",
                                std::string(1, '\0')};
 
-// 100 000 texts made from two valid ones by a few random changes: each gives a study or a misuseOfLines of one line.
+// 100 000 texts made from two valid ones by a few random changes: each gives a study or a misuse of one line.
 TEST(StudyReader, SurvivesMutatedTexts) {
   test::Mutations mutations(kSeeds, kPieces, 20041);
   int studies = 0, refused = 0;

@@ -11,13 +11,6 @@ namespace {
 
 constexpr double kWeight = 1200 * 0.0018 * 9.81;  // N, of the arm of 1 m
 
-double outputOf(const Scene<double>& scene, const std::string& name, const State<double>& s) {
-  for (const auto& output : scene.outputs) {
-    if (output.name == name) return output.value(s);
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 struct Course {
   std::vector<double> energy, force;
   std::vector<std::string> switches;

@@ -9,14 +9,6 @@
 namespace irk::test {
 namespace {
 
-template <class Real>
-Real outputOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
-  for (const auto& output : scene.outputs) {
-    if (output.name == name) return output.value(s);
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
 // The load is applied in ten steps: for the complete load Newton does not converge from the straight beam.
 template <class Real>
 Equilibrium<Real> bentCantilever(const std::string& elements) {
