@@ -281,7 +281,7 @@ Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& syst
 Strategy<ErrorEstimate> richardsonEstimate() {
   return {.id = ErrorEstimate::kRichardson,
           .meaning = "doubling, each component with its own order; sees switches",
-          .sees_switches = true,
+          .looks_further = true,
           .own_orders = true,
           .make = makes<StepAttemptMaker, Doubling>()};
 }

@@ -95,8 +95,10 @@ struct Strategy<ErrorEstimate> {
   ErrorEstimate id;
   std::string meaning;
   Needs needs = {};
-  bool estimates = true;         ///< false: there is no error to control steps by
-  bool sees_switches = false;    ///< looks at the switches in a step that goes on over them; the paper's do not
+  bool estimates = true;  ///< false: there is no error to control steps by
+  /// Beside the error of a step: looks at the switches in a step that goes on over them, and at stiff components at
+  /// the end (core/integration/stiff_rest.h). The paper's estimates do not.
+  bool looks_further = false;
   bool own_orders = false;       ///< divides each component's difference by its own order, see doublingFactors
   bool compares_orders = false;  ///< can estimate the error of another method of the family
   PerScalar<StepAttemptMaker> make;

@@ -205,7 +205,7 @@ Strategy<ErrorEstimate> embeddedEstimate() {
                     .stage_order = true,
                     .kept_jacobian = true,
                     .instead = "estimate 'richardson'"},
-          .sees_switches = true,
+          .looks_further = true,
           .compares_orders = true,
           .make = makes<StepAttemptMaker, VariableOrder>()};
 }

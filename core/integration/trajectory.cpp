@@ -80,8 +80,8 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const Scheme<Real>& scheme = schemes[start];
-  // The configuration of the paper stays as it is: neither its estimate nor its Newton method looks for more.
-  const bool looks = catalogue<ErrorEstimate>()[options.step.estimate].sees_switches &&
+  // The configuration of the paper stays as it is.
+  const bool looks = catalogue<ErrorEstimate>()[options.step.estimate].looks_further &&
                      catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
   if (controller_ && looks && scheme.regular && scheme.first == 0 && !dampsStiffErrors(scheme) && isPlain(system)) {
     stiff_rest_ = std::make_unique<StiffRest<Real>>(system, options, jacobian_, norm_, counters);

@@ -17,7 +17,7 @@ class FollowedModes : public ModesInStep<Real> {
       : switches_(system),
         effect_(system, options, norm, counters),
         before_(system.sizes()),
-        sees_switches_(catalogue<ErrorEstimate>()[options.step.estimate].sees_switches) {}
+        looks_further_(catalogue<ErrorEstimate>()[options.step.estimate].looks_further) {}
 
  protected:
   /// Does the switches that are due at the step's end; `before_` is what the end was.
@@ -28,7 +28,7 @@ class FollowedModes : public ModesInStep<Real> {
     return report;
   }
   void judge(const SolvedStep<Real>& step, const SwitchReport& report, StepResult& result) {
-    if (!sees_switches_) return;
+    if (!looks_further_) return;
     Index inside = -1;
     if (report.count == 0 && !effect_.dueInside(step, before_, inside)) return;
     if (inside >= 0) result.switched = inside;
@@ -39,7 +39,7 @@ class FollowedModes : public ModesInStep<Real> {
   Switches<Real> switches_;
   SwitchEffect<Real> effect_;
   State<Real> before_;
-  bool sees_switches_;
+  bool looks_further_;
 };
 
 /// The mode at the end of a step is the one in which the next step starts.
