@@ -104,7 +104,8 @@ std::span<const OptionField> optionFields() {
              "The Jacobian is kept for the next step while Newton's method contracts by less than this factor.",
              ofContraction),
       number("kappa", IRK_MEMBER(newton.kappa), Range::from(0),
-             "Newton's method stops when its error falls below this part of the tolerance; 0 = by order and rtol.",
+             "Newton's method stops when its error falls below this part of the tolerance; 0 = by order, rtol and "
+             "number of steps.",
              ofKappa),
       number("h", IRK_MEMBER(step.h), Range::from(0),
              "The constant step of control fixed, else the first step; 0 = by the scale of the solution."),
