@@ -65,7 +65,7 @@ class Parser {
     TableauFile file{};
     Tableau<mp80>& tableau = file.tableau;
     tableau.id = name_;
-    tableau.family = familyName();
+    tableau.family = header_.contains("family") ? header_["family"].text : "user";
     tableau.order = integer("order", 1, 2 * s);
     file.source = header_.contains("source") ? header_["source"].text : "";
     file.digits = header_.contains("digits") ? integer("digits", kMinDigits, kMaxDigits) : kMinDigits;
@@ -134,18 +134,6 @@ class Parser {
         fail(number, fmt::format("'{}' again, first on line {}", key, entry->second.number));
       }
     }
-  }
-
-  // It is part of method ids, which stand in command lines and tables.
-  std::string familyName() const {
-    const auto entry = header_.find("family");
-    if (entry == header_.end()) return "user";
-    const auto& [number, text] = entry->second;
-    static const std::regex form(R"([A-Za-z0-9_.+-]+)");
-    if (!std::regex_match(text, form)) {
-      fail(number, fmt::format("family: '{}' is not one word of letters, digits and _ . + -", text));
-    }
-    return text;
   }
 
   int integer(const std::string& key, int low, int high) const {
