@@ -128,22 +128,5 @@ TEST(StiffRest, MakesARunInaccurate) {
   EXPECT_GE(inaccurate, 1);
 }
 
-// The paper's step doubling and its Newton method say success where no step is at fault; that they are wrong is to be
-// seen in their figures.
-TEST(StiffRest, IsNotLookedAtInThePapersConfiguration) {
-  State<double> start(ProtheroRobinson{-1e7}.sizes());
-  start.x[0] = 1 + 1e-3;  // off the slow motion: Gauss never comes back to it
-  const auto outcome = [&](ErrorEstimate estimate, NewtonKind newton) {
-    IntegratorOptions options = adaptive(1e-7);
-    options.step.estimate = estimate;
-    options.newton.kind = newton;
-    options.step.h = options.step.h_max = 0.1;
-    return integrate<double>(ProtheroRobinson{-1e7}, start, 1, makeTableau<double>("gauss_2"), options).outcome;
-  };
-  EXPECT_EQ(outcome(ErrorEstimate::kRichardson, NewtonKind::kBroyden), Outcome::kInaccurate);
-  EXPECT_EQ(outcome(ErrorEstimate::kDoubling, NewtonKind::kBroyden), Outcome::kSuccess);
-  EXPECT_EQ(outcome(ErrorEstimate::kRichardson, NewtonKind::kModified), Outcome::kSuccess);
-}
-
 }  // namespace
 }  // namespace irk::test
