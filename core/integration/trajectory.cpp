@@ -80,7 +80,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const Scheme<Real>& scheme = schemes[start];
-  // The configuration of the paper stays as it is.
+  // The paper's estimates and its Newton method go without: what they call a success is shown as it is.
   const bool looks = catalogue<ErrorEstimate>()[options.step.estimate].looks_further &&
                      catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
   if (controller_ && looks && scheme.regular && scheme.first == 0 && !dampsStiffErrors(scheme) && isPlain(system)) {
