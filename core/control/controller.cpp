@@ -104,8 +104,8 @@ class PaperWithoutGamma final : public PaperController {
 
 /// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
 ///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
-/// A step is kept where it would grow by less than a fifth: its factors are worth more. After a
-/// rejection it does not grow at once.
+/// A step is kept where it would grow by less than a fifth: its factors are worth more, and more still where they are
+/// expensive. After a rejection it does not grow at once.
 class PredictiveController final : public StepController {
  public:
   PredictiveController(const StepOptions& options, int order)
@@ -128,7 +128,7 @@ class PredictiveController final : public StepController {
     last_root_ = std::max(root, least_root_);
     factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
     rejected_ = false;
-    const double grown = factor < 1 || factor > kKeepUpTo ? h * factor : h;
+    const double grown = factor < 1 || factor > keep_up_to_ ? h * factor : h;
     return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
   }
   double afterFailure(double h) override {
@@ -145,6 +145,12 @@ class PredictiveController final : public StepController {
     futile_ = 0;
     rejected_ = false;
   }
+  // With growth by r per step, kept up to k, a unit of time costs (ln k + r steps) / (1 - 1/k). Measured on dense
+  // chains of beams, n = 60 ... 200: with 2 instead of 1.2 radau_iia_5 takes 0.26 ... 0.36 of the time, and its error
+  // is smaller.
+  void factorsCost(double steps) override {
+    keep_up_to_ = std::clamp(kKeepUpTo + kKeepPerStep * (steps - 1), kKeepUpTo, kKeepAtMost);
+  }
   void changeOrder(int order, double error, double h) override {
     exponent_ = 1.0 / (order + 1);
     least_root_ = std::pow(kErrorFloor, exponent_);
@@ -158,7 +164,8 @@ class PredictiveController final : public StepController {
   static constexpr double kShrinkAtMost = 0.2;  // FACL, FACR and ERRACC of RADAU
   static constexpr double kGrowAtMost = 8;
   static constexpr double kErrorFloor = 1e-2;
-  static constexpr double kKeepUpTo = 1.2;
+  static constexpr double kKeepUpTo = 1.2, kKeepAtMost = 2;  // growth
+  static constexpr double kKeepPerStep = 0.4;                // for factors that cost more than a step
   // After the second failure before any step is accepted: a first guess may be off by orders of magnitude.
   static constexpr double kFarOff = 0.1;
   static constexpr double kFutile = 0.98;  // of error^exponent
@@ -166,6 +173,7 @@ class PredictiveController final : public StepController {
   static constexpr int kBarredSteps = 10;
 
   double h_min_;
+  double keep_up_to_ = kKeepUpTo;
   double exponent_, least_root_;       // and kErrorFloor^exponent
   double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
   double failed_h_ = 0;

@@ -23,6 +23,8 @@ class StepController {
   virtual double afterFailure(double h) = 0;
   /// After a restart: forgets the steps before it.
   virtual void forget() = 0;
+  /// What new factors cost, in steps; every new size needs some. A controller may keep a step that would grow little.
+  virtual void factorsCost(double steps) { static_cast<void>(steps); }
   /// From now on errors fall with h^(order+1); with the new order the last step h would have had `error`.
   virtual void changeOrder(int order, double error, double h) = 0;
 };

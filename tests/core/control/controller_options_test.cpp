@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/control/controller.h"
@@ -70,6 +71,25 @@ TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
   EXPECT_NEAR(controller->decide(0.6, 0.04).h, gustafsson(5, 0.6, 0.04, 1e-2, 0.05), 1e-12);
   controller->forget();
   EXPECT_NEAR(controller->decide(0.9, 0.04).h, 0.9 * 0.04 * std::pow(0.9, -1.0 / 6), 1e-14) << "no trend";
+}
+
+TEST(Predictive, KeepsStepsLongerWhereFactorsAreExpensive) {
+  // Factors that cost so many steps, and the growth up to which a step is then kept.
+  for (const auto& [cost, up_to] : {std::pair{0.0, 1.2}, {1.0, 1.2}, {2.0, 1.6}, {3.0, 2.0}, {100.0, 2.0}}) {
+    for (const double growth : {up_to - 0.02, up_to + 0.02}) {
+      const auto controller = makeController(controlled(StepControl::kPredictive), 3);
+      controller->factorsCost(cost);
+      const double error = std::pow(0.9 / growth, 4);
+      EXPECT_NEAR(controller->decide(error, 0.1).h, growth < up_to ? 0.1 : 0.1 * growth, 1e-12) << cost;
+    }
+    // A smaller step is taken at any cost.
+    const auto controller = makeController(controlled(StepControl::kPredictive), 3);
+    controller->factorsCost(cost);
+    EXPECT_LT(controller->decide(0.9, 0.1).h, 0.099) << cost;
+  }
+  const auto paper = makeController(controlled(StepControl::kPaper), 3);
+  paper->factorsCost(100);
+  EXPECT_NEAR(paper->decide(0.25 / std::pow(2.1, 4), 0.1).h, 0.21, 1e-12) << "the paper's rule knows no costs";
 }
 
 TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {

@@ -221,6 +221,22 @@ TEST(Sparse, RunsEqualTheirDenseTwins) {
   }
 }
 
+TEST(Sparse, DenseFactorsAreKeptForMoreSteps) {
+  const Scene<double> chain = sceneOf("beam_chain", "m", 120);
+  IntegratorOptions o = adaptive(1e-5);
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  o.storage = Storage::kSparse;
+  const auto sparse = solve(chain.system({}), chain.start, 0.5, o, "radau_iia_5");
+  o.storage = Storage::kDense;
+  const auto dense = solve(chain.system({}), chain.start, 0.5, o, "radau_iia_5");
+  ASSERT_EQ(sparse.outcome, Outcome::kSuccess);
+  ASSERT_EQ(dense.outcome, Outcome::kSuccess);
+  EXPECT_LT(3 * dense.counters.factorizations, 2 * sparse.counters.factorizations);
+  EXPECT_GT(dense.counters.steps_accepted, sparse.counters.steps_accepted);
+  EXPECT_LT(2 * dense.counters.steps_accepted, 3 * sparse.counters.steps_accepted);
+  EXPECT_LE((dense.state.u - sparse.state.u).norm(), 1e-4 * (1 + sparse.state.u.norm()));
+}
+
 TEST(Sparse, CoupledSparseEqualsCoupledDense) {
   const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 6);
   for (const auto& newton : named<NewtonKind>()) {
