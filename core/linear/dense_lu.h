@@ -52,7 +52,7 @@ class DenseLu {
   /// Returns kSuccess, kSingular or kNotFinite. After a failure `solve` must not be called.
   [[nodiscard]] Outcome factorize() {
     if (plain()) {
-      return withSize<kUnrolled>(n_, [this](auto n) { return factorizePlain(n); });
+      return withSize<kUnrolled>(n_, [&](auto n) { return factorizePlain(n); });
     }
     if constexpr (kSplit) {
       return lu_.factorize();
@@ -69,7 +69,7 @@ class DenseLu {
   /// Solves in place; x has n contiguous entries.
   void solve(T* x) {
     if (plain()) {
-      return withSize<kUnrolled>(n_, [this, x](auto n) { solvePlain(x, n); });
+      return withSize<kUnrolled>(n_, [&](auto n) { solvePlain(x, n); });
     }
     if constexpr (kSplit) {
       lu_.solve(x);
