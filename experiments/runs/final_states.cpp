@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "experiments/base/numbers.h"
-#include "experiments/runs/run_table.h"
 
 namespace irk {
 
@@ -25,15 +24,6 @@ Vec<double> parseVector(const std::string& text) {
   std::vector<double> numbers;
   for (std::string word; in >> word;) numbers.push_back(cellNumber(word));
   return Eigen::Map<const Vec<double>>(numbers.data(), static_cast<Index>(numbers.size()));
-}
-
-std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file) {
-  std::map<std::string, Vec<double>> states;
-  const Table table = readTable(file);
-  for (const auto& row : table.rows) {
-    states[textAt(table, row, "key")] = parseVector(textAt(table, row, "state"));
-  }
-  return states;
 }
 
 }  // namespace irk

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -20,6 +22,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
 #include "experiments/study/study_reader.h"
+#include "experiments/tables/table.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk::audit {
@@ -43,6 +46,14 @@ inline SolveOptions parsed(const std::string& command) {
     }
   }
   return options;
+}
+
+// The states of an exported states.csv by the keys of their runs.
+inline std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file) {
+  std::map<std::string, Vec<double>> states;
+  const Table table = readTable(file);
+  for (const auto& row : table.rows) states[textAt(table, row, "key")] = parseVector(textAt(table, row, "state"));
+  return states;
 }
 
 }  // namespace irk::audit
