@@ -151,7 +151,8 @@ tolerances = [1e-6, 1e-9, 1e-11]
 
 // Four ranks on one host: one of them measures, every run once per repetition.
 TEST_F(RanksOfMpi, OneRankOfAHostMeasures) {
-  std::ofstream(folder_.path() / "small.toml", std::ios::app) << "[timing]\nmin_time_s = 1e-4\nrepetitions = 2\n";
+  std::ofstream(folder_.path() / "small.toml", std::ios::app)
+      << "[timing]\nmin_time_s = 1e-4\nrepetitions = 2\nonce_above_s = 600\nskip_above_s = 600\n";
   ASSERT_EQ(statusOf(command("timed", kFour)), 0) << output("timed");
   const Table timed = exported("timed");
   ASSERT_EQ(timed.rows.size(), 36u);
