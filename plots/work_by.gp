@@ -3,7 +3,7 @@
 # that was requested. A ring marks a success that is wrong by the bar of the audit.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
-#   variant (a column; its values are the curves), variants (the values to show, in this order),
+#   variant (columns; each combination of their values is a curve), variants (the values to show, in this order),
 #   cases (block=NAME, block=NAME:SCENE, SCENE or SCENE:SETTINGS, in quotes if they contain blanks; one panel each),
 #   titles (quoted words, one per case),
 #   costs (columns; with one case several costs: one panel each), quantity (error, error_u, ...), at_end (1: the error at the end, whatever the reference times),
@@ -24,7 +24,8 @@ cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'New
   : c eq 'residuals' ? 'residual evaluations' : c eq 'jacobians' ? 'Jacobians' : c eq 'steps_accepted' ? 'steps' : c eq 'drift' ? 'drift |g|' : c
 
 inCase(case) = isCase(case) && allowed(only)
-curveOf(d) = oneWord(strcol(variant))
+valueFrom(i) = i > words(variant) ? '' : (i > 1 ? ':' : '').oneWord(strcol(word(variant, i))).valueFrom(i + 1)
+curveOf(d) = valueFrom(1)
 shown(d) = words(variants) == 0 || position(variants, curveOf(0))
 chosen(case) = inCase(case) && shown(0)
 error(d) = errorOf(quantity)

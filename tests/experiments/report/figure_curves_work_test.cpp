@@ -86,6 +86,30 @@ TEST(FigureCurves, WorkBy) {
   expectPoints(costs.marks('c', 1, kLog, kLog), runPoints("error_v", "drift", 3, 6), "drift");
 }
 
+// Runs that differ in either of two columns are not joined by one line.
+TEST(FigureCurves, WorkByCombinationsOfColumns) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  int from = 1;
+  for (const char* newton : {"full", "simplified"}) {
+    for (const char* formulation : {"ggl", "index2"}) {
+      for (int i = from; i < from + 3; ++i) {
+        rows.push_back(run(i, {{"scene", "pendulum"}, {"newton", newton}, {"formulation", formulation}}));
+      }
+      from += 2;
+    }
+  }
+  drawing.put("runs.csv", kRunColumns, rows);
+  const Svg svg =
+      drawing.draw("work_by.gp",
+                   "variant='newton formulation'; variants='full:ggl full:index2 simplified:ggl simplified:index2'; "
+                   "cases='pendulum'; costs='residuals'");
+  for (int curve = 1; curve <= 4; ++curve) {
+    expectPoints(svg.marks('a', curve, kLog, kLog), runPoints("error", "residuals", 2 * curve - 1, 2 * curve + 2),
+                 std::to_string(curve));
+  }
+}
+
 TEST(FigureCurves, WorkByExplainsOnlyWhatIsDrawn) {
   Drawing drawing;
   std::vector<Cells> rows;
