@@ -6,7 +6,9 @@
 #include <iterator>
 #include <span>
 
+#include "core/base/text.h"
 #include "core/control/order_controller.h"
+#include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/unused_options.h"
 #include "experiments/study/analysis.h"
@@ -38,11 +40,21 @@ bool contains(std::span<const std::string_view> all, std::string_view key) {
   return std::find(all.begin(), all.end(), key) != all.end();
 }
 
+void refuseUnknownKeys(const StudyKeys& block) {
+  std::vector<std::string> known(std::begin(kSweepKeys), std::end(kSweepKeys));
+  for (const auto& field : specFields()) known.push_back(field.name);
+  for (const auto& [key, value] : block) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    throw Misuse(fmt::format("{}: {}", value.place, unknownName("key", key, known)));
+  }
+}
+
 }  // namespace
 
 bool isSpecKey(std::string_view key) { return !contains(kSweepKeys, key); }
 
 void refuseContradictions(const StudyKeys& block) {
+  refuseUnknownKeys(block);
   std::string_view first;
   for (const auto key : kSeriesKeys) {
     const auto* value = keyOf(block, key);

@@ -21,8 +21,8 @@ inline constexpr std::int64_t kMaxRuns = 200'000, kMaxRunsAsked = 100'000'000;
 /// False for keys that select methods, tolerances and steps; they are not fields of a spec.
 bool isSpecKey(std::string_view key);
 
-/// Throws Misuse with file and line if one key of a block makes another ineffective: `tolerances` and `steps`, `rtol`
-/// beside `tolerances`, `stages` without `families`, ...
+/// Throws Misuse with file and line for a key that a block does not have, and if one key of a block makes another
+/// ineffective: `tolerances` and `steps`, `rtol` beside `tolerances`, `stages` without `families`, ...
 void refuseContradictions(const StudyKeys& block);
 
 /// Throws Misuse if a block varies an option that a peer does not use: the peer would repeat equal runs.

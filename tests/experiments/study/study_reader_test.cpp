@@ -41,6 +41,15 @@ TEST(StudyReader, RefusesKeysThatExcludeEachOther) {
   EXPECT_NO_THROW(parse(kStart + "tolerances = 0.1\nh = 0.1\n"));
 }
 
+TEST(StudyReader, NamesTheNearestKeyOfABlock) {
+  for (const auto& [wrong, right] :
+       {std::pair{"tolerancse", "tolerances"}, {"stpes", "steps"}, {"kapa", "kappa"}, {"metods", "methods"}}) {
+    const std::string key = wrong;
+    EXPECT_TRUE(
+        containsAll(misuseOfLines(key + " = 0.1"), {"mine.toml:4", "'" + key + "'", std::string(right) + "'?"}));
+  }
+}
+
 TEST(StudyReader, RefusesEmptyRangesAndTwins) {
   EXPECT_TRUE(containsAll(misuseOfLines("families = \"gauss\"\nstages = \"3..1\""), {"mine.toml:5", "'3..1'"}));
   EXPECT_TRUE(containsAll(misuseOfLines("families = \"gauss\"\nstages = [\"3..5\", 4]"), {"mine.toml:5", "4 twice"}));
