@@ -345,6 +345,7 @@ std::string Trajectory<Real>::rejections() const {
   std::string text = "(" + std::to_string(c.steps_accepted) + " accepted, rejected by the error " +
                      std::to_string(c.steps_rejected_error) + ", by Newton " + std::to_string(c.steps_rejected_newton);
   if (last_rejection_) text += std::string(", the last by ") + last_rejection_;
+  if (c.located_events > 0) text += ", switches " + std::to_string(c.located_events);
   const Index i = attempt_->worstComponent();
   if (i >= 0) text += "; largest error in " + componentName(system_.sizes(), i);
   return text + ")";

@@ -95,7 +95,9 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
   const std::string not_finite = notFinite(start);
   if (!not_finite.empty()) return {Outcome::kNotFinite, "at the start: " + not_finite, start, counters_};
   state_ = system_->fromScene(start);
+  t_end_ = t_end;
   length_ = t_end - state_.t;
+  stall_.begin(state_.t);
   StartReport report = settle(monitor);
   if (report.outcome == Outcome::kSuccess) report = run(t_end, monitor);
   if (report.outcome == Outcome::kSuccess && ends_consistent_) {
@@ -178,6 +180,10 @@ StartReport PeerIntegrator::take(const PeerStep& step, double t_end, const Monit
   if (monitor.accepted) {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     monitor.accepted({state_.t, state_.t - t, kUnknown, 0, system_->toScene(state_)});
+  }
+  if (stall_.attempted(state_.t, state_.t - t, t_end_, max_steps_ - counters_.steps_accepted)) {
+    return failed(Outcome::kStalled, fmt::format("steps do not grow ({} accepted, {} switches)",
+                                                 counters_.steps_accepted, counters_.switches));
   }
   if (!switches()) return {};
   const bool locate = system_->discontinuity() == Discontinuity::kLocate;

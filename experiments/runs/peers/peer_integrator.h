@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/control/stall_detector.h"
 #include "core/system/switches.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/problem/scene_problem.h"
@@ -43,7 +44,8 @@ class PeerIntegrator {
   Switches<double> switches_;
   ChatterDetector chatter_;
   Counters counters_;
-  double length_ = 0;
+  double t_end_ = 0, length_ = 0;
+  StallDetector stall_;
   DerivativeSource derivatives_;
   bool ends_consistent_;
   StartReport stopped_;    // why the peer has to return; kSuccess: it may go on
