@@ -20,10 +20,6 @@ bool isIndex3(const System<Real>& system) {
   return std::any_of(powers.begin(), powers.end(), [](int p) { return p > 0; });
 }
 
-// Dense factors cost n^3, the solves of a step n^2: with this many unknowns they cost about the same. Sparse factors
-// cost little: there steps that were kept for longer made nothing faster (six scenes).
-constexpr double kDenseUnknowns = 40;
-
 // "u[3]": component i of (u, v, x, z).
 std::string componentName(const Sizes& n, Index i) {
   const auto name = [i](const char* group, Index first) { return group + ("[" + std::to_string(i - first) + "]"); };
@@ -137,18 +133,10 @@ StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
   if (mayRest(error, h, length_)) {
     if (const double asleep = rest_.error(state_, next_, h); asleep > 1) error = asleep;
   }
-  tellFactorsCost();
+  controller_->factorsCost(jacobian_.factorsCost());
   const StepDecision decision = controller_->decide(error, h);
   if (!decision.accept) last_rejection_ = "the error";
   return decision;
-}
-
-template <class Real>
-void Trajectory<Real>::tellFactorsCost() {
-  const auto& pattern = jacobian_.at().front().pattern;
-  if (pattern == told_) return;
-  told_ = pattern;
-  controller_->factorsCost(pattern->full ? static_cast<double>(pattern->n) / kDenseUnknowns : 0);
 }
 
 template <class Real>

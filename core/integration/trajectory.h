@@ -65,7 +65,6 @@ class Trajectory {
   void noteChattering(Index i);
   void addNote(const std::string& text);
   void restart();
-  void tellFactorsCost();
   void tell(Index i) const;
   std::string undampedRest();
   Solution<Real> solution(Outcome outcome, std::string detail) const;
@@ -78,7 +77,6 @@ class Trajectory {
   std::unique_ptr<StepAttempt<Real>> attempt_;
   int order_;                                   // of the attempt, as the controller knows it
   std::unique_ptr<StepController> controller_;  // null: fixed steps
-  std::shared_ptr<const Pattern> told_;         // the pattern whose cost the controller knows
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;
   RestCheck<Real> rest_;

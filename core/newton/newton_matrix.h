@@ -32,6 +32,14 @@ class SharedJacobian {
   bool evaluatedAt(const Real& t) const { return version_ > 0 && t_ == t; }
 
   std::span<const Linearization<Real>> at() const { return at_; }
+  /// What factors for another step size cost, in steps. Dense factors cost n^3, the solves of a step n^2. Sparse
+  /// factors cost little: 0, since steps that were kept for longer made nothing faster there (six scenes). After
+  /// `evaluate`.
+  double factorsCost() const {
+    constexpr double kDenseUnknowns = 40;
+    const auto& pattern = at_.front().pattern;  // null where each stage has its own matrices
+    return pattern && pattern->full ? static_cast<double>(pattern->n) / kDenseUnknowns : 0;
+  }
   int version() const { return version_; }
   Differentiator<Real>& differentiator() { return differentiator_; }
   /// Of a pattern of its own, for all that factorize one stage's matrices; null for a dense one.
