@@ -43,7 +43,7 @@ TEST(StudyReader, RefusesKeysThatExcludeEachOther) {
 
 TEST(StudyReader, NamesTheNearestKeyOfABlock) {
   for (const auto& [wrong, right] :
-       {std::pair{"tolerancse", "tolerances"}, {"stpes", "steps"}, {"kapa", "kappa"}, {"metods", "methods"}}) {
+       {std::pair{"tolerancse", "tolerances"}, {"step", "steps"}, {"kapa", "kappa"}, {"metods", "methods"}}) {
     const std::string key = wrong;
     EXPECT_TRUE(
         containsAll(misuseOfLines(key + " = 0.1"), {"mine.toml:4", "'" + key + "'", std::string(right) + "'?"}));
