@@ -214,8 +214,6 @@ TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
   }
 }
 
-// --- The form y' = f(t, y) that ODE codes require.
-
 // Falls from rest at height 1 with g = 2 and keeps half of its speed at the floor: it comes to rest at t = 3.
 struct BallAtRest {
   Sizes sizes() const { return {.nu = 1, .switches = 1}; }
@@ -255,6 +253,8 @@ TEST(Peers, SwitchesWithoutEndAreAnOutcome) {
     EXPECT_LT(after.counters.steps_accepted, 500'000) << peer.id;
   }
 }
+
+// --- The form y' = f(t, y) that ODE codes require.
 
 TEST(FirstOrderForm, HasTheAccelerationsOfTheResidual) {
   for (const char* id : {"slider_crank", "pendulum", "van_der_pol", "index1_nonlinear"}) {
