@@ -23,6 +23,10 @@ namespace {
 constexpr double kWidth = 4;  // numeric settings are multiplied by a factor in 1/kWidth .. kWidth
 constexpr int kMaxAttempts = 1000;
 
+// A run looks at its time limit between attempts only, and one factorization of 8000 coupled rows takes 21 s. Larger
+// coupled dense systems than this are not drawn.
+constexpr Index kMaxCoupledRows = 3000;
+
 constexpr Index kStages[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 15, 20};
 constexpr double kStageWeights[] = {4, 10, 12, 10, 12, 8, 10, 8, 10, 3, 3, 2, 4, 2, 2};
 
@@ -214,6 +218,10 @@ class Draw::Drawer {
     run.spec.t_end = variant.t_end;
     run.spec.time_limit = options_.time_limit;
     set(run.spec, "configuration", configuration);
+    if (run.spec.options.solver == StageSolverKind::kCoupledDense &&
+        method.stages * variant.sizes.n() > kMaxCoupledRows) {
+      return std::nullopt;
+    }
     set(run.spec, "method", method.id());
     set(run.spec, "formulation", formulation);
     set(run.spec, "discontinuity", treatment);

@@ -17,6 +17,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
 #include "experiments/study/study_reader.h"
+#include "irk/tableaus.h"
 #include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"
 
@@ -105,6 +106,24 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
     EXPECT_TRUE(methods.contains(id)) << id;
   }
   EXPECT_GT(with_settings, 700);  // half of the runs, for scenes with parameters
+}
+
+// medakzo has 400 unknowns; twenty stages of it in one dense matrix take 21 s for one factorization.
+TEST(AuditDraw, LeavesOutCoupledMatricesThatOutlastEveryTimeLimit) {
+  int coupled = 0, many_stages = 0;
+  for (const auto& run : drawnRuns({.runs = 300, .scenes = {"medakzo"}})) {
+    if (run.spec.method.find_first_of("0123456789") == std::string::npos) continue;  // a whole family
+    const auto tableau = makeTableau<double>(run.spec.method);
+    const Index unknowns = makeScene<double>("medakzo", run.spec.settings).sizes().n();
+    if (run.spec.configuration == "paper") {
+      ++coupled;
+      EXPECT_LE(tableau.stages() * unknowns, 3000) << commandOf(run);
+    } else {
+      many_stages += tableau.stages() * unknowns > 3000;
+    }
+  }
+  EXPECT_GT(coupled, 15);      // of about 45
+  EXPECT_GT(many_stages, 15);  // other configurations keep them
 }
 
 TEST(AuditDraw, CommandsRepeatTheRuns) {
