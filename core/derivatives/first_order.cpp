@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-constexpr int kIterations = 25;
+constexpr int kRateIterations = 25;
 
 template <class Real>
 bool allFinite(const Vec<Real>& x) {
@@ -150,7 +150,7 @@ bool FirstOrderForm<Real>::refine() const {
   using std::sqrt;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   Real last = std::numeric_limits<Real>::max();
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kRateIterations; ++i) {
     inner_->evaluate(Level::kAcceleration, pointOf(at_), {residual_.data(), residual_.size()});
     divideByMatrix(residual_);
     at_.w -= residual_;
@@ -170,7 +170,7 @@ bool FirstOrderForm<Real>::solveNewton() const {
   using std::sqrt;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   Real last = std::numeric_limits<Real>::max();
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kRateIterations; ++i) {
     evaluateMatrix();
     if (!factorize()) break;
     divideByMatrix(residual_);

@@ -10,8 +10,6 @@ namespace {
 // An eigenvalue of A from the Schur form and the same one from the eigenbasis differ by round-off.
 constexpr double kSameEigenvalue = 1e-12;
 
-std::size_t count(Index n) { return static_cast<std::size_t>(n); }
-
 }  // namespace
 
 LaneJacobian::LaneJacobian(const Sizes& n)

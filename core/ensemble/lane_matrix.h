@@ -9,6 +9,9 @@
 
 namespace irk {
 
+/// Sizes index vectors of lanes.
+inline std::size_t count(Index n) { return static_cast<std::size_t>(n); }
+
 /// (D0, D1, D2) of eight systems, n x n each, by columns. D1 has the columns of (v, x), D2 those of u; others are 0.
 struct LaneJacobian {
   explicit LaneJacobian(const Sizes& sizes);

@@ -3,12 +3,6 @@
 #include "core/ensemble/lane_matrix.h"
 
 namespace irk {
-namespace {
-
-std::size_t count(Index n) { return static_cast<std::size_t>(n); }
-
-}  // namespace
-
 LaneNorm::LaneNorm(const Sizes& sizes, const ErrorPowers& powers, const Tolerances& tolerances)
     : sizes_(sizes),
       powers_(powers),

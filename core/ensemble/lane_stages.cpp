@@ -14,8 +14,6 @@ constexpr double kInner = 0.6;
 constexpr double kAmplificationLimit = 1e4;
 constexpr double kLastDigits = 4;
 
-std::size_t count(Index n) { return static_cast<std::size_t>(n); }
-
 Index innerStage(const Scheme<double>& scheme) {
   Index inner = 0;
   for (Index i = 0; i < scheme.s; ++i) {
