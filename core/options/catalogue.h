@@ -1,4 +1,4 @@
-// Catalogues of strategies: for each axis with behaviour the list of its entries, which others can extend.
+// Catalogues of strategies: each axis with behaviour has a list of entries, to which users can add their own.
 #pragma once
 
 #include <functional>
@@ -15,18 +15,18 @@
 
 namespace irk {
 
-/// What a strategy needs of the method, the system and the other strategies. core/integration/rules.h checks it.
+/// What a strategy requires of the method, the system and the other strategies; core/integration/rules.h checks it.
 struct Needs {
-  bool invertible_matrix = false;  ///< A of the method, with no explicit first stage
-  bool stage_order = false;        ///< of at least 1
+  bool invertible_matrix = false;  ///< A of the method is invertible, without an explicit first stage
+  bool stage_order = false;        ///< the method's stage order is at least 1
   bool coupled_solver = false;     ///< a stage solver that takes one linearization per stage
   bool kept_jacobian = false;      ///< a Newton method that keeps one Jacobian for all stages
   bool estimate = false;           ///< an error estimate
-  bool embedded_estimate = false;  ///< one that compares orders
-  std::string_view instead = "";   ///< what to use where this does not work: "estimate 'richardson'"
+  bool embedded_estimate = false;  ///< an error estimate that can compare orders
+  std::string_view instead = "";   ///< for messages, what to use instead: "estimate 'richardson'"
 };
 
-/// One factory per scalar; an empty one says that the strategy does not exist in that scalar.
+/// One factory per scalar. An empty factory: the strategy does not exist in that scalar.
 template <template <class> class Maker>
 struct PerScalar {
   Maker<double> in_double;
@@ -48,14 +48,14 @@ struct PerScalar {
 template <class T>
 inline constexpr auto kConstruct = [](auto&&... args) { return std::make_unique<T>(args...); };
 
-/// T<Real> of every scalar.
+/// Factories of T<Real> for all scalars.
 template <template <class> class Maker, template <class> class T>
 PerScalar<Maker> makes() {
   return {kConstruct<T<double>>, kConstruct<T<mp50>>, kConstruct<T<mp100>>};
 }
 
-/// One entry of the axis `Id`: specialised beside its strategies, with at least `Id id`, `std::string meaning` and
-/// `Needs needs`.
+/// One entry of the axis `Id`. It is specialised beside the strategies of the axis and has at least the members `Id
+/// id`, `std::string meaning` and `Needs needs`.
 template <class Id>
 struct Strategy;
 
@@ -69,7 +69,7 @@ class Catalogue {
   Catalogue(const Catalogue&) = delete;
   Catalogue& operator=(const Catalogue&) = delete;
 
-  /// Throws Misuse with the axis, the nearest id and all ids.
+  /// The entry with this id. Throws Misuse for an unknown id; the message names the axis, the nearest id and all ids.
   const Strategy<Id>& operator[](const Id& id) const {
     for (const auto& entry : entries_) {
       if (entry->id == id) return *entry;
@@ -78,9 +78,9 @@ class Catalogue {
     for (const auto& entry : entries_) known.emplace_back(entry->id.id);
     throw Misuse(unknownName(axisName<Id>(), id.id, known));
   }
-  /// Valid until the next `add`.
+  /// All entries, the default first; the view is valid until the next `add`.
   std::span<const Named<Id>> named() const { return named_; }
-  /// Throws Misuse for an id that is taken, naming both entries.
+  /// Adds an entry. Throws Misuse for an id that is taken; the message names both entries.
   void add(Strategy<Id> entry) {
     for (const auto& other : entries_) {
       if (other->id != entry.id) continue;
@@ -97,13 +97,13 @@ class Catalogue {
   std::vector<Named<Id>> named_;
 };
 
-/// The catalogue of an axis: defined beside its strategies. Reading is safe from any number of threads.
+/// The catalogue of an axis; defined beside its strategies. Any number of threads may read it.
 template <class Id>
 Catalogue<Id>& catalogue();
 
-/// Adds a strategy to its axis: from then on options, `parseId` and `named` know it as they know those of the library.
-/// Throws Misuse for an id that is taken or has other characters than small letters, digits and '_', for an empty
-/// meaning, and where it cannot be made in double. Not while other threads use the axis.
+/// Adds a strategy to its axis: from then on options, `parseId` and `named` accept its id like those of the library.
+/// Throws Misuse for an id that is taken or has characters other than small letters, digits and '_', for an empty
+/// meaning, and for a strategy without a factory in double. Must not be called while other threads use the axis.
 template <class Id>
 void registerStrategy(Strategy<Id> entry) {
   const auto require = [&entry](bool given, const char* what) {
@@ -122,7 +122,7 @@ void registerStrategy(Strategy<Id> entry) {
 
 }  // namespace irk
 
-/// Defines what options.h declares of an axis, by its catalogue.
+/// Defines the functions that options.h declares for an axis; they read its catalogue.
 #define IRK_STRATEGIES(Id, axis)           \
   template <>                              \
   std::string_view axisName<Id>() {        \

@@ -3,8 +3,9 @@
 
 #include "core/options/catalogue.h"
 
-/// Defines the catalogue of an axis by functions that each return an entry, the default first. A function is defined in
-/// the file of its strategy, and needs no other declaration: a new strategy is that file and its name here.
+/// Defines the catalogue of an axis from functions that each return an entry, the default first. Each function is
+/// defined in the file of its strategy and declared by this macro only: a new strategy needs its file and its name in
+/// the list.
 #define IRK_CATALOGUE(Id, ...)               \
   Strategy<Id> __VA_ARGS__;                  \
   template <>                                \

@@ -1,5 +1,5 @@
-// A setting as data: what it is called, what it means, which values are legal, how it is read and set. Options of the
-// command line, keys of studies, columns, messages and validation are made from tables of these.
+// One setting as data: its name, its meaning, its legal values, and how it is read and set. Command-line options, study
+// keys, columns, messages and validation are generated from tables of fields.
 #pragma once
 
 #include <cstddef>
@@ -36,17 +36,17 @@ struct Field {
   FieldKind kind = FieldKind::kText;
   Range range{};       ///< numbers and integers only
   std::string form{};  ///< texts only: what is expected, in words
-  /// Axes only: the ids that there are now, the default first.
+  /// Axes only: the ids that are known now, the default first.
   std::function<std::vector<Choice>()> choices{};
 
-  /// As text that `set` reads back to the same value.
+  /// The value as text, which `set` reads back to the same value.
   std::function<std::string(const Spec&)> get{};
-  /// Throws Misuse naming field, value and range or nearest id.
+  /// Sets the value from text. Throws Misuse; the message names the field, the value, and the range or the nearest id.
   std::function<void(Spec&, std::string_view)> set{};
-  /// Numbers and integers only: the value, and the value to be set, which is not checked here.
+  /// Numbers and integers only: reads the value, and sets it without a check.
   std::function<double(const Spec&)> number{};
   std::function<void(Spec&, double)> assign{};
-  /// Why the field changes nothing in a spec; empty if it may. Null: it always may.
+  /// Why the field has no effect in a spec; empty if it may have one. Null: it always may have one.
   std::function<std::string_view(const Spec&)> unused{};
 
   bool isNumeric() const { return kind == FieldKind::kNumber || kind == FieldKind::kInteger; }
@@ -58,11 +58,11 @@ struct Field {
       ids += (ids.empty() ? "" : " | ") + choice.id;
     return kind == FieldKind::kAxis ? ids : form;
   }
-  /// The value in a Spec that nobody has changed.
+  /// The value in a default Spec.
   std::string defaultText() const { return get(Spec{}); }
 };
 
-/// `member(spec)` is a reference to a value of an axis. The field has the name of the axis.
+/// The field of an axis, named like the axis. `member(spec)` returns a reference to the id.
 template <class Spec, class Member>
 Field<Spec> axisField(const std::string& meaning, Member member) {
   using Axis = std::remove_cvref_t<decltype(member(std::declval<Spec&>()))>;
@@ -79,7 +79,8 @@ Field<Spec> axisField(const std::string& meaning, Member member) {
   return field;
 }
 
-/// `member(spec)` is a reference to a double, or to an integer where the range has integers only.
+/// The field of a number. `member(spec)` returns a reference to a double, or to an integer if the range is one of
+/// integers.
 template <class Spec, class Member>
 Field<Spec> numberField(const std::string& name, const std::string& meaning, const Range& range, Member member) {
   using Number = std::remove_cvref_t<decltype(member(std::declval<Spec&>()))>;
@@ -104,7 +105,7 @@ Field<Spec> numberField(const std::string& name, const std::string& meaning, con
   return field;
 }
 
-/// The field of a struct as a field of another one that holds it as `member`.
+/// Makes a field of an inner struct a field of the outer struct that holds the inner one as `member`.
 template <class Outer, class Inner>
 Field<Outer> fieldOfMember(const Field<Inner>& inner, Inner Outer::*member) {
   Field<Outer> field{.name = inner.name,
@@ -125,12 +126,12 @@ Field<Outer> fieldOfMember(const Field<Inner>& inner, Inner Outer::*member) {
   return field;
 }
 
-/// Converts to whatever a member is; never called.
+/// Converts to any type; used by memberCount only, never called.
 struct AnyMember {
   template <class T>
   operator T() const;
 };
-/// How many members an aggregate has: a table of its fields must have as many.
+/// The number of members of an aggregate. A table of its fields must have as many lines.
 template <class Aggregate, class... Members>
 consteval std::size_t memberCount() {
   if constexpr (requires { Aggregate{Members{}..., AnyMember{}}; }) {

@@ -15,7 +15,7 @@ constexpr std::int64_t kMaxNewtonIterations = 1000, kMaxThreads = 1024;
 
 using Options = IntegratorOptions;
 
-// Why an option has no effect beside others, or nothing.
+// Returns why an option has no effect beside the other options; empty if it has one.
 using Unused = std::string_view (*)(const Options&);
 
 OptionField axis(auto member, std::string meaning, Unused unused = nullptr) {

@@ -1,5 +1,5 @@
-// The one table of the options of an integration. A member that is added to IntegratorOptions, or to a struct in it,
-// needs its line in option_fields.cpp, which does not compile without.
+// The one table of all options of an integration. A new member of IntegratorOptions, or of a struct in it, needs a line
+// in option_fields.cpp, which does not compile without it.
 #pragma once
 
 #include <span>
