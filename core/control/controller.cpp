@@ -10,11 +10,11 @@ namespace {
 /// Paper, section 6, with the error in units of the tolerance:
 ///   f = gamma (1 / (s_min eps))^(1/(p+1))                                        (6.1)
 ///   gamma = (eps_i / eps_{i-1}) (h_{i-1} / h_i)^p, after every change of step     (6.3)
-/// The step is repeated if eps > 1; kept unless f changes it by at least `change_at_least`; grown
-/// only if eps < 1 / s_max, s_max = s_min^2, and at most by `growth_at_most`.
+/// The step is repeated if eps > 1. Its size stays the same unless f changes it by at least `change_at_least`. It grows
+/// only if eps < 1 / s_max, s_max = s_min^2, and by at most `growth_at_most`.
 class PaperController : public StepController {
  public:
-  /// Whether gamma damps the step size; the exponent is 1 / (p + beyond_order).
+  /// `gamma`: whether the factor gamma of (6.3) is used. The exponent is 1 / (p + beyond_order).
   struct Rules {
     bool gamma = true;
     int beyond_order = 1;
@@ -24,13 +24,13 @@ class PaperController : public StepController {
       : o_(o), rules_(rules), p_(order), exponent_(exponentOf(order)), s_max_(o.s_min * o.s_min) {}
 
   StepDecision decide(double error, double h) override {
-    // An estimate of exactly zero would divide by zero; it asks for the largest growth.
+    // An estimate of zero would divide by zero; it gives the largest growth.
     const double eps = std::max(error, kTinyError);
     if (rules_.gamma && last_h_ > 0 && last_h_ != h) {
       const double gamma = eps / last_error_ * std::pow(last_h_ / h, p_);
-      // The paper's text breaks off at "restrict gamma <". Above 1 it would enlarge the step because
-      // the error grew faster than expected; far below 1 it would freeze it at round-off, where the
-      // error no longer follows h^p.
+      // The paper's text breaks off at "restrict gamma <". A gamma above 1 would enlarge the step because the error
+      // grew faster than expected. A gamma far below 1 would prevent growth at round-off, where the error no longer
+      // follows h^p.
       gamma_ = std::clamp(gamma, kGammaMin, 1.0);
     }
     last_error_ = eps;
@@ -44,8 +44,8 @@ class PaperController : public StepController {
     if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kShrinkAtMost)};
     return {true, h};
   }
-  // The paper does not say what follows a Newton failure. The failed size is not tried again for some
-  // steps: the error estimate, which knows nothing of Newton, would ask for it at once.
+  // The paper does not say what follows a Newton failure. Sizes from the failed one on are barred for kBarredSteps
+  // steps, because the error estimate does not show such failures and would ask for the failed size at once.
   double afterFailure(double h) override {
     failed_h_ = h;
     barred_ = kBarredSteps;
@@ -96,16 +96,16 @@ class HotintController final : public PaperController {
   }
 };
 
-/// The paper's without (6.3): gamma stays 1.
+/// The paper's controller without (6.3): gamma stays 1.
 class PaperWithoutGamma final : public PaperController {
  public:
   PaperWithoutGamma(const StepOptions& o, int order) : PaperController(o, order, {.gamma = false}) {}
 };
 
-/// HW II (IV.8.25), Gustafsson 1994: with a constant ratio of successive errors
+/// Gustafsson's predictive controller, HW II (IV.8.25), 1994. If the ratio of successive errors is constant:
 ///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
-/// A step is kept where it would grow by less than a fifth: its factors are worth more, and more still where they are
-/// expensive. After a rejection it does not grow at once.
+/// The size is kept if it would grow by less than a fifth, because new factors cost more than that gains; with
+/// expensive factors it is kept up to a larger growth. The first step after a rejection does not grow.
 class PredictiveController final : public StepController {
  public:
   PredictiveController(const StepOptions& options, int order)
@@ -120,8 +120,8 @@ class PredictiveController final : public StepController {
       return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
     }
     if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / root);
-    // Where smaller steps did not make smaller errors, the next will not either: an error of round-off, or
-    // of the step's start, would shrink them without end.
+    // If smaller steps did not reduce the error, the next one will not either. Without this rule an error of round-off,
+    // or of the step's start, would shrink the steps without end.
     futile_ = last_h_ > h && root >= kFutile * last_root_ ? futile_ + 1 : 0;
     if (futile_ >= kFutileSteps) factor = std::max(factor, 1.0);
     last_h_ = h;
@@ -145,10 +145,10 @@ class PredictiveController final : public StepController {
     futile_ = 0;
     rejected_ = false;
   }
-  // If steps could grow by the ratio 1 + r each and are kept up to a growth of k, a unit of time costs in proportion to
-  // (ln k + r steps) / (1 - 1/k): the more the factors cost, the larger is the best k. Measured on dense chains of
-  // beams, n = 60 ... 200: with k = 2 instead of 1.2 radau_iia_5 takes 0.26 ... 0.36 of the time, and its error is
-  // smaller.
+  // If steps could grow by the ratio 1 + r each and the size is kept up to a growth of k, the cost per unit of time is
+  // proportional to (ln k + r steps) / (1 - 1/k). The best k therefore grows with the cost of factors. Measured on
+  // dense chains of beams, n = 60 ... 200: with k = 2 instead of 1.2 radau_iia_5 takes 0.26 ... 0.36 of the time, with
+  // a smaller error.
   void factorsCost(double steps) override {
     keep_up_to_ = std::clamp(kKeepUpTo + kKeepPerStep * (steps - 1), kKeepUpTo, kKeepAtMost);
   }
@@ -162,20 +162,20 @@ class PredictiveController final : public StepController {
  private:
   static constexpr double kTinyError = 1e-300;
   static constexpr double kSafety = 0.9;
-  static constexpr double kShrinkAtMost = 0.2;  // FACL, FACR and ERRACC of RADAU
+  static constexpr double kShrinkAtMost = 0.2;  // this and the next two: FACL, FACR and ERRACC of RADAU
   static constexpr double kGrowAtMost = 8;
   static constexpr double kErrorFloor = 1e-2;
-  static constexpr double kKeepUpTo = 1.2, kKeepAtMost = 2;  // growth
-  static constexpr double kKeepPerStep = 0.4;                // for factors that cost more than a step
-  // After the second failure before any step is accepted: a first guess may be off by orders of magnitude.
+  static constexpr double kKeepUpTo = 1.2, kKeepAtMost = 2;  // growth below which the size is kept
+  static constexpr double kKeepPerStep = 0.4;                // added per step that factors cost above one
+  // Factor after the second failure before any step is accepted: a first guess may be off by orders of magnitude.
   static constexpr double kFarOff = 0.1;
-  static constexpr double kFutile = 0.98;  // of error^exponent
+  static constexpr double kFutile = 0.98;  // of error^exponent of the step before
   static constexpr int kFutileSteps = 40;  // in a row
   static constexpr int kBarredSteps = 10;
 
   double h_min_;
   double keep_up_to_ = kKeepUpTo;
-  double exponent_, least_root_;       // and kErrorFloor^exponent
+  double exponent_, least_root_;       // 1 / (p + 1), kErrorFloor^exponent_
   double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
   double failed_h_ = 0;
   int first_failures_ = 0;

@@ -10,28 +10,29 @@ namespace {
 
 // The order is reconsidered every kMinStay accepted steps.
 constexpr int kMinStay = 7;
-// Progress per work must grow by this factor: new factors, worse start values.
+// A change of order must multiply the progress per work by this factor, because it costs new factors and start values.
 constexpr double kGain = 1.2;
-// Members so far above are looked at; the decay of their errors is less certain than that below.
+// Up to kAbove members above the present one are considered. Their errors are extrapolated with the decay to the power
+// kDecayAbove, since it is less certain than the decay below.
 constexpr std::size_t kAbove = 2;
 constexpr double kDecayAbove = 0.9;
-// Failures of Newton that tell of the first step's size only: it is halved by each.
+// In the first step up to this many failures of Newton's method only halve the step, whose size is a guess.
 constexpr int kFirstStepFailures = 12;
-// Newton's contraction: a step beyond the upper bound is not planned.
+// Bounds of Newton's contraction. A step that would contract worse than the upper bound is not planned.
 constexpr double kMinContraction = 1e-4, kMaxContraction = 0.5;
-// Measured, in units of one stage in one iteration. What a step costs besides its iterations, per
-// stage: start values and end; the factorizations, by unknown; and for itself: Jacobian, estimate,
-// control.
+// Measured costs of a step besides its iterations, in units of one stage in one iteration. kStepPerStage: start values
+// and end, per stage. unknowns / kFactors: the factorizations, per stage. kStepAlone: Jacobian, estimate and control,
+// per step.
 constexpr double kStepPerStage = 0.4, kFactors = 16, kStepAlone = 8;
 constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError = 1e-300;
 
-/// The least work per unit step. After some accepted steps the errors e_q of the member below and of two above are
-/// known or guessed: below, by the estimate; above, by the same ratio again, as the coefficients of a smooth solution
-/// decay. They give the steps h_q ~ e_q^(-1/(q+1)), and these Newton's contraction, which grows with the step, its
-/// iterations and the work. The member with the most progress per work is next; none is with a step for which Newton
-/// would contract badly (Hairer & Wanner, J. Comput. Appl. Math. 111, 1999, decide by the contraction alone). A second
-/// failure of Newton in a row leads to the member below, whose equations have less round-off; in the first step, whose
-/// size is a guess, the thirteenth.
+/// Chooses the member with the most progress per work. Every kMinStay accepted steps it determines the errors e_q of
+/// the member below and of up to two members above. The error below comes from the estimate; those above assume that
+/// the ratio of errors stays the same, as the coefficients of a smooth solution decay. From e_q follows the step h_q ~
+/// e_q^(-1/(q+1)), from the step Newton's contraction, which grows with it, and from the contraction the iterations and
+/// the work. No member is chosen if Newton would contract badly with its step (Hairer & Wanner, J. Comput. Appl. Math.
+/// 111, 1999, decide by the contraction alone). After two failures of Newton in a row the member below is tried, whose
+/// equations have less round-off; in the first step, whose size is a guess, after thirteen.
 class LeastWork final : public OrderController {
  public:
   explicit LeastWork(OrderSetup setup) : setup_(std::move(setup)) {}
@@ -58,7 +59,7 @@ class LeastWork final : public OrderController {
  private:
   struct Plan {
     double h, error;
-    double progress;  ///< h per work; 0: not to be taken
+    double progress;  ///< h per work; 0: must not be chosen
   };
   // The step that the member would take next with this estimate, and its progress per work.
   Plan plan(double estimate, const OrderMember& m, const OrderFacts& now, double trend) const {
@@ -81,7 +82,7 @@ class LeastWork final : public OrderController {
     const auto& [members, unknowns, weight] = setup_;
     const std::size_t at = facts.at;
     const double error = std::max(facts.error, kTinyError);
-    // What the controller has learnt of the error's trend holds for all members.
+    // The controller's reduction for the trend of the error applies to all members.
     const double untrended = facts.h * kSafety * std::pow(error, -1.0 / (members[at].order + 1));
     const double trend = std::min(1.0, facts.h_next / untrended);
     const double estimate = error / members[at].strictness;

@@ -15,22 +15,22 @@ namespace irk {
 struct OrderMember {
   double stages;
   int order;          ///< p of its estimate's leading error h^(p+1)
-  double strictness;  ///< >= 1: its estimate is multiplied by this, so that all members err alike
+  double strictness;  ///< >= 1: factor of its estimate, by which all members err alike
 };
 
-/// What a controller is made for. It keeps a copy; `members` outlives it.
+/// What an order controller needs. The controller keeps a copy; `members` must outlive it.
 struct OrderSetup {
   std::span<const OrderMember> members;  ///< by ascending stages
   double unknowns;                       ///< of the system
-  /// The error of member i is proportional to weight(i); slow at the first call for a member.
+  /// The error of member i is proportional to weight(i). The first call for a member is slow.
   std::function<double(std::size_t i)> weight;
 };
 
-/// An accepted step.
+/// Facts about an accepted step.
 struct OrderFacts {
   std::size_t at;  ///< the member that took it
   double error;    ///< its estimate times the strictness, in tolerances
-  double lower;    ///< what the member below would have estimated; NaN if not known
+  double lower;    ///< the estimate of the member below for this step; NaN if not known
   double theta;    ///< Newton's contraction
   int newton_iterations;
   double h, h_next;  ///< its size, and the step-size controller's next one for the same member
@@ -47,17 +47,17 @@ class OrderController {
   virtual ~OrderController() = default;
   /// A new integration: forgets all steps.
   virtual void begin() = 0;
-  /// After the last of so many failures of Newton's method in a row: the member of the next attempt. `solved`: a step
-  /// of this integration has been solved before.
+  /// After `failures` failures of Newton's method in a row with member `at`: returns the member of the next attempt.
+  /// `solved`: whether this integration has solved a step before.
   virtual std::size_t afterFailure(std::size_t at, int failures, bool solved) = 0;
-  /// Whether `decide` uses `lower` if the step that is tried now is accepted; computing it takes time.
+  /// Whether `decide` will use `lower` if the step tried now is accepted. Computing `lower` takes time.
   virtual bool needsLower() const = 0;
   virtual OrderDecision decide(const OrderFacts& facts) = 0;
 };
 
 using OrderControllerMaker = std::function<std::unique_ptr<OrderController>(const OrderSetup&)>;
 
-/// How the order is chosen.
+/// A strategy of the axis `order`: how the order is chosen.
 template <>
 struct Strategy<OrderControl> {
   OrderControl id;
@@ -71,7 +71,7 @@ Catalogue<OrderControl>& catalogue<OrderControl>();
 /// Whether an integration chooses among members of a family. Throws Misuse for an unknown id.
 bool choosesOrder(OrderControl order);
 
-/// Null for one method.
+/// The order controller with this id; null if one method takes all steps.
 std::unique_ptr<OrderController> makeOrderController(OrderControl order, const OrderSetup& setup);
 
 }  // namespace irk

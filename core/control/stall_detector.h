@@ -1,4 +1,4 @@
-// Steps that stay so small that the end is out of reach.
+// Detects steps that stay so small that the end is out of reach.
 #pragma once
 
 #include <algorithm>
@@ -6,16 +6,16 @@
 
 namespace irk {
 
-/// Looks back once per window of attempts. An integration stalls if its largest step has not grown for kWindows
-/// windows, and if the rest of the interval would need kFarOut times the attempts that are still allowed. Transients
-/// end sooner; without this detector such a run would end by the limit of attempts, much later.
+/// Compares steps once per window of attempts. An integration stalls if its largest step has not grown for kWindows
+/// windows and the rest of the interval would need kFarOut times the attempts that are left. Transients end sooner.
+/// Without this detector such a run would end much later, at the limit of attempts.
 class StallDetector {
  public:
   void begin(double t) {
     *this = {};
     t_ = t;
   }
-  /// After an attempt at step h, the time being t. `left`: attempts that are still allowed.
+  /// After an attempt of size h that led to time t: whether the integration stalls. `left`: attempts that are left.
   bool attempted(double t, double h, double t_end, std::int64_t left) {
     largest_ = std::max(largest_, h);
     if (++attempts_ % kWindow != 0) return false;
