@@ -25,8 +25,8 @@ class StepAttempt;
 template <class Real>
 class StepRepeater {
  public:
-  /// From `start`, the step's start with another mode; it must outlive the step. Adds its iterations to `result` and
-  /// sets the outcome; the stages and the step's end become those of this solve.
+  /// Solves the step again from `start`: the step's start with another mode, which must outlive the step. Adds the
+  /// iterations to `result` and sets the outcome. The stages and the step's end become those of this solve.
   virtual void repeat(const State<Real>& start, StepResult& result) = 0;
 
  protected:
@@ -44,40 +44,40 @@ struct SolvedStep {
   StepRepeater<Real>& repeater;
 };
 
-/// What follows a solved step. Owns scratch.
+/// What a treatment does after a solved step. Owns scratch.
 template <class Real>
 class ModesInStep {
  public:
   virtual ~ModesInStep() = default;
-  /// Brings the mode at the end of the step up to date and judges the step: sets `switched`, `switch_at` and
-  /// `mode_error` of the result, and an outcome that is no success where no mode is valid.
+  /// Updates the mode at the end of the step and judges the step: sets `switched`, `switch_at` and `mode_error` of the
+  /// result. If no mode is valid, sets an outcome other than kSuccess.
   virtual void settle(SolvedStep<Real>& step, StepResult& result) = 0;
 };
 
-/// A solved step whose error is accepted, as the treatment of switches leaves it.
+/// A step with an accepted error, as the treatment of switches leaves it.
 template <class Real>
 struct CommittedStep {
-  /// No success: the step cannot be taken over. isRecoverable: a shorter one may be.
+  /// Other than kSuccess: the step cannot be taken over; if isRecoverable, a shorter one may be.
   Outcome outcome = Outcome::kSuccess;
-  AttemptResult attempt;  ///< of the step that is taken over
+  AttemptResult attempt;  ///< result of the step that is taken over
   Real h{};               ///< its size
   bool shortened = false;
-  bool switched = false;   ///< the mode changed in it: that of its end is the new one
+  bool switched = false;   ///< the mode changed in the step; the step's end has the new mode
   bool at_switch = false;  ///< a switch is due at its end
-  Index index = -1;        ///< of the switch, also of one to blame
-  double resolution = 0;   ///< how finely the time of the switch was looked for
+  Index index = -1;        ///< of the switch, or of the switch that caused the failure
+  double resolution = 0;   ///< to which the time of the switch is known
 };
 
-/// What follows acceptance. The defaults are those of treatments whose steps go on over switches.
+/// What a treatment does after acceptance. The defaults suit treatments whose steps go on over switches.
 template <class Real>
 class ModesAfterStep {
  public:
   virtual ~ModesAfterStep() = default;
-  /// Whether switches that are due at a start are done there.
+  /// Whether switches that are due at the start are carried out there.
   virtual bool settlesAtStart() const { return true; }
   /// Whether an integration starts anew after a step in which the mode changed.
   virtual bool restarts() const { return false; }
-  /// Of the step of size h from `from` to `next` that `attempt` has solved last.
+  /// Treats the accepted step of size h from `from` to `next`, the last one that `attempt` has solved.
   virtual CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
                                      const Real& h, State<Real>& next) {
     static_cast<void>(attempt);
@@ -87,7 +87,7 @@ class ModesAfterStep {
   }
 };
 
-/// Null: nothing follows a solved step.
+/// Null: the treatment does nothing after a solved step.
 template <class Real>
 using ModesInStepMaker = std::function<std::unique_ptr<ModesInStep<Real>>(const System<Real>&, const IntegratorOptions&,
                                                                           const ErrorNorm<Real>&, Counters&)>;
@@ -95,7 +95,7 @@ template <class Real>
 using ModesAfterStepMaker =
     std::function<std::unique_ptr<ModesAfterStep<Real>>(const System<Real>&, const IntegratorOptions&)>;
 
-/// A treatment of switches.
+/// A strategy of the axis `discontinuity`: a treatment of switches.
 template <>
 struct Strategy<Discontinuity> {
   Discontinuity id;

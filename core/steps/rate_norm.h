@@ -1,4 +1,4 @@
-// The effect of differences of (a, k) on a step, in the error norm.
+// The effect on a step of a difference in (a, k), in the error norm.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ class RateNorm {
   RateNorm(const Sizes& sizes, const ErrorNorm<Real>& norm)
       : sizes_(sizes), norm_(norm), change_(sizes.n()), weights_(sizes.n()) {}
 
-  /// h times `dw`. Multipliers jump with the mode and do not count; u, v, x do not jump. Not inlined: in another
-  /// context the compiler would contract other products and sums.
+  /// The norm of h times `dw`. Multipliers do not count, since they jump with the mode; u, v, x do not jump. Not
+  /// inlined: elsewhere the compiler would contract other products and sums, and the bits would differ.
   [[gnu::noinline]] double operator()(const Vec<Real>& dw, const Real& h) {
     norm_.rowWeights(static_cast<double>(h), weights_);
     double sum = 0;
@@ -26,7 +26,7 @@ class RateNorm {
     }
     return std::sqrt(sum / static_cast<double>(sizes_.components()));
   }
-  /// h times the largest change from `w` to one of the stages W.
+  /// The norm of h times the largest change from `w` to one of the stages W.
   double largestChange(const Mat<Real>& W, const Vec<Real>& w, const Real& h) {
     double most = 0;
     for (Index i = 0; i < W.cols(); ++i) {

@@ -1,4 +1,4 @@
-// The result of a step that was tried.
+// The result of an attempted step.
 #pragma once
 
 #include <limits>
@@ -13,17 +13,17 @@ struct StepResult {
   int newton_iterations = 0;
   double theta = 0;      ///< Newton's contraction (see NewtonResult), the worst of the attempt's solves
   double round_off = 0;  ///< of Newton's increments, in tolerances (see NewtonResult)
-  Index switched = -1;   ///< the last switch done at the step's end, or the one to blame
-  /// Where in the step it became due, by linear interpolation, in (0, 1]; NaN without one.
+  Index switched = -1;   ///< the last switch at the step's end, or the switch that caused a failure
+  /// The part of the step at which the switch became due, by linear interpolation, in (0, 1]; NaN without a switch.
   double switch_at = std::numeric_limits<double>::quiet_NaN();
-  /// Of a step in which a switch becomes due, in the error norm: the effect of the wrong mode over the
-  /// whole step. `iterate`: the difference between the step in its first mode and in its last; where
-  /// the switch comes and goes inside the step, h times the change of (a, k) that it makes. `ignore`
-  /// and `smooth` with an estimate that sees switches: h times the largest change of (a, k) in the step.
+  /// The effect of the wrong mode over a step in which a switch becomes due, in the error norm. `iterate`: the
+  /// difference between the step in its first mode and in its last; if the switch comes and goes inside the step, h
+  /// times the change of (a, k) that it causes. `ignore` and `smooth`, with an estimate that looks at switches: h times
+  /// the largest change of (a, k) in the step.
   double mode_error = 0;
 };
 
-/// With its error estimate.
+/// The result of an attempted step with its error estimate.
 struct AttemptResult : StepResult {
   /// Estimate in the error norm, accepted up to 1; NaN without one. With variable order it is multiplied
   /// by the member's strictness (core/control/order_controller.h).

@@ -9,14 +9,14 @@
 namespace irk {
 namespace {
 
-// A first step after a restart follows the motion where the stages' polynomial misses (a, k) at its
-// start by less than this part of what they change over the step.
+// The first step after a restart resolves the motion if, at its start, the stages' polynomial misses (a, k) by less
+// than this part of their change over the step.
 constexpr double kFollows = 0.1;
-// A difference below this many tolerances is accepted, too: in index 3 a start within the tolerance changes
-// velocities by as much, whatever the step size is.
+// A difference below this many tolerances is accepted as well: in index 3 a start within the tolerance changes
+// velocities by as much, at any step size.
 constexpr double kStartTolerances = 10;
 
-// Rates that differ from those before by this part of their size are those of another root.
+// If rates change by more than this part of their size, the step is on another root of the stage equations.
 constexpr double kAnotherRoot = 0.25;
 // Round-off of (v, x) after many operations, in epsilons.
 constexpr double kRoundOff = 1000;
@@ -28,7 +28,7 @@ bool hasHiddenUnknowns(const System<Real>& system) {
   return std::any_of(powers.begin() + multipliers, powers.end(), [](int power) { return power > 0; });
 }
 
-// Only a problem that switches has modes to settle.
+// Only a problem with switches has modes to settle.
 template <class Real>
 std::unique_ptr<ModesInStep<Real>> modesOf(const System<Real>& system, const IntegratorOptions& options,
                                            const ErrorNorm<Real>& norm, Counters& counters) {
@@ -72,8 +72,8 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, c
 template <class Real>
 void Stepper<Real>::solve(const State<Real>& from, const Real& h, JacobianUse use, StepResult& result) {
   eq_.begin(from, h);
-  // Where modes change inside a solve or from one to the next, the contraction of the last one says nothing:
-  // believed, it would end the iteration after one correction with the Jacobian of another mode.
+  // If modes change inside a solve or from one solve to the next, the contraction of the last solve does not hold: the
+  // iteration would end after one correction with the Jacobian of another mode.
   if (modes_) newton_->forget();
   start_values_.fill(*past_, from, h, W_);
   NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
@@ -119,7 +119,7 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
 
 template <class Real>
 double Stepper<Real>::startDefect(const State<Real>& from) {
-  // What index 2 hides is not known at a restart: (a, k) are those of the mode before.
+  // Rates that index 2 hides are not known at a restart: (a, k) are then those of the mode before.
   if (has_hidden_unknowns_) return 0;
   rates_.noalias() = W_ * eq_.scheme().start;
   rates_ -= from.w;
@@ -143,7 +143,7 @@ bool Stepper<Real>::leavesRoot(const State<Real>& from) {
   rates_.noalias() = W_ * eq_.scheme().start;
   const Real size = rates_.head(n).norm() + from.w.head(n).norm();
   const Real change = (rates_.head(n) - from.w.head(n)).norm();
-  // At rest the rates are the round-off of (v, x) over h.
+  // At rest the rates are round-off of (v, x), divided by h.
   const Real round_off = Real(kRoundOff) * std::numeric_limits<Real>::epsilon() * (from.v.norm() + from.x.norm());
   return change > Real(kAnotherRoot) * size && stages_.h * change > round_off;
 }
@@ -155,7 +155,7 @@ int Stepper<Real>::decay() const {
 
 template <class Real>
 double Stepper<Real>::roughness(const State<Real>& from) {
-  // One coefficient alone has zeros as a jump moves through the step, two neighbours have none in common.
+  // One coefficient passes through zeros as a jump moves through the step; two neighbours have no zero in common.
   double sum = 0;
   for (Index k = W_.cols() - highest(); k < W_.cols(); ++k) {
     rates_.noalias() = W_ * eq_.scheme().legendre_inverse_transposed.col(k);

@@ -19,37 +19,37 @@ class Stepper final : private StepRepeater<Real> {
   Stepper(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
           SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters);
 
-  /// One step [from.t, from.t + h] with start values from `past` (may be this stepper's own).
+  /// Attempts the step [from.t, from.t + h] with start values from `past`, which may be this stepper's own stages.
   [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                                    State<Real>& to, JacobianUse use = JacobianUse::kRefreshIfStale);
 
-  /// Of the step solved last, after a restart from a known `from.w`, in the error norm: h times the
-  /// difference between (a, k) at the start and the stages' polynomial there; 0 where that follows
-  /// the motion. L-stable methods damp a fast motion that starts at a switch, in the whole step and in
-  /// its halves alike, and no other estimate sees it.
+  /// For the step solved last, after a restart from a known `from.w`: the norm of h times the difference between (a, k)
+  /// at the start and the stages' polynomial there; 0 if the polynomial follows the motion. L-stable methods damp a
+  /// fast motion that starts at a switch, in the whole step and in its halves alike, so that no other estimate shows
+  /// it.
   double startDefect(const State<Real>& from);
 
-  /// Whether the step solved last may be on another root of the stage equations: algebraic unknowns of
-  /// index 2 have round-off over h, and at tiny steps Newton can go from one root to another; (a, k) then
+  /// Whether the step solved last may be on another root of the stage equations. The error of algebraic unknowns of
+  /// index 2 is round-off divided by h; at tiny steps Newton's method can then go from one root to another, and (a, k)
   /// do not continue those of `from`. Always false where (a, k) follow from (u, v, x).
   bool leavesRoot(const State<Real>& from);
 
-  /// Whether (a, k) of the step solved last are rates that later steps can be compared with: where index 2 hides them,
-  /// those of a step that moves the solution by less than a tolerance may be an error of its start, divided by h.
+  /// Whether later steps can be compared with (a, k) of the step solved last. Where index 2 hides the rates, those of a
+  /// step that moves the solution by less than a tolerance may be an error of its start, divided by h.
   bool tellsRates();
 
-  /// Of the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in
-  /// the stages' polynomial and, of stiffly accurate methods, what it misses of (a, k) at the start. They
+  /// For the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in the stages'
+  /// polynomial; for stiffly accurate methods also h times the polynomial's difference from (a, k) at the start. Both
   /// fall with h^decay() where the step resolves the motion.
   double roughness(const State<Real>& from);
   int decay() const;
 
-  /// Allocates what the first attempt would, where the pattern is known.
+  /// Allocates in advance what the first attempt would, if the pattern is known.
   void reserve() { matrix_.reserve(); }
   const StagePolynomial<Real>& stages() const { return stages_; }
-  /// Its factors, for what else is solved with the same Jacobian and step.
+  /// The stepper's Newton matrix, for other systems with the same Jacobian and step size.
   NewtonMatrix<Real>& matrix() { return matrix_; }
-  /// Forget the solved step: after a failure of Newton or a discontinuity it predicts badly.
+  /// Forgets the solved step, which is a bad prediction after a failure of Newton's method or a discontinuity.
   void forget() {
     stages_.valid = false;
     newton_->forget();
@@ -59,7 +59,7 @@ class Stepper final : private StepRepeater<Real> {
   void solve(const State<Real>& from, const Real& h, JacobianUse use, StepResult& result);
   void solveAndKeep(const State<Real>& from, const Real& h, JacobianUse use, StepResult& result);
   void repeat(const State<Real>& start, StepResult& result) override;
-  int highest() const { return W_.cols() > 2 ? 2 : 1; }  // coefficients of `roughness`
+  int highest() const { return W_.cols() > 2 ? 2 : 1; }  // number of coefficients in `roughness`
 
   Sizes sizes_;
   Counters& counters_;
@@ -72,11 +72,11 @@ class Stepper final : private StepRepeater<Real> {
   StagePolynomial<Real> stages_;
   Mat<Real> W_;
   std::unique_ptr<VelocityProjection<Real>> projection_;
-  std::unique_ptr<ModesInStep<Real>> modes_;  // null where nothing follows a solved step
+  std::unique_ptr<ModesInStep<Real>> modes_;  // null: no treatment after a solved step
   RateNorm<Real> rate_norm_;
   Vec<Real> rates_;           // n
   bool has_hidden_unknowns_;  // algebraic, of index 2, and no multipliers of position constraints
-  // Of the attempt, for `repeat`.
+  // Arguments of the attempt, for `repeat`.
   const StagePolynomial<Real>* past_ = nullptr;
   State<Real>* to_ = nullptr;
 };

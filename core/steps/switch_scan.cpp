@@ -10,13 +10,14 @@
 namespace irk {
 namespace {
 
-// A maximum is looked for where the samples' parabola, raised by this many times its height over a
-// sample, would pass 0. The height is at most an eighth of the second difference.
+// A maximum is searched where the samples' parabola, with its height above the largest sample multiplied by this,
+// exceeds 0. The height is at most an eighth of the second difference.
 constexpr double kCaution = 8;
-// A corner, as of the least of two functions, shows in a third difference above this part of the second. Next to an
-// end of the step it hides its peak from the parabola: a probe at this part of a sample's distance sees it.
+// A corner, for example of the minimum of two functions, shows as a third difference above kCorner times the second.
+// Next to an end of the step its peak does not show in the parabola; a probe at kProbe times the distance of samples
+// finds it.
 constexpr double kCorner = 0.25, kProbe = 1e-3;
-// Of the search for a maximum: bits of theta, and evaluations.
+// Limits of the search for a maximum: bits of theta, and evaluations.
 constexpr int kPeakBits = 20;
 constexpr std::uintmax_t kPeakEvaluations = 40;
 
@@ -30,7 +31,7 @@ Real partOf(Index j) {
 template <class Real>
 SwitchScan<Real>::SwitchScan(const System<Real>& system)
     : switches_(system), dense_(system.sizes()), inside_(system.sizes()), g_(system.sizes().switches, kParts + 1) {
-  // At one sample a function can be due there, at a peak before it, and at a corner at either end.
+  // Up to four entries per switch: due at a sample, at a peak before it, and at a corner at either end.
   due_.reserve(static_cast<std::size_t>(4 * system.sizes().switches));
 }
 
@@ -58,7 +59,7 @@ bool SwitchScan<Real>::sample(Index j, const State<Real>& from, const State<Real
   return report_.outcome == Outcome::kSuccess;
 }
 
-// Adds the switches that sample j shows to those that the samples before it have shown.
+// Adds the switches that are due at sample j, or between samples up to it.
 template <class Real>
 void SwitchScan<Real>::look(Index j, Index last) {
   for (Index i = 0; i < g_.rows(); ++i) {

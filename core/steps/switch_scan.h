@@ -9,35 +9,34 @@
 
 namespace irk {
 
-/// A switch that becomes due inside a step: not due at theta = low, due at theta = high. Both are 0
-/// where it is due at the step's start already.
+/// A switch that becomes due inside a step: it is not due at theta = low and due at theta = high. Both are 0 if it is
+/// already due at the step's start.
 template <class Real>
 struct DueInside {
   Index index = -1;  ///< of the switching function
   Real low{}, high{};
 };
 
-/// Samples the switching functions at kParts + 1 points of a solved step. A function that rises above
-/// 0 and returns between two samples is found where a parabola through three samples comes close to 0, or
-/// where a corner next to an end of the step hides a peak: there its maximum is looked for on the stages'
-/// polynomial. Owns scratch; keeps references.
+/// Samples the switching functions at kParts + 1 points of a solved step. The samples miss a function that rises above
+/// 0 and returns between two of them. Where a parabola through three samples comes close to 0, or where a corner next
+/// to an end of the step hides a peak, the maximum is therefore searched on the stages' polynomial. Owns scratch; keeps
+/// references.
 template <class Real>
 class SwitchScan {
  public:
   explicit SwitchScan(const System<Real>& system);
 
-  /// The switches that become due first, in one part of the step; empty without one. The discrete
-  /// state is that of `from`; `end` is the step's end before any switch is done. All must outlive
-  /// the use of `value`. `report` says if a function is not finite. `EndSample::kSkip`: the end is
-  /// known to be due.
+  /// The switches that become due first, all in one part of the step; empty if there is none. The discrete state is
+  /// that of `from`; `end` is the step's end before any switch is carried out. All arguments must outlive the use of
+  /// `value`. `report` tells whether a function is not finite. `EndSample::kSkip`: the end is known to be due.
   enum class EndSample { kLookAt, kSkip };
   std::span<const DueInside<Real>> first(const State<Real>& from, const StagePolynomial<Real>& stages,
                                          const State<Real>& end, EndSample end_sample = EndSample::kLookAt);
   const SwitchReport& report() const { return report_; }
 
-  /// Function i on the stages' polynomial of the step last scanned; not finite counts as due.
+  /// Function i on the stages' polynomial of the step scanned last; 1 (due) if it is not finite.
   Real value(const Real& theta, Index i);
-  /// The polynomial at theta, with the discrete state of the start.
+  /// The state on the polynomial at theta, with the discrete state of the start.
   const State<Real>& at(const Real& theta);
 
  private:
