@@ -14,13 +14,14 @@ namespace irk {
 
 namespace {
 
-// Powers of 2 by which the roughness of the stages falls from a step to its halves: at least, as a part of
-// that of a smooth solution, and at most beyond it (a jump next to the middle is rough for the whole step
-// only).
+// Bounds of the decay of roughness from a step to its halves, as powers of 2. It is at least kMinDecay and kPartOfDecay
+// times the decay of a smooth solution, and at most kBeyondDecay more than that decay: a jump next to the middle is
+// rough for the whole step only.
 constexpr double kMinDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
-// The estimate is of the solution that is kept, so that errors of all steps count; the paper's s_min.
+// The least factor of the estimate, the paper's s_min. The estimate is that of the kept solution, so that errors of all
+// steps count.
 constexpr double kReserve = 4;
-// Rough for the whole step only: above so many tolerances.
+// Roughness of the whole step alone counts above this many tolerances.
 constexpr double kRough = 10;
 
 template <class Real>
@@ -29,7 +30,7 @@ bool isIndex3(const System<Real>& system) {
   return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
 }
 
-// Whether the last stage is before the step's end, and EmbeddedEstimate can be used.
+// Whether the last stage is before the step's end and EmbeddedEstimate can be used.
 template <class Real>
 bool canLookIntoGaps(const Scheme<Real>& scheme, const IntegratorOptions& options) {
   return EmbeddedEstimate<Real>::endsBefore(scheme) && scheme.regular && scheme.first == 0 &&
@@ -60,8 +61,8 @@ class Single final : public StepAttempt<Real> {
 
 /// Paper (5.1)-(5.4): one step h against two steps h/2, which are the result;
 ///   error = |V_h - V_{h/2}| / (2^p - 1).
-/// The half steps are a stepper of their own: both keep their factors. Unless the paper's start
-/// values are asked for, the half steps start from the whole step's polynomial, which spans them.
+/// The half steps have a stepper of their own, so that whole and half steps keep their factors. Half steps start from
+/// the polynomial of the whole step, which spans them, unless the options ask for the paper's start values.
 template <class Real>
 class Doubling : public StepAttempt<Real> {
  public:
@@ -110,11 +111,11 @@ class Doubling : public StepAttempt<Real> {
       result.outcome = Outcome::kNotFinite;
       return result;
     }
-    // Doubling is blind where the whole step and its halves make the same mistake: the wrong mode, ...
+    // Doubling sees no error where the whole step and its halves err alike: in the wrong mode, ...
     result.error = worse(result.error, order_, result.mode_error, 1);
-    // ... a fast motion that both damp, ...
+    // ... in a fast motion that both damp ...
     if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
-    // ... and 2^p - 1 divides too much where the halves do not show order p.
+    // ... and 2^p - 1 divides by too much where the halves do not show order p.
     if (looks_again_) result.error = worse(result.error, order_, unresolved(), 1);
     return result;
   }
@@ -135,7 +136,7 @@ class Doubling : public StepAttempt<Real> {
     restarted_ = watches_start_ = vague_start_ = true;
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
-    // A restart at the end of this very step came first.
+    // If this step ended with a restart, restart() was called before: the next step is the first one after it.
     if (!std::exchange(restarted_, false)) {
       watches_start_ = false;
       continues_ = continues_ || !vague_start_ || whole_.tellsRates();
@@ -152,7 +153,7 @@ class Doubling : public StepAttempt<Real> {
   void keepPieces(bool keep) override { keeps_pieces_ = keep || locates_; }
 
  protected:
-  /// The difference of the two solutions in the error norm.
+  /// The error norm of the difference of the two solutions.
   virtual double error(const State<Real>& coarse, const State<Real>& fine, double h) const {
     return norm_.difference(coarse, fine, h, factor_);
   }
@@ -182,7 +183,7 @@ class Doubling : public StepAttempt<Real> {
   static bool ownOrders(const IntegratorOptions& options) {
     return catalogue<ErrorEstimate>()[options.step.estimate].own_orders;
   }
-  // What the stages of a step miss before the first and behind the last one.
+  // The error of a fast motion before the first stage of a step or behind the last one, which no stage shows.
   double missed(Stepper<Real>& stepper, const State<Real>& from, const State<Real>& to, const Real& filter_h) {
     if (!gaps_) return 0;
     const auto before = gaps_->missedAtStart(from, stepper.stages(), filter_h);
@@ -193,12 +194,13 @@ class Doubling : public StepAttempt<Real> {
     return isNews(more, less) ? more : 0;
   }
 
-  // Of the whole step, and the larger one of its halves.
+  // A quantity of the whole step, and the larger one of its two halves.
   struct Pair {
     double whole = 0, halves = 0;
   };
-  // A second look, of the order of the stages: each is below the tolerance, or it falls from the whole step to its
-  // halves as that of a smooth solution; at a jump of (a, k) it falls by 2, of their rates by 4.
+  // A second check, of the order of the stages. Roughness and missed motion of the halves must be below the tolerance,
+  // or fall from the whole step to its halves as those of a smooth solution do; at a jump of (a, k) they fall by 2
+  // only, at a jump of their rates by 4.
   double unresolved() const {
     const double least = std::exp2(std::max(kMinDecay, kPartOfDecay * whole_.decay()));
     double found = 0;
@@ -211,21 +213,21 @@ class Doubling : public StepAttempt<Real> {
   }
 
   Stepper<Real> whole_, half_;
-  std::unique_ptr<EmbeddedEstimate<Real>> gaps_;  // null where the last stage is at the end
-  bool accumulates_;  // not the paper's estimates; in index 3 round-off of velocities forbids it
+  std::unique_ptr<EmbeddedEstimate<Real>> gaps_;  // null if the last stage is at the end
+  bool accumulates_;  // false for the paper's estimates, and in index 3 because of round-off of velocities
   Accumulation accumulation_;
   std::int64_t steps_ = 0;      // accepted
-  double sum_ = 0;              // of their estimates
-  bool looks_again_;            // `richardson`: whether the halves show the order
-  bool watches_start_ = false;  // the first step after a restart
-  bool restarted_ = false;      // since the last step was taken over
-  bool continues_ = false;      // (a, k) at the start of a step are those of the same mode
-  bool vague_start_ = false;    // of the mode: a restart, which may not determine (a, k)
+  double sum_ = 0;              // sum of their estimates
+  bool looks_again_;            // `richardson`: checks whether the halves show the order
+  bool watches_start_ = false;  // in the first step after a restart
+  bool restarted_ = false;      // since the last accepted step
+  bool continues_ = false;      // (a, k) at a step's start belong to its mode
+  bool vague_start_ = false;    // after a restart, which may not determine (a, k)
   Index worst_ = -1;
   Pair rough_, missed_;
   int order_;
   bool interpolate_;
-  bool locates_;       // switches, on the dense output
+  bool locates_;       // steps end at switches, found on the dense output
   bool keeps_pieces_;  // for the dense output
   StagePolynomial<Real> first_half_;
   State<Real> coarse_, middle_;

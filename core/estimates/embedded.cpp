@@ -17,14 +17,14 @@ StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
   return {Mat<Real>::Constant(1, 1, mu), nullptr, system.rowPowers(), system.sizes()};
 }
 
-// Whether the first stage is at the step's start, where it sees the same input as the start itself.
+// Whether the first stage is at the step's start, where it has the same input as the start itself.
 template <class Real>
 bool beginsAtStart(const Vec<Real>& c) {
   constexpr double kNone = 1e-10;
   return std::abs(static_cast<double>(c[0])) < kNone;
 }
 
-// The polynomial through all stages but the first: its weights at the start.
+// Weights, at the step's start, of the polynomial through all stages but the first.
 template <class Real>
 Vec<Real> withoutFirst(const Vec<Real>& c) {
   Vec<Real> weights = Vec<Real>::Zero(c.size());
@@ -91,7 +91,7 @@ Index EmbeddedEstimate<Real>::worstComponent() const {
   return norm_.worst(error_, zero_, 1, ones_);
 }
 
-// The residual at `at_` with w = K(0), solved for e; the error it means.
+// Solves for e with the residual at `at_`, w = K(0), and sets `error_` to the error of the state that follows from e.
 template <class Real>
 Outcome EmbeddedEstimate<Real>::filter(const Real& h, EquationsAt at) {
   at_.w = defect_;
@@ -154,7 +154,8 @@ auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolyno
   return estimate(from, stages, start_, again_above);
 }
 
-// That part of h times the defect of the stages' polynomial, with these weights, at the t, u, v, x of `at_`.
+// The norm of `part` times h times the defect of the stages' polynomial, with these weights, at t, u, v, x of `at_`,
+// filtered with the step `filter_h`.
 template <class Real>
 auto EmbeddedEstimate<Real>::missed(const StagePolynomial<Real>& stages, const Vec<Real>& weights, const Real& part,
                                     const Real& filter_h) -> Result {
@@ -173,8 +174,8 @@ auto EmbeddedEstimate<Real>::missed(const StagePolynomial<Real>& stages, const V
     return result.outcome == Outcome::kSuccess;
   };
   if (!filtered() || result.error <= 1) return result;
-  // HW II (IV.8.21): a second time, which damps stiff components once more and keeps the others. Methods that are not
-  // L-stable leave errors of stiff components at the end of each step, and these are not what is looked for.
+  // The second filter of HW II (IV.8.21) damps stiff components once more and keeps the others. Methods that are not
+  // L-stable leave errors of stiff components at the end of each step; these are not to be counted here.
   constexpr double kKept = 0.7;
   const double once = result.error;
   at_.u += error_.u;

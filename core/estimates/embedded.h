@@ -7,21 +7,24 @@
 
 namespace irk {
 
-/// HW II (IV.8.19-20) for r(t; u, v, x; a, k, z) = 0. With a stage at the start of weight mu the
-/// method of order s in the stages differs from the step's result by h mu times the defect of the
-/// stages' polynomial K at the start, k0 - K(0), whatever s. Its stiff part is damped with the same
-/// mu: e = -(D0 + h mu D1 + h^2 mu^2 D2)^-1 r(t0; u0 + h mu (v0 - V(0)), v0, x0; K(0)), and u, v, x
-/// err by h mu (v0 - V(0) + h mu e_a), h mu e_a, h mu e_k. mu: the real eigenvalue of A or, for even
-/// s, the s-th root of det A. Multipliers of index 2 and 3 count as the error norm weighs them.
-/// A first stage at the start, as in Radau IA and Lobatto IIIC and IIID, is left out of K, and the order is s - 1: of
-/// y' = f(t) it has k0 itself, so that a polynomial through it has no defect at the start whatever the error is.
-/// Owns scratch and a real system of its own, which it factorizes only where the stages' solver, whose
-/// reference it keeps, has not the same.
+/// HW II (IV.8.19-20) for r(t; u, v, x; a, k, z) = 0. A method of order s in the same stages, with an additional stage
+/// of weight mu at the start, differs from the step's result by h mu times the defect k0 - K(0) of the stages'
+/// polynomial K at the start, for any s. Its stiff part is damped with the same mu:
+///   e = -(D0 + h mu D1 + h^2 mu^2 D2)^-1 r(t0; u0 + h mu (v0 - V(0)), v0, x0; K(0)).
+/// The errors of u, v, x are h mu (v0 - V(0) + h mu e_a), h mu e_a, h mu e_k. mu is the real eigenvalue of A or, for
+/// even s, the s-th root of det A. Multipliers of index 2 and 3 count as the error norm weighs them.
+///
+/// A first stage at the start, as in Radau IA and Lobatto IIIC and IIID, is left out of K, and the order is s - 1: for
+/// y' = f(t) this stage equals k0, so that a polynomial through it has no defect at the start, however large the error
+/// is.
+///
+/// Owns scratch and a real system. It factorizes that system only if the stages' solver, to which it keeps a reference,
+/// does not have the same factors.
 template <class Real>
 class EmbeddedEstimate {
  public:
-  /// A is invertible, without an explicit first stage: that would be the step's start. The stage order is at least 1
-  /// (that of Radau IA with one stage, at c = 0 with a = 1, is 0): else what it evaluates lies at another time.
+  /// Requires an invertible A without an explicit first stage, which would be the step's start, and a stage order of at
+  /// least 1. (Radau IA with one stage, c = 0 and a = 1, has stage order 0; its stage values belong to another time.)
   EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
                    SharedJacobian<Real>& jacobian, NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm,
                    Counters& counters);
@@ -30,16 +33,16 @@ class EmbeddedEstimate {
     Outcome outcome = Outcome::kSuccess;
     double error = 0;  ///< in the error norm
   };
-  /// Of the solved step from `from`. An estimate above `again_above` is filtered a second time, HW
-  /// II (IV.8.21): in a first step and after a rejection; else infinity.
+  /// The estimate for the solved step from `from`. An estimate above `again_above` is filtered a second time, HW II
+  /// (IV.8.21): in a first step and after a rejection; otherwise pass infinity.
   [[nodiscard]] Result evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above);
-  /// What the estimate would be with q < s stages: of the polynomial of degree q - 1 (q - 2) in K. After
+  /// The estimate that q < s stages would give, from the polynomial of degree q - 1 (q - 2) in K. Call it after
   /// `evaluate` of the same step.
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q);
 
-  /// What the stages miss behind the last one, where that is not at the step's end: (1 - c_s) h times the defect of the
-  /// stages' polynomial at the end `to` of the step, filtered with the step `filter_h`. A fast motion there is seen by
-  /// no stage of this step and is over in the next. Of u, v, x; what constraints miss is drift and does not count.
+  /// The error of a fast motion behind the last stage, where that is not at the step's end: (1 - c_s) h times the
+  /// defect of the stages' polynomial at the end `to` of the step, filtered with the step `filter_h`. No stage of this
+  /// step shows such a motion, and it is over in the next step. Counts u, v, x only; violated constraints are drift.
   [[nodiscard]] Result missedAtEnd(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to,
                                    const Real& filter_h);
   /// The same before the first stage: c_1 h times the defect at the start.
@@ -53,8 +56,7 @@ class EmbeddedEstimate {
   /// The component of (u, v, x, z) with the largest part in the last estimate.
   Index worstComponent() const;
   double mu() const { return static_cast<double>(mu_); }
-  /// p of the estimate's error h^(p+1): s (s - 1 with a stage at the start), or one more than the stage order where
-  /// that is less.
+  /// p of the estimate's error h^(p+1): s (s - 1 with a stage at the start), but at most the stage order plus 1.
   static int order(const Tableau<Real>& tableau);
   /// Weights of the stages in the polynomial K at the step's start.
   static Vec<Real> atStart(const Scheme<Real>& scheme);
@@ -62,7 +64,7 @@ class EmbeddedEstimate {
   static Real weight(const Tableau<Real>& tableau);
 
  private:
-  // A polynomial through the stages at the step's start: weights l of the stages in it, and A^T l.
+  // A polynomial through the stages, evaluated at the step's start: its weights l of the stages, and A^T l.
   struct AtStart {
     Vec<Real> weights, integrals;
   };
@@ -80,21 +82,21 @@ class EmbeddedEstimate {
   NewtonMatrix<Real>& stages_;
   NewtonMatrix<Real> own_;
   std::vector<int> row_powers_;
-  bool scaled_;  // whether any row is
+  bool scaled_;  // whether any row is scaled
   Vec<Real> scales_;
   Vec<Real> basis_;
-  AtStart start_, lower_;  // of full and of lower degree
+  AtStart start_, lower_;  // with the full degree, and with a lower one
   Vec<Real> defect_;       // K(0), n
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
-  State<Real> at_;         // where the residual is evaluated
+  State<Real> at_;         // the point where the residual is evaluated
   State<Real> error_, zero_;
   double behind_;  // 1 - c_s
   Vec<double> ones_;
   Mat<Real> e_;  // n x 1
 };
 
-/// Whether what the stages miss at one end of a step is more than at the other one. Undamped errors of stiff components
-/// are as large at both, and shorter steps would not make them smaller.
+/// Whether the error missed at one end of a step is larger than that at the other end. Undamped errors of stiff
+/// components are equally large at both, and shorter steps would not reduce them.
 inline bool isNews(double missed, double elsewhere) {
   constexpr double kMuchMore = 4;
   return !(missed <= kMuchMore * elsewhere);

@@ -12,10 +12,10 @@
 
 namespace irk {
 
-/// What an accepted step means for the next one.
+/// The next step after an accepted one.
 struct NextStep {
   double h;
-  double error;  ///< that the accepted step would have had with the next step's order
+  double error;  ///< the error that the accepted step would have had with the next step's order
 };
 
 /// A solved step inside an attempt.
@@ -35,17 +35,17 @@ template <class Real>
 class StepAttempt {
  public:
   virtual ~StepAttempt() = default;
-  /// One step of size h from `from` to `to` (not aliased).
+  /// Attempts a step of size h from `from` to `to`, which are different objects.
   [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) = 0;
   /// Resets all history: the next integration is bitwise that of a new object.
   virtual void begin() { forget(); }
   /// Forgets the last solved step, which is a bad prediction after a failure of Newton's method or a change of mode.
   /// (A step with too large an error is a good prediction of a shorter one.)
   virtual void forget() = 0;
-  /// After a restart from a consistent (a, k): the first step has to follow them.
+  /// After a restart from a consistent (a, k), which the first step has to follow.
   virtual void restart() { forget(); }
-  /// The step of size h that was attempted last is taken over, and the controller asks for h_next:
-  /// the size of the next one, another where the order changes.
+  /// Reports that the step of size h attempted last was accepted and that the controller asks for `h_next`. Returns the
+  /// size of the next step, which differs from `h_next` if the order changes.
   virtual NextStep accepted(const AttemptResult& result, double h, double h_next) {
     static_cast<void>(h);
     return {h_next, result.error};
@@ -54,29 +54,29 @@ class StepAttempt {
   virtual int order() const = 0;
   /// The component of (u, v, x, z) with the largest error of the last solved step; -1 if not known.
   virtual Index worstComponent() const { return -1; }
-  /// The parts of which the last solved step is made, in order: their starts and stages. Valid
-  /// while `from` of the attempt is.
+  /// The parts of the last solved step, in order: their starts and stages. Valid as long as `from` of the attempt is.
   virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
-  /// Whether `pieces` has to give all pieces from now on; if not, an estimate may drop those that it does not need.
+  /// Whether `pieces` has to return all pieces from now on; otherwise an estimate may drop pieces that it does not
+  /// need.
   virtual void keepPieces(bool keep) { static_cast<void>(keep); }
 };
 
-/// `error`, or a larger one whose leading term is h^q where the controller expects h^(p+1): so that its
-/// step for h^(p+1) is the right one.
+/// The larger of `error` and `other`, where the controller expects the leading term h^(p+1) and `other` has the leading
+/// term h^q. `other` is converted so that the controller's step is the right one for it.
 double worse(double error, int p, double other, int q);
 
-/// 1 / (2^q - 1) per component (u, v, x, z): what the difference of one step and two halves is
-/// multiplied by. q: the classical order for all (paper) or, with `richardson`, the component's
-/// own: what its index (from the exponents of the error norm), the stage order and stiff accuracy
-/// guarantee. HW II, table VII.4.1; Hairer, Lubich & Roche, LNM 1409.
+/// 1 / (2^q - 1) per component (u, v, x, z), by which the difference of one step and two half steps is multiplied. q is
+/// the classical order for all components (paper) or, with `richardson`, the order that the component's index (from the
+/// exponents of the error norm), the stage order and stiff accuracy guarantee. HW II, table VII.4.1; Hairer, Lubich &
+/// Roche, LNM 1409.
 template <class Real>
 Vec<double> doublingFactors(const Scheme<Real>& scheme, const System<Real>& system, ErrorEstimate estimate);
 
-/// What an estimate is made from. All references outlive it.
+/// What an error estimate needs. All references must outlive it.
 template <class Real>
 struct StepAttemptSetup {
   const System<Real>& system;
-  /// One or, with variable order, members of a family by ascending stages, of which `start` is the first.
+  /// One method; or, with variable order, members of a family by ascending stages, starting with member `start`.
   const SchemeList<Real>& schemes;
   std::size_t start;
   const IntegratorOptions& options;
@@ -89,15 +89,15 @@ struct StepAttemptSetup {
 template <class Real>
 using StepAttemptMaker = std::function<std::unique_ptr<StepAttempt<Real>>(const StepAttemptSetup<Real>&)>;
 
-/// An error estimate.
+/// A strategy of the axis `estimate`.
 template <>
 struct Strategy<ErrorEstimate> {
   ErrorEstimate id;
   std::string meaning;
   Needs needs = {};
-  bool estimates = true;  ///< false: there is no error to control steps by
-  /// Beside the error of a step: looks at the switches in a step that goes on over them, and at stiff components at
-  /// the end (core/integration/stiff_rest.h). The paper's estimates do not.
+  bool estimates = true;  ///< false: gives no error to control steps by
+  /// Besides the error of a step, checks the switches in a step that goes on over them, and stiff components at the end
+  /// (core/integration/stiff_rest.h). The paper's estimates do not.
   bool looks_further = false;
   bool own_orders = false;       ///< divides each component's difference by its own order, see doublingFactors
   bool compares_orders = false;  ///< can estimate the error of another method of the family
@@ -106,7 +106,7 @@ struct Strategy<ErrorEstimate> {
 template <>
 Catalogue<ErrorEstimate>& catalogue<ErrorEstimate>();
 
-/// The estimate of the options.
+/// The error estimate that the options name.
 template <class Real>
 std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const StepAttemptSetup<Real>& setup) {
   return catalogue<ErrorEstimate>()[setup.options.step.estimate].make.template of<Real>()(setup);

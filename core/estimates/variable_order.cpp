@@ -11,17 +11,16 @@ namespace irk {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Measured: the first number of stages, and how many more for each decade of the tolerance.
+// Measured: the first number of stages at tolerance 1, and how many more for each decade below it.
 constexpr double kStagesAtOne = 2.51, kStagesPerDecade = 0.7;
 constexpr double kRoundOffUnits = 1e4;
 constexpr double kStricter = 1.25;
 
-// A solution of order 2s - 1 is much better than its estimate of order s + 1, and the more so the
-// larger s is: at equal estimates the steps of the lower members would make all of the error (kepler,
-// tolerance 1e-8: 300 times as much as with nine stages throughout). The members err alike with
-// estimates below tol^(r (s + 1) / s), as RADAU has it; r such that the highest member has the
-// tolerance itself. Measured: a quarter more than that. Not below round-off. Returned: by what the
-// estimate is multiplied, >= 1.
+// The factor >= 1 by which a member's estimate is multiplied. A solution of order 2s - 1 is much better than its
+// estimate of order s + 1, the more so the larger s is. With equal estimates nearly all of the error would come from
+// the steps of the lower members (kepler, tolerance 1e-8: 300 times the error of nine stages throughout). Members err
+// alike with estimates below tol^(r (s + 1) / s), as in RADAU; r is chosen so that the highest member has the tolerance
+// itself. Measured: the exponent has to exceed 1 by a quarter more (kStricter). The bound does not go below round-off.
 template <class Real>
 double strictness(Index member, Index highest, const Tolerances& tolerances) {
   const auto per_order = [](Index s) { return (static_cast<double>(s) + 1) / static_cast<double>(s); };
@@ -112,7 +111,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   const double factor = member().accumulation.factor(member().accumulates ? steps_ : 0, sum_);
   result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t), static_cast<double>(h));
   result.error = worse(result.error, order(), result.mode_error, 1);
-  // What the stages miss at the end tells nothing about stiff components at the start: these are not filtered again.
+  // The error missed at the end says nothing about stiff components at the start: it causes no second filter.
   again_ = !(result.error <= 1);
   if (result.outcome == Outcome::kSuccess && EmbeddedEstimate<Real>::endsBefore(member().scheme)) {
     const auto missed = member().estimate.missedAtEnd(from, *past_, to, h);
@@ -127,7 +126,7 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   if (good && at_ > 0 && order_control_->needsLower()) {
     const Index below = setup_.schemes.tableau(at_ - 1).stages();
     estimate = member().estimate.evaluateLower(from, *past_, below);
-    // Where it cannot be computed the order stays; the step is good.
+    // If it cannot be computed, the order stays the same; the step itself is good.
     if (estimate.outcome == Outcome::kSuccess) {
       lower_error_ = estimate.error * muOf(at_ - 1) / muOf(at_);
     }
@@ -163,7 +162,7 @@ void VariableOrder<Real>::forget() {
 
 template <class Real>
 NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
-  // A restart at the end of this very step came first.
+  // If this step ended with a restart, restart() was called before: the next step is the first one after it.
   if (!std::exchange(restarted_, false)) {
     watches_start_ = false;
     continues_ = continues_ || !vague_start_ || member().stepper.tellsRates();

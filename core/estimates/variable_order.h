@@ -11,14 +11,14 @@
 
 namespace irk {
 
-/// The number of stages to begin with if none is given: it grows as the tolerance shrinks, and is odd, because A then
-/// has a real eigenvalue, which serves the estimate, too. Measured over the suite's scenes, the best fixed number is 3
+/// The number of stages to begin with if none is given. It grows as the tolerance shrinks. It is odd, because A then
+/// has a real eigenvalue, which the estimate uses as well. Measured over the suite's scenes, the best fixed number is 3
 /// to 9 (median 5) at errors of 1e-4, 5 to 11 (median 7) at 1e-8, and 5 to 10 (median 8) at 1e-11.
 Index firstStages(const Tolerances& tolerances);
 
-/// One method, or the members of a family, among which an OrderController chooses. Members share the Jacobian; each
-/// keeps its own factors and scratch, which it allocates when it is first used. The estimate of the member below is
-/// made by the stages' polynomial cut to its degree.
+/// One method, or the members of a family, among which an OrderController chooses. Members share the Jacobian. Each
+/// keeps its own factors and scratch, allocated at its first use. The estimate for the member below uses the stages'
+/// polynomial cut to that member's degree.
 template <class Real>
 class VariableOrder final : public StepAttempt<Real> {
  public:
@@ -51,12 +51,13 @@ class VariableOrder final : public StepAttempt<Real> {
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
-    /// Its estimate is hardly larger than the error, and its steps are many; or errors do not decay.
+    /// Its errors add up: its estimate is hardly larger than its error and its steps are many, or stiff errors do not
+    /// decay.
     bool accumulates;
     bool adds;  ///< its estimate is of the order of the error
     Accumulation accumulation;
     static constexpr int kMaxAccumulating = 4;
-    int epoch = 0;  ///< in which it last forgot
+    int epoch = 0;  ///< the epoch in which it last forgot
     int estimateOrder() const { return EmbeddedEstimate<Real>::order(scheme.tableau); }
   };
   void make(std::size_t i);
@@ -68,25 +69,25 @@ class VariableOrder final : public StepAttempt<Real> {
   void forget(Member& m);
 
   const StepAttemptSetup<Real> setup_;
-  std::vector<OrderMember> ranks_;                  // of every member, whether it is made or not
+  std::vector<OrderMember> ranks_;                  // of every member, also of those not yet made
   std::vector<double> mus_;                         // EmbeddedEstimate::weight; NaN until it is asked for
   std::unique_ptr<OrderController> order_control_;  // null: one method
   std::vector<std::unique_ptr<Member>> members_;    // null until first used
   const SharedJacobian<Real>& jacobian_;
-  std::size_t start_, at_, past_at_;         // the member of past_
-  const StagePolynomial<Real>* past_;        // of the last solved step
+  std::size_t start_, at_, past_at_;         // past_at_: the member of past_
+  const StagePolynomial<Real>* past_;        // stages of the last solved step
   int failures_ = 0;                         // of Newton, in a row
-  bool solved_ = false;                      // a step
-  std::shared_ptr<const Pattern> reserved_;  // that every member has seen
-  int epoch_ = 0;                            // members that are not in use forget when they come to it
+  bool solved_ = false;                      // this integration has solved a step
+  std::shared_ptr<const Pattern> reserved_;  // the pattern that every member has reserved memory for
+  int epoch_ = 0;                            // members not in use forget when they are next used
   bool again_ = true;                        // filter twice: after a start and a rejection
   std::int64_t steps_ = 0;                   // accepted
-  double estimate_ = 0, sum_ = 0;            // of the last attempt; of all accepted steps
-  bool watches_start_ = false;               // the first step after a restart
-  bool restarted_ = false;                   // since the last step was taken over
-  bool continues_ = false;                   // (a, k) at the start of a step are those of the same mode
-  bool vague_start_ = false;                 // of the mode: a restart, which may not determine (a, k)
-  double lower_error_;                       // of the member below, NaN if not known
+  double estimate_ = 0, sum_ = 0;            // estimate of the last attempt; sum of all accepted ones
+  bool watches_start_ = false;               // in the first step after a restart
+  bool restarted_ = false;                   // since the last accepted step
+  bool continues_ = false;                   // (a, k) at a step's start belong to its mode
+  bool vague_start_ = false;                 // after a restart, which may not determine (a, k)
+  double lower_error_;                       // estimate for the member below, NaN if not known
 };
 
 }  // namespace irk
