@@ -15,9 +15,9 @@ namespace {
 constexpr std::uintmax_t kMaxEvaluations = 200;
 // Re-solved steps per switch; four are usual.
 constexpr int kMaxSolves = 25;
-// Earlier switches that show only in the shortened step; one is rare.
+// Limit of earlier switches that show only in the shortened step; one is rare.
 constexpr int kMaxEarlier = 5;
-// The error allowed in the time of a switch, in units of h times the tolerance.
+// The allowed error in the time of a switch, in units of h times the tolerance.
 constexpr double kTimeTolerance = 1e-5;
 
 template <class Real>
@@ -45,12 +45,12 @@ Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const Stat
     seen = first(attempt, from, next, result.found ? Scan::EndSample::kSkip : Scan::EndSample::kLookAt, result, root) &&
            root.step + resolution(from, h) < result.h;
   }
-  // Switches that are too close to be told apart: the step is tried again with a shorter size.
+  // The switches are too close to be told apart: the step is tried again with a shorter size.
   if (seen) result.outcome = Outcome::kNewtonFailed;
   return result;
 }
 
-// The earliest root in the step on the dense output; false without one.
+// Finds the earliest root in the step on the dense output; false if there is none.
 template <class Real>
 bool EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& from, const State<Real>& next,
                                typename SwitchScan<Real>::EndSample end, Location<Real>& result, Root& root) {
@@ -77,7 +77,7 @@ bool EventLocator<Real>::first(StepAttempt<Real>& attempt, const State<Real>& fr
   return false;
 }
 
-// The root of the dense output: a first guess.
+// The root of the dense output; a first guess of the switch.
 template <class Real>
 auto EventLocator<Real>::refined(const DueInside<Real>& due, const Real& offset, const Real& h) -> Root {
   const Index i = due.index;
@@ -86,7 +86,7 @@ auto EventLocator<Real>::refined(const DueInside<Real>& due, const Real& offset,
   if (!(width > Real(0))) return {i, offset, offset, Real(0)};
   Real g_low = scan_.value(low, i);
   const Real g_high = scan_.value(high, i);
-  if (g_low == Real(0)) {  // where the step begins on the surface, that is not the root
+  if (g_low == Real(0)) {  // the step begins on the surface: that is not the root
     const Real beside = low + width / Real(64);
     g_low = scan_.value(beside, i);
     if (g_low < Real(0)) low = beside;
@@ -121,7 +121,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
   using std::abs;
   Location<Real> result;
   const Real resolution = this->resolution(from, h);
-  // `high` is where the switch is due, on the dense output at first: beyond it nothing is known.
+  // The switch is due at `high`: at first on the dense output, beyond which nothing is known.
   Real low(0), high = std::min(h, std::max(root.high, resolution));
   Real step = std::min(high, std::max(root.step, resolution));
   bool due_at_high = false;
@@ -139,14 +139,14 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (result.outcome != Outcome::kSuccess) return result;
     const Index due = switches_.due();
     const bool other = due >= 0 && due != result.index;
-    if (other) {  // values and slopes of the function before say nothing about this one
+    if (other) {  // values and slopes of another function do not apply
       result.index = due;
       slope = Real(0);
     }
     const Real g = switches_.g()[result.index];
     result.h = step;
     result.found = due >= 0;
-    // A root of the dense output alone: the step goes on from there.
+    // Only the dense output has this root: the step goes on from there.
     if (step == high && due < 0) return result;
     if (due >= 0) {
       high = step;
@@ -164,7 +164,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (!due_at_high && guess >= high) {
       guess = high;
     } else if (!(guess > low && guess < high)) {
-      // Just beyond the last sign change where the root is at the edge, else halve.
+      // If the root is at the edge, just beyond the last sign change; otherwise in the middle.
       const Real nudge = low + Real(2) * resolution;
       guess = solves < 3 && nudge < high && slope > Real(0) && due < 0 ? nudge : Real((low + high) / Real(2));
     }

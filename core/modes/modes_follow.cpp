@@ -6,9 +6,9 @@
 namespace irk {
 namespace {
 
-/// Judges a step over a switch. No doubling can be trusted there: both solutions carry the same wrong mode before
-/// their first stage and behind their last, and between two stages. What the switch does over the whole step bounds
-/// the error.
+/// Judges a step over a switch. The estimate by doubling is wrong there: both solutions have the same wrong mode before
+/// their first stage, behind their last one, and between two stages. The effect of the switch over the whole step
+/// bounds the error.
 template <class Real>
 class FollowedModes : public ModesInStep<Real> {
  public:
@@ -20,7 +20,7 @@ class FollowedModes : public ModesInStep<Real> {
         looks_further_(catalogue<ErrorEstimate>()[options.step.estimate].looks_further) {}
 
  protected:
-  /// Does the switches that are due at the step's end; `before_` is what the end was.
+  /// Carries out the switches that are due at the step's end; `before_` is the end before them.
   SwitchReport update(SolvedStep<Real>& step, Jumps jumps, StepResult& result) {
     before_ = step.to;
     const SwitchReport report = switches_.settle(step.to, jumps);
@@ -42,7 +42,7 @@ class FollowedModes : public ModesInStep<Real> {
   bool looks_further_;
 };
 
-/// The mode at the end of a step is the one in which the next step starts.
+/// The mode at the end of a step is the mode of the next step.
 template <class Real>
 class IgnoredInStep final : public FollowedModes<Real> {
  public:
@@ -54,7 +54,7 @@ class IgnoredInStep final : public FollowedModes<Real> {
   }
 };
 
-/// The mode is a hint only: residuals see the regularisation.
+/// Residuals use the regularisation; the mode is only a hint.
 template <class Real>
 class SmoothInStep final : public FollowedModes<Real> {
  public:

@@ -1,4 +1,4 @@
-// `iterate`: the mode is frozen in a step, which is solved again until its mode stays.
+// `iterate`: the mode is constant in a step, and the step is solved again until its mode stays the same.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -13,8 +13,8 @@ namespace {
 // If the mode of a step still changes after this many repetitions, no mode is valid over the whole step.
 constexpr int kDiscontinuousIterations = 10;
 
-/// The mode is frozen over the step, updated at its end, and the step solved again with the new one until it stays:
-/// HOTINT's discontinuous iteration.
+/// HOTINT's discontinuous iteration: the mode is constant over the step and updated at its end; the step is solved
+/// again with the new mode until the mode stays the same.
 template <class Real>
 class IteratedInStep final : public ModesInStep<Real> {
  public:
@@ -40,7 +40,7 @@ class IteratedInStep final : public ModesInStep<Real> {
   }
 
  private:
-  // False where no mode stays. `done_`: the switches done.
+  // Returns false if no mode stays the same. `done_`: the switches carried out.
   bool iterate(SolvedStep<Real>& step, StepResult& result) {
     done_.clear();
     for (int i = 0;; ++i) {
@@ -61,7 +61,7 @@ class IteratedInStep final : public ModesInStep<Real> {
       if (result.outcome != Outcome::kSuccess) return false;
     }
   }
-  // A switch that comes and goes inside the step.
+  // Judges a switch that comes and goes inside the step.
   void judgeInside(const SolvedStep<Real>& step, StepResult& result) {
     Index inside = -1;
     if (!effect_.dueInside(step, step.to, inside)) return;
@@ -70,7 +70,7 @@ class IteratedInStep final : public ModesInStep<Real> {
     result.mode_error =
         report.outcome == Outcome::kSuccess ? effect_.changeOfRates(step.h) : std::numeric_limits<double>::infinity();
   }
-  // The secant's root of the first switching function that is due at the step's end.
+  // The time, as a part of the step, at which the first switching function becomes due, by a secant.
   double firstDue(const SolvedStep<Real>& step) {
     double first = std::numeric_limits<double>::quiet_NaN();
     if (switches_.evaluate(step.from).outcome != Outcome::kSuccess) return first;
@@ -89,7 +89,7 @@ class IteratedInStep final : public ModesInStep<Real> {
   Switches<Real> switches_;
   SwitchEffect<Real> effect_;
   State<Real> frozen_;      // the start with another mode
-  State<Real> first_mode_;  // and the end in the first one
+  State<Real> first_mode_;  // the step's end in the first mode
   Vec<Real> g_before_;
   std::vector<Index> done_;
 };

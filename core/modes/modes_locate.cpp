@@ -1,4 +1,4 @@
-// `locate`: the mode is frozen, and the first root of a switching function ends the step.
+// `locate`: the mode is constant, and the first root of a switching function ends the step.
 #include <algorithm>
 
 #include "core/modes/event_location.h"
@@ -8,7 +8,7 @@
 namespace irk {
 namespace {
 
-// How finely a switch is located: a part of the tolerance, with fixed steps to round-off.
+// The accuracy of a switch's time: a part of the tolerance; with fixed steps round-off.
 double locationTolerance(const IntegratorOptions& options) {
   if (hasFixedSteps(options.step)) return 0;
   return std::max(options.tolerances.rtol, options.tolerances.atol);
@@ -31,7 +31,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
     if (step.shortened) {
       step.attempt = at.attempt;
       step.h = at.h;
-      // A shorter step with a larger error than the tolerance is no step (NaN: fixed steps).
+      // A shortened step whose error exceeds the tolerance is not accepted (NaN: fixed steps).
       if (at.attempt.error > 1) {
         step.outcome = Outcome::kNewtonFailed;
         step.index = -1;
@@ -46,7 +46,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
   EventLocator<Real> locator_;
 };
 
-/// Nothing follows a solved step: its mode is right up to the switch that ends it.
+/// Nothing to do after a solved step: its mode is right up to the switch that ends it.
 template <class Real>
 std::unique_ptr<ModesInStep<Real>> nothing(const System<Real>&, const IntegratorOptions&, const ErrorNorm<Real>&,
                                            Counters&) {

@@ -26,7 +26,7 @@ bool SwitchEffect<Real>::dueInside(const SolvedStep<Real>& step, const State<Rea
     inside_ = scan_.at(due.front().high);
     return true;
   }
-  // A switch can be due at a stage that lies between two samples.
+  // A switch can be due at a stage between two samples.
   const Scheme<Real>& scheme = step.eq.scheme();
   for (Index i = scheme.first; i < scheme.s && index < 0; ++i) {
     const SwitchReport report = switches_.evaluate(step.eq.stage(step.stages.W, i));
@@ -40,7 +40,7 @@ template <class Real>
 double SwitchEffect<Real>::changeOfRates(const Real& h) {
   rates_ = inside_.w;
   const StartReport report = consistent_.apply(inside_, StartCheck::kNone);
-  // An effect that cannot be determined is too large to be accepted.
+  // If the effect cannot be determined, the step must not be accepted.
   if (report.outcome != Outcome::kSuccess) return std::numeric_limits<double>::infinity();
   rates_ -= inside_.w;
   return rate_norm_(rates_, h);

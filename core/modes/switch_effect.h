@@ -1,4 +1,4 @@
-// The effect of a switch inside a solved step on this step, for treatments whose steps go on over switches.
+// The effect of a switch inside a solved step, for treatments whose steps go on over switches.
 #pragma once
 
 #include "core/derivatives/consistent_start.h"
@@ -8,25 +8,26 @@
 
 namespace irk {
 
-/// All in the error norm. Owns scratch; keeps references.
+/// All results are in the error norm. Owns scratch; keeps references.
 template <class Real>
 class SwitchEffect {
  public:
   SwitchEffect(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm,
                Counters& counters);
 
-  /// Whether a switch is due inside the step, whatever is at its end, and which. `inside()` becomes the state there,
-  /// with the mode of the start.
+  /// Whether a switch is due inside the step, whether or not one is due at its end, and its index. `inside()` becomes
+  /// the state there, with the mode of the start.
   bool dueInside(const SolvedStep<Real>& step, const State<Real>& end, Index& index);
   State<Real>& inside() { return inside_; }
 
-  /// h times the change of (a, k) from those of `inside()` to what its mode makes of them; infinity where they cannot
-  /// be determined.
+  /// The norm of h times the change of (a, k) that the mode of `inside()` makes there; infinity if it cannot be
+  /// determined.
   double changeOfRates(const Real& h);
-  /// The difference between two ends of a step.
+  /// The norm of the difference between two ends of a step.
   double difference(const State<Real>& p, const State<Real>& q, const Real& h) const;
-  /// The largest of: the change of (a, k), times h, from the step's start to a stage and at its end to the mode that
-  /// begins there; what the switch corrects in u, v, x. `before`: the end before any switch was done.
+  /// The largest of three effects: h times the change of (a, k) from the step's start to a stage; h times the change of
+  /// (a, k) at the end by the new mode; the correction of u, v, x by the switch. `before`: the end before any switch is
+  /// carried out.
   double changeInStep(const SolvedStep<Real>& step, const State<Real>& before);
 
  private:
