@@ -9,17 +9,17 @@ namespace irk {
 /// weights: with M the simplified matrix and d_0, d_1, ... the increments so far,
 ///   v = M^-1 R;  v += <v, d_{i-1}> / |d_{i-1}|^2 d_i, i = 1 .. m - 1;  d_m = v / (1 - alpha),
 ///   alpha = <v, d_{m-1}> / |d_{m-1}|^2.
-/// Converges superlinearly for some dot products per iteration. At most `kMax` updates, none after
+/// Converges superlinearly at the cost of some dot products per iteration. Makes at most `kMax` updates, and none after
 /// one with alpha >= 1/2, which would not be safe: the matrix then stays as it is.
 template <class Real>
 class BroydenUpdates {
  public:
   BroydenUpdates(Index n, Index stages) : n_(n), increments_(n * stages, kMax), weighted_(n * stages, kMax) {}
 
-  /// A new iteration: the simplified matrix, to be updated if `on`.
+  /// Begins a new iteration with the simplified matrix; `on`: whether to update it.
   void begin(bool on) { count_ = 0, frozen_ = !on; }
 
-  /// In place: M^-1 R to the corrected increment (both n s).
+  /// Replaces v = M^-1 R by the corrected increment, in place (n s numbers).
   void apply(VecView<Real>& v) {
     if (count_ == 0) return;
     for (Index i = 0; i + 1 < count_; ++i) v += v.dot(weighted_.col(i)) * increments_.col(i + 1);
@@ -28,7 +28,7 @@ class BroydenUpdates {
     frozen_ = !(alpha < Real(0.5));
     if (!frozen_) v *= Real(1) / (Real(1) - alpha);
   }
-  /// The increment that `apply` gave was taken. `squares`: n weights of the inner product.
+  /// Records that the increment d from `apply` was taken. `squares`: n squared weights of the inner product.
   void learn(const VecView<Real>& d, const Vec<double>& squares) {
     if (frozen_) return;
     frozen_ = count_ == kMax;

@@ -11,20 +11,20 @@
 
 namespace irk {
 
-/// Whether a solve may replace the shared Jacobian when that is stale: the half steps of an attempt
-/// keep the one of its start, unless they fail with it.
+/// Whether a solve may replace a stale shared Jacobian. The half steps of an attempt keep the Jacobian of its start
+/// unless they fail with it.
 enum class JacobianUse { kRefreshIfStale, kKeep };
 
 struct NewtonResult {
   Outcome outcome = Outcome::kSuccess;
   int iterations = 0;
   double theta = 0;  ///< contraction: of increments, the last (simplified) or first (broyden), or residuals
-  /// The last increment, in tolerances, where round-off of the residual ends the iteration before the
-  /// increment is as small as was asked for; else 0.
+  /// The last increment, in tolerances, if round-off of the residual ended the iteration before the increment was as
+  /// small as required; else 0.
   double round_off = 0;
 };
 
-/// What a Newton strategy works with. All references outlive it; the step has been begun in `eq`.
+/// What a Newton strategy needs. All references must outlive it; `eq` has begun the step.
 template <class Real>
 struct NewtonContext {
   StageEquations<Real>& eq;
@@ -35,15 +35,15 @@ struct NewtonContext {
   JacobianUse use;
 };
 
-/// Owns scratch; one per stepper.
+/// Solves the stage equations. Owns scratch; one object per stepper.
 template <class Real>
 class Newton {
  public:
   virtual ~Newton() = default;
-  /// W (n x s): start values in, solution out (unspecified after a failure). The columns of explicit
-  /// stages are not touched.
+  /// W (n x s) holds the start values on entry and the solution on return (unspecified after a failure). The columns of
+  /// explicit stages do not change.
   [[nodiscard]] virtual NewtonResult solve(NewtonContext<Real>& context, Mat<Real>& W) = 0;
-  /// Forgets the contraction, which says nothing about the next step after a start, a failure or a new mode.
+  /// Forgets the contraction, which does not hold for the next step after a start, a failure or a change of mode.
   virtual void forget() {}
 };
 
@@ -51,20 +51,20 @@ template <class Real>
 using NewtonMaker =
     std::function<std::unique_ptr<Newton<Real>>(const IntegratorOptions&, const Sizes&, const Scheme<Real>&)>;
 
-/// A Newton method.
+/// A strategy of the axis `newton`.
 template <>
 struct Strategy<NewtonKind> {
   NewtonKind id;
   std::string meaning;
   Needs needs = {};
-  bool keeps_jacobian = true;        ///< one for all stages, of the SharedJacobian
-  bool uses_stage_matrices = false;  ///< the StagewiseMatrix
+  bool keeps_jacobian = true;        ///< uses one SharedJacobian for all stages
+  bool uses_stage_matrices = false;  ///< uses the StagewiseMatrix
   PerScalar<NewtonMaker> make;
 };
 template <>
 Catalogue<NewtonKind>& catalogue<NewtonKind>();
 
-/// With fixed steps no tolerance is known: iterates to round-off.
+/// Fixed steps have no tolerance: Newton's method then iterates to round-off.
 template <class Real>
 std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
                                          const Scheme<Real>& scheme);

@@ -26,21 +26,22 @@ double unitRoundOff(const IntegratorOptions& options) {
   return roundOff<Real>() / std::max(options.tolerances.rtol, options.tolerances.atol);
 }
 
-/// What eta |dw| has to fall below, HW II (IV.8), in tolerances.
+/// The bound for eta |dw|, in tolerances, HW II (IV.8).
 struct IncrementLimit {
   double kappa;
-  bool by_round_off;  ///< less would be wanted, but increments do not become smaller than round-off
-  double least;       ///< of round-off; kappa itself where the caller has chosen it
+  bool by_round_off;  ///< a smaller kappa is wanted, but increments do not become smaller than round-off
+  double least;       ///< lower bound of kappa: round-off, or kappa itself if the caller has chosen it
 
-  /// kappa after so many accepted steps. What Newton's method leaves has the same sign in step after step and no error
-  /// estimate sees it, so that N steps would leave N kappa tolerances: from kMany steps on it falls as kMany / N.
+  /// kappa after `accepted` steps. The remaining error of Newton's method has the same sign in step after step, and no
+  /// error estimate shows it: N steps would leave N kappa tolerances. From kMany steps on kappa therefore falls as
+  /// kMany / N.
   double after(std::int64_t accepted) const {
     constexpr std::int64_t kMany = 1000;
     if (accepted <= kMany) return kappa;
     return std::max(least, kappa * static_cast<double>(kMany) / static_cast<double>(accepted));
   }
 };
-/// kappa shrinks with s: at high order a loose stage equation spoils the step.
+/// kappa shrinks with s: at high order an inaccurate solution of the stage equations spoils the step.
 template <class Real>
 IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
   const double floor = kRoundOffUnits * unitRoundOff<Real>(options);
@@ -52,7 +53,7 @@ IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
   return {limit, floor > wanted, kappa > 0 ? limit : floor};
 }
 
-/// Iterations that share their pieces: residual, solve, update.
+/// The parts that all iterations share: residual, solve, update.
 template <class Real>
 class NewtonBase : public Newton<Real> {
  protected:
@@ -64,20 +65,20 @@ class NewtonBase : public Newton<Real> {
         W0_(sizes.n(), scheme.s),
         row_weights_(sizes.n()) {}
 
-  /// A new step: keeps its start values for restarts.
+  /// Begins a new step; keeps its start values for restarts.
   void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
     W0_ = W;
     c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
   }
 
-  /// A new Jacobian where one is asked for, and where there is none.
+  /// Evaluates a new Jacobian if one is asked for, or if there is none.
   void refresh(NewtonContext<Real>& c, const Mat<Real>& W) {
     auto& shared = c.matrix.shared();
     const bool wanted = shared.stale() && c.use == JacobianUse::kRefreshIfStale;
     if (shared.version() == 0 || wanted) shared.evaluate(c.eq, W);
   }
 
-  /// R(W); false if not finite.
+  /// Evaluates R(W); returns false if it is not finite.
   bool residual(NewtonContext<Real>& c, const Mat<Real>& W) { return c.eq.residual(W, R_); }
 
   /// Solves for the increment, applies it, and returns its norm; NaN if not finite.

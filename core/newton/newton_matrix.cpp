@@ -6,10 +6,10 @@
 namespace irk {
 namespace {
 
-// Dense systems of this many unknowns, s n, are allocated before they are needed.
+// Dense Newton matrices of up to this many unknowns, s n, are allocated in advance.
 constexpr Index kEagerSize = 300;
 
-// The pattern can grow at any of the stages; they have to share one.
+// The pattern can grow at any stage; all stages have to share one.
 template <class Real, class PointOf>
 void evaluateStages(Differentiator<Real>& differentiator, std::vector<Linearization<Real>>& at, Counters& counters,
                     const PointOf& point) {

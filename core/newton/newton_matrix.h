@@ -11,30 +11,30 @@
 
 namespace irk {
 
-/// The linearization that the step's solves share, with its age: one for all stages or, at
-/// `each_stage`, one per stage. One per integrator.
+/// The linearization that all solves of a step share, with its age: one for all stages or, at `each_stage`, one per
+/// stage. One object per integrator.
 template <class Real>
 class SharedJacobian {
  public:
   SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
                  Counters& counters);
 
-  /// Evaluates at the start or middle of the step that `eq` has begun, or at one or all stages W.
+  /// Evaluates at the start or middle of the step that `eq` has begun, or at one or all of its stages W.
   void evaluate(StageEquations<Real>& eq, const Mat<Real>& W);
-  /// A new mode.
+  /// Forgets the linearization; for a new mode.
   void forget();
-  /// A new integration.
+  /// Forgets the pattern as well; for a new integration.
   void forgetPattern();
-  /// Ask for a new evaluation at the next step's start.
+  /// Asks for a new evaluation at the next step's start.
   void markStale() { stale_ = true; }
   bool stale() const { return stale_; }
-  /// Whether it was evaluated for a step that began at t.
+  /// Whether the last evaluation was for a step that began at t.
   bool evaluatedAt(const Real& t) const { return version_ > 0 && t_ == t; }
 
   std::span<const Linearization<Real>> at() const { return at_; }
-  /// What factors for another step size cost, in steps. Dense factors cost n^3, the solves of a step n^2. Sparse
-  /// factors cost little: 0, since steps that were kept for longer made nothing faster there (six scenes). After
-  /// `evaluate`.
+  /// The cost of factors for another step size, in steps; call it after `evaluate`. Dense factors cost n^3, the solves
+  /// of a step n^2. The result is 0 for sparse factors: they cost little, and keeping step sizes for longer made
+  /// nothing faster (six scenes).
   double factorsCost() const {
     constexpr double kDenseUnknowns = 40;
     const auto& pattern = at_.front().pattern;  // null where each stage has its own matrices
@@ -42,7 +42,7 @@ class SharedJacobian {
   }
   int version() const { return version_; }
   Differentiator<Real>& differentiator() { return differentiator_; }
-  /// Of a pattern of its own, for all that factorize one stage's matrices; null for a dense one.
+  /// The symbolic analysis of a pattern, shared by all that factorize matrices of one stage; null for a dense one.
   const std::shared_ptr<const SparseAnalysis>& analysis(const std::shared_ptr<const Pattern>& pattern);
 
  private:
@@ -54,24 +54,24 @@ class SharedJacobian {
   int version_ = 0;
   bool stale_ = true;
   std::shared_ptr<const Pattern> analysed_;
-  std::shared_ptr<const SparseAnalysis> analysis_;  // of that
+  std::shared_ptr<const SparseAnalysis> analysis_;  // of analysed_
 };
 
-/// A factorization for one step size; refactorized when the shared Jacobian or h has changed. Its
-/// solver is made when the pattern is known.
+/// A factorization for one step size; renewed when the shared Jacobian or h has changed. Its solver is made when the
+/// pattern is known.
 template <class Real>
 class NewtonMatrix {
  public:
   /// The setup has no pattern. Throws Misuse for `eigen` with a defective A.
   NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup, Counters& counters);
 
-  /// Factors of the shared Jacobian for step h.
+  /// Factorizes for step h with the shared Jacobian, unless these factors exist.
   [[nodiscard]] Outcome prepare(const Real& h);
-  /// Allocates what the first `prepare` would, where the pattern is known and not large and dense.
+  /// Allocates in advance what the first `prepare` would, unless the pattern is unknown, or large and dense.
   void reserve();
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
   SharedJacobian<Real>& shared() { return shared_; }
-  /// See StageSolver; false also where its factors are not those of the shared Jacobian and h.
+  /// See StageSolver. Returns false also if its factors are not those of the shared Jacobian and h.
   [[nodiscard]] bool solveReal(const Real& h, const Real& mu, Real* x) {
     return solver_ && version_ == shared_.version() && h_ == h && solver_->solveReal(mu, x);
   }
@@ -88,15 +88,15 @@ class NewtonMatrix {
   Real h_{};
 };
 
-/// A Newton matrix with the derivatives of each stage: full Newton. A large dense one (s n above
-/// 300) is allocated when it is first needed: as the fallback of `modified` it usually never is.
+/// A Newton matrix with derivatives of each stage, for full Newton. A large dense one (s n above 300) is allocated at
+/// its first use: as the fallback of `modified` it is usually never used.
 template <class Real>
 class StagewiseMatrix {
  public:
-  /// `used`: by the Newton method, at least as a last resort.
+  /// `used`: whether the Newton method uses it, at least as a last resort.
   StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, bool used, Counters& counters);
 
-  /// Allocates what the first use would, where it is not too large and the pattern is known.
+  /// Allocates in advance what the first use would, unless it is large and dense or the pattern is unknown.
   void reserve();
   /// Evaluates and factorizes at the stages of the last residual of `eq`.
   [[nodiscard]] Outcome prepare(const StageEquations<Real>& eq, const Mat<Real>& W);

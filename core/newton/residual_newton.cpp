@@ -8,11 +8,11 @@
 namespace irk {
 namespace {
 
-/// Whether an increment at round-off ends the iteration, though the residual has not shrunk by the asked factor.
+/// Whether an increment at round-off ends the iteration although the residual has not shrunk by the required factor.
 enum class AtRoundOff { kEnd, kGoOn };
 
-/// Paper, section 3. eps(i) = |R|_2; done when eps(i) <= tol eps(0). By default an increment at round-off ends
-/// the iteration as well: then the residual cannot shrink by the asked factor.
+/// Paper, section 3. eps(i) = |R|_2; converged when eps(i) <= tol eps(0). By default an increment at round-off ends the
+/// iteration as well, since the residual then cannot shrink further.
 template <class Real>
 class ResidualNewton : public NewtonBase<Real> {
  public:
@@ -45,7 +45,7 @@ class ResidualNewton : public NewtonBase<Real> {
         if (norm <= kRoundOffUnits * this->round_off_) return result;
         if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
       }
-      // (3.4). Full Newton is the last resort and uses all its iterations.
+      // Paper (3.4). Full Newton is the last resort and may use all iterations.
       if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
         return fail(result, Outcome::kNewtonFailed);
       }
@@ -63,7 +63,7 @@ class ResidualNewton : public NewtonBase<Real> {
   AtRoundOff at_round_off_;
 };
 
-/// With the kept Jacobian, then with a new one, then with those of the stages, where these are the last resort.
+/// Tries the kept Jacobian, then a new one, then Jacobians of all stages if these are the last resort.
 template <class Real>
 class ModifiedNewton : public ResidualNewton<Real> {
   using Base = ResidualNewton<Real>;
@@ -113,7 +113,7 @@ class ModifiedOnlyNewton final : public ModifiedNewton<Real> {
       : ModifiedNewton<Real>(options, sizes, scheme, false) {}
 };
 
-/// The paper's stopping rule (3.2) to the letter: round-off ends nothing.
+/// The paper's stopping rule (3.2) to the letter: round-off does not end the iteration.
 template <class Real>
 class PaperRuleNewton final : public ModifiedNewton<Real> {
  public:
@@ -121,7 +121,7 @@ class PaperRuleNewton final : public ModifiedNewton<Real> {
       : ModifiedNewton<Real>(options, sizes, scheme, true, AtRoundOff::kGoOn) {}
 };
 
-/// With those of the stages, new in every iteration.
+/// Full Newton: Jacobians of all stages, new in every iteration.
 template <class Real>
 class FullNewton final : public ResidualNewton<Real> {
   using Base = ResidualNewton<Real>;

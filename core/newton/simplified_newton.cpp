@@ -22,35 +22,35 @@ double power(double x, int n) {
   return result;
 }
 
-// Round-off up to kMaxRoundOff tolerances is accepted and reported. Increments up to kMeasuredRoundOff times the
+// Round-off of up to kMaxRoundOff tolerances is accepted and reported. Increments of up to kMeasuredRoundOff times the
 // measured round-off count as round-off.
 constexpr double kMaxRoundOff = 0.3;
 constexpr double kMeasuredRoundOff = 10;
-// To measure round-off, numbers are changed by this many units of it.
+// To measure round-off, numbers are changed by this many units of their round-off.
 constexpr double kLastDigits = 4;
 
-// Broyden's updates cost dot products: below this contraction of the last step there are too few
-// iterations for them.
+// Broyden's updates cost dot products. If the last step contracted better than this, its iterations are too few for
+// them.
 constexpr double kWorthUpdates = 0.1;
-// With fewer unknowns an iteration costs less than the updates (van_der_pol: a tenth of the run).
+// With fewer unknowns the updates cost more than an iteration (van_der_pol: a tenth of the run).
 constexpr Index kUpdatesFrom = 3;
 
-// A theta that no step has shown yet: it promises no contraction.
+// theta before any step has shown one: assumes no contraction.
 constexpr double kUnknownTheta = 1;
 
-// Fixed steps cannot be shortened: Newton's method gets this many times the iterations.
+// Fixed steps cannot be shortened: Newton's method may use this many times max_iterations.
 constexpr int kFixedStepFactor = 4;
 
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
-/// The last step's eta, raised to 0.8, stands in for the first iteration, where theta is unknown.
-/// With Broyden's updates the theta that is reported is the first one, the matrix' own.
+/// In the first iteration theta is unknown; the last step's eta, raised to 0.8, takes its place. With Broyden's updates
+/// the reported theta is the first one, that of the matrix itself.
 ///
-/// The first theta tells how fast the error of the start values goes, which need not contain what the matrix solves
-/// worst: that shows from the third increment on. Where kappa is limited by round-off (tight tolerances, fixed steps)
-/// the theta of the last step's last increment counts as well: what is left of each step's stage equations has the same
-/// sign in many steps, and no error estimate sees it. Until a step has had a third increment, none ends with the
-/// second.
+/// The first theta shows how fast the error of the start values decays. That error need not contain the components that
+/// the matrix solves worst; they show from the third increment on. Where kappa is limited by round-off (tight
+/// tolerances, fixed steps), the theta of the last step's last increment therefore counts as well, because the
+/// remaining error of the stage equations has the same sign in many steps and no error estimate shows it. Until a step
+/// has had a third increment, no step ends after the second.
 template <class Real>
 class SimplifiedNewton : public NewtonBase<Real> {
   using Base = NewtonBase<Real>;
@@ -107,10 +107,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
         const double theta = previous > 0 ? norm / previous : 0;
-        // An increment of round-off is at least as large as the next one would be: its theta is an upper bound.
+        // An increment of round-off is at least as large as the exact one: its theta is only an upper bound.
         const bool is_bound = m > 1 && norm <= kRoundOffUnits * this->round_off_;
         if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
-        // At round-off increments no longer contract; above it this is divergence.
+        // Increments at round-off no longer contract; above round-off this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
         eta = of_step = etaOf(theta);
         const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa;
@@ -123,7 +123,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (limit_.by_round_off) eta = etaOf(std::max(theta, slowest_));
         if (m > 1) slowest_ = theta;
       } else if (std::min(last, 1.0) * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
-        eta = of_step = std::pow(last, 0.8);  // at least min(last, 1): where that is too large, so is this
+        eta = of_step = std::pow(last, 0.8);  // if min(last, 1) is too large, so is this
       }
       if (eta * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
@@ -137,9 +137,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
   static double etaOf(double theta) {
     return theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
   }
-  // Whether an increment that no longer contracts is round-off of the residual: the part of the increment
-  // that is not explained by a change of w in the last digits of what it is added to. A residual with a
-  // singular matrix in front of k, or with large terms that cancel, has much more than eps.
+  // Whether an increment that no longer contracts is round-off of the residual: for a change of w in the last digits of
+  // the sums that it enters, the part of the increment that the change does not explain. With a singular matrix in
+  // front of k, or with large terms that cancel, the residual has much more round-off than eps.
   bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, double norm) {
     if (!adaptive_ || !(norm <= kMaxRoundOff) || !this->residual(c, W)) return false;
     const Mat<Real> before = this->R_;
@@ -151,7 +151,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double floor = c.norm.increment(this->R_, this->first_, this->row_weights_);
     return norm <= kMeasuredRoundOff * floor;
   }
-  // Of w, and of the u, v, x that h^2 a, h a and h k are added to; with alternating signs.
+  // Last digits of w, and of u, v, x to which h^2 a, h a and h k are added; with alternating signs.
   static Mat<Real> lastDigits(const NewtonContext<Real>& c, const Mat<Real>& W) {
     using std::abs;
     const State<Real>& from = c.eq.from();
@@ -177,10 +177,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
   IncrementLimit limit_;
   bool adaptive_;
   double eta_ = 1, theta_ = 1;
-  double slowest_ = kUnknownTheta;  // theta of the last step's third or later increment
+  double slowest_ = kUnknownTheta;  // theta of the last step's last increment, the third or a later one
 };
 
-/// With Broyden's updates of the matrix.
+/// Simplified Newton with Broyden's updates of the matrix.
 template <class Real>
 class BroydenNewton final : public SimplifiedNewton<Real> {
  public:

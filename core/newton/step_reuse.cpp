@@ -1,5 +1,5 @@
-// Newton methods that keep their Jacobian for another step by rule, whatever the contraction is: they measure what
-// reuse gains.
+// Newton methods that keep or renew their Jacobian by a fixed rule, whatever the contraction is. They measure what the
+// reuse of Jacobians gains.
 #include <optional>
 #include <utility>
 
@@ -11,12 +11,13 @@ namespace irk {
 namespace {
 
 enum class Reuse {
-  kNever,             ///< each attempted step begins with a new Jacobian
-  kAcrossStepChange,  ///< unless its size is not that of the attempt before
+  kNever,  ///< each attempted step begins with a new Jacobian
+  /// each attempted step begins with a new Jacobian, unless its size differs from that of the attempt before
+  kAcrossStepChange,
 };
 
-/// Tells another Newton method when its Jacobian is stale. A solve that does not converge with a kept Jacobian begins
-/// again with a new one, as usual. Half steps keep the Jacobian of their attempt.
+/// Decides by a rule whether another Newton method keeps its Jacobian. As usual, a solve that does not converge with a
+/// kept Jacobian begins again with a new one. Half steps keep the Jacobian of their attempt.
 template <class Real>
 class ReuseByStep final : public Newton<Real> {
  public:
@@ -35,7 +36,7 @@ class ReuseByStep final : public Newton<Real> {
     }
     return inner_->solve(own, W);
   }
-  // The step size before stays known: after a switch the shared Jacobian is gone, and a new one is evaluated anyway.
+  // Keeps the last step size: after a switch there is no shared Jacobian, and a new one is evaluated anyway.
   void forget() override { inner_->forget(); }
 
  private:
