@@ -7,7 +7,7 @@
 namespace irk {
 namespace {
 
-// Stages at one time determine no polynomial.
+// Stages at equal times do not determine a polynomial.
 template <class Real>
 bool isDetermined(const Vec<Real>& c) {
   const Real tiny = Real(1000) * Eigen::NumTraits<Real>::epsilon();

@@ -7,15 +7,15 @@
 
 namespace irk {
 
-/// See InsideStep. Owns scratch; computes nothing until it is asked.
+/// See InsideStep. Owns scratch; computes nothing until `at` is called.
 template <class Real>
 class InsideAttempt final : public InsideStep<Real> {
  public:
   /// Keeps a reference to the system.
   explicit InsideAttempt(const System<Real>& system);
 
-  /// The step that `pieces` have solved, from `from` to the time `end` with the scene's state `to`. All must outlive
-  /// the calls of `at`. False where the stages determine no polynomial.
+  /// Selects the step that `pieces` have solved, from `from` to the time `end`; `to` is the state there in the scene's
+  /// unknowns. All arguments must outlive the calls of `at`. Returns false if the stages determine no polynomial.
   bool begin(const State<Real>& from, const Real& end, const State<Real>& to, const StepPieces<Real>& pieces);
   State<Real> at(const Real& t) override;
 
@@ -24,7 +24,7 @@ class InsideAttempt final : public InsideStep<Real> {
   DenseOutput<Real> dense_;
   State<Real> inside_;
   StepPieces<Real> pieces_{};
-  std::size_t piece_ = 0;  // that dense_ has begun; pieces_.count: none
+  std::size_t piece_ = 0;  // the piece that dense_ has begun; pieces_.count: none
   Real end_{};
   const State<Real>* to_ = nullptr;
 };

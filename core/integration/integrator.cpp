@@ -24,7 +24,7 @@ std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> 
   return system;
 }
 
-// Without a tolerance Newton iterates to round-off, in units of the solution's magnitude.
+// Without a tolerance Newton's method iterates to round-off of the solution's magnitude.
 template <class Real>
 IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, const SchemeList<Real>& schemes,
                         std::size_t start) {
@@ -39,7 +39,7 @@ IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, c
   return options;
 }
 
-/// Why a run ends before its time; kSuccess: it goes on.
+/// Why a run ends before t_end; kSuccess: it goes on.
 struct Stop {
   Outcome outcome = Outcome::kSuccess;
   double h = 0;
@@ -48,7 +48,7 @@ struct Stop {
   explicit operator bool() const { return outcome != Outcome::kSuccess; }
 };
 
-/// N equal steps if h divides the interval to 1e-9, else a shorter last one.
+/// N equal steps if h divides the interval to 1e-9; otherwise a shorter last step.
 template <class Real>
 struct Grid {
   Real t0, t_end, h;
@@ -112,7 +112,7 @@ class Integrator<Real>::Run {
     return {};
   }
 
-  // One of size h where it is whole, else what is left to its end. A located switch splits it.
+  // Integrates to `end`, one step of size h ahead if `whole`. Times of the system and located switches split the step.
   Stop fixedStep(const Real& h, const Real& end, bool whole) {
     while (state().t < end) {
       const Real stop_at = beforeTime(end);
@@ -151,7 +151,7 @@ class Integrator<Real>::Run {
     return {};
   }
 
-  // The times of the system between the start and the end of the integration.
+  // Collects the times of the system between the start and the end of the integration.
   void beginTimes(const Real& t0, const Real& t_end) {
     times_ = system_->times();
     next_time_ = 0;
@@ -170,7 +170,7 @@ class Integrator<Real>::Run {
     return outcome;
   }
 
-  // One attempt; h: of this attempt, then of the next.
+  // One attempt. `h` is its size; on return the size of the next attempt.
   Stop adaptiveStep(double& h, const Real& t_end) {
     const double least = smallestSize();
     const Real left = t_end - state().t;
@@ -213,7 +213,7 @@ class Integrator<Real>::Run {
     return {monitor_->interrupt(), h, "stopped"};
   }
 
-  // Before an attempt with h, which follows so many.
+  // Why no attempt of size h is possible after `attempts` attempts; kSuccess if one is.
   Stop cannotGoOn(std::int64_t attempts, double h, const Real& t_end) {
     const std::int64_t left = options_.step.max_steps - attempts;
     if (left == 0) return {Outcome::kMaxSteps, h, "too many steps"};
@@ -236,22 +236,22 @@ class Integrator<Real>::Run {
     return std::min(h, 0.1 * length_);
   }
 
-  // After a rejection with a switch in the step, the next one ends just before it. What
-  // is left is crossed by a step so small that the mode may be wrong in it.
+  // After a rejection with a switch in the step, the next step ends just before the switch. The step over the switch is
+  // then so small that the mode may be wrong in it.
   static double beforeSwitch(const AttemptResult& result, double step, double h, double least) {
     constexpr double kJustBefore = 0.98;
     const double before = kJustBefore * result.switch_at * step;
     return before > least ? before : h;
   }
 
-  // Below this, t + c_i h no longer resolves the stages.
+  // Below this size t + c_i h does not resolve the stages.
   double resolvedSize() const {
     const double eps = static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
     return std::max(16 * eps * std::abs(static_cast<double>(state().t)), std::numeric_limits<double>::min());
   }
   double smallestSize() const { return std::max(options_.step.h_min, resolvedSize()); }
 
-  // The rest after a switch next to the end is too short for a step.
+  // After a switch next to the end the rest is too short for a step.
   void reach(const Real& end) {
     if (state().t < end && static_cast<double>(Real(end - state().t)) < resolvedSize()) {
       trajectory_.endAt(end);
@@ -269,8 +269,8 @@ class Integrator<Real>::Run {
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   std::vector<Real> times_;                     // of the system, those before the end
-  std::size_t next_time_ = 0;                   // the first that is not reached
-  Outcome too_small_ = Outcome::kStepTooSmall;  // what a step below the smallest is called
+  std::size_t next_time_ = 0;                   // the first that is not yet reached
+  Outcome too_small_ = Outcome::kStepTooSmall;  // the outcome of a step below the smallest size
 };
 
 template <class Real>

@@ -8,9 +8,9 @@
 namespace irk {
 namespace {
 
-// Of a tolerance: what a step at rest may change.
+// A step at rest may change the state by this part of a tolerance.
 constexpr double kRest = 0.1;
-// Of the step: the golden section and its square, far from all fractions with small denominators.
+// Parts of the step: the golden section and its square, far from all fractions with small denominators.
 constexpr double kLooks[] = {0.6180339887498949, 0.3819660112501051};
 
 constexpr double kLong = 0.01;

@@ -28,7 +28,7 @@ std::string text(std::string_view axis, std::string_view id) {
 }
 std::string text(const Chosen& strategy) { return text(strategy.axis, strategy.id); }
 
-/// What the rules look at.
+/// The facts that the rules use.
 struct Facts {
   explicit Facts(const IntegratorOptions& o)
       : options(o),
@@ -47,7 +47,7 @@ struct Facts {
                 {"predictor", predictor.id.id, predictor.needs},
                 {"jacobian", jacobian.id.id, jacobian.needs}}} {}
 
-  /// The first strategy that has this need; null without one.
+  /// The first strategy with this need; null if there is none.
   const Chosen* whoNeeds(bool Needs::*need) const {
     for (const Chosen& one : chosen) {
       if (one.needs.*need) return &one;
@@ -77,7 +77,7 @@ struct Facts {
   bool eachStage() const { return options.jacobian_point == JacobianPoint::kEachStage; }
 };
 
-/// One rule: whether it is broken, and what is combined and why it does not work.
+/// One rule: whether a combination breaks it, and the message with both ids and the reason.
 struct Rule {
   bool (*broken)(const Facts&);
   std::string (*message)(const Facts&);

@@ -1,4 +1,4 @@
-// Which options go together, and with which methods and systems: one table.
+// The table of rules: which options work together, and with which methods and systems.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace irk {
 
-/// Throws Misuse for options that contradict each other whatever the method and the system: "illegal combination: ",
-/// both ids, and the reason.
+/// Throws Misuse for options that exclude each other with any method and system. The message is "illegal combination:
+/// ", both ids, and the reason.
 void requireLegal(const IntegratorOptions& options);
 
-/// Throws Misuse for combinations that a method, the system, the scalar or a strategy's needs forbid. What only a
-/// computation shows is refused by it: `eigen` with a defective A, a problem that has no regularisation for `smooth`.
-/// `start`: the member of `schemes` to begin with.
+/// Throws Misuse for combinations that do not work with the method, the system, the scalar or the needs of a strategy.
+/// Where only a computation can show this, the computation throws: `eigen` with a defective A, `smooth` with a problem
+/// that has no regularisation. `start`: index of the member of `schemes` to begin with.
 template <class Real>
 void requireLegal(const IntegratorOptions& options, const System<Real>& system, const SchemeList<Real>& schemes,
                   std::size_t start);

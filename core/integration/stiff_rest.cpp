@@ -31,7 +31,8 @@ StiffRest<Real>::StiffRest(const System<Real>& system, const IntegratorOptions& 
       slip_(sizes_.nu),
       e_(sizes_.n(), 1) {}
 
-// The change of (u, v, x) by an implicit Euler step of size d from `at_` for the difference to the rates in at_.w.
+// Computes the change of (u, v, x) by an implicit Euler step of size d from `at_`, driven by the difference from the
+// rates in at_.w.
 template <class Real>
 bool StiffRest<Real>::filter(const Real& d) {
   at_.u += slip_;

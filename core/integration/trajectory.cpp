@@ -11,7 +11,7 @@
 namespace irk {
 namespace {
 
-// Of switches at one time that make others due by the (a, k, z) which follow from them.
+// Limit of rounds of switches at one time in which the new (a, k, z) make further switches due.
 constexpr int kRounds = 5;
 
 template <class Real>
@@ -28,7 +28,7 @@ std::string componentName(const Sizes& n, Index i) {
   return i < 2 * n.nu + n.nx ? name("x", 2 * n.nu) : name("z", 2 * n.nu + n.nx);
 }
 
-// Multipliers that are solved anew at the end count nothing where the method does not determine them.
+// Errors of multipliers do not count if the method does not determine them and they are computed anew at the end.
 template <class Real>
 ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
                        const Vec<double>& scale) {
@@ -48,7 +48,8 @@ bool isPlain(const System<Real>& system) {
   return none(powers.v) && none(powers.x) && none(powers.z);
 }
 
-// Algebraic unknowns of index 2 that are no multipliers: D0 is singular, and (a, k) follow from a step only.
+// Whether algebraic unknowns other than multipliers have index 2: D0 is then singular, and only a step determines (a,
+// k).
 template <class Real>
 bool hidesRates(const System<Real>& system) {
   const auto& powers = system.errorPowers().z;
@@ -80,7 +81,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const Scheme<Real>& scheme = schemes[start];
-  // The paper's estimates and its Newton method go without: what they call a success is shown as it is.
+  // The paper's estimates and its Newton method make no such checks: their successes are reported as they are.
   const bool looks = catalogue<ErrorEstimate>()[options.step.estimate].looks_further &&
                      catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
   if (controller_ && looks && scheme.regular && scheme.first == 0 && !dampsStiffErrors(scheme) && isPlain(system)) {
@@ -152,7 +153,7 @@ double Trajectory<Real>::nextSize(const AttemptResult& result, double h, double 
   return next.h;
 }
 
-// The controller's exponent is that of the next attempt's estimate.
+// The controller's exponent has to be that of the next attempt's estimate.
 template <class Real>
 void Trajectory<Real>::followOrder(double error, double h) {
   if (attempt_->order() == order_) return;
@@ -200,7 +201,7 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   if (monitor_->accepted) report(step);
 }
 
-// The step began at what is now `next_`.
+// `next_` holds the start of the step.
 template <class Real>
 void Trajectory<Real>::report(const CommittedStep<Real>& step) {
   const AttemptResult& attempt = step.attempt;
@@ -210,7 +211,7 @@ void Trajectory<Real>::report(const CommittedStep<Real>& step) {
                       inside ? &inside_ : nullptr});
 }
 
-// The new mode and its (a, k, z), which may make further switches due.
+// Sets the new mode and its (a, k, z), which may make further switches due.
 template <class Real>
 Outcome Trajectory<Real>::restartAtSwitch() {
   for (int round = 0; round < kRounds; ++round) {
@@ -224,8 +225,8 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
-    // In index 3 the stages' accelerations are of low order: what they miss at the start says nothing.
-    // Where D0 is singular they are not known, and the first step may change them: it has no rates to follow.
+    // In index 3 the stages' accelerations are of low order, and their difference at the start shows nothing. If D0 is
+    // singular, (a, k) are not known, and the first step may change them: it has no rates to follow.
     if ((report.determined || hidesRates(system_)) && !projection_) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
@@ -236,7 +237,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
   return Outcome::kChattering;
 }
 
-// Due switches at the state, each counted and told.
+// Carries out the switches that are due at the state; counts and reports each.
 template <class Real>
 Outcome Trajectory<Real>::settle() {
   const SwitchReport report = switches_.settle(state_, Jumps::kDone, [this](Index i) {
@@ -247,7 +248,7 @@ Outcome Trajectory<Real>::settle() {
   return report.outcome;
 }
 
-// Nothing of the steps before a change of mode is of use after it.
+// Forgets the steps before a change of mode, which predict nothing after it.
 template <class Real>
 void Trajectory<Real>::restart() {
   attempt_->forget();
@@ -281,7 +282,7 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
 }
 
-// Why the end is too far off the slow motion; empty if it is not, or if its method damps such errors.
+// Why the end is too far from the slow motion; empty if it is not, or if the method damps such errors.
 template <class Real>
 std::string Trajectory<Real>::undampedRest() {
   if (!stiff_rest_ || counters_.steps_accepted == 0) return {};
