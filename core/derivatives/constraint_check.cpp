@@ -12,12 +12,11 @@
 namespace irk {
 namespace {
 
-// A result is not believed if it is off its constraints by more than kAllowed tolerances. Where the drift was some tens
-// of tolerances, errors of 1000 and more were seen in the directions in which nothing is checked; among 3060 runs of
-// mechanisms, counted with other random directions than today's, no result with an error below 30 tolerances drifted by
-// more than ten. A tolerance below kFinest counts as
-// kFinest. Whatever the tolerance, kCoarsest times the magnitude of the state is the most: a state that leaves its
-// constraints grows.
+// A result is not trusted if it violates its constraints by more than kAllowed tolerances. With a drift of some tens of
+// tolerances, errors of 1000 tolerances and more occurred in directions that no constraint checks. Among 3060 runs of
+// mechanisms (measured with other random directions than today's) no result with an error below 30 tolerances drifted
+// by more than ten. A tolerance below kFinest counts as kFinest. The limit is at most kCoarsest times the magnitude of
+// the state, whatever the tolerance is, because a state that leaves its constraints grows.
 constexpr double kAllowed = 10;
 constexpr double kFinest = 1e-12;
 constexpr double kCoarsest = 0.1;

@@ -128,7 +128,7 @@ bool FirstOrderForm<Real>::solve(const Real& t, const Real* y, const Real* d) co
   return solved_;
 }
 
-// For r linear in w: r(0) + D0 w = 0.
+// For r linear in w: w solves r(0) + D0 w = 0.
 template <class Real>
 bool FirstOrderForm<Real>::solveLinear() const {
   at_.w.setZero();

@@ -1,4 +1,4 @@
-// What changes of the components of a state make of a residual.
+// The change of a residual if the components of a state change by their weights.
 #pragma once
 
 #include <cmath>
@@ -8,16 +8,17 @@
 
 namespace irk {
 
-/// By row of r(state) the root of the sum of squares of its changes if every component of (u, v, x, w) changes by its
-/// weight. Estimated, to within a factor of about 2, from eight random directions, always the same; no row is blind to
-/// all of them. Directions in which a row is not finite do not count for it; 0 if there is no other. `at_state` is
-/// r(state).
+/// For each row of r(state): the root of the sum of squares of its changes if every component of (u, v, x, w) changes
+/// by its weight. It is estimated to within a factor of about 2 from eight random directions, always the same; at least
+/// one of them changes the row. Directions in which a row is not finite do not count for it; 0 if none is left.
+/// `at_state` is r(state).
 template <class Real, class Residual>
 Vec<double> weightedChanges(const State<Real>& state, const State<double>& weights, const Vec<Real>& at_state,
                             const Residual& r) {
   constexpr int kDirections = 8;
   std::minstd_rand random(1);
-  // Of variance 1, away from 0 and of both signs. The library's distributions differ from one to another.
+  // Numbers of variance 1, away from 0 and of both signs. Not from the standard library: its distributions differ
+  // between implementations.
   const auto direction = [&random] {
     const double part = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max());
     const double even = 2 * part - 1;
