@@ -9,8 +9,8 @@
 
 namespace irk {
 
-/// Variable order may use up to a hundred members of a family, and uses a few: what it does not use costs next to
-/// nothing. One thread at a time.
+/// Variable order may use up to a hundred members of a family but needs few: members that are not used cost almost
+/// nothing. Use one object per thread.
 template <class Real>
 class SchemeList {
  public:
@@ -18,7 +18,7 @@ class SchemeList {
 
   std::size_t size() const { return tableaus_.size(); }
   const Tableau<Real>& tableau(std::size_t i) const { return tableaus_[i]; }
-  /// Made in the first call; lives as long as the list.
+  /// The scheme of member i, made in the first call; lives as long as the list.
   const Scheme<Real>& operator[](std::size_t i) const {
     if (!made_[i]) made_[i] = std::make_unique<const Scheme<Real>>(tableaus_[i]);
     return *made_[i];

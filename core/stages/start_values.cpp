@@ -14,11 +14,11 @@ IRK_STRATEGIES(Predictor, "predictor")
 
 namespace {
 
-// Extrapolation multiplies the stages' errors (Newton's tolerance) by up to sum_j |E_ij|. Above this
-// the polynomial's highest coefficients are left out: at s = 10 and equal steps the full polynomial
-// amplifies by 1e7. Beyond the past step it grows with the distance: the farthest stage has the most.
+// Extrapolation multiplies the stages' errors (Newton's tolerance) by up to sum_j |E_ij|. Above this limit the
+// polynomial's highest coefficients are left out: at s = 10 and equal steps the full polynomial amplifies by 1e7. The
+// amplification grows with the distance from the past step and is largest at the farthest stage.
 constexpr double kAmplificationLimit = 1e4;
-// Of the past step, without an allocation: those of variable order.
+// Past steps of up to this many stages, as variable order has them, need no allocation.
 constexpr Index kReservedStages = 13;
 
 /// The collocation polynomial of the step before.
@@ -31,7 +31,7 @@ class Extrapolated : public StagePredictor<Real> {
   }
 
  private:
-  // Start values of stage i are W_past times column i. Kept for two places: doubling alternates
+  // Column i, applied to W_past, gives the start values of stage i. Two sets are kept, because doubling alternates
   // between the two halves of a step.
   struct Weights {
     const Scheme<Real>* past = nullptr;
@@ -45,7 +45,7 @@ class Extrapolated : public StagePredictor<Real> {
   Weights weights_[2];
   int newest_ = 0;
   Index farthest_ = 0;  // stage
-  Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at the new stage i
+  Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at stage i of the new step
 };
 
 template <class Real>
@@ -94,7 +94,7 @@ void Extrapolated<Real>::compute(Weights& w) {
   }
 }
 
-/// The stages of the step before; of another number of stages their polynomial.
+/// The stages of the step before; if their number differs, their polynomial.
 template <class Real>
 class Previous final : public Extrapolated<Real> {
  public:

@@ -25,34 +25,36 @@ template <class Real>
 class StagePredictor {
  public:
   virtual ~StagePredictor() = default;
-  /// W (n x s) for the step [from.t, from.t + h], from the valid polynomial `past` of any number of stages.
+  /// Writes start values W (n x s) for the step [from.t, from.t + h]; `past` is valid and may have any number of
+  /// stages.
   virtual void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) = 0;
 };
 
 template <class Real>
 using PredictorMaker = std::function<std::unique_ptr<StagePredictor<Real>>(const Scheme<Real>&)>;
 
-/// Where start values come from.
+/// A strategy of the axis `predictor`: the source of start values.
 template <>
 struct Strategy<Predictor> {
   Predictor id;
   std::string meaning;
   Needs needs = {};
-  bool extrapolates = false;       ///< good from a longer step, too: half steps start from the whole step's stages
+  /// accurate from a longer step as well: half steps start from the whole step's stages
+  bool extrapolates = false;
   PerScalar<PredictorMaker> make;  ///< keeps a reference to the scheme
 };
 template <>
 Catalogue<Predictor>& catalogue<Predictor>();
 
-/// Start values by the predictor of the options.
+/// Computes start values with the predictor that the options name.
 template <class Real>
 class StartValues {
  public:
   /// Keeps a reference to the scheme.
   StartValues(Predictor kind, const Scheme<Real>& scheme);
 
-  /// W (n x s) for the step [from.t, from.t + h], from the polynomial `past` (of any number of
-  /// stages) where it is valid, else from (a, k, z) of `from`. The explicit first stage is always that of `from`.
+  /// Writes start values W (n x s) for the step [from.t, from.t + h]: from the polynomial `past` (of any number of
+  /// stages) if it is valid, else from (a, k, z) of `from`. The explicit first stage always comes from `from`.
   void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W);
 
  private:
