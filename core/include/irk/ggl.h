@@ -7,9 +7,9 @@
 
 namespace irk {
 
-/// A problem struct P with position constraints as a system of first order, with the unknowns
-/// x = (u, v, x of the scene) and z = (z of the scene, mu). It has no second-order rows. Immutable; its
-/// constructor throws Misuse as that of ProblemSystem does.
+/// A problem struct P with position constraints as a system of first order. Its unknowns are x = (u, v, x of the scene)
+/// and z = (z of the scene, mu); it has no second-order rows. Immutable. The constructor throws Misuse for the same
+/// reasons as that of ProblemSystem.
 template <class P, class Real>
 class GglSystem final : public System<Real> {
  public:

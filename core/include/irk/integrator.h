@@ -18,10 +18,10 @@ class Integrator {
  public:
   /// Shares ownership of `system`; copies the rest. `scale`: typical magnitudes > 0 of u, v, x, z
   /// (2 nu + nx + nz numbers); empty means 1.
-  /// Throws Misuse for an invalid system or scale (irk/system_check.h), for options out of range, and for
-  /// combinations that cannot work; the message names both ids and the reason. Such combinations are, for
-  /// example: several methods without variable order, variable order without the estimate `embedded`, a
-  /// singular A with algebraic unknowns, a defective A with `eigen`, Newton `full` with a decoupled solver...
+  /// Throws Misuse for an invalid system or scale (irk/system_check.h), for options out of range, and for combinations
+  /// that do not work; the message names both ids and the reason. Examples of such combinations: several methods
+  /// without variable order, variable order without the estimate `embedded`, a singular A with algebraic unknowns, a
+  /// defective A with `eigen`, Newton `full` with a decoupled solver.
   Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods, const IntegratorOptions& options,
              const Vec<double>& scale = {});
   ~Integrator();

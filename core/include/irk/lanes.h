@@ -1,8 +1,8 @@
 // Lanes: eight numbers side by side in a vector register, as the scalar of a problem.
 //
 // A problem over Lanes is eight problems with eight sets of parameters; one instruction evaluates all of them
-// (irk/ensemble.h). Lanes have no comparisons: a residual that branches on a value has no meaning for eight values at
-// once, and the compiler refuses it. Functions beyond arithmetic and sqrt are computed lane by lane.
+// (irk/ensemble.h). Lanes have no comparisons, because a branch on eight values at once has no meaning: the compiler
+// refuses a residual that branches. Functions other than arithmetic and sqrt are computed lane by lane.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,7 +44,7 @@ struct Lanes {
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v); }
   friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
 
-  /// f of each lane.
+  /// The numbers f(i) of the lanes i.
   template <class F>
   static Lanes each(F&& f) {
     Lanes r;
@@ -89,7 +89,7 @@ struct Lanes {
 };
 // NOLINTEND(google-explicit-constructor)
 
-/// Whether all lanes are 0 (irk/vanishes.h): a residual may then leave out what it would multiply by them.
+/// Whether all lanes are 0 (irk/vanishes.h): a residual may then leave out terms that are multiplied by x.
 inline bool vanishes(const Lanes& x) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (!(x.v[i] == 0)) return false;

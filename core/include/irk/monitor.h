@@ -17,8 +17,8 @@ namespace irk {
 template <class Real>
 class InsideStep {
  public:
-  /// The state at t, in the scene's unknowns; a t outside the step stands for the nearer end. At the ends of the step
-  /// these are the states of the steps, at its start with the discrete state of the step.
+  /// The state at t, in the scene's unknowns. A t outside the step counts as the nearer end. At the ends of the step
+  /// the result is the state of the integration there; at the start it has the discrete state of the step.
   virtual State<Real> at(const Real& t) = 0;
 
  protected:
@@ -30,11 +30,11 @@ template <class Real>
 struct StepRecord {
   Real t;  ///< at the end of the step
   double h;
-  double error;           ///< error estimate in the error norm; NaN without an estimate
-  int newton_iterations;  ///< of the whole attempt, all its solves together
+  double error;           ///< error estimate in the error norm (1 = tolerance); NaN without an estimate
+  int newton_iterations;  ///< of all solves of the attempt together
   const State<Real>& state;
-  /// Valid during the callback only. Null: not asked for (Monitor::inside), or not known, as of integrators of other
-  /// libraries and of methods that have a stage time twice.
+  /// The solution inside the step, valid during the callback only. Null if Monitor::inside is false, and if it is not
+  /// known: for integrators of other libraries, and for methods with two stages at one time.
   InsideStep<Real>* inside = nullptr;
 };
 
@@ -51,7 +51,7 @@ struct SwitchRecord {
 template <class Real>
 struct Monitor {
   std::function<void(const StepRecord<Real>&)> accepted;
-  bool inside = false;  ///< whether `accepted` asks for StepRecord::inside; without it nothing is kept for that
+  bool inside = false;  ///< whether `accepted` needs StepRecord::inside; if not, the integration does not keep it
   std::function<void(const SwitchRecord<Real>&)> switched;
   /// Called before each step. kSuccess continues; kTimeout or kInterrupted ends the integration with that outcome.
   std::function<Outcome()> interrupt;

@@ -1,8 +1,8 @@
 // Multiprecision scalars: floating-point numbers of 50 and more decimal digits.
 //
 // Their arithmetic is that of Boost.Multiprecision's cpp_bin_float without expression templates, bit for bit. It is
-// compiled once, in base/multiprecision.cpp: where each file that instantiates a template for these numbers included
-// Boost and inlined its arithmetic, two thirds of the compiler's time went into it.
+// compiled once, in base/multiprecision.cpp. Before, each file that instantiates a template for these numbers included
+// Boost and inlined its arithmetic, which took two thirds of the compile time.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,21 +11,24 @@
 
 namespace irk {
 
+/// How D0, D1 and D2 are computed.
 enum class DerivativeSource { kAutomatic, kCentral, kForward };
 
-/// How D0, D1, D2 and the Newton matrices are kept.
+/// How D0, D1, D2 and the Newton matrices are stored.
 enum class Storage {
   kAutomatic,  ///< sparse where the system is large and its pattern sparse enough; kSparseFrom in
                ///< core/derivatives/differentiator.h
-  kDense,
-  kSparse,
+  kDense,      ///< full matrices; their derivatives use coloured columns as well
+  kSparse,     ///< compressed columns; scalar double only
 };
 
-// The catalogue of each axis, with what the ids mean and need, stands beside its strategies: core/options/catalogue.h.
-/// The terms that are left out of (D0, D1, D2), paper (4.4)-(4.8). The residual is linear in a, so the derivatives of
+// The catalogue of each axis stands beside its strategies; it says what the ids mean and need:
+// core/options/catalogue.h.
+
+/// The terms that are left out of (D0, D1, D2), paper (4.4)-(4.8). The residual is linear in a, so that derivatives of
 /// M a are left out by differentiating at a = 0.
 struct JacobianTerms : StrategyId<JacobianTerms> {
-  static const JacobianTerms kFull;
+  static const JacobianTerms kFull;               ///< none is left out
   static const JacobianTerms kNoMassVxz;          ///< (4.4): without d(M a)/d(v, x, z)
   static const JacobianTerms kNoConstraintXz;     ///< (4.5): without dG/d(x, z)
   static const JacobianTerms kNoMass;             ///< (4.8) and (4.4): without d(M a)/d(u, v, x, z)
@@ -37,6 +40,7 @@ inline constexpr JacobianTerms JacobianTerms::kNoConstraintXz{{"no_constraint_xz
 inline constexpr JacobianTerms JacobianTerms::kNoMass{{"no_mass"}};
 inline constexpr JacobianTerms JacobianTerms::kConstantStiffness{{"constant_stiffness"}};
 
+/// Newton's method: when it stops and when its matrix is renewed.
 struct NewtonKind : StrategyId<NewtonKind> {
   static const NewtonKind
       kSimplified;                   ///< one Jacobian over steps, stop on the increment in the error norm, HW II (IV.8)
@@ -49,6 +53,8 @@ inline constexpr NewtonKind NewtonKind::kBroyden{{"broyden"}};
 inline constexpr NewtonKind NewtonKind::kModified{{"modified"}};
 inline constexpr NewtonKind NewtonKind::kFull{{"full"}};
 
+/// How the linear systems of Newton's method are solved: s/2 complex systems of n unknowns by Schur or eigenvalue
+/// decomposition of A, or one system of s n unknowns, dense or sparse.
 struct StageSolverKind : StrategyId<StageSolverKind> {
   static const StageSolverKind kSchur, kEigen, kCoupledDense, kCoupledSparse;
 };
@@ -57,6 +63,7 @@ inline constexpr StageSolverKind StageSolverKind::kEigen{{"eigen"}};
 inline constexpr StageSolverKind StageSolverKind::kCoupledDense{{"coupled_dense"}};
 inline constexpr StageSolverKind StageSolverKind::kCoupledSparse{{"coupled_sparse"}};
 
+/// Where the start values of Newton's method come from.
 struct Predictor : StrategyId<Predictor> {
   static const Predictor kExtrapolated;  ///< collocation polynomial of the step before
   static const Predictor kPrevious;      ///< the stages of the step before, stage by stage (paper)
@@ -66,14 +73,16 @@ inline constexpr Predictor Predictor::kExtrapolated{{"extrapolated"}};
 inline constexpr Predictor Predictor::kPrevious{{"previous"}};
 inline constexpr Predictor Predictor::kAcceleration{{"acceleration"}};
 
+/// How the error of a step is estimated. V_h: the result of one step h; V_{h/2}: that of two half steps.
 struct ErrorEstimate : StrategyId<ErrorEstimate> {
-  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q; at least the effect of a switch in the step, and
-  /// at least an estimate of the stages' order where the two half steps do not show order q
+  /// |V_h - V_{h/2}| / (2^q - 1), each component with its own order q. It is at least the effect of a switch in the
+  /// step, and at least an estimate of the stages' order if the two half steps do not show order q.
   static const ErrorEstimate kRichardson;
   static const ErrorEstimate kDoubling;  ///< paper (5.4): |V_h - V_{h/2}| / (2^p - 1), p the classical order, for all
-  static const ErrorEstimate kDoublingScalar;  ///< HOTINT: the difference of the two solutions' norms, over 2^p - 1
+  /// HOTINT: the difference of the two solutions' norms, divided by 2^p - 1
+  static const ErrorEstimate kDoublingScalar;
   static const ErrorEstimate kEmbedded;  ///< one solve with a real system: an embedded method of order s, HW II (IV.8)
-  static const ErrorEstimate kNone;
+  static const ErrorEstimate kNone;      ///< no estimate; fixed steps only
 };
 inline constexpr ErrorEstimate ErrorEstimate::kRichardson{{"richardson"}};
 inline constexpr ErrorEstimate ErrorEstimate::kDoubling{{"doubling"}};
@@ -81,20 +90,23 @@ inline constexpr ErrorEstimate ErrorEstimate::kDoublingScalar{{"doubling_scalar"
 inline constexpr ErrorEstimate ErrorEstimate::kEmbedded{{"embedded"}};
 inline constexpr ErrorEstimate ErrorEstimate::kNone{{"none"}};
 
+/// How step sizes are chosen.
 struct StepControl : StrategyId<StepControl> {
-  static const StepControl kPaper;       ///< the paper's section 6
-  static const StepControl kHotint;      ///< the later source: s_min 2, s_max 4, exponent 1/p, no gamma
+  static const StepControl kPaper;  ///< the paper's section 6
+  /// the paper's, as in the later HOTINT source: s_min 2, s_max 4, exponent 1/p, no gamma
+  static const StepControl kHotint;
   static const StepControl kPredictive;  ///< Gustafsson's, HW II (IV.8.25)
-  static const StepControl kFixed;
+  static const StepControl kFixed;       ///< constant steps of size StepOptions::h
 };
 inline constexpr StepControl StepControl::kPaper{{"paper"}};
 inline constexpr StepControl StepControl::kHotint{{"hotint"}};
 inline constexpr StepControl StepControl::kPredictive{{"predictive"}};
 inline constexpr StepControl StepControl::kFixed{{"fixed"}};
 
+/// Whether one method takes all steps.
 struct OrderControl : StrategyId<OrderControl> {
-  static const OrderControl kFixed;     ///< one method
-  static const OrderControl kVariable;  ///< members of a family by work per unit step and Newton's contraction
+  static const OrderControl kFixed;     ///< one method takes all steps
+  static const OrderControl kVariable;  ///< members of a family, chosen by work per unit step and Newton's contraction
 };
 inline constexpr OrderControl OrderControl::kFixed{{"fixed"}};
 inline constexpr OrderControl OrderControl::kVariable{{"variable"}};
@@ -102,26 +114,28 @@ inline constexpr OrderControl OrderControl::kVariable{{"variable"}};
 /// How a step's increments are added to u, v, x.
 enum class Summation {
   kCompensated,  ///< the round-off of each addition is added to the next increment
-  kPlain,
+  kPlain,        ///< round-off accumulates
 };
-/// (a, k, z) at the end of an integration, of systems with algebraic unknowns.
+/// How (a, k, z) at the end of an integration are computed, for systems with algebraic unknowns.
 enum class Multipliers {
-  kStages,      ///< those of the last step: in index 2 of order s, with the error of Newton's method divided by h
+  kStages,      ///< taken from the last step: in index 2 of order s, with the error of Newton's method divided by h
   kConsistent,  ///< computed from (u, v, x) at the level of accelerations, and as accurate as these
 };
+/// Where in a step the Jacobian is evaluated.
 enum class JacobianPoint {
-  kStart,
-  kMiddle,     ///< t0 + h/2, by Taylor's formula from the start
-  kPredicted,  ///< an inner stage of the start values
-  kEachStage,
+  kStart,      ///< at the step's start (paper)
+  kMiddle,     ///< at t0 + h/2, by Taylor's formula from the start (HOTINT)
+  kPredicted,  ///< at the start values of the stage nearest to t0 + 0.6 h
+  kEachStage,  ///< at the start values of each stage; coupled solvers only
 };
 
+/// The norm of errors and of Newton's increments. An error of norm 1 is one tolerance. y: the state, e: its error.
 enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
   kAbsolute,  ///< the paper's: 2-norm of e / atol over all components
 };
 
-/// One id of an axis, as the command line, study files and tables write it.
+/// One id of an axis, as it is written on the command line, in study files and in tables.
 template <class E>
 struct Named {
   E value;
@@ -129,14 +143,15 @@ struct Named {
   std::string_view meaning;
 };
 
-/// All ids of an axis, the default first.
+/// All ids of an axis, the default first. Valid until a strategy is registered for the axis.
 template <class E>
 std::span<const Named<E>> named();
 
-/// The value behind an id. Throws Misuse with the axis, the nearest id and all ids.
+/// The value with this id. Throws Misuse for an unknown id; the message names the axis, the nearest id and all ids.
 template <class E>
 E parseId(std::string_view id);
 
+/// The id of a value; "?" if the axis has no such value.
 template <class E>
 std::string_view idOf(E value) {
   if constexpr (requires { value.id; }) return value.id;
@@ -146,52 +161,55 @@ std::string_view idOf(E value) {
   return "?";
 }
 
-/// The axis' name in options, files and messages: `newton`, `solver`, ...
+/// The name of the axis in options, files and messages: `newton`, `solver`, ...
 template <class E>
 std::string_view axisName();
 
-// The legal values of all options, their meanings for users, and which ones have no effect beside others are in the
-// table optionFields(), core/options/option_fields.cpp. A member that is added here needs its line there.
+// The table optionFields() in core/options/option_fields.cpp holds the legal values of all options, their meanings for
+// users, and which ones have no effect beside others. A new member needs a line there.
 
+/// Options of Newton's method.
 struct NewtonOptions {
   NewtonKind kind = NewtonKind::kSimplified;
-  /// Paper (3.2): done when eps(i) <= tol eps(0). `modified` and `full`.
+  /// `modified`, `full`: converged when eps(i) <= residual_tolerance eps(0), with eps = |R|_2. Paper (3.2).
   double residual_tolerance = 1e-10;
-  /// Paper (3.4): contractivity above which the Jacobian is recomputed, ...
+  /// `modified`: the Jacobian is recomputed when the contraction exceeds this limit, ... Paper (3.4).
   double contractivity_limit = 0.7;
   /// ... after more than this many iterations.
   int contractivity_after = 3;
-  /// Paper, section 3: 25 iterations without convergence are a failure.
+  /// A solve fails after this many iterations. Paper, section 3: 25.
   int max_iterations = 25;
-  /// 0 = max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))). HW II (IV.8.10) with the exponent
-  /// that shrinks with s; from 1000 accepted steps on it falls with their number, down to 10 eps/rtol. `simplified`,
-  /// `broyden`: done when eta |dw| <= kappa in the error norm.
+  /// `simplified`, `broyden`: converged when eta |dw| <= kappa in the error norm, HW II (IV.8.10). 0 means
+  ///   max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))),
+  /// which shrinks with s; from 1000 accepted steps on it falls with their number, down to 10 eps/rtol.
   double kappa = 0;
   /// `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
   double keep_jacobian_below = 1e-3;
 };
 
+/// Options of the step size and the error estimate. Sizes and times have the unit of the problem's t.
 struct StepOptions {
   StepControl control = StepControl::kPredictive;
   ErrorEstimate estimate = ErrorEstimate::kRichardson;
-  /// Fixed control: the step, > 0 (the last one is shortened to end at t_end). Else the first step;
-  /// 0 = chosen from the scale of the solution.
+  /// With control `fixed` the size of all steps, > 0; the last step is shortened to end at t_end. Otherwise the size of
+  /// the first step; 0 means a size chosen from the scale of the solution.
   double h = 0;
-  /// 0 = 16 eps |t| or the smallest number.
+  /// The integration fails below this size. 0 means 16 eps |t|, or the smallest positive number.
   double h_min = 0;
   double h_max = 1e300;
-  /// Attempted steps.
+  /// The integration fails after this many attempted steps.
   std::int64_t max_steps = 1'000'000;
-  /// Paper (6.1)-(6.3): s_min = 4, s_max = s_min^2; a step is kept unless it would change by
-  /// `change_at_least`; growth at most `growth_at_most`.
+  /// Controls `paper` and `hotint`, paper (6.1)-(6.3): s_max = s_min^2; a step is kept unless it would change by
+  /// `change_at_least`; it grows by at most `growth_at_most`.
   double s_min = 4;
   double change_at_least = 2;
   double growth_at_most = 5;
 };
 
+/// The error of component i counts relative to atol scale_i + rtol |y_i|; see NormKind.
 struct Tolerances {
   double rtol = 1e-6;
-  double atol = 1e-6;  ///< times the component's scale
+  double atol = 1e-6;  ///< multiplied by the component's scale
   NormKind norm = NormKind::kMixed;
 };
 
@@ -203,10 +221,10 @@ struct IntegratorOptions {
   JacobianTerms jacobian = JacobianTerms::kFull;
   NewtonOptions newton;
   StageSolverKind solver = StageSolverKind::kSchur;
-  /// Of `schur` and `eigen`; the coupled solvers have their own.
+  /// Storage of the solvers `schur` and `eigen`; the ids of the coupled solvers name theirs.
   Storage storage = Storage::kAutomatic;
-  /// Threads for the residuals of the stages and the factorizations of the blocks of one integration; the results do
-  /// not depend on it. In a parallel region of the caller it has no effect: one thread.
+  /// Number of threads for the residuals of the stages and the factorizations of the blocks. Results do not depend on
+  /// it. Inside a parallel region of the caller one thread is used, whatever the number is.
   int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
   Summation summation = Summation::kCompensated;
@@ -215,7 +233,8 @@ struct IntegratorOptions {
   StepOptions step;
 };
 
-/// Throws Misuse naming field, value and range. Which options go together: core/integration/rules.h.
+/// Throws Misuse for an option out of range; the message names field, value and range. core/integration/rules.h checks
+/// which options work together.
 void validate(const IntegratorOptions& options);
 
 }  // namespace irk

@@ -1,35 +1,37 @@
-// How a numerical operation ended. Misuse is an exception; these are results.
+// How a numerical operation ended. Bad input is an exception (Misuse); numerical failures are these values.
 #pragma once
 
 #include <string_view>
 
 namespace irk {
 
-/// One list for all levels, so that a cause keeps its name from where it is found to the row of the run: a
-/// factorization ends with kSuccess, kSingular or kNotFinite; Newton's method and a step also with kNewtonFailed, a
-/// step that switches with kChattering, a start with kInconsistentStart; the other values belong to a whole run.
+/// One list for all levels, so that a cause has the same name from where it occurs to the row of the run. A
+/// factorization ends with kSuccess, kSingular or kNotFinite. Newton's method and a step may also end with
+/// kNewtonFailed, a step that switches with kChattering, a start with kInconsistentStart. The other values belong to a
+/// whole run.
 enum class Outcome {
   kSuccess,
   kNewtonFailed,       ///< no convergence, and the step may not be (or was already) reduced
   kStepTooSmall,       ///< the controller asked for a step below the minimum
   kMaxSteps,           ///< the limit of attempted steps is used up
-  kTimeout,            ///< the caller's clock said stop
-  kInterrupted,        ///< the caller said stop
+  kTimeout,            ///< the caller's time limit is over
+  kInterrupted,        ///< the caller interrupted the integration
   kNotFinite,          ///< the residual or its derivatives are NaN or infinite at the step's start
   kSingular,           ///< the Newton matrix is singular
   kInconsistentStart,  ///< constraints are violated, or accelerations cannot be determined
-  kChattering,         ///< switches follow each other without time passing
+  kChattering,         ///< switches follow each other while no time passes
   kStalled,            ///< steps stay so small that the end is out of reach
-  kDrift,              ///< the end is reached, but it violates the position constraints
-  kInaccurate,         ///< errors of all steps, or of undamped stiff components, are more than 200 tolerances
+  kDrift,              ///< the integration reached the end, but the state there violates the position constraints
+  /// the summed errors of all steps, or undamped errors of stiff components, exceed 200 tolerances
+  kInaccurate,
 };
 
-/// Whether a shorter step may end better: Newton's method failed, or its matrix is singular.
+/// Whether a shorter step may succeed: Newton's method failed, or its matrix is singular.
 constexpr bool isRecoverable(Outcome outcome) {
   return outcome == Outcome::kNewtonFailed || outcome == Outcome::kSingular;
 }
 
-/// The name in tables: `success`, `newton_failed`, ...
+/// The name in tables, CSV and JSON: `success`, `newton_failed`, ...
 constexpr std::string_view name(Outcome outcome) {
   switch (outcome) {
     case Outcome::kSuccess:

@@ -44,14 +44,18 @@
 //     template <class T>
 //     void smoothed(const Point<T>& p, T* d) const;
 //     std::string switchName(Index i) const;  // for messages
-//     // Times, ascending, at which the residual jumps or has a kink: steps end there, nothing is searched. What
-//     // jumps must depend on p.d, which onTime changes; a kink (of a table of measured data) needs no p.d. At times up
-//     // to the start, and at t_end, onTime is not called: the start's d is the one that holds there.
+//     // Times, ascending, at which the residual jumps or has a kink. Steps end there; no root is searched. A jump
+//     // must depend on p.d, which onTime changes; a kink (of a table of measured data) need not. onTime is not called
+//     // at t_end and at times up to the start: the d of the start has to be the one after them.
 //     std::vector<Real> times() const;
 //     template <class T>
 //     void onTime(Index i, const Point<T>& p, T* d) const;
 //
 // A switching function that has no meaning in a mode returns -1 in this mode.
+//
+// Algebraic unknowns other than multipliers have index 1, unless the struct declares `static constexpr int
+// kAlgebraicIndex` (2 or 3). For index 3 it also declares an array of int, `static constexpr ... kDifferentialIndices`,
+// with the index of each x: 2 where an algebraic unknown determines the derivative, else 1.
 #pragma once
 
 #include <memory>
@@ -62,11 +66,11 @@
 
 namespace irk {
 
-/// When the first-order form factorizes a mass matrix (its whole D0) that is not constant.
+/// How often the first-order form factorizes a mass matrix (its whole D0) that is not constant.
 enum class MassFactors {
-  kEachPoint,
-  /// The factors of a step's first point serve the others, too: each solve is refined by residuals until it is as
-  /// exact as one with its own factors. Where that does not converge, M is factorized after all.
+  kEachPoint,  ///< at every new point
+  /// Once per step, at its first point. Other solves of the step use these factors and are refined by residuals until
+  /// they are as exact as with their own factors. If that does not converge, M is factorized at the point.
   kEachStep,
 };
 
@@ -76,7 +80,7 @@ enum class MassFactors {
 /// from (u, v, x).
 template <class Real>
 std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system, MassFactors factors);
-/// The same with the factors of each point.
+/// The same with MassFactors::kEachPoint.
 template <class Real>
 std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system);
 

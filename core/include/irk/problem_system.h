@@ -15,8 +15,8 @@
 
 namespace irk {
 
-/// Views of the residual rows that a problem writes. z: the nz - constraints rows of the algebraic
-/// equations that are not position constraints.
+/// Views of the rows of a residual, which a problem writes. z: the nz - constraints rows of the algebraic equations
+/// other than position constraints.
 template <class T>
 struct Rows {
   VecView<T> u, x, z;
@@ -29,8 +29,9 @@ constexpr std::size_t kFew = 16;
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
  public:
-  /// Throws Misuse for sizes that cannot be (core/include/irk/system_check.h), for `smooth` where the problem switches
-  /// but has no regularisation, and for `ignore` and `iterate` where its state jumps: they go on over a switch.
+  /// Throws Misuse for invalid sizes (core/include/irk/system_check.h), for times that are not ascending, for `smooth`
+  /// with a problem that switches but has no regularisation, and for `ignore` and `iterate` with a problem whose state
+  /// jumps, since they go on over switches.
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
     requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
@@ -113,7 +114,7 @@ class ProblemSystem final : public System<Real> {
   State<Real> fromScene(const State<Real>& scene) const override { return scene; }
   State<Real> toScene(const State<Real>& state) const override { return state; }
 
-  /// All rows at p, the discrete state as the options treat it.
+  /// All rows at p, with the discrete state that the option `discontinuity` selects.
   template <class T>
   void evaluateAt(Level level, const Point<T>& p, T* r) const {
     const bool implied = kHasSwitching && options_.discontinuity.sees == ModeSeen::kImplied;
@@ -175,7 +176,7 @@ class ProblemSystem final : public System<Real> {
     }
   }
 
-  // Calls f(p, d) for the state and the discrete states that it is to change.
+  // Calls f(p, d) with the state and the discrete states that f may change.
   template <class F>
   static void change(State<Real>& state, F&& f) {
     FewOrMany<Real> d(state.d.begin(), state.d.end());
@@ -183,7 +184,7 @@ class ProblemSystem final : public System<Real> {
     std::copy(d.begin(), d.end(), state.d.begin());
   }
 
-  // Calls f(p, u, v, x) for the state and the numbers that it is to change.
+  // Calls f(p, u, v, x) with the state and the numbers that f may change.
   template <class F>
   static void move(State<Real>& state, F&& f) {
     FewOrMany<Real> u(state.u.begin(), state.u.end()), v(state.v.begin(), state.v.end()),
@@ -197,18 +198,18 @@ class ProblemSystem final : public System<Real> {
   template <class T>
   using FewOrMany = boost::container::small_vector<T, kFew>;
 
-  // Not inlined: in another context the compiler would contract other products and sums, and the bits
-  // would depend on how many stages are asked for at once.
+  // Not inlined: elsewhere the compiler would contract other products and sums, and the bits would depend on the number
+  // of stages per call.
   [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const { evaluateAt(Level::kFormulated, p, r); }
   bool smooth() const { return options_.discontinuity.sees == ModeSeen::kRegularised; }
 
-  /// 1 where a problem does not say that its algebraic unknowns (no multipliers) are of index 2.
+  /// The index of algebraic unknowns other than multipliers: P::kAlgebraicIndex, or 1 if P has none.
   static int algebraicIndex() {
     if constexpr (requires { P::kAlgebraicIndex; }) return P::kAlgebraicIndex;
     return 1;
   }
-  /// 1 where a problem does not say that some of its x are of index 2: those whose derivatives the
-  /// algebraic unknowns of index 3 determine.
+  /// The index of x_i: P::kDifferentialIndices[i], or 1 if P has none. It is 2 where an algebraic unknown of index 3
+  /// determines the derivative.
   static int differentialIndex(Index i) {
     if constexpr (requires { P::kDifferentialIndices; }) {
       return P::kDifferentialIndices[static_cast<std::size_t>(i)];
@@ -232,8 +233,8 @@ class ProblemSystem final : public System<Real> {
     return 2;
   }
 
-  // The mode that p implies: does due switches until none is due. A cascade that does not end is
-  // cut off; the error estimate then judges the step.
+  // Computes the mode that p implies: carries out due switches until none is due. A cascade that does not end is cut
+  // off; the error estimate then judges the step.
   template <class T>
   void imply(const Point<T>& p, FewOrMany<T>& d) const {
     if constexpr (kHasSwitching) {

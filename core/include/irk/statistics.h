@@ -5,17 +5,19 @@
 
 namespace irk {
 
+/// Counts of one integration; they start at 0 with each call of Integrator::integrate.
 struct Counters {
   std::int64_t residuals = 0;       ///< evaluations of r over plain numbers
   std::int64_t dual_residuals = 0;  ///< evaluations of r over dual numbers (8 directions each)
   std::int64_t jacobians = 0;  ///< evaluations of (D0, D1, D2) at one point, of D0 alone at starts, restarts and ends
-  std::int64_t factorizations = 0;  ///< of the Newton matrix (all its blocks together count as one)
-  std::int64_t solves = 0;          ///< with a factorized Newton matrix (all its blocks together count as one)
-  std::int64_t newton_iterations = 0;
-  std::int64_t newton_restarts = 0;  ///< from the start values, with a new Jacobian or full Newton (paper)
+  std::int64_t factorizations = 0;     ///< of the Newton matrix (all its blocks together count as one)
+  std::int64_t solves = 0;             ///< with a factorized Newton matrix (all its blocks together count as one)
+  std::int64_t newton_iterations = 0;  ///< of all attempted steps
+  /// iterations begun anew from the start values, with a new Jacobian or full Newton (paper)
+  std::int64_t newton_restarts = 0;
   std::int64_t steps_accepted = 0;
-  std::int64_t steps_rejected_error = 0;
-  std::int64_t steps_rejected_newton = 0;
+  std::int64_t steps_rejected_error = 0;      ///< attempts with too large an error estimate
+  std::int64_t steps_rejected_newton = 0;     ///< attempts in which Newton's method failed
   std::int64_t switches = 0;                  ///< changes of the discrete state
   std::int64_t discontinuous_iterations = 0;  ///< `iterate`: steps repeated with a new discrete state
   std::int64_t located_events = 0;            ///< `locate`: steps that end at a switch

@@ -1,5 +1,5 @@
-// All that your own strategy includes: the interfaces of all axes, and registerStrategy. The headers of the interfaces
-// are installed in irk/internal; they change more often than the rest of the library.
+// The header to include for a strategy of your own: the interfaces of all axes, and registerStrategy. The headers of
+// the interfaces are installed in irk/internal; they change more often than the rest of the library.
 //
 // | axis | base class | entry |
 // |---|---|---|

@@ -1,4 +1,4 @@
-// Ids of strategies: values of an axis whose choices behave differently, and which others can extend.
+// Ids of strategies: the values of an axis whose choices differ in behaviour, and to which users can add.
 #pragma once
 
 #include <compare>
@@ -6,8 +6,8 @@
 
 namespace irk {
 
-/// An id of the axis `Axis`, which derives from it and names the ids that come with the library. The text is of static
-/// storage duration: a literal, or the catalogue's. Ids are compared by their text.
+/// An id of the axis `Axis`. The axis derives from this struct and names the ids that come with the library. The text
+/// has static storage duration: a literal, or the catalogue's copy. Ids are compared by their text.
 template <class Axis>
 struct StrategyId {
   std::string_view id;

@@ -28,7 +28,7 @@ struct Sizes {
   Index components() const { return 2 * nu + nx + nz; }
 };
 
-/// Where the residual is evaluated. Views: the caller owns the numbers, nothing is copied.
+/// A point where the residual is evaluated. Views: the caller owns the numbers, and nothing is copied.
 template <class T>
 struct Point {
   T t;
@@ -37,15 +37,16 @@ struct Point {
   ConstVec<T> d{nullptr, 0};  ///< discrete state
 };
 
-/// The state between two steps, with the last known w = (a, k, z) as start values of the next step.
+/// The state between two steps. Sizes: u and v nu, x nx, w n, d the number of discrete states. w = (a, k, z) serves as
+/// start values of the next step.
 template <class Real>
 struct State {
   Real t{};
   Vec<Real> u, v, x;
   Vec<Real> w;
   Vec<Real> d;  ///< discrete state: constant between switches
-  /// What the additions of the steps' increments to (u, v, x) lost to round-off, 2 nu + nx:
-  /// compensated summation, Hairer, Lubich & Wanner, Geometric Numerical Integration, VIII.5.
+  /// The round-off that was lost when the increments of steps were added to (u, v, x); 2 nu + nx numbers. Compensated
+  /// summation, Hairer, Lubich & Wanner, Geometric Numerical Integration, VIII.5.
   Vec<Real> carry;
 
   explicit State(const Sizes& n = {})
@@ -63,7 +64,7 @@ struct State {
   auto z() const { return w.tail(w.size() - u.size() - x.size()); }
 };
 
-/// Views of a state's numbers.
+/// The point of a state, as views of its numbers: valid as long as the state.
 template <class Real>
 Point<Real> pointOf(const State<Real>& s) {
   const Real* const w = s.w.data();
@@ -78,7 +79,7 @@ Point<Real> pointOf(const State<Real>& s) {
           {s.d.data(), s.d.size()}};
 }
 
-/// Points with one discrete state: the stages of a step, by columns.
+/// Points with a common discrete state: the stages of a step, one per column.
 template <class Real>
 struct StagePoints {
   Sizes sizes;
@@ -95,31 +96,32 @@ struct StagePoints {
   }
 };
 
-/// Which discrete state a residual takes.
+/// The discrete state with which a residual is evaluated.
 enum class ModeSeen {
-  kFrozen,       ///< that of its point
-  kImplied,      ///< the one that (u, v, x; a, k, z) of its point imply
-  kRegularised,  ///< the problem's regularisation: a smooth function of its point
+  kFrozen,       ///< the discrete state of the point
+  kImplied,      ///< the one that (u, v, x; a, k, z) of the point imply
+  kRegularised,  ///< the problem's regularisation: a smooth function of the point
 };
-/// What a switch inside a step does to the step.
+/// The effect of a switch inside a step on the step.
 enum class AtSwitch {
-  kGoOn,   ///< the step goes on over it
-  kEnd,    ///< the step ends there
+  kGoOn,   ///< the step goes on over the switch
+  kEnd,    ///< the step ends at the switch
   kNever,  ///< nothing switches
 };
 
-/// How switches are treated: what the system has to know of it. What follows a solved step and its acceptance:
-/// core/steps/modes.h.
+/// The treatment of switches, as far as the system needs it. core/steps/modes.h has the part that follows a solved step
+/// and its acceptance.
 struct Discontinuity : StrategyId<Discontinuity> {
   ModeSeen sees = ModeSeen::kFrozen;
   AtSwitch at_switch = AtSwitch::kGoOn;
 
-  /// Jumps are left to the error estimate.
+  /// Steps go on over switches; the error estimate has to judge the jumps.
   static const Discontinuity kIgnore;
-  /// Modes are updated after Newton's method, the step repeated until they stay.
+  /// The mode is updated after Newton's method, and the step is repeated until the mode stays the same.
   static const Discontinuity kIterate;
-  /// The first root of a switching function ends the step, then a restart.
+  /// The first root of a switching function ends the step; then the integration restarts.
   static const Discontinuity kLocate;
+  /// Residuals use the problem's regularisation; nothing switches.
   static const Discontinuity kSmooth;
 };
 inline constexpr Discontinuity Discontinuity::kIgnore{{"ignore"}, ModeSeen::kImplied, AtSwitch::kGoOn};
@@ -127,37 +129,37 @@ inline constexpr Discontinuity Discontinuity::kIterate{{"iterate"}, ModeSeen::kF
 inline constexpr Discontinuity Discontinuity::kLocate{{"locate"}, ModeSeen::kFrozen, AtSwitch::kEnd};
 inline constexpr Discontinuity Discontinuity::kSmooth{{"smooth"}, ModeSeen::kRegularised, AtSwitch::kNever};
 
-/// Which residual. `kFormulated` is the one that is integrated; the others replace its rows of
-/// position constraints g(t, u) = 0 by g, dg/dt or d2g/dt2, whatever the formulation: to check a
-/// start, to measure drift, and (`kAcceleration`) to determine (a, k, z) from (u, v, x).
+/// Which residual is evaluated. `kFormulated` is the one that is integrated. In the others the rows of position
+/// constraints are g, dg/dt or d2g/dt2 in every formulation: to check a start, to measure drift, and (`kAcceleration`)
+/// to determine (a, k, z) from (u, v, x).
 enum class Level { kFormulated, kPosition, kVelocity, kAcceleration };
 
-/// Index minus 1 of each component: the error of a variable of index i is O(h^-(i-1)) times larger, HW II
-/// (VII.7). The error norm multiplies that of algebraic unknowns by h^power; u, v and x are results, and
-/// controlled as they are: a method that does not determine them fails. Newton's increments carry h^power
-/// in all of them. Sizes: nu, nu, nx, nz.
+/// Index minus 1 of each component: the error of a variable of index i is larger by a factor O(h^-(i-1)), HW II
+/// (VII.7). The error norm multiplies the errors of algebraic unknowns by h^power. It does not do so for u, v and x,
+/// which are results: a method that does not determine them must fail. Newton's increments are multiplied by h^power in
+/// all components. Sizes: nu, nu, nx, nz.
 struct ErrorPowers {
   std::vector<int> u, v, x, z;
 };
 
-/// A system in residual form. Immutable and shared by threads: evaluation has no side
-/// effects (but FirstOrderForm, which keeps its factors: one per thread).
+/// A system in residual form. Evaluations have no side effects, so that threads may share a system; FirstOrderForm is
+/// the exception: it keeps factors and needs one object per thread.
 template <class Real>
 class System {
  public:
   virtual ~System() = default;
 
   virtual Sizes sizes() const = 0;
-  /// Those of the scene's unknowns, which fromScene takes.
+  /// The sizes in the scene's unknowns, which fromScene takes.
   virtual Sizes sceneSizes() const { return sizes(); }
 
-  /// r (n rows) at p. No aliasing between p and r. Writes every row; never throws; what cannot be
-  /// computed is NaN.
+  /// Writes every row of the residual at p to r (n rows); r and p must not overlap. Never throws: a value that cannot
+  /// be computed is NaN.
   virtual void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const = 0;
   virtual void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const = 0;
 
-  /// The formulated residuals at the points first <= i < last: column i of r. One call for all stages,
-  /// for which a small system overrides it: there calls cost as much as its arithmetic.
+  /// Writes the formulated residuals at the points first <= i < last to the columns i of r. Small systems override it,
+  /// because there a call costs as much as its arithmetic.
   virtual void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const {
     const Index n = at.sizes.n();
     for (Index i = first; i < last; ++i) {
@@ -165,45 +167,45 @@ class System {
     }
   }
 
-  /// Row i of the formulated residual is multiplied by h^-power[i] (paper, section 4: 1/h for
-  /// velocity constraints; 1/h^2 for position constraints). Size n.
+  /// Row i of the formulated residual is multiplied by h^-power[i] (paper, section 4: 1/h for velocity constraints,
+  /// 1/h^2 for position constraints). n numbers.
   virtual const std::vector<int>& rowPowers() const = 0;
   virtual const ErrorPowers& errorPowers() const = 0;
 
-  /// Which switching functions exist follows from sizes(). g (sizes().switches): the discrete state
-  /// of p is valid while every g_i <= 0; g_i > 0 says that switch i is due.
+  /// Writes the sizes().switches switching functions at p to g. The discrete state of p is valid while every g_i <= 0;
+  /// g_i > 0: switch i is due.
   virtual void switching(const Point<Real>& p, VecView<Real> g) const {
     static_cast<void>(p);
     g.setConstant(Real(-1));
   }
-  /// The discrete state after switch i.
+  /// Changes state.d to the discrete state after switch i.
   virtual void onSwitch(Index i, State<Real>& state) const {
     static_cast<void>(i);
     static_cast<void>(state);
   }
-  /// u, v, x after switch i, where the problem makes them jump or knows them exactly; state.d is the
-  /// new one.
+  /// Changes u, v, x at switch i where the problem makes them jump or knows them exactly; state.d is the new discrete
+  /// state.
   virtual void jump(Index i, State<Real>& state) const {
     static_cast<void>(i);
     static_cast<void>(state);
   }
-  /// Times at which the right-hand side jumps or has a kink, ascending. A step ends at each of them, whatever the
-  /// treatment of switches is, and the integration starts again from there.
+  /// Times, ascending, at which the right-hand side jumps or has a kink. With every treatment of switches a step ends
+  /// at each of them, and the integration restarts there.
   virtual std::vector<Real> times() const { return {}; }
-  /// The discrete state after time i.
+  /// Changes state.d to the discrete state after time i.
   virtual void onTime(Index i, State<Real>& state) const {
     static_cast<void>(i);
     static_cast<void>(state);
   }
-  /// For messages: "contact".
+  /// The name of switch i in messages, e.g. "contact".
   virtual std::string switchName(Index i) const { return std::to_string(i); }
-  /// How its evaluations treat the discrete state.
+  /// How evaluations treat the discrete state.
   virtual Discontinuity discontinuity() const { return Discontinuity::kIgnore; }
   /// Whether v is projected on dg/dt = 0 after each step.
   virtual bool projectsVelocity() const { return false; }
 
-  /// Translate between the scene's unknowns (u, v, x, z as the problem names them) and the
-  /// formulation's. Identity for all but GGL and first order.
+  /// Translate between the scene's unknowns (u, v, x, z as the problem names them) and those of the formulation. The
+  /// identity for all formulations but GGL and first order.
   virtual State<Real> fromScene(const State<Real>& scene) const = 0;
   virtual State<Real> toScene(const State<Real>& state) const = 0;
   /// Whether a = u'' is an unknown of its own (in GGL and first order it is part of k).

@@ -17,13 +17,13 @@ struct Declared {
 /// and for constraints or switches without their functions. The message names the size and what is allowed.
 void requireSizes(const Sizes& sizes, const Declared& declared = {});
 
-/// Checks any system, also one that is not made by makeSystem. Throws Misuse for null, for sizes as above, for row
-/// or error powers of the wrong length, and for a scale that is neither empty nor > 0 in every component.
+/// Checks any system, also one that makeSystem has not made. Throws Misuse for null, for sizes as above, for row or
+/// error powers of the wrong length, and for a scale that is neither empty nor > 0 in every component.
 template <class Real>
 void requireSystem(const System<Real>* system, const Vec<double>& scale);
 
-/// Throws Misuse for a start whose sizes differ from the scene's, for a start or end time that is not finite, and
-/// for an end before the start. The numbers of the start may be infinite or NaN; see notFinite.
+/// Throws Misuse for a start whose sizes differ from the scene's, for a start or end time that is not finite, and for
+/// an end before the start. Other numbers of the start may be infinite or NaN: see notFinite.
 template <class Real>
 void requireStart(const System<Real>& system, const State<Real>& start, const Real& t_end);
 

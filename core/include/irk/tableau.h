@@ -15,10 +15,10 @@ inline constexpr Index kMaxStages = 100;
 /// The coefficients A (s x s), b and c (s each), with the orders that the family or the file declares.
 template <class Real>
 struct Tableau {
-  std::string id;      ///< e.g. `radau_iia_5`, or the file it came from
-  std::string family;  ///< e.g. `radau_iia`; `user` for a file that names no family
-  Mat<Real> A;
-  Vec<Real> b, c;
+  std::string id;       ///< e.g. `radau_iia_5`, or the file it came from
+  std::string family;   ///< e.g. `radau_iia`; `user` for a file that names no family
+  Mat<Real> A;          ///< s x s
+  Vec<Real> b, c;       ///< s each
   int order = 0;        ///< classical order p
   int stage_order = 0;  ///< q of C(q)
 
@@ -32,7 +32,8 @@ struct Tableau {
   }
 };
 
-/// One method; or, for variable order, members of one family sorted by their number of stages.
+/// The methods of an integration: one method or, for variable order, members of one family by ascending number of
+/// stages. Integrator checks them.
 template <class Real>
 struct Methods {
   std::vector<Tableau<Real>> members;

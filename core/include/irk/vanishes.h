@@ -1,8 +1,8 @@
-// Whether numbers are exactly zero, with their derivatives: a residual may then leave out what it would multiply by
+// Whether numbers and their derivatives are exactly zero: a residual may then leave out terms that are multiplied by
 // them.
 //
 // The simplified Jacobians `no_mass` and `no_mass_vxz` differentiate at a = 0 (JacobianTerms, irk/options.h). A problem
-// whose M(u) is worth the test saves its evaluation there:
+// whose M(u) is expensive can skip it there:
 //
 //   template <class T>
 //   void residual(const Point<T>& p, Rows<T> r) const {
