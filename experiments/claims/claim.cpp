@@ -18,7 +18,7 @@ constexpr std::pair<std::string_view, Statistic> kStatistics[] = {{"median", Sta
                                                                   {"existence", Statistic::kExistence},
                                                                   {"report", Statistic::kReport}};
 
-// One table of the file; every key must be read.
+// Reads one table of the file; every key must be read.
 class Reader {
  public:
   Reader(const toml::table& table, const std::string& file, std::string name)
@@ -59,7 +59,7 @@ class Reader {
     }
     return all;
   }
-  // The tables [[key]]; at least one.
+  // Returns the tables [[key]], at least one.
   std::vector<const toml::table*> tables(const std::string& key) {
     const auto* node = find(key);
     const bool are_tables = node && node->is_array() && !node->as_array()->empty() &&
@@ -70,7 +70,7 @@ class Reader {
     for (const auto& item : *node->as_array()) all.push_back(item.as_table());
     return all;
   }
-  // The keys at_least or above, at_most or below, behind `prefix`.
+  // Reads the keys at_least or above, at_most or below, with `prefix` before them.
   Range range(const std::string& prefix) {
     Range range;
     readEnd(range.low, range.low_open, prefix + "at_least", prefix + "above");

@@ -17,7 +17,7 @@ std::string_view settingName(Setting setting);
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The values on the confirming side of a threshold, or between two.
+/// The values that confirm: those on one side of a threshold, or between two thresholds.
 struct Range {
   double low = -kInfinity, high = kInfinity;
   bool low_open = false, high_open = false;  ///< whether the threshold itself does not confirm
@@ -32,7 +32,7 @@ struct Range {
 /// `at least 1.5`, `below 1000`, `1.35 to 1.65`.
 std::string rangeText(const Range& range);
 
-/// What is computed from the values of all cases.
+/// The statistic that is computed from the values of all cases.
 enum class Statistic {
   kMedian,     ///< the median of the values
   kShare,      ///< the share of the cases whose values lie in the range `clean`
@@ -40,7 +40,7 @@ enum class Statistic {
   kReport,     ///< the median, without a verdict
 };
 
-/// What a claim says may have several parts, each with a number of its own.
+/// A part of a claim, with a number of its own. A claim has one or more parts.
 struct Part {
   std::string id;        ///< "C3a"
   std::string measured;  ///< the measured value of a case, in words

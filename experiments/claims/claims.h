@@ -12,7 +12,7 @@
 
 namespace irk::claims {
 
-/// The reason of numbers without a verdict.
+/// The reason given for numbers without a verdict.
 inline constexpr std::string_view kPreliminary = "preliminary: results of --quick give no verdict";
 
 /// A part of a claim in one setting.
@@ -21,12 +21,12 @@ struct Finding {
   Judgement judged;
 };
 
-/// Measures and judges. `not measurable` with the reason: a study has not been run, or its table is of another version,
-/// or these are results of --quick, which give no verdict (their number is kept). `multibody` are the scenes that vote
-/// on parts about multibody systems.
+/// Measures a part and judges it. The result is `not measurable`, with the reason, if a study has not been run, if its
+/// table is of another version, or if these are results of --quick, which give no verdict (the number is kept).
+/// `multibody`: the scenes that vote on parts about multibody systems.
 Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
                   const std::vector<std::string>& multibody);
-/// The same with a given evaluation.
+/// The same with the given evaluation.
 Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
                   const std::vector<std::string>& multibody, Evaluation evaluate);
 

@@ -39,7 +39,7 @@ std::string aligned(const std::vector<Line>& lines) {
   return text;
 }
 
-// Why a part has no verdict, and what an infinite value stands for.
+// Explains why a part has no verdict, and what an infinite value means.
 std::string notesText(const Part& part, const std::array<Finding, 2>& findings) {
   std::string text;
   const auto& [paper, best] = findings;

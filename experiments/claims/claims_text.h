@@ -1,4 +1,4 @@
-// Findings in words: for the terminal, and what the page shares with it.
+// Findings in words, for the terminal and for the report's page.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ std::string commandOf(const Claim& claim);
 
 enum class Detail { kTable, kSensitivity };
 
-/// For a terminal: one line for each part, or all that is known of it, with the verdicts' sensitivity to thresholds and
-/// scenes.
+/// For a terminal: a table with one line per part or, as `detail` says, all that is known of each part, with the
+/// sensitivity of verdicts to thresholds and scenes.
 std::string claimsText(const ResultTables& tables, Detail detail = Detail::kTable);
 
 }  // namespace irk::claims

@@ -12,13 +12,14 @@ namespace irk::claims {
 /// The value of one case, usually of a pair of runs that are compared.
 struct Case {
   std::string scene;  ///< the scene's id, without its settings
-  double value;       ///< NaN is left out
+  double value;       ///< NaN: the case is left out
 };
 
 struct Measurement {
   std::vector<Case> cases = {};
-  std::string lacking = {};  ///< why the part cannot be measured: which study lacks what; empty if it can
-  std::string remark = {};   ///< what else was seen, in a sentence; may be empty
+  /// why the part cannot be measured: which study lacks which runs; empty if it can be measured
+  std::string lacking = {};
+  std::string remark = {};  ///< a further observation, in a sentence; may be empty
 };
 
 inline Measurement cannotMeasure(std::string lacking) { return {{}, std::move(lacking), {}}; }

@@ -45,7 +45,7 @@ std::vector<std::size_t> columnsButEnd(const Table& runs) {
   return columns;
 }
 
-// The run with the last t_end, with the largest errors of all.
+// Joins runs to several times: the run with the last t_end, with the largest errors of all.
 TableRow joined(const Table& runs, const std::vector<const TableRow*>& times) {
   const auto last = std::max_element(times.begin(), times.end(), [&](auto* a, auto* b) {
     return numberAt(runs, *a, "t_end") < numberAt(runs, *b, "t_end");

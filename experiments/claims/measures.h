@@ -1,4 +1,4 @@
-// What evaluations of claims share: choosing rows, errors over several times, costs at equal errors.
+// Functions that evaluations of claims share: choosing rows, errors over several times, costs at equal errors.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,13 @@
 
 namespace irk::claims {
 
-/// Column and cell.
+/// Pairs of column and cell.
 using Cells = std::vector<std::pair<std::string_view, std::string_view>>;
 
 /// The rows with these cells.
 Table where(const Table& table, const Cells& cells);
 using Blocks = std::vector<std::string_view>;
-/// The rows of a built-in study's table that are of one of these blocks. Throws Misuse for a table without the column
+/// The rows of a built-in study's table that belong to one of these blocks. Throws Misuse for a table without a column
 /// of blocks, std::logic_error for a block that the study does not have.
 Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks);
 /// The rows that the test accepts.
@@ -45,11 +45,12 @@ Table overTimes(const Table& runs, std::string_view study);
 /// The runs of blocks of a study in a setting, with errors over ten times.
 Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting);
 
-/// The runs of all blocks of the study claims whose names begin so. Throws std::logic_error if there is no such block.
+/// The runs of all blocks of the study claims whose names begin with `beginning`. Throws std::logic_error if there are
+/// none.
 Table claimRuns(const ResultTables& tables, std::string_view beginning);
-/// Those in a setting.
+/// The same, in a setting.
 Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
-/// Those with errors over ten times.
+/// The same, with errors over ten times.
 Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
 
 /// `5 %`.
@@ -62,13 +63,13 @@ std::span<const double> comparedErrors();
 double seriesCost(const Table& runs, const RunSeries& series, std::string_view cost, std::string_view error,
                   double target);
 
-/// Costs of `other` over those of `base` at equal errors.
+/// Costs of `other` divided by those of `base`, at equal errors.
 struct CostRatios {
   std::vector<Case> cases = {};  ///< one per pair of series and error that both reach
   int lost = 0;                  ///< errors that only `base` reaches
   int won = 0;                   ///< errors that only `other` reaches
 };
-/// Pairs of series that are equal but for one column.
+/// Compares series that differ in one column only.
 CostRatios compareCosts(const Table& runs, std::string_view column, std::string_view base, std::string_view other,
                         std::string_view cost);
 
@@ -85,7 +86,7 @@ struct Race {
 std::vector<Race> races(const Table& runs, const std::vector<RunSeries>& series, std::string_view error_column,
                         const std::vector<std::string_view>& also = {});
 
-/// Of the races at one place, that of the smallest error which at least `competitors` series reach.
+/// For each scene with its settings and cells: the race at the smallest error that at least `competitors` series reach.
 std::vector<Race> atSmallestError(const Table& runs, const std::vector<RunSeries>& series, std::size_t competitors,
                                   const std::vector<std::string_view>& also = {});
 

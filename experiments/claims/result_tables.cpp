@@ -21,7 +21,7 @@ const Table& ResultTables::table(std::string_view study, std::string_view name) 
     throw MissingResults(fmt::format("study {} has not been run: no {}.csv", study, name));
   }
   Table read = readTable(file);
-  // A claim on costs would compare nothing with nothing.
+  // Without times a claim about costs would compare nothing.
   const auto refusal = read.hasColumn("cpu_s") ? refusedTimes(read.head) : std::string();
   if (!refusal.empty()) throw MissingResults(fmt::format("study {}: {}", study, refusal));
   return tables_[key] = std::move(read);

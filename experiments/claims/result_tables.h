@@ -11,8 +11,8 @@
 
 namespace irk::claims {
 
-/// A study's results are not there, or their times are of several processors and not joined. Not a misuse: a claim then
-/// is `not measurable`.
+/// Thrown if a study's results are missing, or if their times come from several processors and are not joined. It is no
+/// misuse: the claim is then `not measurable`.
 class MissingResults : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,10 +26,10 @@ class ResultTables {
   /// Whether these are results of --quick, which are kept in a folder of this name.
   bool areQuick() const { return results_.filename() == "quick"; }
 
-  /// A table that no file holds.
+  /// Adds a table that is not in a file.
   void put(const std::string& study, const std::string& name, Table table);
 
-  /// Throws MissingResults.
+  /// The table runs.csv of a study. Throws MissingResults.
   const Table& runs(std::string_view study) const { return table(study, "runs"); }
   const Table& table(std::string_view study, std::string_view name) const;
 

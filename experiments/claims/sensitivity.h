@@ -9,9 +9,9 @@
 
 namespace irk::claims {
 
-/// The part with its thresholds times `factor`. Of a range with two ends the width is changed about its middle; of a
-/// share the part of the cases that may be unclean, so that 95 % becomes 97.5 % and 90 %. Existence: the threshold of a
-/// case.
+/// The part with its thresholds multiplied by `factor`. A range with two ends keeps its middle, and its width changes.
+/// For a share the allowed part of unclean cases changes, so that 95 % becomes 97.5 % and 90 %. For an existence the
+/// threshold of a case changes.
 Part scaledThreshold(const Part& part, double factor);
 
 struct Sensitivity {
@@ -21,7 +21,7 @@ struct Sensitivity {
   std::vector<std::pair<std::string, Judgement>> without;
 };
 
-/// Empty verdicts (`not measurable`) where the measurement has none.
+/// The verdicts are empty (`not measurable`) if the measurement has none.
 Sensitivity sensitivityOf(const Part& part, const Measurement& measured);
 
 }  // namespace irk::claims

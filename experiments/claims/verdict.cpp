@@ -26,8 +26,8 @@ double statisticOf(Statistic statistic, const Values& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// Draws as many scenes as there are, with replacement, and takes all values of each. The remainder prefers no scene
-// noticeably: there are 2^64 numbers and a few scenes.
+// Draws as many scenes as there are, with replacement, and takes all values of each. Taking the remainder favours no
+// scene noticeably: there are 2^64 random numbers and few scenes.
 std::pair<double, double> intervalOf(Statistic statistic, const ByScene& scenes) {
   std::vector<const Values*> of_scene;
   for (const auto& [scene, values] : scenes) of_scene.push_back(&values);

@@ -28,12 +28,12 @@ inline constexpr Sample kAnySample{1, 1};
 
 struct Judgement {
   Verdict verdict = Verdict::kNotMeasurable;
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< the statistic; of existence, the share of clean cases
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< the statistic; for existence the share of clean cases
   double low = value, high = value;                         ///< 90 % interval; NaN for existence
   std::size_t cases = 0, clean = 0;                         ///< clean: shares and existence only
   std::vector<std::string> scenes = {};                     ///< of the cases, sorted
   std::string reason = {};                                  ///< why it is not measurable or does not apply
-  std::string remark = {};                                  ///< of the measurement
+  std::string remark = {};                                  ///< that of the measurement
 };
 
 /// The judgement of a part by its cases:
@@ -47,9 +47,9 @@ Judgement judge(const Part& part, const Measurement& measured, const Sample& lea
 /// `1.52 [1.49, 1.55] times`; `3 of 12 cases`; `–` without cases.
 std::string numberText(const Part& part, const Judgement& judgement);
 
-/// The verdict on a claim by those of its parts: contradicted if one part is, else not measurable if one is, else
-/// undecided if one is, else confirmed. Parts that are only reported or do not apply do not count; if none counts, the
-/// claim is reported or does not apply.
+/// The verdict on a claim by the verdicts on its parts: contradicted if one part is; otherwise not measurable if one
+/// is; otherwise undecided if one is; otherwise confirmed. Parts that are only reported or do not apply do not count.
+/// If no part counts, the claim is reported or does not apply.
 Verdict combined(const std::vector<Verdict>& parts);
 
 }  // namespace irk::claims
