@@ -5,7 +5,8 @@
 namespace irk {
 namespace {
 
-// The place among the scene's (u, v, x, z) of component i of a group of the system; -1: the scene has none.
+// The place, among the scene's (u, v, x, z), of component i of a group of the system; -1 if the scene has no such
+// component.
 Index placeOf(char group, Index i, const Sizes& scene, const Sizes& system) {
   if (group == 'u') return i < scene.nu ? i : -1;
   if (group == 'v') return i < scene.nu ? scene.nu + i : -1;

@@ -1,4 +1,4 @@
-// Components by the names of their scene, in messages.
+// Names the components in messages as their scene does.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace irk {
 
-/// The message of an integration with its components "v[1]" replaced by names, "theta'". `names`: of the scene's
-/// u, v, x, z. `system`: the sizes of the formulation that was integrated; what the scene does not name stays.
+/// Replaces components such as "v[1]" in the message of an integration by names such as "theta'". `names`: of the
+/// scene's u, v, x, z. `system`: the sizes of the formulation that was integrated. Components without a name in the
+/// scene stay as they are.
 std::string withNames(const std::string& message, const std::vector<std::string>& names, const Sizes& scene,
                       const Sizes& system);
 

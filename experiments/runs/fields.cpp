@@ -23,7 +23,7 @@
 namespace irk {
 namespace {
 
-// Each `field=value` of a text, items separated by ';'.
+// Sets each `field=value` of a text with items separated by ';'.
 void setFields(RunSpec& spec, std::string_view text) {
   while (!text.empty()) {
     const auto item = text.substr(0, text.find(';'));
@@ -63,7 +63,7 @@ Field<RunSpec> settingsField() {
           .set = [](RunSpec& s, std::string_view value) { s.settings = settingsIn(value); }};
 }
 
-// An axis, but its ids set other fields, too.
+// The field of the axis `configuration`, whose ids set other fields as well.
 Field<RunSpec> configurationField() {
   Field<RunSpec> field{.name = "configuration",
                        .meaning = "A named choice of strategies, which other options override.",
@@ -99,7 +99,7 @@ Field<RunSpec> methodField() {
               }};
 }
 
-// A number, or `scene` for NaN.
+// A number, or `scene` for the scene's own end (NaN).
 Field<RunSpec> endField() {
   auto field = numberField<RunSpec>(
       "t_end", "The time at which the integration ends; scene = the scene's own.", kAnyNumber,
@@ -140,25 +140,25 @@ Field<RunSpec> maxStagesField() {
   return field;
 }
 
-// What a series runs through. A new field is part of the name of a series unless it is added here.
+// The fields that a series runs through. All other fields, new ones too, are part of the name of a series.
 constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 
 #define IRK_MEMBER(path) \
   [](auto& s) -> auto& { return s.path; }
 
-// The members of RunSpec; `options` stands for all of its own.
+// The fields of all members of RunSpec; `options` contributes its own.
 std::vector<SpecField> makeFields() {
   auto before = std::to_array<Field<RunSpec>>(
       {sceneField(), settingsField(), configurationField(), methodField(),
        axisField<RunSpec>("The form of the equations, above all of constraints.", IRK_MEMBER(formulation)),
        axisField<RunSpec>("Whether the rows of constraints are scaled by the step size.", IRK_MEMBER(scaling)),
        axisField<RunSpec>("How switches of the scene are treated.", IRK_MEMBER(discontinuity)),
-       axisField<RunSpec>("The numbers that are computed with.", IRK_MEMBER(scalar))});
+       axisField<RunSpec>("The kind of numbers of the computation.", IRK_MEMBER(scalar))});
   auto after = std::to_array<Field<RunSpec>>(
       {atolOfField(), maxStagesField(), endField(),
        numberField<RunSpec>("time_limit", "The run ends as timeout after this CPU time in seconds; 0 = no limit.",
                             kNotNegative, IRK_MEMBER(time_limit)),
-       axisField<RunSpec>("What an error is measured by where no reference is stored.", IRK_MEMBER(reference)),
+       axisField<RunSpec>("How errors are measured if no reference is stored.", IRK_MEMBER(reference)),
        numberField<RunSpec>("reference_times", "The largest error is taken at this many times, equally far apart.",
                             Range::integers(1, kMaxReferenceTimes), IRK_MEMBER(reference_times))});
   constexpr std::size_t kOwn = std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)>;

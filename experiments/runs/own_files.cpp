@@ -26,7 +26,7 @@ std::vector<std::string> items(std::string_view files) {
 
 bool isLoaded(std::string_view file) { return own::isFile(file) || isLibrary(file); }
 
-// Of a solver that was loaded, or of a tableau.
+// The file of a loaded solver, or of a tableau.
 std::string fileOfMethod(const std::string& method) {
   if (const PeerEntry* peer = findPeer(method)) {
     const std::string library = libraryOf(method);

@@ -1,4 +1,4 @@
-// The users' files that a run needs: which they are, and how a command names them.
+// The users' files that a run needs, and how a command names them.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace irk {
 
-/// Loads what `--load` names: PATH.cpp, PATH.so or CODE@PATH.so (loadMethod). Throws Misuse.
+/// Loads a file given by `--load`: PATH.cpp, PATH.so or CODE@PATH.so (loadMethod). Throws Misuse.
 void loadOwn(const std::string& file);
 
-/// The files of the spec's scene, strategies and method: as loadOwn takes them, and the file of a tableau; with
-/// absolute paths, ':' between them. Empty for a run of the program's own parts.
+/// The files of the spec's scene, strategies and method, with absolute paths, separated by ':': each as loadOwn takes
+/// it, or the file of a tableau. Empty for a run that needs only parts of the program.
 std::string filesOf(const RunSpec& spec);
 
 /// Parts of a command `irk solve`, from the text of filesOf: ` --load FILE` for each file to load, and the method,

@@ -78,8 +78,8 @@ class PeerMethod {
   PeerIntegrator integrator_;
 };
 
-// The function is called before each step and tells whether the caller or the time limit ends the run, which began at
-// `start`.
+// Returns a function that is called before each step. It tells whether the caller or the time limit ends the run, which
+// began at `start`.
 std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
   return [&watch, start, limit] {
     own::stillGoing(limit);
@@ -200,7 +200,7 @@ class Prepared final : public PreparedRun {
     return {tolerances.atol / tolerances.rtol, toleranceScale(scene_, spec_, scene_.sizes())};
   }
 
-  // `spec` is that of a run to the state's time.
+  // The errors of a state; `spec` is the spec of a run to the state's time.
   RunErrors errorsAt(const State<Real>& state, const RunSpec& spec, const Watch& watch) const {
     const ToleranceRatio ratio = toleranceRatio();
     if (!watch.reference || !needsReference(spec)) return errorsOf(scene_, references_, state, ratio);
@@ -210,8 +210,8 @@ class Prepared final : public PreparedRun {
     return errors;
   }
 
-  // The larger ones of the errors of `record`, a success, and those of the runs to the earlier reference times: a run
-  // to an earlier time takes the same steps up to there.
+  // Sets the largest errors over the reference times: those of `record`, a success, and those of the runs to the
+  // earlier times. A run to an earlier time takes the same steps up to there.
   void addErrorsOverTime(const Watch& watch, RunRecord& record) {
     record.errors_over_time = record.errors;
     auto runs = atReferenceTimes(spec_);
@@ -247,7 +247,7 @@ class Prepared final : public PreparedRun {
                      .switches = {},
                      .invariants = {},
                      .cpu_s = seconds};
-    // A state that violates its constraints is a final state as well; its error shows how large the violation is.
+    // A state that violates its constraints is a final state as well: its error shows how large the violation is.
     if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
       record.errors = errorsAt(state, spec_, watch);
     }

@@ -23,7 +23,7 @@ struct SwitchEvent {
   std::string name;  ///< of the switching function
 };
 
-/// How an invariant of the scene changed.
+/// The change of an invariant of the scene.
 struct InvariantChange {
   std::string name, unit;
   double start;  ///< its value at the start
@@ -45,16 +45,17 @@ struct RunRecord {
   Vec<double> u, v, x, z;           ///< the last accepted state
   std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
   RunErrors errors;
-  RunErrors errors_over_time;  ///< the largest at the spec's reference_times; unknown unless the run is a success
+  /// the largest errors at the spec's reference_times; unknown unless the run is a success
+  RunErrors errors_over_time;
   Counters counters;
   std::vector<SwitchEvent> switches;        ///< the first kMaxRecordedSwitches
-  std::vector<InvariantChange> invariants;  ///< with Watch::invariants
+  std::vector<InvariantChange> invariants;  ///< empty unless Watch::invariants is set
   double cpu_s = std::numeric_limits<double>::quiet_NaN();
 
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
 };
 
-/// Limit of recorded switches: a chattering run has no end of them.
+/// Limit of recorded switches, because a chattering run has arbitrarily many.
 constexpr std::size_t kMaxRecordedSwitches = 1000;
 
 /// The solution inside an accepted step, see InsideStep in irk/monitor.h.
@@ -74,21 +75,21 @@ struct AcceptedStep {
   double error;  ///< estimate in units of the tolerance; NaN without one
   int newton_iterations;
   std::span<const double> values;  ///< the components and outputs of PreparedRun::columns
-  ValuesInside* inside = nullptr;  ///< valid during the callback; null: not asked for, or not known (peers)
+  ValuesInside* inside = nullptr;  ///< valid during the callback; null if not asked for, or not known (peers)
 };
 
 /// The caller's stop flag and callbacks during a run. All are optional.
 struct Watch {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const AcceptedStep&)> accepted;
-  /// Called at each change of the mode with the values just after it: after the step that ends there (`locate`), or
-  /// before the step in which it happens.
+  /// Called at each change of the mode with the values just after it: after the step that ends at the switch
+  /// (`locate`), or before the step in which the mode changes.
   std::function<void(double t, const std::string& name, std::span<const double> values)> switched;
-  /// The reference of a run with `reference = auto` for which nothing is stored (needsReference); called after the
-  /// integration, with the resolved spec. Without it the error is unknown.
+  /// Makes the reference of a run with `reference = auto` for which nothing is stored (needsReference). Called after
+  /// the integration, with the resolved spec. Without this function the error is unknown.
   std::function<MadeReference(const RunSpec& spec)> reference = {};
-  bool invariants = false;  ///< whether the scene's invariants are followed, which takes time in each step
-  bool inside = false;      ///< whether `accepted` asks for AcceptedStep::inside
+  bool invariants = false;  ///< whether to follow the scene's invariants, which takes time in each step
+  bool inside = false;      ///< whether `accepted` needs AcceptedStep::inside
 };
 
 /// Scene, method and integrator of a spec: built once, run as often as wanted. Use one object per thread.
@@ -98,22 +99,22 @@ class PreparedRun {
   virtual RunRecord execute(const Watch& watch) = 0;
   /// Runs the integration only, for timing.
   virtual void integrate() = 0;
-  /// What comes before it in the call of a user who has a scene: the system in its formulation, the method's
-  /// coefficients, the integrator.
+  /// Makes, for timing, what a user's call makes before the integration if the scene is given: the system in its
+  /// formulation, the method's coefficients, the integrator.
   virtual void setUp() = 0;
-  /// `setUp` and the first integration of what it makes, for timing.
+  /// Calls `setUp` and integrates once with its results, for timing.
   virtual void wholeCall() = 0;
   /// The names of the components u, v, x, z and of the scene's outputs.
   virtual std::vector<std::string> columns() const = 0;
 };
 
-/// Throws Misuse for every spec that can never work.
+/// Builds the scene, method and integrator of a spec. Throws Misuse for every spec that can never work.
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
 
-/// Throws Misuse as `prepare`.
+/// Prepares and makes a run. Throws Misuse as `prepare`.
 RunRecord execute(const RunSpec& spec, const Watch& watch = {});
 
-/// The end of an integration.
+/// The result of integrateFrom.
 struct FinalState {
   Outcome outcome = Outcome::kSuccess;
   std::string detail;   ///< of a failure, in one line

@@ -19,7 +19,7 @@ void raise(double& largest, double error) {
   if (!std::isnan(error) && !(largest >= error)) largest = error;
 }
 
-// How far a component or output is from its reference.
+// The deviation of a component or output from its reference.
 struct Deviation {
   double distance;   // |y - ref|
   double magnitude;  // |ref|
@@ -70,7 +70,7 @@ class Comparison {
       : scene_(scene), n_(scene.sizes()), state_(state), y_(components(state)), ratio_(ratio) {}
 
   RunErrors errors;
-  RunErrors accuracies;  ///< of the references, measured as the errors are
+  RunErrors accuracies;  ///< of the references, in the measures of the errors
 
   void withExact() {
     const Vec<Real> reference = components(scene_.exact(state_.t));

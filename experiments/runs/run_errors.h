@@ -26,14 +26,14 @@ std::string_view referenceName(ReferenceKind kind);
 struct RunErrors {
   double all = std::numeric_limits<double>::quiet_NaN();
   double u = all, v = all, x = all, z = all;
-  double mixed = all;     ///< the largest |y - ref| / (atol / rtol + |ref|); NaN without a ratio of tolerances, too
+  double mixed = all;     ///< the largest |y - ref| / (atol / rtol + |ref|); NaN also if atol / rtol is not known
   double relative = all;  ///< the largest |y - ref| / |ref| of those with ref != 0
   /// Largest |g| over the position constraints g(t, u) = 0 of the scene. NaN without constraints.
   double drift = all;
   ReferenceKind reference = ReferenceKind::kNone;
   /// The accuracy of a computed reference, measured as `all` is. NaN for the other kinds.
   double accuracy = std::numeric_limits<double>::quiet_NaN();
-  /// Why `all` is NaN although a reference was asked for, in one line; else empty.
+  /// Why `all` is NaN although the run asks for a reference, in one line; otherwise empty.
   std::string remark = {};
 
   /// The digits of `mixed` and of `relative` as the IVP test set counts them: -log10; infinite for an error of 0.
@@ -41,17 +41,17 @@ struct RunErrors {
   double scd() const;
 };
 
-/// What an absolute tolerance is in units of the relative one.
+/// The ratio of the absolute to the relative tolerance.
 struct ToleranceRatio {
   double atol_over_rtol = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known, or without meaning
   Vec<double> scale = {};  ///< of u, v, x, z: the magnitudes that atol is multiplied by; empty: 1, as for outputs
 };
 
-/// The larger errors of two times. Errors are unknown if there is no reference at one of the times; an error that is
-/// not measurable at one time is that at the other.
+/// The larger errors of two times. Errors are unknown if one of the times has no reference. An error that is not
+/// measurable at one time takes its value at the other.
 RunErrors largerErrors(const RunErrors& a, const RunErrors& b);
 
-/// An error below this many accuracies of a computed reference is not measurable.
+/// An error is not measurable below this many accuracies of a computed reference.
 inline constexpr double kMeasurable = 10;
 
 /// All components u, v, x, z of a state, one after the other.

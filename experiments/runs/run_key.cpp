@@ -16,7 +16,7 @@
 namespace irk {
 namespace {
 
-// A hash of A, b and c, rounded to double as all users of the tableau see them.
+// A hash of A, b and c, rounded to double.
 std::uint64_t tableauHash(const Tableau<double>& tableau) {
   std::string bytes;
   const auto append = [&bytes](const auto& numbers) {

@@ -20,10 +20,10 @@ ScalarKind parseId<ScalarKind>(std::string_view id);
 template <>
 std::string_view axisName<ScalarKind>();
 
-/// What an error is measured by where neither a closed form nor problems/reference knows the solution at t_end.
+/// How an error is measured if neither a closed form nor problems/reference gives the solution at t_end.
 enum class ReferenceUse {
-  kNone,  ///< by nothing: the error is unknown
-  kAuto,  ///< by a reference that is computed and kept (experiments/reference)
+  kNone,  ///< not at all: the error is unknown
+  kAuto,  ///< with a reference that is computed and kept (experiments/reference)
 };
 template <>
 std::span<const Named<ReferenceUse>> named<ReferenceUse>();
@@ -37,7 +37,7 @@ inline constexpr int kMaxReferenceTimes = 1000;
 /// The unit round-off of this kind of number.
 double epsilonOf(ScalarKind scalar);
 
-/// Legal values and meanings: fields.cpp. A member that is added here needs its line there.
+/// The settings of a run. fields.cpp has their legal values and meanings; a new member needs a line there.
 struct RunSpec {
   std::string scene;
   /// An id of `configurations`; tables and figures show it.
@@ -58,8 +58,8 @@ struct RunSpec {
   double t_end = std::numeric_limits<double>::quiet_NaN();
   /// >= 0, in seconds of the thread's CPU clock; 0 = no limit.
   double time_limit = 0;
-  /// Changes no number of a run but its errors. It is part of the key, so that a run without an error is made again
-  /// when a study begins to ask for one.
+  /// Changes only the errors of a run. It is part of the key, so that a run without an error is made again when a study
+  /// asks for errors.
   ReferenceUse reference = ReferenceUse::kNone;
   /// n >= 1: errors are also taken at k / n of t_end, k = 1 .. n, by a run to each of these times.
   int reference_times = 1;

@@ -33,7 +33,7 @@ struct Timing {
   double median_s;
   double spread;                                              ///< (max - min) / min
   std::vector<double> all_s;                                  ///< each repetition, in the order in which they were made
-  double setup_s = std::numeric_limits<double>::quiet_NaN();  ///< of them the set-up, the minimum
+  double setup_s = std::numeric_limits<double>::quiet_NaN();  ///< the part of the set-up, minimum; NaN if not measured
 };
 /// Writes times that were measured here and now.
 void setTiming(const Table& table, TableRow& row, const Timing& timing);
@@ -48,8 +48,8 @@ bool succeededAt(const Table& table, const TableRow& row);
 bool hasFixedStepsAt(const Table& table, const TableRow& row);
 /// Whether the run's error is below kMeasurable accuracies of its computed reference and therefore NaN.
 bool notMeasurableAt(const Table& table, const TableRow& row);
-/// The run's largest error at its reference times, or, where that is unknown, its error at the end; where this is not
-/// measurable, the bound below which it lies. NaN if none is known.
+/// A bound of the run's error: its largest error at its reference times; if that is unknown, its error at the end; if
+/// that is not measurable, the bound below which it lies. NaN if none is known.
 double errorBoundAt(const Table& table, const TableRow& row);
 
 }  // namespace irk

@@ -33,8 +33,8 @@ struct Setup {
 template <class Real>
 Setup<Real> setUp(RunSpec spec, Scene<Real> scene);
 
-/// The magnitudes that an integrator multiplies atol by: those of the system's components (systemScale), but as
-/// `atol_of` of the spec says where it names one. Throws Misuse for a name that the scene does not have.
+/// The magnitudes that an integrator multiplies atol by: those of the system's components (systemScale), replaced where
+/// the spec's `atol_of` names a component. Throws Misuse for a name that the scene does not have.
 template <class Real>
 Vec<double> toleranceScale(const Scene<Real>& scene, const RunSpec& spec, const Sizes& system);
 
