@@ -40,7 +40,7 @@ double expectedSteps(const RunSpec& spec, double stages) {
   return std::pow(tol, -1 / (1 + std::min(2 * stages - 1, kMaxOrder)));
 }
 
-/// Seconds that were measured over what was guessed.
+/// The sums of measured and of guessed seconds.
 struct Scale {
   double measured = 0, guessed = 0;
   void add(double seconds, double guess) {
@@ -86,8 +86,8 @@ double expectedCost(const Series& series) {
   const double step = stages * (unknowns.of(first) + 3) * digits;
   double cost = 0;
   for (const auto& spec : series.runs) cost += step * expectedSteps(spec, stages);
-  // The estimates vary more than measured times do. For the times of the quick studies, their square root balances
-  // the shards best.
+  // Estimates vary more than measured times do. Their square root balances the shards best, judged by the times of the
+  // quick studies.
   return std::sqrt(cost);
 }
 

@@ -16,9 +16,10 @@ double expectedCost(const Series& series);
 /// The keys of a series by its number.
 using KeysOfSeries = std::function<std::vector<std::uint64_t>(std::size_t series)>;
 
-/// The expected time of each series. Rows of any code and machine count, because only ratios matter: a run with a row
-/// takes as long as that, one without the mean of its series. A series without rows takes its guess, scaled by what the
-/// other series of its scene took, or by what all took. Without any rows the unit is that of `expectedCost`.
+/// The expected time of each series. Rows of any code and machine count, because only ratios matter. A run with a row
+/// takes the time of that row; a run without one takes the mean of its series. A series without rows takes its guess,
+/// scaled by the measured times of the other series of its scene, or of all series. Without any rows the unit is that
+/// of `expectedCost`.
 std::vector<double> expectedCosts(const Study& study, const KeysOfSeries& keys, const store::Rows& rows);
 
 }  // namespace irk

@@ -81,7 +81,7 @@ class Comparing {
 };
 
 void countNotOfStudy(const RunKeys& keys, const std::vector<const Store*>& stores, MergeReport& report) {
-  // All rows with different keys, less those of the study.
+  // Counts the different keys in all stores, and subtracts those of the study.
   EntryIndex all([](const Entry&, const Entry&) { return false; });
   for (const auto* store : stores) {
     store->runs().forEach([&](const Entry& entry) { all.add(entry); });
@@ -131,7 +131,7 @@ std::map<std::string, std::string> studiesIn(const std::vector<std::unique_ptr<S
 
 std::string textOf(const MergeReport& report) {
   auto text = fmt::format(
-      "expected {}, found {}, missing {}, duplicate {}, foreign (another processor) {}, of no run of the study {}, "
+      "expected {}, found {}, missing {}, duplicate {}, foreign (another processor) {}, not of the study {}, "
       "conflicts {}\n",
       report.expected, report.found, report.missing, report.duplicate, report.foreign, report.not_of_study,
       report.conflicts.size());

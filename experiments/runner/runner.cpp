@@ -203,7 +203,7 @@ class Sweep {
     const double start = wallSeconds();
     const RunRecord record = too_long ? notMade(spec, *too_long, columns_) : make(spec);
     if (record.outcome == name(Outcome::kInterrupted)) return {};
-    // Its reference may have been interrupted: with it the run would have an error.
+    // The interrupt may have stopped the computation of its reference: the row would lack an error.
     if (interruptFlag() && spec.reference == ReferenceUse::kAuto) return {};
     const std::string text = hexText(key);
     const std::lock_guard lock(mutex_);
@@ -242,7 +242,7 @@ class Sweep {
   bool is_any_missing_ = false;
   std::mutex mutex_;
   std::optional<Progress> progress_;
-  std::vector<std::string> told_;  // about references
+  std::vector<std::string> told_;  // messages about references, to be printed
   ReferenceLibrary references_;
 };
 

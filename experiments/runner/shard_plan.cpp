@@ -62,7 +62,7 @@ std::string fingerprint(const Study& study) {
   return hexText(hash);
 }
 
-// Empty if there is no plan for these series.
+// Reads the plan; empty if there is none for these series.
 std::vector<int> readPlan(const Study& study, const RunnerOptions& options) {
   std::ifstream in(planFile(study, options));
   std::string its;

@@ -12,8 +12,9 @@ namespace irk {
 /// The keys of the runs of a series.
 std::vector<std::uint64_t> keysOf(const Series& series);
 
-/// The shard of each series, 1 to options.shard.count: what results/<study>/shards_of_<n> says, if it was written for
-/// these series, else balanced by the times in results/<study> and by guesses (expectedCosts). Throws Failure.
+/// The shard of each series, 1 to options.shard.count. It is read from results/<study>/shards_of_<n> if that file was
+/// written for these series; otherwise it is balanced by the times in results/<study> and by guesses (expectedCosts).
+/// Throws Failure.
 std::vector<int> shardsOf(const Study& study, const RunnerOptions& options);
 
 /// Writes results/<study>/shards_of_<n>, unless it was written for these series.

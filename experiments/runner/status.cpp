@@ -138,7 +138,7 @@ std::string textOf(const StudyStatus& status) {
     text += fmt::format("  {} runs to make; the time needed is unknown, as none has been made\n", missing);
   } else {
     text += fmt::format("  {} runs to make, about {} on one thread", missing, durationText(status.seconds_left));
-    if (status.guessed > 0) text += fmt::format("; {} of them are like none that is finished", status.guessed);
+    if (status.guessed > 0) text += fmt::format("; {} of them resemble no finished run", status.guessed);
     text += '\n';
   }
   if (status.to_time > 0) {

@@ -22,7 +22,7 @@ namespace irk {
 namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-// The set-up is measured for this part of the time that the whole call is.
+// Time spent on measuring the set-up, as a part of that for the whole call.
 constexpr double kSetUpPart = 0.1;
 constexpr double kCalibrationPeriod = 1;  // s
 

@@ -19,17 +19,17 @@ Timing timingOf(std::vector<double> seconds);
 /// Seconds of one call, the mean over at least `min_time_s`. Call it while nothing else runs.
 double timeCall(const std::function<void()>& call, double min_time_s);
 
-/// The series that one of several hosts times: i with i % hosts == host. Repetitions of a run are of one host.
+/// The series that one of several hosts times: those with i % hosts == host. One host makes all repetitions of a run.
 struct TimingShare {
   std::size_t host = 0, hosts = 1;
 };
 
 /// Times every successful run of the store that has fewer repetitions than requested (on this processor or on any, as
-/// the store's options say): columns cpu_s (minimum), cpu_setup_s, cpu_median_s, cpu_spread, cpu_runs, cpu_all. What is
-/// timed is the whole call: set-up and integration, as its user makes it. Each round of repetitions covers the whole
-/// study, so a machine that is slow for some seconds cannot slow all repetitions of a run. Every new time is a new row
-/// of the store: after an interrupt only the missing ones are measured. A calibration is stored before the first run
-/// and then every second. Call it while nothing else runs on this host.
+/// the store's options say). Writes the columns cpu_s (minimum), cpu_setup_s, cpu_median_s, cpu_spread, cpu_runs,
+/// cpu_all. It times the whole call as a user makes it: set-up and integration. Each round of repetitions covers the
+/// whole study, so that a machine that is slow for some seconds does not slow all repetitions of a run. Every new time
+/// is a new row of the store: after an interrupt only the missing ones are measured. A calibration is stored before the
+/// first run and then every second. Call it while nothing else runs on this host.
 void timeStudy(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, std::ostream& progress);
 
 }  // namespace irk
