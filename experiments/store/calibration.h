@@ -27,9 +27,9 @@ struct HostCalibrations {
   std::vector<double> seconds;
 };
 
-/// What is wrong, or an empty text: hosts of which one calibration in ten, or more, is 1.1 times their least one; and
-/// hosts whose median is 1.1 times that of the fastest host with the same processor. Hosts with fewer than five
-/// calibrations are not judged.
+/// Doubts about times as text; empty if there are none. They concern hosts of which at least one calibration in ten
+/// takes 1.1 times their shortest one, and hosts whose median is 1.1 times that of the fastest host with the same
+/// processor. Hosts with fewer than five calibrations are not judged.
 std::string calibrationDoubts(std::vector<HostCalibrations> hosts);
 
 /// Joins the calibrations with the hosts of their environments.

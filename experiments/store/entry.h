@@ -1,12 +1,12 @@
-// What a process holds of a stored row.
+// The part of a stored row that a process holds in memory.
 #pragma once
 
 #include <cstdint>
 
 namespace irk::store {
 
-/// The place of a row and what decides about it, regardless of the row's length. `code`, `environment`,
-/// `cpu_environment` and `outcome` are ids for `Rows::name`; 0 is the empty text.
+/// The place of a row and the facts that decide about it; its size does not depend on the row's length. `code`,
+/// `environment`, `cpu_environment` and `outcome` are ids for `Rows::name`; 0 is the empty text.
 struct Entry {
   std::uint64_t key = 0, offset = 0;
   std::uint32_t part = 0;

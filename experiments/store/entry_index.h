@@ -14,8 +14,8 @@
 
 namespace irk::store {
 
-/// Entries in memory, found by their keys in a few steps: keys are hashes, so the first bits of a key tell about where
-/// its entry is. Other keys are found, too, but slower.
+/// Entries in memory. A key is found in a few steps: keys are hashes, so that the first bits of a key give the
+/// approximate place of its entry. Keys that are not hashes are found as well, but more slowly.
 class SortedEntries {
  public:
   SortedEntries() : SortedEntries(std::vector<Entry>()) {}

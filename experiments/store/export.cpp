@@ -51,7 +51,7 @@ std::string textOf(std::uint32_t seconds) {
 
 }  // namespace
 
-// Where the rows of a table come from.
+// The origins of a table's rows: codes, environments, processors.
 struct Store::Origins {
   struct Measured {
     std::size_t rows = 0;

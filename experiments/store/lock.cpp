@@ -48,8 +48,8 @@ Holder readHolder(const std::filesystem::path& file) {
   return holder;
 }
 
-// Renaming is atomic: of two processes that find a dead holder's lock, only one gets it. The lock that it gets may
-// already be a new one, which it then puts back.
+// Renaming is atomic: if two processes find a lock whose holder has ended, only one gets it. If the lock that it gets
+// turns out to be a new one, it puts that back.
 bool removeDead(const std::filesystem::path& file, const Holder& dead) {
   const std::filesystem::path aside = file.string() + fmt::format(".of_dead.{}.{}", hostName(), getpid());
   if (rename(file.c_str(), aside.c_str()) != 0) return false;

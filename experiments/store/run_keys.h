@@ -20,8 +20,8 @@ class RunKeys {
  public:
   static constexpr std::size_t kHeld = 1 << 16;
 
-  /// The number of runs of each series, 0 for a series that is left out (of another shard), and the name of its block,
-  /// which may be empty. All keys are 0.
+  /// The series with their numbers of runs (0 for a series of another shard, which is left out) and the names of their
+  /// blocks, which may be empty. All keys are 0.
   struct Series {
     std::size_t runs = 0;
     std::string block;

@@ -25,7 +25,7 @@ namespace irk::store {
 enum class FinishedRuns { kKeep, kRunAgain };
 /// How to treat rows that other code has made.
 enum class StaleRows { kKeep, kRemake };
-/// The times that are valid: all, or those that were measured on this processor.
+/// Which times are valid: all, or only those that were measured on this processor.
 enum class Times { kAll, kHere };
 /// kJoin: an MPI rank that writes parts of its own while rank 0 holds the lock.
 enum class Use { kRead, kWrite, kJoin };
@@ -54,7 +54,8 @@ class Store {
   const Rows& calibrations() const { return calibrations_; }
   const StoreOptions& options() const { return options_; }
 
-  /// Nothing if the run has to be made: it has no row, its row is stale and to be remade, or --fresh was given.
+  /// The entry of a finished run. Nothing if the run has to be made: it has no row, its row is stale and to be remade,
+  /// or --fresh was given.
   std::optional<Entry> finished(std::uint64_t key) const;
   bool hasState(std::uint64_t key) const { return states_.find(key).has_value(); }
 
