@@ -201,7 +201,7 @@ Strategy<StepControl> paperControlWithoutGamma() {
 }
 Strategy<StepControl> hotintControl() {
   return {StepControl::kHotint,
-          "the paper's, as the later source has it",
+          "the paper's, as in the later HOTINT source",
           {.estimate = true},
           kConstruct<HotintController>};
 }
