@@ -1,5 +1,5 @@
-// The catalogue of analyses: tables that a study can have computed from its runs. A new analysis is a file of its own
-// and a line in analyses.cpp; the study reader, `irk run` and `irk list analyses` then know it.
+// The catalogue of analyses: tables that a study can request from its runs. A new analysis is a file of its own and a
+// line in analyses.cpp; the study reader, `irk run` and `irk list analyses` then include it.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,7 @@ struct Analysis {
   std::string_view one_method = {};
   /// Another key of the study that this analysis requires; empty if none.
   std::string_view needs = {};
-  /// Writes the files. Returns one line for every number that must not be trusted.
+  /// Writes the files. Returns one line for every number that is not reliable.
   std::vector<std::string> (*run)(const AnalysisInput&);
 };
 

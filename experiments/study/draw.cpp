@@ -126,7 +126,7 @@ struct MethodChoice {
   Index stages;  // 0: variable order over the whole family
 
   std::string id() const { return stages == 0 ? family : fmt::format("{}_{}", family, stages); }
-  // A member with few stages, cheaper to construct. It is refused for the same reasons: they are properties of the
+  // A member with few stages, which costs less to make. It is refused for the same reasons, which are properties of the
   // family, except for its smallest members.
   std::string smallId() const {
     return stages == 0 ? family : fmt::format("{}_{}", family, std::min<Index>(stages, 4));

@@ -21,14 +21,14 @@ struct DrawnRun {
   std::string treatment;  ///< kDefaultTreatment, kNoSwitches, or the id of a Discontinuity
 };
 
-/// `options.runs` legal runs, made on demand. Run i depends only on the seed and on i, so a shorter audit is the
+/// `options.runs` legal runs, made on demand. Run i depends only on the seed and on i, so that a shorter audit is the
 /// beginning of a longer one. Values that a run leaves at their defaults are not drawn: after a change of a default the
 /// same runs are drawn, with the new default.
 ///
-/// Scenes are drawn with equal probability, among options.scenes or else those of the library, never those that users
-/// add; then settings (the defaults half of the time, else one of `options.variants` drawn variants of the scene),
-/// configuration, treatment of switches, formulation, method and tolerance. A combination that is refused is drawn
-/// again. Thread-safe.
+/// Scenes are drawn with equal probability from options.scenes or, if that is empty, from the scenes of the library
+/// (never from those of users). Then follow the settings (half of the time the defaults, else one of `options.variants`
+/// drawn variants), configuration, treatment of switches, formulation, method and tolerance. A combination that is
+/// refused is drawn again. Thread-safe.
 class Draw {
  public:
   /// Throws Misuse for an unknown scene.

@@ -8,7 +8,7 @@ namespace irk {
 /// True for `max_steps` and `timeout`: harder runs would end in the same way.
 bool ranTooLong(std::string_view outcome);
 
-/// Removes counters and details of a run that timed out: how far it came depends on the machine.
+/// Removes counters and details of a run that timed out, because they depend on the speed of the machine.
 RunRecord withoutMachine(RunRecord record);
 
 /// The record of a run that is skipped because an easier one took too long.

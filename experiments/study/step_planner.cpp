@@ -14,12 +14,12 @@ constexpr double kSettled = 0.04;
 constexpr int kSettledProbes = 4;
 // With this many probes their last slope predicts the next one.
 constexpr int kFewestProbes = 3;
-// Errors below this many floors that grow as the step shrinks are round-off, which for algebraic unknowns is divided
-// by h. Larger ones belong to an order below zero.
+// Errors that grow as the step shrinks and lie below this many floors are round-off, which for algebraic unknowns is
+// divided by h. Larger ones show an order below zero.
 constexpr double kSmall = 1e4;
-// The measured steps: over a factor kRange, or over kDecades decades of the error if that factor is smaller (for high
-// orders, larger errors are not asymptotic). Where the slope has settled, a few steps between the probes narrow its
-// confidence; where round-off comes first, the slope still changes, and the fit needs more of them to see how.
+// The measured steps span a factor kRange, or kDecades decades of the error if that factor is smaller (for high orders
+// larger errors are not asymptotic). Where the slope has settled, a few steps between the probes narrow its confidence.
+// Where round-off comes first, the slope still changes, and the fit needs more steps.
 constexpr int kPointsSettled = 5;
 constexpr int kPointsChanging = 8;
 constexpr double kRange = 4;

@@ -31,14 +31,14 @@ struct AuditOptions {
   std::uint64_t seed = 1;                ///< of the draw
   int variants = 40;                     ///< > 0. Drawn settings per scene: runs with equal settings share a reference
   double time_limit = 2;                 ///< > 0, CPU seconds of each run
-  std::vector<std::string> scenes = {};  ///< those drawn among; none: all of the library
+  std::vector<std::string> scenes = {};  ///< the scenes to draw from; empty: all of the library
 };
 
 struct Study {
   std::string id;
   std::string title;
   SeriesList series;
-  std::vector<const Analysis*> analyses;  ///< what is computed from the runs, in the catalogue's order
+  std::vector<const Analysis*> analyses;  ///< analyses of the runs, in the catalogue's order
   std::vector<double> targets;            ///< errors at which costs are compared
   bool trajectories = false;              ///< write the solution over time of every run: <scene>.<method>.csv
   bool states = false;                    ///< keep the final states of all runs: states.csv
