@@ -15,16 +15,16 @@
 namespace irk {
 namespace {
 
-constexpr std::size_t kLeastIterations = 4;  // of a solve that counts: fewer show no course
+constexpr std::size_t kLeastIterations = 4;  // of a solve in the table: fewer show no trend
 constexpr std::size_t kMostIterations = 6;   // in the table
 constexpr std::size_t kSampledSolves = 100;  // solves of one run
 
 constexpr NewtonKind kObserved{{"modified_observed"}};
 
-// Where the observed solves of this thread's run go. A strategy is made from options only.
+// Receives the observed solves of this thread's run. It is global because a strategy is made from options only.
 thread_local std::vector<Contractions>* observed = nullptr;
 
-/// Newton 'modified'; before each solve the same solve is made for its residuals alone.
+/// Newton 'modified'. Before each solve it makes the same solve once more and records the residuals.
 class ObservedNewton final : public NewtonBase<double> {
  public:
   ObservedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<double>& scheme)
@@ -33,7 +33,7 @@ class ObservedNewton final : public NewtonBase<double> {
 
   NewtonResult solve(NewtonContext<double>& c, Mat<double>& W) override {
     begin(c, W);
-    refresh(c, W);  // what `modified` would do; it finds the Jacobian fresh
+    refresh(c, W);  // as `modified` would do, which then finds a fresh Jacobian
     Mat<double> copy = W;
     if (observed) observed->push_back(contractions(c, copy));
     return modified_->solve(c, W);

@@ -29,15 +29,15 @@ class FreeSystem final : public System<double> {
   const System<double>& inner_;
 };
 
-// Of a step and its halves, until one is solved.
+// Limit of halvings of a step until it is solved.
 constexpr int kMaxTrials = 20;
-// Of an estimate, for the controller.
+// An estimate with which the controller accepts.
 constexpr double kGoodError = 0.3;
-// Above every contraction.
+// A limit that no contraction exceeds.
 constexpr double kAlways = 1e300;
 
-// The arithmetic of simplified Newton's convergence test (core/newton/newton.cpp): the contraction, the error that
-// the remaining iterations can reach, and whether the increment is small enough.
+// The arithmetic of simplified Newton's convergence test (core/newton/simplified_newton.cpp): the contraction, the
+// error that the remaining iterations can reach, and whether the increment is small enough.
 double newtonTest(double norm) {
   constexpr int kIterationsLeft = 23;
   const double theta = norm / (norm + 1), eta = theta / (1 - theta);
@@ -52,7 +52,7 @@ bool doublesSteps(ErrorEstimate estimate) {
   return estimate != ErrorEstimate::kEmbedded && estimate != ErrorEstimate::kNone;
 }
 
-// Steps keep their first Jacobian, and with it the factors: what those take would hide the rest of a step.
+// Steps keep their first Jacobian and its factors, whose time would otherwise hide the rest of a step.
 IntegratorOptions withoutNewJacobians(IntegratorOptions options) {
   options.newton.keep_jacobian_below = kAlways;
   return options;

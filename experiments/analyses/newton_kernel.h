@@ -35,16 +35,16 @@ class NewtonKernel {
   void firstMatrices();
   void factorize();  ///< the Newton matrix of all stages. Throws Misuse if it is singular
   void solve();      ///< requires `factorize` before
-  /// One iteration, always the same one: the residuals of all stages, a solve, and `update`, each with what the one
-  /// before gave. So it takes longer than the sum of them alone, where the processor begins a call before the last one
-  /// has ended.
+  /// One iteration, always the same one: the residuals of all stages, a solve, and `update`, each with the result of
+  /// the one before. It takes longer than the sum of its parts timed alone, because there the processor begins a call
+  /// before the last one has ended.
   void iteration();
   /// The rest of an iteration: the stages' u, v, x, row scaling, the increment, its norm, and the arithmetic of
   /// Newton's test.
   void update();
-  /// Two attempted steps in a row, always the same ones, by the integrator's own error estimate, with all that belongs
-  /// to them but the step control and new Jacobians, and what they counted. If they fail they are halved; nothing if
-  /// that does not help.
+  /// Two attempted steps in a row, always the same ones, with the integrator's own error estimate and all other parts
+  /// of a step but the step control and new Jacobians. Returns their counts. Steps that fail are halved; nothing is
+  /// returned if that does not help.
   std::optional<Counters> attempts();
   /// The rest of an attempted step: the weights of the error norm, and the step control.
   void step();
@@ -68,7 +68,7 @@ class NewtonKernel {
   Counters counters_;
   CountingSystem<double> counted_;  // counts evaluations, as in an integrator
   State<double> start_;
-  double h_, solvable_h_;  // the second one, or less, is that of `attempts`
+  double h_, solvable_h_;  // solvable_h_, or less, is the step of `attempts`
   Differentiator<double> differentiator_;
   std::vector<Linearization<double>> at_;
   SchemeList<double> schemes_;

@@ -56,8 +56,8 @@ class PhaseMeasurement {
   double runSeconds() const { return run_s_; }
   /// Seconds of each part.
   Parts each() const {
-    // Each part alone begins before its last call has ended; in an iteration it waits for the part before it. So the
-    // parts of an iteration are stretched to its time.
+    // Timed alone, a call begins before the last one has ended; in an iteration it waits for the part before it. The
+    // parts of an iteration are therefore scaled to the time of an iteration.
     Parts parts = each_;
     auto& [residual, jacobian, factorization, solve, update, step, start] = parts;
     const double alone = static_cast<double>(kernel_.stages()) * residual + solve + update;
@@ -136,7 +136,7 @@ class PhaseMeasurement {
     start = std::min(start, begin + std::max(first - jacobian - factors * factorization, 0.0));
   }
 
-  // The time of what a step counted; of a Jacobian by differences, the residuals are part of it.
+  // The time of the counted operations of a step. In a Jacobian by differences, the residuals are part of it.
   double partsOf(const Counters& step, const Parts& parts) const {
     const auto& [residual, jacobian, factorization, solve, update, rest, start] = parts;
     const std::int64_t residuals = step.residuals - step.jacobians * kernel_.residualsPerJacobian();

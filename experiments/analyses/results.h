@@ -16,10 +16,10 @@ std::string refusedTimes(const TableHead& head);
 /// The same for a file; only its head is read.
 std::string refusedTimes(const std::filesystem::path& runs);
 
-/// What makes the times of a runs.csv doubtful: the speed of a processor changed while they were measured, or hosts
-/// with one processor differ in speed (store::calibrationDoubts). Empty if nothing does.
+/// Why the times of a runs.csv are doubtful: the speed of a processor changed while they were measured, or hosts with
+/// the same processor differ in speed (store::calibrationDoubts). Empty if they are not.
 std::string timesDrift(const std::filesystem::path& runs);
-/// Prints it.
+/// Prints the doubts about times, if there are any.
 void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out);
 
 /// Writes the tables of the study's analyses (experiments/study/analysis.h). If times come from several processors

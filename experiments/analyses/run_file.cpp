@@ -12,7 +12,7 @@
 namespace irk {
 namespace {
 
-// Names that it does not tell apart are noticed when their rows are read.
+// A hash of a series' name. Different names with equal hashes are detected when their rows are read.
 std::uint64_t hashOf(const TableRow& name) {
   std::string text;
   for (const auto& cell : name) text.append(cell) += '\0';
