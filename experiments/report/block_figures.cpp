@@ -48,7 +48,7 @@ Cells cellsOf(const std::vector<Axis>& axes, const RunSpec& spec) {
   return cells;
 }
 
-// Whether `axis` has one value wherever `others` have the same values, as a strategy that a configuration sets.
+// Whether the values of `others` determine that of `axis`, as a configuration determines a strategy that it sets.
 bool isDetermined(const Axis& axis, const std::vector<Axis>& others, const std::vector<RunSpec>& specs) {
   std::map<Cells, std::string> known;
   return std::all_of(specs.begin(), specs.end(), [&](const RunSpec& spec) {
@@ -57,7 +57,7 @@ bool isDetermined(const Axis& axis, const std::vector<Axis>& others, const std::
   });
 }
 
-// A family's members, as a tableau's header names the family.
+// A family whose members occur in the block. The name is that of a tableau's header.
 struct Family {
   std::string id;
   std::set<Index> stages;
@@ -133,7 +133,7 @@ void Block::findAxes() {
   };
   const auto field = [](const std::string& name) { return Axis{name, findField(name).get}; };
   std::vector<Axis> known{field("scene")};
-  // A configuration with its method is the integrator; it also decides what the configuration sets.
+  // A configuration and its method together name the integrator; the fields that the configuration sets follow from it.
   const bool both = varies(field("configuration")) && varies(field("method"));
   axes_.push_back(both ? Axis{"integrator", integratorName} : field("method"));
   known.push_back(axes_.front());
@@ -174,7 +174,7 @@ FigureTable Block::start(const std::string& script, const std::string& title) co
           .place = {}};
 }
 
-// The values of these axes that occur together, at most kMostFigures; one empty combination without axes.
+// The combinations of these axes' values that occur, at most kMostFigures; one empty combination if there are no axes.
 std::vector<Cells> Block::combinations(const std::vector<Axis>& axes) const {
   std::vector<Cells> all;
   for (const auto& spec : specs_) {
@@ -187,7 +187,7 @@ std::vector<Cells> Block::combinations(const std::vector<Axis>& axes) const {
 
 std::vector<Axis> Block::besideMethods() const { return {axes_.begin() + 1, axes_.end()}; }
 
-// Adds `only` and says in the title what the figure shows.
+// Adds `only` to the figure and names its values in the title.
 void choose(FigureTable& figure, const std::vector<Axis>& axes, const Cells& cells) {
   Cells only;
   for (std::size_t i = 0; i < axes.size(); ++i) {

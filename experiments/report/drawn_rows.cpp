@@ -53,7 +53,7 @@ std::map<std::string, std::string> optionsOf(const std::string& assignments) {
 
 bool isAbsent(std::string_view cell) { return cell.empty() || cell == "nan"; }
 
-/// The selection of rows that plots/style.gp defines; conservative: gnuplot selects again.
+/// The selection of rows that plots/style.gp defines. It may keep too many rows, since gnuplot selects again.
 class Selection {
  public:
   Selection(const std::map<std::string, std::string>& options, const std::string& script, const Columns& at) : at_(at) {
@@ -112,7 +112,7 @@ class Selection {
   std::vector<std::pair<std::string, std::string>> equal_;
 };
 
-/// Keeps the rows of which one mark is drawn, as text with the columns that are needed.
+/// Collects rows, one per visible mark, as text with the columns that are needed.
 class Thinned {
  public:
   /// `same`: columns that tell curves from each other; `near`: those of the marks. Without `near` all rows are kept.
@@ -170,7 +170,7 @@ class Thinned {
   std::unordered_set<std::uint64_t> known_;
 };
 
-// The words of the script's line `# Thins by`, options replaced by their values.
+// The columns of the script's line `# Thins by`, with options replaced by their values.
 std::vector<std::string> thinsBy(const std::string& script, const std::map<std::string, std::string>& options) {
   std::smatch line;
   if (!std::regex_search(script, line, std::regex("# Thins by ([^\n]*)"))) return {};
@@ -217,7 +217,7 @@ Thinned thinnedFor(const std::string& script, const std::string& style,
     const auto isMark = [&](const std::string& name) {
       return std::find(marks.begin(), marks.end(), name) != marks.end();
     };
-    // A file may have been drawn by its errors over time.
+    // A file may be drawn by its errors over time instead of those at the end.
     if (!named.contains(column) && !named.contains(at_end)) continue;
     kept.push_back(i);
     if (isMark(column) || isMark(at_end)) {
@@ -250,7 +250,7 @@ DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, co
   std::string script = readInputFile(home / "plots" / figure.script);
   const std::string style = readInputFile(home / "plots" / "style.gp");
   const auto options = optionsOf(figure.assignments);
-  // With this option another script draws the figure.
+  // With this option work_by.gp draws the figure.
   const auto variant = options.find("variant");
   if (variant != options.end()) script += readInputFile(home / "plots" / "work_by.gp");
   std::ifstream in(results / "runs.csv", std::ios::binary);

@@ -1,5 +1,5 @@
-// What a figure draws of a table of runs. gnuplot reads a table once for every curve, so that a figure of 1e4 rows with
-// all their columns takes a minute and one of 1e6 rows takes hours.
+// The part of a table of runs that a figure draws. gnuplot reads a table once for every curve: with all columns a
+// figure of 1e4 rows takes a minute, and one of 1e6 rows takes hours.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@ namespace irk {
 /// A folder of temporary files; the destructor removes it.
 class DrawnRows {
  public:
-  /// Links all files of `results` but runs.csv, of which it writes the rows and columns that `figure` draws: those
-  /// of its block, scene, cases and `only`, and the columns that its script names. If more than kMostRows are left and
-  /// the script has a line `# Thins by OPTION COLUMN ...`, a mark is left out if another one of the same curve, with
-  /// the same outcome, lies within a small part of a decade in these columns; the part grows until kMostRows are left.
-  /// Throws Failure, Misuse.
+  /// Links all files of `results` but runs.csv. Of runs.csv it writes the rows and columns that `figure` draws: the
+  /// rows of its block, scene, cases and `only`, and the columns that its script names. If more than kMostRows are left
+  /// and the script has a line `# Thins by OPTION COLUMN ...`, a mark is left out if another mark of the same curve,
+  /// with the same outcome, lies within a small part of a decade in these columns; the part grows until kMostRows are
+  /// left. Throws Failure, Misuse.
   DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results);
   ~DrawnRows();
   DrawnRows(const DrawnRows&) = delete;

@@ -40,8 +40,8 @@ std::string fileNameOf(const std::string& assignments) {
   return assignments.substr(from, assignments.find('\'', from) - from);
 }
 
-// The files that the figure is drawn from, as far as they exist: those that its script reads, the one that it names, or
-// the solutions of its scenes and cases.
+// The existing files that the figure is drawn from: the tables that its script reads, the file that it names, or the
+// solutions of its scenes and cases.
 std::vector<std::string> tablesOf(const Figure& figure, const ReportOptions& options) {
   const auto folder = options.results / figure.study;
   std::vector<std::string> names = readScript(options.home, std::filesystem::path(figure.script).stem()).tables;

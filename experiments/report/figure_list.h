@@ -1,4 +1,4 @@
-// The figures of plots/figures.txt and of own studies: what they are called, how they are drawn, which are there.
+// The figures of plots/figures.txt and of own studies: their names, how they are drawn, and which exist.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ bool areQuick(const ReportOptions& options);
 
 /// Throws Misuse with file and line for a line of any other form.
 std::vector<Figure> readFigures(const std::filesystem::path& file);
-/// Those of plots/figures.txt, then those of own studies: their names begin with the study's.
+/// The figures of plots/figures.txt, then those of own studies, whose names begin with the study's.
 std::vector<Figure> allFigures(const ReportOptions& options);
 /// The studies of these figures, in order of appearance.
 std::vector<std::string> studiesOf(const std::vector<Figure>& figures);
@@ -39,7 +39,7 @@ bool isDrawn(const Figure& figure, const ReportOptions& options);
 
 /// The assignments for `gnuplot -e`. With results of --quick they set `quick`, so that style.gp marks the figure.
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options);
-/// The same with the tables of another folder.
+/// The same for tables in another folder.
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data);
 /// The shell's command that draws the figure again, in the folder `home`.
 std::string shellCommand(const Figure& figure, const ReportOptions& options);

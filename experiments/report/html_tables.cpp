@@ -18,7 +18,7 @@ std::string numberText(const Table& table, const TableRow& row, std::string_view
   return std::isnan(x) ? "–" : fmt::format("{:.{}g}", x, digits);
 }
 
-// What is said of an environment: a column of environments.csv and its title.
+// The properties of an environment in the table: a column of environments.csv and its title.
 constexpr std::pair<const char*, const char*> kProperties[] = {
     {"cpu", "processor"},     {"cores", "cores"}, {"memory_gb", "memory in GB"}, {"libraries", "system and libraries"},
     {"compiler", "compiler"}, {"flags", "flags"}, {"version", "version"},        {"commit", "commit"},

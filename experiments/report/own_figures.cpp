@@ -45,7 +45,7 @@ bool writes(const Analysis& analysis, std::string_view table) {
   return (" " + std::string(analysis.writes) + " ").find(" " + std::string(table) + " ") != std::string::npos;
 }
 
-// error_vs_step.gp draws without orders.csv, too.
+// error_vs_step.gp can draw without orders.csv.
 bool isOptional(const FigureTable& figure, std::string_view table) {
   return figure.script == "error_vs_step" && table == "orders.csv";
 }

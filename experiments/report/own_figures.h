@@ -13,10 +13,10 @@ namespace irk {
 
 inline constexpr char kFiguresFile[] = "figures.toml";
 
-/// The figures that the study's file asks for, or by default those of default_figures.h; none for a built-in study,
+/// The figures that the study's file asks for, or by default those of default_figures.h. None for a built-in study,
 /// whose figures are in plots/figures.txt. Throws Misuse with file and line for an unknown script, option, column or
-/// block, and for a table that the study does not make. Without plots/ (a program that was copied to another machine)
-/// nothing is checked.
+/// block, and for a table that the study does not make. If plots/ does not exist (a program that was copied to another
+/// machine), nothing is checked.
 FigureTables figuresOfStudy(const Study& study, const std::string& id_or_file);
 
 /// Writes them to `folder`, results/<study>, which exists; nothing for a built-in study.
@@ -25,7 +25,7 @@ void keepFigures(const FigureTables& figures, const std::filesystem::path& folde
 /// The ids of studies in `results` with figures of their own, sorted.
 std::vector<std::string> ownStudies(const std::filesystem::path& results);
 
-/// What keepFigures has written. Throws Misuse with file and line for damage.
+/// Reads the figures that keepFigures has written. Throws Misuse with file and line for damage.
 FigureTables keptFigures(const std::filesystem::path& results, const std::string& study);
 
 }  // namespace irk

@@ -52,7 +52,7 @@ StudyTexts textsOf(const std::string& id, const ReportOptions& options) {
   return {keptFigures(options.results, id).title, {}};
 }
 
-// What the clock rate did while the times of `runs` were measured; empty without doubts.
+// How the clock rate changed while the times of `runs` were measured; empty if there are no doubts.
 std::string driftHtml(const std::filesystem::path& runs) {
   const std::string drift = timesDrift(runs);
   if (drift.empty()) return {};
@@ -70,13 +70,13 @@ std::string driftHtml(const std::filesystem::path& runs) {
   return fmt::format("<p class=\"note drift\"><b>Times:</b> {} ({}). Counts are exact.</p>\n", rate, escapeHtml(drift));
 }
 
-// The page made of the results of one program.
+// The page with the results of one program.
 class Page {
  public:
   explicit Page(const ReportOptions& options)
       : options_(options), tables_(options.results), quick_(areQuick(options)), figures_(allFigures(options)) {}
 
-  /// Links to parts that `rest`, the page without the answers, does not have are left out.
+  /// `rest` is the page without the answers; links to parts that it does not have are left out.
   std::string answers(const std::vector<report::Answer>& answers, std::string_view rest) const;
   std::string claims() const { return claims::claimsHtml(tables_, figureFolder(options_)); }
   std::string contents() const;

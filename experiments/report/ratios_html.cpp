@@ -54,7 +54,7 @@ std::vector<ComparedChoice> choicesOf(const Table& table) {
 
 std::string ratioText(double ratio) { return std::isnan(ratio) ? "–" : fmt::format("{:.2f}", ratio); }
 
-// The least and the largest one.
+// The text of the smallest and the largest ratio.
 std::string rangeText(const std::vector<double>& ratios) {
   if (ratios.empty()) return "–";
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());

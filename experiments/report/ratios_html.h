@@ -1,4 +1,4 @@
-// What a study's choices cost over their first choice: ratios.csv as a table of the page and as a sentence.
+// The cost of a study's choices relative to their first choice: ratios.csv as a table of the page and as a sentence.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace irk {
 /// One row for each choice on each scene: medians over the methods and the other choices of its block.
 HtmlTable ratiosHtml(const Table& ratios);
 
-/// How far the CPU times of the choices lie apart; empty without times.
+/// A sentence about the range of the choices' CPU times; empty without times.
 std::string ratiosSentence(const Table& ratios);
 
 }  // namespace irk

@@ -87,7 +87,7 @@ void requireResults(const std::string& study, const std::vector<Figure>& figures
 // Returns whether the figure is drawn. An own figure without any row is a mistake; a built-in one belongs to a study
 // that is not complete.
 bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& err) {
-  // What is left of an earlier drawing must not pass for this one.
+  // The file of an earlier drawing must not be taken for this one.
   for (const auto* ending : {".svg", ".png"}) std::filesystem::remove(figureFolder(options) / (figure.name + ending));
   const auto drawn = drawnRows(figure, options);
   const auto data = drawn ? drawn->folder() : options.results / figure.study;

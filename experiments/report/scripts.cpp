@@ -51,7 +51,7 @@ std::vector<std::string> wordsOf(const FigureOption& option) {
 // Options whose words are columns.
 constexpr std::string_view kColumnOptions[] = {"variant", "by", "panel_by", "quantity", "cost", "quantities", "costs"};
 
-// Columns of runs.csv and of the tables that repeat its columns, and what scripts compute themselves.
+// The known columns: those of runs.csv and of tables that repeat them, and those that scripts compute themselves.
 std::vector<std::string> knownColumns() {
   auto columns = runColumns();
   columns.insert(columns.end(), {std::string(kBlockColumn), "target_error", "iterations"});

@@ -1,4 +1,4 @@
-// What a script of plots/ takes and reads, as its own text says.
+// The options and tables of a script of plots/, read from its text.
 #pragma once
 
 #include <filesystem>
