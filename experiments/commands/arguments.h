@@ -1,4 +1,4 @@
-// What is checked of the command line before CLI11 reads it, whose messages would mislead.
+// Checks of the command line before CLI11 reads it, because CLI11's messages would mislead.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,18 +11,18 @@
 
 namespace irk {
 
-/// Refuses empty values, which no option and no argument has: CLI11 would read `--method= x` as `--method x`. Throws
-/// Misuse.
+/// Throws Misuse for empty values. No option or argument may be empty, and CLI11 would read `--method= x` as `--method
+/// x`.
 void refuseEmpty(const std::vector<std::string>& arguments);
 /// Throws Misuse if argument i is not one of the parent's verbs, then checks the next argument with that verb's own
 /// ones.
 void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments, std::size_t i);
-/// Checks options before the verb; behind it CLI11 names unknown options. Throws Misuse.
+/// Throws Misuse for an unknown option before the verb; CLI11 reports those after it.
 void requireKnownOption(const std::vector<std::string>& arguments);
 /// The command that prints the help of the verb: "irk solve --help".
 std::string helpOf(const std::vector<std::string>& arguments);
 
-/// What a value is called in the help: ID, NUMBER, INTEGER, TEXT.
+/// The name of a value's type in the help: ID, NUMBER, INTEGER, TEXT.
 const char* valueName(FieldKind kind);
 
 /// The help of a number: meaning, range and default.
@@ -30,9 +30,9 @@ std::string numberHelp(std::string_view meaning, const Range& range, std::string
 /// Reads an integer; throws Misuse as parseInteger.
 int integer(std::string_view name, std::string_view text, const Range& range);
 
-/// The options of `irk solve` that no field of a run has.
+/// The options of `irk solve` that are not fields of a run.
 void addSolveOptions(CLI::App& sub, SolveOptions& run);
-/// The same of `irk ensemble`.
+/// The same for `irk ensemble`.
 void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble);
 
 }  // namespace irk

@@ -27,7 +27,7 @@ struct SolveOptions {
 };
 int solveCommand(const SolveOptions& options, Streams streams);
 
-/// How runs of `solve` make references: on all processors, until an interrupt, with one line each to `err`.
+/// The options with which `solve` makes references: all processors, until an interrupt, one line each to `err`.
 ReferenceLibrary::Options referenceOptions(std::ostream& err);
 
 /// The spec that the options describe. Throws Misuse.

@@ -25,7 +25,7 @@ bool given(const SolveOptions& options, std::string_view field) {
                      [field](const auto& entry) { return entry.first == field; });
 }
 
-// The spec without the grid: the algorithm of lanes, unless the user asks for another one.
+// The spec without the grid. Strategies that the user does not set are those of lanes.
 RunSpec specOf(SolveOptions options) {
   options.settings.clear();
   if (!given(options, "configuration")) options.fields.emplace_back("configuration", "embedded");
@@ -69,7 +69,7 @@ TableRow cellsOf(const EnsembleScene& scene, std::size_t i, const Solution<doubl
   return cells;
 }
 
-// Numbers as numbers, what is none as text.
+// The row as a JSON object: numbers as numbers, other cells as text.
 std::string jsonLine(const TableRow& columns, const TableRow& cells) {
   nlohmann::ordered_json line;
   for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -105,7 +105,7 @@ class MemberRows {
       waiting_.erase(row);
     }
   }
-  /// After an interrupt rows are missing; those behind them are written, too.
+  /// Writes the remaining rows: after an interrupt some rows are missing, and those behind them are written as well.
   void finish() {
     for (const auto& [i, row] : waiting_) write(row);
     out_.flush();

@@ -105,7 +105,7 @@ std::string refusalLine(const std::string& study, const store::Store& store, con
                      textAt(columns, store.runs().row(*outcomes.refused), "detail"));
 }
 
-// Figures are those of a study's id, built in or with results, or those of its file.
+// Tells a study's file from an id: the figures of an id are those of a built-in study or of its results.
 bool isStudyFile(const std::string& id_or_file) {
   const std::filesystem::path path(id_or_file);
   return path.extension() == ".toml" || path.has_parent_path();
@@ -114,7 +114,7 @@ bool isStudyFile(const std::string& id_or_file) {
 // Whether tables are made from the runs.
 bool hasSummaries(const Study& study) { return !study.analyses.empty() || study.audit; }
 
-// This rank's share of the timing pass; nothing if it must be idle, because another one on its host measures.
+// This rank's share of the timing pass; nothing if it must be idle because another rank on its host measures.
 std::optional<TimingShare> timingShare(Ranks& ranks) {
   const auto all = timingRanks(ranks.hosts());
   const auto own = std::find(all.begin(), all.end(), ranks.rank());

@@ -20,7 +20,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// Methods of more stages are completed by the user.
+// Methods with more stages are not offered for completion.
 constexpr Index kCompletedStages = 9;
 
 struct Verb {
@@ -59,7 +59,7 @@ Words studies() {
   return ids;
 }
 
-// The words after '{' of "TEXT:{keep,remake}".
+// The words listed in a type such as "TEXT:{keep,remake}".
 Words listed(const std::string& type) {
   Words words;
   const std::size_t open = type.find('{'), close = type.find('}');
@@ -78,10 +78,10 @@ std::string nameOf(const CLI::Option& option) {
   return option.get_lnames().empty() ? '-' + option.get_snames().front() : "--" + option.get_lnames().front();
 }
 
-/// What an option or argument takes.
+/// The values that an option or argument takes.
 struct Values {
   Words words;
-  bool files = false;  ///< besides, or if there are no words
+  bool files = false;  ///< file names are offered as well, or if there are no words
 };
 
 Values valuesOf(const CLI::Option& option) {

@@ -1,4 +1,4 @@
-// What shells and `man` know of the program, from the options of the command line itself.
+// Completion scripts and the manual page, generated from the options of the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>

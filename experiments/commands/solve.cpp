@@ -64,7 +64,7 @@ void printComponents(std::ostream& out, const RunRecord& record, const std::vect
   print("z", record.z);
 }
 
-// As the IVP test set counts them; without tolerances, or where all references are 0, one is not known.
+// Prints the digits as the IVP test set counts them. One is unknown without tolerances, or if all references are 0.
 void printDigits(std::ostream& out, const RunErrors& errors) {
   const auto text = [](double digits) { return std::isnan(digits) ? "unknown" : fmt::format("{:.2f}", digits); };
   fmt::print(out, "digits: mescd {}, scd {}\n", text(errors.mescd()), text(errors.scd()));
@@ -120,10 +120,11 @@ class ScratchFolder {
 };
 
 constexpr Range kPoints = Range::integers(2, 1'000'000);
-// Curves between them show no corners.
+// With this many points a curve shows no corners.
 constexpr int kPlotPoints = 1000;
 
-/// The user's file of a run, made with its first row: a refused run leaves an older file as it is.
+/// The user's output file of a run. It is created with the first row, so that a refused run does not change an older
+/// file.
 class OutFile {
  public:
   OutFile(const SolveOptions& options, const RunSpec& spec)

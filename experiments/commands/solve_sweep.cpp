@@ -72,7 +72,7 @@ std::vector<List> listsOf(const SolveOptions& options) {
   return lists;
 }
 
-// A misspelt method is refused before the first run; a method that a scene does not allow is a refused run.
+// Refuses a misspelt method before the first run; a method that a scene does not allow gives a refused run.
 void requireMethods(const std::vector<RunSpec>& specs) {
   std::set<std::string> known;
   for (const RunSpec& spec : specs) {
