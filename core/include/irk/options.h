@@ -177,7 +177,8 @@ struct NewtonOptions {
   double contractivity_limit = 0.7;
   /// ... after more than this many iterations.
   int contractivity_after = 3;
-  /// A solve fails after this many iterations. Paper, section 3: 25.
+  /// A solve fails after this many iterations (`simplified`, `broyden` with fixed steps: four times as many). Paper,
+  /// section 3: 25.
   int max_iterations = 25;
   /// `simplified`, `broyden`: converged when eta |dw| <= kappa in the error norm, HW II (IV.8.10). 0 means
   ///   max(10 eps/rtol, min(0.03, rtol^((s-1)/(s+1)))),
