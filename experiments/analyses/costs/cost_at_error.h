@@ -11,10 +11,11 @@ namespace irk {
 
 /// The cause for a series whose errors are unknown.
 inline constexpr std::string_view kNoReference = "no reference";
-/// The cause of a missing cost where errors lie below what a computed reference can tell: perhaps the error is reached.
+/// The cause of a missing cost if errors lie below the accuracy of a computed reference: the series may reach the
+/// error.
 inline constexpr std::string_view kNotMeasurable = "below the reference's accuracy";
 
-/// The cause of a missing cost where the solver cannot be applied to the scene: it has not failed.
+/// The cause of a missing cost if the solver cannot be applied to the scene, which is no failure.
 inline constexpr std::string_view kNotApplicable = "no success: refused";
 
 struct CostPoint {

@@ -97,8 +97,8 @@ void appendProfile(const TableRow& start, std::vector<Time> times, const Ids& so
   }
 }
 
-// Whether the solver was asked for this error: with larger tolerances only, it has not failed where it does not reach
-// the error.
+// Whether the solver had a tolerance as small as this error. With larger tolerances only, not reaching the error is no
+// failure.
 bool wasAsked(const Table& costs, const TableRow& row) {
   if (!costs.hasColumn("least_tolerance")) return true;
   const double least = numberAt(costs, row, "least_tolerance");

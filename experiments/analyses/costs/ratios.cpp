@@ -21,7 +21,7 @@
 namespace irk {
 namespace {
 
-// What is solved, and by which method: no choices of a block. `integrator` follows from others.
+// The columns that are no choices of a block: the problem and the method. `integrator` follows from others.
 constexpr std::string_view kNotCompared[] = {"scene", "settings", "method", "family", "stages", "integrator", "t_end"};
 
 /// A block's series: memory holds their numbers, not their rows.

@@ -66,8 +66,8 @@ std::vector<ErrorPoint> usable(std::vector<ErrorPoint> points) {
   return points;
 }
 
-// Removes noise: from the point on where small errors no longer shrink, all points, and the coarser points whose
-// slope this noise would bend. Larger errors that do not shrink are kept, as they belong to an order of zero or less.
+// Removes noise: all points from the one on where small errors no longer shrink, and the coarser points whose slope
+// this noise would change. Larger errors that do not shrink are kept, as they belong to an order of zero or less.
 // Returns the error below which points have been removed.
 double removeNoise(std::vector<ErrorPoint>& points, const OrderFitOptions& options) {
   constexpr double kLevel = 3;

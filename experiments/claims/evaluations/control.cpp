@@ -60,7 +60,7 @@ Measurement perRestart(const ResultTables& tables, std::string_view cost) {
       if (!radau.starts_with("radau")) continue;
       for (const auto& [bdf, more_steps] : methods) {
         if (bdf.find("bdf") == bdf.npos) continue;
-        // Where a restart costs Radau IIA nothing, any cost is infinitely more.
+        // If a restart costs Radau IIA nothing, any cost of the BDF code gives an infinite ratio.
         const double without = more_steps > 0 ? kInfinity : std::nan("");
         const double ratio = steps > 0 ? more_steps / steps : without;
         if (std::isinf(ratio)) ++infinite;
@@ -84,7 +84,7 @@ Measurement costOfDoubling(const ResultTables& tables, Setting setting) {
   for (const auto& run : doubled.rows) {
     const auto at = same.find(methodPlace(doubled, run));
     if (at == same.end()) continue;
-    // The same steps: two halves for each doubled one, and none rejected.
+    // Both take the same steps: two halves for each doubled step, and no step is rejected.
     const bool same_steps =
         numberAt(plain, *at->second, "steps_accepted") == 2 * numberAt(doubled, run, "steps_accepted") &&
         numberAt(doubled, run, "steps_rejected_error") == 0;

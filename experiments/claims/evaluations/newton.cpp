@@ -31,8 +31,9 @@ Measurement ofCosts(const CostRatios& ratios) {
 
 // --- C6
 
-// Newton iterations per step at tiny steps over those at the usual one, per scene, method, scaling and tolerance of the
-// residual. What fails at the tiny step needs infinitely many; what fails at the usual step, too, is no case.
+// Newton iterations per step at tiny steps, divided by those at the usual step, per scene, method, scaling and
+// tolerance of the residual. A run that fails at the tiny step only counts as infinitely many iterations; one that
+// fails at the usual step as well is no case.
 Measurement moreIterations(const ResultTables& tables, Setting setting, const Cells& cells) {
   const auto placeOf = [](const Table& runs, const TableRow& run) {
     return TableRow{textAt(runs, run, "scene"), textAt(runs, run, "method"), textAt(runs, run, "scaling"),
@@ -61,7 +62,7 @@ Measurement moreIterations(const ResultTables& tables, Setting setting, const Ce
   return measured;
 }
 
-// One value per scene, method, formulation and scaling; the step of 1e-8 and that of 1e-4 are two blocks.
+// One value per scene, method, formulation and scaling. The steps 1e-8 and 1e-4 are in two blocks.
 std::map<TableRow, double> multiplierErrors(const ResultTables& tables, std::string_view block, Setting setting,
                                             const Cells& cells) {
   const Table runs = where(timedClaimRuns(tables, block, setting), cells);
@@ -131,7 +132,7 @@ std::vector<RuleCase> ruleCases(const Table& runs) {
   return all;
 }
 
-// The rule with the least median of its costs over those of the paper's rule.
+// The rule with the smallest median cost, relative to the costs of the paper's rule.
 Rule bestRule(const std::vector<RuleCase>& cases, const std::set<std::string>& scenes, const Rule& papers) {
   std::map<Rule, std::vector<double>> ratios;
   for (const auto& one : cases) {

@@ -34,7 +34,7 @@ Measurement shareOfEvaluations(const ResultTables& tables, Setting setting) {
   constexpr double kFewest = 3, kMost = 200;
   const Table phases = coveredPhases(tables, setting);
   Measurement measured;
-  std::map<std::string, double> crossing;  // the least n with a dearer factorization
+  std::map<std::string, double> crossing;  // the smallest n at which the factorization costs more
   for (const auto& row : phases.rows) {
     const double n = numberAt(phases, row, "n");
     if (n < kFewest || n > kMost) continue;
@@ -63,7 +63,7 @@ Measurement massFactorizations(const ResultTables& tables, Setting) {
   return measured;
 }
 
-// The first-order form notices by itself where M is constant.
+// The first-order form detects by itself where M is constant.
 Measurement firstOrderForm(const ResultTables& tables, Setting setting) {
   const Table runs = timedClaimRuns(tables, "mass_form", setting);
   const auto series = seriesOf(runs);

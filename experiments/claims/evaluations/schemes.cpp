@@ -22,10 +22,10 @@ double classicalOrder(const Table& runs, const TableRow& run) {
 
 // --- C2b
 
-// What ends the gain from lower tolerances; unknown if they still help at the lowest one.
+// What ends the gain from lower tolerances; unknown if runs still improve at the lowest one.
 enum class Limit { kUnknown, kNewton, kOther };
 
-// Rejected by Newton's method, or begun again, per accepted step.
+// Steps rejected by Newton's method, or begun again by it, per accepted step.
 double newtonTrouble(const Table& runs, const TableRow& run) {
   const double steps = std::max(numberAt(runs, run, "steps_accepted"), 1.0);
   return (numberAt(runs, run, "steps_rejected_newton") + numberAt(runs, run, "newton_restarts")) / steps;
@@ -34,8 +34,9 @@ double estimateTrouble(const Table& runs, const TableRow& run) {
   return numberAt(runs, run, "steps_rejected_error") / std::max(numberAt(runs, run, "steps_accepted"), 1.0);
 }
 
-// The runs from the coarsest tolerance on improve until one is not more accurate than the one before it, or fails. What
-// limits them is what has grown there, per accepted step, against the median of the runs that still improve.
+// From the coarsest tolerance on, runs improve until one fails or is not more accurate than the one before it. The
+// limit is Newton's method if its trouble per accepted step has grown there more than that of the error estimate,
+// compared with the medians of the runs that still improve.
 Limit limitOf(const Table& runs, std::vector<const TableRow*> series) {
   std::sort(series.begin(), series.end(),
             [&](auto* a, auto* b) { return numberAt(runs, *a, "rtol") > numberAt(runs, *b, "rtol"); });

@@ -57,7 +57,7 @@ const Table& stepsOf(const ResultTables& tables, const Table& runs, const TableR
   return tables.table("steps", trajectoryPath({}, spec).stem().string());
 }
 
-// The smaller one of the step that contains t and the next one; NaN behind the end.
+// The smaller of two steps: the one that contains t, and the next one. NaN behind the end.
 double stepAt(const Table& steps, double t) {
   for (auto row = steps.rows.begin(); row != steps.rows.end(); ++row) {
     if (numberAt(steps, *row, "t") < t) continue;
@@ -91,7 +91,7 @@ Measurement reliableRuns(const ResultTables& tables, Setting setting) {
   for (const Table* runs : {&jumps, &smooth}) {
     for (const auto& run : runs->rows) {
       if (!succeededAt(*runs, run)) {
-        ++failed;  // says itself that it has no result
+        ++failed;  // the run reports that it has no result
         continue;
       }
       const double value = overTolerance(*runs, run);

@@ -1,4 +1,4 @@
-// What the page says first: a question, its answer in sentences, a small table, and where to read on.
+// The answers at the head of the page: a question, its answer in sentences, a small table, and links.
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ struct Answer {
   std::vector<std::pair<std::string, std::string>> links = {};  ///< target and text
 };
 
-/// The answer where tables are missing: says so, and which command makes them.
+/// The answer if tables are missing: it says so and names the command that makes them.
 Answer unknownAnswer(std::string id, std::string question, std::string_view study);
 
-/// The section of the page. `preliminary`: the runs are those of --quick, and the table's head says so.
+/// The section of the page. `preliminary`: the runs are those of --quick, which the table's head says as well.
 std::string answerHtml(const Answer& answer, bool preliminary);
 
 /// Escaped text with `code` between backticks as an element.

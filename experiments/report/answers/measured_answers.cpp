@@ -41,7 +41,7 @@ std::string rangeText(const std::vector<double>& parts) {
   return percentText(*least) == last ? last : fmt::format("{:.2g} to {}", 100 * *least, last);
 }
 
-// Runs that end without one correct digit; of failed runs the error is not asked for.
+// Runs that end without one correct digit; failed runs need no error.
 bool isUseless(const Table& runs, const TableRow& row) {
   constexpr double kOneDigit = 0.1;
   if (!succeededAt(runs, row)) return true;

@@ -1,4 +1,4 @@
-// The answers of studies that measure something else than the cost of an error.
+// The answers of studies that do not measure the cost of an error.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace irk::report {
 /// formulations have.
 std::string smallStepsSentence(const Table& runs);
 
-/// estimate, of estimates.csv: in how many steps the true error is larger than step doubling says.
+/// estimate, of estimates.csv: in how many steps the true error is larger than the estimate by step doubling.
 std::string estimateSentence(const Table& estimates);
 
 /// scaling, of scaling_slopes.csv: the powers of n with which the time of a step grows.

@@ -66,7 +66,7 @@ std::map<Place, OrderCheck> checksOf(const Table& orders) {
   return checks;
 }
 
-// What of the measured orders agrees: `✓ 5/5`; `✗ 4/5, s = 15: 15.54 instead of 15`; `✓ 8/8, 5 not measurable`.
+// How many measured orders agree: `✓ 5/5`; `✗ 4/5, s = 15: 15.54 instead of 15`; `✓ 8/8, 5 not measurable`.
 std::string checkText(const OrderCheck& check) {
   const int measured = check.agree + check.differ;
   std::string text = fmt::format("{} {}/{}", check.differ > 0 ? "✗" : "✓", check.agree, measured);

@@ -23,7 +23,8 @@ constexpr const char* kSolverQuestion = "Which solver should I use?";
 constexpr double kAskedErrors[] = {1e-4, 1e-8, 1e-11};
 constexpr double kAsGood = 1.15;  // times of the same runs differ by that much from one day to the next
 
-// A block of the study holds a collection with a part of the solvers: ivp_variable. A run can be in several blocks.
+// A block of the study is named after its collection and its part of the solvers: ivp_variable. A run can be in several
+// blocks.
 std::vector<std::string> kindsOf(const Table& table, const TableRow& row) {
   std::vector<std::string> kinds;
   std::istringstream blocks(textAt(table, row, kBlockColumn));
@@ -143,7 +144,7 @@ std::string clauseOf(const Choice& c) {
   return fmt::format("{} ({})", text, comparison(c.over_library, c.best, c.library, c.problems));
 }
 
-// The sentence is about the error of this choice and of the others that ask for the same.
+// The sentence for all choices at the same error.
 std::string sentenceOf(const std::vector<Choice>& choices) {
   constexpr double kMiddle = 1e-8;
   double error = choices.front().error;

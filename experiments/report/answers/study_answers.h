@@ -1,4 +1,4 @@
-// What the tables of one study say, in sentences.
+// What the tables of one study show, in sentences.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ namespace {
 
 // These have places of their own in a command.
 constexpr std::string_view kPlaced[] = {"scene", "settings", "configuration", "method", "h", "rtol", "atol", "t_end"};
-// These do not tell solvers apart.
+// Fields that do not distinguish solvers.
 constexpr std::string_view kLimits[] = {"max_steps", "time_limit", "threads", "reference", "reference_times"};
 
 template <class Names>
@@ -46,7 +46,7 @@ std::string valueOf(const SpecField& field, const std::string& cell) {
   return field.kind == FieldKind::kNumber ? numberText(cellNumber(cell)) : cell;
 }
 
-// As far as this program knows what the row names.
+// The spec of a row, as far as this program has what the row names.
 RunSpec specOf(const Row& row) {
   RunSpec spec;
   const auto set = [&](const SpecField& field) {
@@ -65,7 +65,7 @@ RunSpec specOf(const Row& row) {
   return spec;
 }
 
-// What `--configuration` alone gives.
+// The spec that `--configuration` alone gives.
 RunSpec configured(const std::string& configuration) {
   RunSpec spec;
   try {

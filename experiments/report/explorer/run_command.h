@@ -15,8 +15,8 @@ struct SeriesCommand {
   std::vector<std::pair<std::string, std::string>> options;
 };
 
-/// What all runs of the row's series have in common. Works on text alone: neither the scene nor the method of the row
-/// needs to be known to this program. Fields without effect on the run are left out, because `irk solve` refuses them.
+/// The part of the command that all runs of the row's series share. It is made from the text alone: this program need
+/// not have the scene or the method. Fields without effect on the run are left out, because `irk solve` refuses them.
 SeriesCommand seriesCommand(const Table& runs, const TableRow& row);
 
 /// The run's own part, to be appended: ` --tol 1e-06`, ` --step 0.01`.

@@ -106,7 +106,7 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
   return {report.outcome, report.detail, system_->toScene(state_), counters_};
 }
 
-// Over the times of the system, at each of which the library starts again.
+// Integrates over the times of the system; at each of them the library starts again.
 StartReport PeerIntegrator::run(double t_end, const Monitor<double>& monitor) {
   const auto times = system_->times();
   StartReport report;
@@ -221,9 +221,9 @@ StartReport PeerIntegrator::settle(const Monitor<double>& monitor) {
   return failed(report.outcome, switches_.describe(report.index));
 }
 
-// Performs one switch, the one whose root ended the step or else one that is due, and restarts. Switches that become
-// due by this one wait for the next step: the library interpolates the state at a root, so that by round-off
-// functions that should be 0 there can be positive.
+// Carries out one switch, the one whose root ended the step or else one that is due, and restarts. Other switches that
+// become due by it wait for the next step: the library interpolates the state at a root, so that functions that should
+// be 0 there can be positive by round-off.
 StartReport PeerIntegrator::locatedSwitch(const PeerStep& step, const Monitor<double>& monitor) {
   const SwitchReport report = switches_.evaluate(state_);
   if (report.outcome != Outcome::kSuccess) {
@@ -246,7 +246,7 @@ StartReport PeerIntegrator::locatedSwitch(const PeerStep& step, const Monitor<do
   return {};
 }
 
-// Restarts only if the state jumps; jumps of the derivatives are left to the error estimate.
+// Restarts only if the state jumps. Jumps of derivatives are left to the error estimate.
 StartReport PeerIntegrator::ignoredSwitches(const Monitor<double>& monitor) {
   const State<double> before = state_;
   StartReport report = settle(monitor);

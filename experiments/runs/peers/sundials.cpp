@@ -30,7 +30,8 @@ N_Vector Workspace::add(const Vec<double>& values) {
 
 namespace {
 
-// Whether a banded solver suits: with its fill a band then takes about the work of a sparse solver, without indices.
+// Whether a banded solver is better: with the band half full, it takes about the work of a sparse solver, without
+// indices.
 bool isBanded(const PeerPattern& pattern) {
   const Index band = (pattern.lower + pattern.upper + 1) * pattern.n;
   return band <= 2 * static_cast<Index>(pattern.row.size());
