@@ -102,7 +102,7 @@ class PaperWithoutGamma final : public PaperController {
   PaperWithoutGamma(const StepOptions& o, int order) : PaperController(o, order, {.gamma = false}) {}
 };
 
-/// Gustafsson's predictive controller, HW II (IV.8.25), 1994. If the ratio of successive errors is constant:
+/// Gustafsson's predictive controller (1994), HW II (IV.8.25). It assumes a constant ratio of successive errors:
 ///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
 /// The size is kept if it would grow by less than a fifth, because new factors cost more than that gains; with
 /// expensive factors it is kept up to a larger growth. The first step after a rejection does not grow.

@@ -28,11 +28,11 @@ constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError
 
 /// Chooses the member with the most progress per work. Every kMinStay accepted steps it determines the errors e_q of
 /// the member below and of up to two members above. The error below comes from the estimate; those above assume that
-/// the ratio of errors stays the same, as the coefficients of a smooth solution decay. From e_q follows the step h_q ~
-/// e_q^(-1/(q+1)), from the step Newton's contraction, which grows with it, and from the contraction the iterations and
-/// the work. No member is chosen if Newton would contract badly with its step (Hairer & Wanner, J. Comput. Appl. Math.
-/// 111, 1999, decide by the contraction alone). After two failures of Newton in a row the member below is tried, whose
-/// equations have less round-off; in the first step, whose size is a guess, after thirteen.
+/// the ratio of errors stays the same, as the coefficients of a smooth solution decay. From e_q follows the step
+/// h_q ~ e_q^(-1/(q+1)), from the step Newton's contraction, which grows with it, and from the contraction the
+/// iterations and the work. No member is chosen if Newton would contract badly with its step (Hairer & Wanner, J.
+/// Comput. Appl. Math. 111, 1999, decide by the contraction alone). After two failures of Newton in a row the member
+/// below is tried, whose equations have less round-off; in the first step, whose size is a guess, after thirteen.
 class LeastWork final : public OrderController {
  public:
   explicit LeastWork(OrderSetup setup) : setup_(std::move(setup)) {}

@@ -112,7 +112,8 @@ class Integrator<Real>::Run {
     return {};
   }
 
-  // Integrates to `end`, one step of size h ahead if `whole`. Times of the system and located switches split the step.
+  // Goes to `end` by one step: of size h if `whole`, else of the length that is left. Times of the system and located
+  // switches split the step.
   Stop fixedStep(const Real& h, const Real& end, bool whole) {
     while (state().t < end) {
       const Real stop_at = beforeTime(end);

@@ -10,8 +10,8 @@
 
 namespace irk {
 
-/// Throws Misuse for options that exclude each other with any method and system. The message is "illegal combination:
-/// ", both ids, and the reason.
+/// Throws Misuse for options that exclude each other with any method and system. The message is
+/// "illegal combination: ", both ids, and the reason.
 void requireLegal(const IntegratorOptions& options);
 
 /// Throws Misuse for combinations that do not work with the method, the system, the scalar or the needs of a strategy.

@@ -48,8 +48,8 @@ bool isPlain(const System<Real>& system) {
   return none(powers.v) && none(powers.x) && none(powers.z);
 }
 
-// Whether algebraic unknowns other than multipliers have index 2: D0 is then singular, and only a step determines (a,
-// k).
+// Whether algebraic unknowns other than multipliers have index 2: D0 is then singular, and only a step determines
+// (a, k).
 template <class Real>
 bool hidesRates(const System<Real>& system) {
   const auto& powers = system.errorPowers().z;
