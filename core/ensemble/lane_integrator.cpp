@@ -10,7 +10,8 @@
 
 namespace irk {
 
-/// Steps all lanes in turn: one attempt of each, then the decisions of each, then new members for those that are over.
+/// Steps all lanes in turn: one attempt of each, the decision of each, then new members for the lanes whose run has
+/// ended.
 class LaneIntegrator::Run {
  public:
   Run(const Tableau<double>& tableau, const IntegratorOptions& options)
@@ -37,7 +38,7 @@ class LaneIntegrator::Run {
   }
 
  private:
-  // What depends on the sizes of the systems.
+  // Vectors whose sizes depend on those of the systems.
   struct Vectors {
     Vectors(const Scheme<double>& scheme, const System<double>& system, const IntegratorOptions& options, double mu)
         : sizes(system.sizes()),
@@ -59,7 +60,7 @@ class LaneIntegrator::Run {
 
   State<double> state(std::size_t i) const { return vectors_->from.get(i, vectors_->sizes); }
 
-  // Puts the next member that can begin into lane i. A lane without one keeps its numbers, which nobody reads.
+  // Loads the next member that can begin into lane i. A lane without a member keeps its numbers, which are not used.
   void load(std::size_t i) {
     active_.set(i, false);
     past_.set(i, false);
@@ -87,7 +88,7 @@ class LaneIntegrator::Run {
     vectors_->norm.setScale(i, run.member().scale);
     vectors_->newton.restart(i);
   }
-  // Lanes that have no member repeat the equations of one that has.
+  // Lanes without a member repeat the equations of a lane that has one.
   void assemble() {
     if (!changed_) return;
     changed_ = false;
@@ -109,7 +110,7 @@ class LaneIntegrator::Run {
     (*done_)(index, outcome == Outcome::kSuccess ? run.success(state(i)) : run.failure(outcome, state(i)));
   }
 
-  // The next step of each lane; lanes that have none get another member.
+  // Plans the next step of each lane; a lane whose run has ended gets another member.
   void plan() {
     forEachLane(active_, [this](std::size_t i) {
       while (active_[i]) {
@@ -178,8 +179,8 @@ class LaneIntegrator::Run {
   std::optional<Vectors> vectors_;
   std::shared_ptr<const System<Lanes>> system_;
   std::array<std::size_t, kLanes> at_{};  // the members of the lanes
-  bool changed_ = false;                  // since system_ was made
-  LaneMask active_, past_;                // lanes with a member; whose last attempt was solved
+  bool changed_ = false;                  // whether at_ has changed since system_ was made
+  LaneMask active_, past_;                // lanes with a member; lanes whose last attempt was solved
   LaneCounters counters_;
 };
 

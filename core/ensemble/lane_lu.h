@@ -35,7 +35,7 @@ inline ComplexLanes choose(const LaneMask& mask, const ComplexLanes& yes, const 
 
 }  // namespace detail
 
-/// The result of a factorization, by lanes.
+/// The results of a factorization, by lanes.
 struct LaneFactors {
   LaneMask singular, not_finite;
   LaneMask failed() const { return singular | not_finite; }
@@ -47,10 +47,10 @@ class LaneLu {
  public:
   explicit LaneLu(Index n) : n_(n), work_(size(n * n)), lu_(size(n * n)), pivots_(size(n)), swaps_(size(n)) {}
 
-  /// Entry (i, j) of the matrices that are factorized next; overwritten by `factorize`.
+  /// Entry (i, j) of the matrices to be factorized next; `factorize` overwrites it.
   Value& at(Index i, Index j) { return work_[size(i + j * n_)]; }
 
-  /// Factorizes; only the lanes of `which` replace the factors they have.
+  /// Factorizes the matrices of all lanes; only lanes of `which` get new factors.
   LaneFactors factorize(const LaneMask& which) {
     LaneFactors result;
     Lanes sum;
@@ -64,7 +64,7 @@ class LaneLu {
     return result;
   }
 
-  /// In place, n entries.
+  /// Solves in place, n entries.
   void solve(Value* y) const {
     for (Index k = 0; k < n_; ++k) {
       if (!swaps_[size(k)]) continue;

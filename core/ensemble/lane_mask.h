@@ -1,4 +1,5 @@
-// Decisions of eight lanes. Lanes themselves have no comparisons, so that only this room can branch on them.
+// Comparisons and decisions of eight lanes. Lanes themselves have no comparisons, so that only this room can branch on
+// them.
 #pragma once
 
 #include "irk/lanes.h"

@@ -57,7 +57,7 @@ void LaneNewton::forget(const LaneMask& which) {
   slowest_ = select(which, 0.0, slowest_);
 }
 
-// All lanes are differentiated: the arithmetic is the same for one.
+// Differentiates in all lanes, because the arithmetic is the same as for one.
 void LaneNewton::differentiate(Context& c, const LaneMask& which) {
   if (!which.any()) return;
   c.stages.differentiate(c.W, which, jacobian_);
@@ -97,7 +97,8 @@ void LaneNewton::fail(Context& c, const LaneMask& which, Outcome outcome) {
   forget(which);
 }
 
-// One correction in the lanes of `running`; those where it is not finite leave. Returns its norm.
+// One correction in the lanes of `running`; lanes in which it is not finite are removed from the mask. Returns its
+// norm.
 Lanes LaneNewton::update(Context& c, LaneMask& running) {
   c.counters.newton_iterations.add(running);
   c.counters.residuals.add(running, s_);
@@ -113,8 +114,8 @@ Lanes LaneNewton::update(Context& c, LaneMask& running) {
   return norm;
 }
 
-// HW II (IV.8): done when eta |dw| <= kappa. The first time the last step's eta, raised to 0.8, stands in for the
-// contraction: its fifth power needs no root.
+// HW II (IV.8): converged when eta |dw| <= kappa. In the first iteration the last step's eta, raised to 0.8, takes the
+// place of the contraction; the fifth power of that bound needs no root.
 void LaneNewton::iterate(Context& c, const LaneMask& which) {
   LaneMask running = prepare(c, which);
   LaneMask converged;

@@ -13,31 +13,32 @@ namespace irk {
 /// The result of solving the stages of a step, by lanes.
 struct LaneSolved {
   LaneMask solved;
-  std::array<Outcome, kLanes> outcome{};  ///< of the lanes that were asked for and are not solved
+  std::array<Outcome, kLanes> outcome{};  ///< of the lanes in `which` that are not solved
   Lanes round_off;                        ///< in tolerances, see NewtonResult
 };
 
-/// Each lane has its own Jacobian, factors, contraction and iterations: a lane that has converged, or failed, keeps its
+/// Each lane has its own Jacobian, factors, contraction and iterations. A lane that has converged or failed keeps its
 /// numbers while others go on. Owns scratch.
 class LaneNewton {
  public:
   LaneNewton(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers,
              const IntegratorOptions& options, double mu);
 
-  /// A new system in lane i.
+  /// Begins a new system in lane i.
   void restart(std::size_t i);
-  /// Lanes whose last attempt failed: forgets this attempt.
+  /// Forgets the last attempt in these lanes, in which it failed.
   void forget(const LaneMask& which);
 
-  /// What increments have to fall below after so many accepted steps, in tolerances.
+  /// The bound for increments after `accepted` accepted steps, in tolerances.
   double kappa(std::int64_t accepted) const { return stop_.after(accepted); }
 
-  /// One step of size h from the states `from`, in the lanes of `which`. W: start values in, solutions out.
+  /// Solves one step of size h from the states `from`, in the lanes of `which`. W holds start values on entry and
+  /// solutions on return.
   LaneSolved solve(LaneStages& stages, const LaneNorm& norm, const LaneState& from, const Lanes& h,
                    const LaneMask& which, const Lanes& kappa, std::vector<Lanes>& W, LaneCounters& counters);
 
-  /// For the error estimate of the lanes of `which`. A matrix of its own counts as one more factorization where it is
-  /// new, as it does in a single run.
+  /// The matrix of the error estimate in the lanes of `which`. If it has its own factors and these are new, they count
+  /// as one more factorization, as in a single run.
   const LaneMatrix& filterMatrix(const LaneMask& which, LaneCounters& counters);
 
  private:
@@ -64,8 +65,8 @@ class LaneNewton {
   LaneJacobian jacobian_;
   LaneMatrix matrix_;
   LaneMask stale_, differentiated_, factorized_;
-  LaneMask new_filter_;           // whose factors no estimate has used
-  Lanes jacobian_t_, factors_h_;  // where these come from
+  LaneMask new_filter_;           // lanes whose factors no estimate has used yet
+  Lanes jacobian_t_, factors_h_;  // time of the Jacobians, step size of the factors
   Lanes eta_;                     // of the last solved step, see SimplifiedNewton
   Lanes theta_;                   // the last contraction
   Lanes slowest_;                 // see SimplifiedNewton

@@ -17,16 +17,16 @@ class LaneNorm {
   /// Sets the weights from the magnitudes of the states, and those of Newton's increments for a step h.
   void update(const LaneState& from, const Lanes& h);
 
-  /// Of an error of (u, v, x) and of z.
+  /// The norm of an error of (u, v, x) and of z.
   Lanes magnitude(const Lanes* y, const Lanes* z) const;
-  /// Of Newton's increments of (a, k, z) in s stages.
+  /// The norm of Newton's increments of (a, k, z) in s stages.
   Lanes increment(const Lanes* dw, Index s) const;
 
  private:
   Sizes sizes_;
   const ErrorPowers& powers_;
   Tolerances tolerances_;
-  std::vector<Lanes> atol_;     // times the magnitudes
+  std::vector<Lanes> atol_;     // atol times the magnitudes
   std::vector<Lanes> inverse_;  // 1 / weights of u, v, x; h^power / weight of z
   std::vector<Lanes> squares_;  // weights of increments
 };

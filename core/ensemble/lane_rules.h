@@ -7,10 +7,10 @@
 
 namespace irk {
 
-/// `options`, if they are in range and have the strategies of laneOptions.
+/// Returns `options` if they are in range and have the strategies of laneOptions.
 IntegratorOptions legalInLanes(const IntegratorOptions& options);
 void requireLaneMethod(const Scheme<double>& scheme);
-/// `others`: the sizes of the ensemble's systems so far, or null.
+/// Checks a system. `others`: the sizes of the ensemble's systems so far, or null.
 void requireLaneSystem(const System<double>& system, const Sizes* others);
 
 }  // namespace irk

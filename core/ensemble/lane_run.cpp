@@ -73,7 +73,7 @@ double LaneRun::firstStep() const {
   return std::min(h, 0.1 * length_);
 }
 
-// Below 16 eps t + c_i h no longer resolves the stages.
+// Below this size t + c_i h does not resolve the stages (16 eps t).
 double LaneRun::smallest(double t) const {
   const double resolved = 16 * std::numeric_limits<double>::epsilon() * std::abs(t);
   return std::max({options_.step.h_min, resolved, std::numeric_limits<double>::min()});

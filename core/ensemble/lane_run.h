@@ -1,4 +1,4 @@
-// What one lane of an ensemble decides for itself: step sizes, the end of its run, its result.
+// The decisions of one lane of an ensemble: step sizes, the end of its run, its result.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace irk {
 
-/// How an estimate of a method is read; the same for all lanes (core/estimates/variable_order.h).
+/// How the estimate of a method is used; the same for all lanes (core/estimates/variable_order.h).
 struct EstimateUse {
   EstimateUse(const Scheme<double>& scheme);
   int order;         ///< of the estimate
@@ -29,7 +29,7 @@ class LaneRun {
 
   /// Begins a new run from a consistent state. Returns kSuccess, or why it ends before its first step.
   Outcome begin(std::size_t index, EnsembleMember member);
-  /// Of the run that has begun: the state in its system's unknowns.
+  /// The start of the run, in its system's unknowns.
   const State<double>& start() const { return start_; }
 
   /// Whether the run may make one more attempt; if so, `h()` is its step.
@@ -38,14 +38,14 @@ class LaneRun {
   bool filtersAgain() const { return again_; }
   std::int64_t stepsAccepted() const { return steps_; }
 
-  /// The attempt failed: Newton's method or its matrix.
+  /// Records that the attempt failed: in Newton's method or its matrix.
   void failed(Outcome outcome);
-  /// The attempt has this estimate. Returns whether the step is accepted; then `newTime` is the time at its end.
-  /// `from` and `to`: the states that it leads from and to, asked for where the system may be at rest.
+  /// Records the attempt's estimate. Returns whether the step is accepted; then `newTime` is the time at its end.
+  /// `from` and `to` return the states before and after it, and are called if the system may be at rest.
   using StateOf = std::function<State<double>()>;
   bool decide(double estimate, double t, double round_off, const StateOf& from, const StateOf& to);
   double newTime(double t_by_lanes);
-  /// Why an accepted step ends the run; kSuccess: it goes on, or is over if t is the end.
+  /// Why an accepted step ends the run. kSuccess: the run goes on, or has ended if t is the end.
   Outcome afterStep() const { return error_sum_.aboveBar() ? Outcome::kInaccurate : Outcome::kSuccess; }
   bool isOver(double t) const { return !(t < member_.t_end); }
 
@@ -67,7 +67,7 @@ class LaneRun {
   std::size_t index_ = 0;
   EnsembleMember member_;
   State<double> start_;
-  std::string detail_;  // of a start that is not consistent
+  std::string detail_;  // why the start is not consistent
   Counters counters_;
   std::unique_ptr<StepController> controller_;
   Accumulation accumulation_;
@@ -75,9 +75,9 @@ class LaneRun {
   StallDetector stall_;
   std::int64_t attempts_ = 0, steps_ = 0;
   double length_ = 0, sum_ = 0, round_off_ = 0;
-  double h_ = 0, size_ = 0;  // asked for; of the attempt
+  double h_ = 0, size_ = 0;  // the size asked for; the size of the attempt
   bool last_ = false, again_ = true;
-  Outcome too_small_ = Outcome::kStepTooSmall;  // what a step below the smallest is called
+  Outcome too_small_ = Outcome::kStepTooSmall;  // the outcome of a step below the smallest size
 };
 
 }  // namespace irk

@@ -120,7 +120,7 @@ void LaneStages::predict(const LaneMask& past, std::vector<Lanes>& W) {
   }
 }
 
-// Without the polynomial's highest coefficients, from the first on whose amplification is above the limit.
+// Leaves out the polynomial's highest coefficients, from the first one whose amplification exceeds the limit.
 void LaneStages::shortenPolynomial(const LaneMask& where, const std::vector<Lanes>& basis,
                                    std::vector<Lanes>& weights) const {
   const Mat<double>& to_stages = scheme_.legendre_inverse_transposed;

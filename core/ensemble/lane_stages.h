@@ -17,29 +17,29 @@ class LaneStages {
  public:
   LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers, double mu);
 
-  /// The systems whose equations are meant from now on.
+  /// Selects the systems whose equations are evaluated from now on.
   void use(const System<Lanes>& system) { system_ = &system; }
 
-  /// A step of each lane from `from`, which has to live as long as the step.
+  /// Begins a step of each lane from `from`, which must live as long as the step.
   void begin(const LaneState& from, const Lanes& h);
 
-  /// W from the polynomial through the stages of the last solved step, in the lanes of `past`; elsewhere (a, k, z) at
-  /// the start.
+  /// Predicts W: in the lanes of `past` from the polynomial through the stages of the last solved step, in other lanes
+  /// (a, k, z) at the start.
   void predict(const LaneMask& past, std::vector<Lanes>& W);
-  /// The lanes of `which` have solved this step: their stages are the next step's past.
+  /// Keeps the solved stages of the lanes of `which` for the prediction of the next step.
   void keep(const LaneMask& which, const std::vector<Lanes>& W);
 
-  /// R(W), rows scaled; returns where it is finite.
+  /// Evaluates R(W) with scaled rows; returns the lanes in which it is finite.
   LaneMask residual(const std::vector<Lanes>& W, std::vector<Lanes>& R);
-  /// The derivatives at an inner stage of W, in the lanes of `which`.
+  /// Evaluates the derivatives at an inner stage of W, in the lanes of `which`.
   void differentiate(const std::vector<Lanes>& W, const LaneMask& which, LaneJacobian& jacobian);
   Index dualEvaluations() const;
-  /// Changes of W in the last digits of what it is added to, see SimplifiedNewton.
+  /// Changes of W in the last digits of the sums that it enters, see SimplifiedNewton.
   void lastDigits(const std::vector<Lanes>& W, std::vector<Lanes>& change) const;
 
-  /// The states at the step's end.
+  /// Computes the states at the step's end.
   void finish(const std::vector<Lanes>& W, LaneState& to) const;
-  /// The embedded estimate of the step that W solves; filtered twice where it is above `again_above`.
+  /// The embedded estimate of the step that W solves; filtered twice in lanes where it exceeds `again_above`.
   Lanes estimate(const std::vector<Lanes>& W, const LaneNorm& norm, const LaneMatrix& matrix, const Lanes& again_above,
                  const LaneMask& which, LaneCounters& counters);
 

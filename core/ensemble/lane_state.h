@@ -9,7 +9,7 @@
 
 namespace irk {
 
-/// The states between two steps, as State has them.
+/// The states between two steps, as in State.
 struct LaneState {
   explicit LaneState(const Sizes& n)
       : y(static_cast<std::size_t>(2 * n.nu + n.nx)), w(static_cast<std::size_t>(n.n())), carry(y.size()) {}
@@ -57,11 +57,11 @@ class LaneCount {
   LaneMask::Vector count_{};
 };
 
-/// What is counted inside an attempt; the rest is counted lane by lane.
+/// Counters of operations inside an attempt; LaneRun counts the others.
 struct LaneCounters {
   LaneCount residuals, dual_residuals, jacobians, factorizations, solves, newton_iterations, newton_restarts;
 
-  /// Adds those of lane i to `counters` and sets them to 0.
+  /// Adds the counts of lane i to `counters` and sets them to 0.
   void moveTo(std::size_t i, Counters& counters) {
     counters.residuals += residuals.take(i);
     counters.dual_residuals += dual_residuals.take(i);

@@ -1,4 +1,4 @@
-// The typical magnitudes of a system's components, as its users give them.
+// The typical magnitudes of a system's components, as a user gives them.
 #pragma once
 
 #include <string>

@@ -58,7 +58,7 @@ class CountingSystem final : public System<Real> {
   int threads_;
 };
 
-/// The system that `system` counts, or `system` itself.
+/// The system inside `system` if that is a CountingSystem, else `system` itself.
 template <class Real>
 const System<Real>& uncounted(const System<Real>& system) {
   const auto* counting = dynamic_cast<const CountingSystem<Real>*>(&system);
