@@ -6,9 +6,9 @@
 
 namespace irk::audit {
 
-/// Judges as judge.h says, by the errors of the row. The run has no perturbed twins: systems that multiply errors are
-/// not set aside as an audit does. The tolerance is the larger one of rtol and atol; without one (constant steps) a
-/// success is unjudged.
+/// Judges a run as judge.h says, from the errors in its row. No perturbed starts are integrated, so that systems that
+/// multiply errors are not set aside as in an audit. The tolerance is the larger one of rtol and atol; a success
+/// without one (constant steps) is unjudged.
 Judgement judgeRow(const Table& runs, const TableRow& row);
 
 /// The larger one of rtol and atol; NaN for constant steps.

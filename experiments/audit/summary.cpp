@@ -70,7 +70,7 @@ struct WrongSuccess {
 
 struct WrongSuccesses {
   std::size_t count = 0;
-  std::size_t unseen = 0;           // off by more than local errors of one tolerance can add up to
+  std::size_t unseen = 0;           // with an error larger than local errors of one tolerance can add up to
   std::vector<WrongSuccess> worst;  // the first of equal ones first
 };
 

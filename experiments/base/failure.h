@@ -17,7 +17,7 @@ class Failure : public std::runtime_error {
 /// Prints `irk: text` as one line; control characters are escaped.
 void printErrorLine(std::ostream& err, std::string_view text);
 
-/// From now on an exception of unknown kind counts as one of this user's file, the last one that is given here.
+/// From now on an exception of unknown kind is attributed to this user's file; the last one given counts.
 void blameExceptionsOn(const std::string& file);
 
 /// Call inside a catch block. Prints one line about the exception and returns the exit status: 2 for Misuse and for

@@ -66,7 +66,7 @@ std::vector<std::string> commandFor(const fs::path& source, int digits) {
   return command;
 }
 
-// What an object depends on besides the file and what it includes.
+// Everything that an object depends on besides the file and its included files.
 std::string identity(const fs::path& source, int digits) {
   std::string text = fmt::format("{} {} {}", buildInfo().version, buildInfo().code, buildInfo().compiler);
   for (const auto& word : commandFor(source, digits)) text += ' ' + word;
@@ -78,8 +78,8 @@ bool isWithin(const std::string& file, const std::vector<std::string>& folders) 
                      [&](const auto& folder) { return file.starts_with(folder + '/'); });
 }
 
-// Where the program's headers are: the rooms of core, and the folders of headers for users. The sources' root, too, is
-// searched for headers, but what else is in it may be a user's.
+// The folders of the program's headers: the rooms of core, and the folders of headers for users. Not the root of the
+// sources, which is searched for headers as well but may contain files of the user.
 std::vector<std::string> headerFolders() {
   std::vector<std::string> folders = ownFolders();
   for (auto& folder : folders) {
@@ -148,7 +148,7 @@ Record readRecord(const fs::path& path) {
   return record;
 }
 
-// Whether the files are still those that the object was made of.
+// Whether the files are still the same as when the object was made.
 bool isCurrent(const Record& record) {
   if (record.hash.empty() || record.files.empty()) return false;
   try {

@@ -10,13 +10,13 @@ namespace irk::own {
 /// A compiled file.
 struct Compiled {
   std::filesystem::path object;  ///< in the user's cache
-  std::string hash;              ///< of the file and of those that it includes, the program's headers excepted
+  std::string hash;              ///< of the file and its included files, without the program's headers
 };
 
-/// The object of `source` (a .cpp file) for numbers of 16, 50 or 100 digits: from the cache if file, included files,
-/// program and compiler are the same as when it was made, else compiled, which is told to `log`. Two processes that
-/// compile at once do not harm each other. Throws Misuse for a file that cannot be read, and for one that does not
-/// compile, after the compiler's messages about it were written to `log`; Failure without compiler.
+/// The object of `source` (a .cpp file) for numbers of 16, 50 or 100 digits. It comes from the cache if file, included
+/// files, program and compiler are the same as when it was made; otherwise it is compiled, with a line on `log`. Two
+/// processes may compile it at the same time. Throws Misuse for a file that cannot be read, and for one that does not
+/// compile, after writing the compiler's messages to `log`; Failure if there is no compiler.
 Compiled compile(const std::filesystem::path& source, int digits, std::ostream& log);
 
 /// Lines of a compiler's messages about `source`: those that begin with its name, with the lines that belong to them,

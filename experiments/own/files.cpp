@@ -23,7 +23,7 @@ namespace {
 std::ostream* report = nullptr;
 std::ostream& log() { return report ? *report : std::cerr; }
 
-// Objects are never unloaded, not at the program's end either: what they registered is destroyed after that.
+// Objects are never unloaded, not even at the program's end: what they have registered is destroyed later.
 const SharedLibrary& load(const std::filesystem::path& object, const std::filesystem::path& source) {
   static auto& loaded = *new std::vector<std::unique_ptr<SharedLibrary>>;
   explainCrashes(source);
@@ -87,7 +87,7 @@ std::set<Id> idsOfAxes() {
   return ids;
 }
 
-// All that a file can register.
+// All ids that a file can register.
 std::set<Id> knownIds() {
   auto ids = idsOfAxes<NewtonKind, StageSolverKind, Predictor, ErrorEstimate, StepControl, OrderControl, Discontinuity,
                        JacobianTerms>();
@@ -107,7 +107,7 @@ std::map<Id, std::string>& hashes() {
   return all;
 }
 
-// Runs registrations as those of a file.
+// Runs registrations with this file as their source.
 void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
   static SceneEntry next;
   next = std::move(entry);

@@ -11,7 +11,7 @@ namespace irk::own {
 /// Whether a text names a file of C++: it ends with `.cpp`.
 bool isFile(std::string_view text);
 
-/// While an object lives, loadFile tells to `log` that it compiles; else to standard error.
+/// As long as an object exists, loadFile reports on `log` that it compiles; otherwise on standard error.
 class ReportTo {
  public:
   explicit ReportTo(std::ostream& log);

@@ -29,7 +29,7 @@ std::string withoutMangling(const std::string& reason) {
   return status == 0 ? kind + symbol.get() : reason.substr(at);
 }
 
-// What the system's loader says, without what Boost puts around it: `... (dlerror system message: REASON): ...`.
+// The reason of the system's loader, without the text that Boost adds: `... (dlerror system message: REASON): ...`.
 std::string reasonOf(const std::string& text) {
   const std::string before = "dlerror system message: ";
   const auto begin = text.find(before), end = text.rfind("): ");

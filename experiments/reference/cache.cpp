@@ -55,7 +55,7 @@ std::optional<ComputedReference> keptReference(const ReferenceQuestion& question
   try {
     return read(file, question);
   } catch (const std::exception&) {
-    return {};  // whatever is wrong with the file: it is made again
+    return {};  // with any fault of the file the reference is made again
   }
 }
 

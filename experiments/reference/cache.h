@@ -12,8 +12,8 @@ namespace irk {
 /// or belongs to another question or code. Throws what cacheFolder throws.
 std::optional<ComputedReference> keptReference(const ReferenceQuestion& question);
 
-/// Keeps the reference, also one without values: the next call need not find out again that there is none. Readers
-/// never see half a file. Throws what cacheFolder throws, and if the file cannot be written.
+/// Keeps the reference, also one without values, so that the next call need not try again. Readers never see an
+/// incomplete file. Throws what cacheFolder throws, and if the file cannot be written.
 void keepReference(const ReferenceQuestion& question, const ComputedReference& reference);
 
 }  // namespace irk

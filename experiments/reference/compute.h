@@ -42,9 +42,9 @@ struct ReferenceWatch {
 /// Announces a task's runs to `progress`.
 void expectRuns(const ReferenceTask& task, Progress& progress);
 
-/// For each task the values at its `times` (decimal, ascending, from the scene's start on): exact ones if the scene
-/// knows them and the integrations agree with them, else the digits on which the four integrations agree. A
-/// computation that is stopped reports problems.
+/// For each task the values at its `times` (decimal, ascending, from the scene's start on). A value is exact if the
+/// scene has a closed form with which the integrations agree; otherwise it has the digits on which the four
+/// integrations agree. A computation that is stopped reports problems.
 std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
                                   const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch);
 

@@ -12,7 +12,8 @@
 namespace irk {
 namespace {
 
-// An integration ends before what happens at its last time, and one that begins there does not see it.
+// Carries out the changes at the state's time: an integration makes neither those at its last time nor those at its
+// start.
 template <class Real>
 void passTimes(const System<Real>& system, State<Real>& state) {
   const std::vector<Real> times = system.times();

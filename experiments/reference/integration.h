@@ -1,4 +1,4 @@
-// One integration whose states are wanted at given times.
+// One integration that returns the states at given times.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ class CpuBudget {
   std::atomic<double> spent_ = 0;
 };
 
-/// What may end an integration before its last time. Both are optional.
+/// A stop flag and a budget, which may end an integration before its last time. Both are optional.
 struct IntegrationWatch {
   const std::atomic<bool>* stop = nullptr;
   CpuBudget* budget = nullptr;

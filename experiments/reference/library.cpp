@@ -102,7 +102,7 @@ std::optional<ComputedReference> ReferenceLibrary::kept(const ReferenceQuestion&
     auto reference = keptReference(question);
     if (reference && reference->values.empty()) tell(lineOf(question, *reference));
     return reference;
-  } catch (const std::exception&) {  // there is no cache: `keep` tells it
+  } catch (const std::exception&) {  // there is no cache; `keep` reports it
     return {};
   }
 }

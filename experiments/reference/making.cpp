@@ -54,7 +54,7 @@ Specs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase&
   return specs;
 }
 
-// All options are given, so that changed defaults change no reference.
+// All options are given explicitly, so that changed defaults change no reference.
 Specs specsInDouble(const ReferenceQuestion& question, double length, const Strictness& strictness) {
   Specs specs;
   for (std::size_t i = 0; i < kReferenceRuns; ++i) {

@@ -1,4 +1,4 @@
-// What a computed reference is about: a scene with its settings, at the end of a run.
+// The question that a computed reference answers: a scene with its settings, at the end of a run.
 #pragma once
 
 #include <string>
@@ -25,8 +25,8 @@ std::string keyText(const ReferenceQuestion& question);
 /// For messages: `slider_crank torque_off_at=0.5 smooth, t = 1`.
 std::string placeText(const ReferenceQuestion& question);
 
-/// What the scene is made from if it is not part of the program's code: a hash of the user's file. Empty for the
-/// scenes of the program, whose code is in the fingerprint of the build.
+/// A hash of the user's file from which the scene is made. Empty for scenes of the program, whose code is in the
+/// fingerprint of the build.
 std::string sourceOf(const SceneEntry& scene);
 
 }  // namespace irk

@@ -10,9 +10,9 @@ namespace irk {
 std::vector<std::pair<std::string, std::string>> namesAndUnits(const Scene<double>& scene);
 
 /// The head entries `time: t in s` and `panels: "label|columns|factor" ...`; a label names the unit of its columns
-/// times the factor. Uses the entry's panels, without the columns that the scene lacks with its settings; an entry
-/// without panels gets one for each component and output, or for eight of them, and an entry `panels_note` that says
-/// so.
+/// times the factor. Uses the entry's panels, without the columns that the scene lacks with its settings. An entry
+/// without panels gets one for each component and output; if these are more than eight, it gets eight, and
+/// `panels_note` says so.
 TableHead panelHead(const SceneEntry& entry, const Scene<double>& scene);
 
 }  // namespace irk

@@ -10,7 +10,7 @@
 
 namespace irk {
 
-/// At which times there is a row; two more are at each located switch, before and after it.
+/// The times of rows. Each located switch has two more rows, before and after it.
 struct RowTimes {
   int points = 0;     ///< 0, or 2 and more: equally spaced from the start to t_end, both included
   bool steps = true;  ///< the ends of all accepted steps; then `points` inside steps only where the method knows them
@@ -30,8 +30,8 @@ class SolutionRows {
   /// `take` gets each row in the order of time, while the run goes on.
   SolutionRows(RowTimes times, double t_end, std::function<void(const SolutionRow&)> take);
 
-  /// Adds itself to the watch's callbacks. Where a method knows its steps only, `points` without `steps` are Misuse,
-  /// thrown in the first step.
+  /// Adds itself to the watch's callbacks. If a method gives the solution at the ends of its steps only, `points`
+  /// without `steps` are Misuse, thrown in the first step.
   void addTo(Watch& watch);
   /// After the run: the last accepted state, of a failed run or if the last step ended next to t_end.
   void finish(const RunRecord& record);
@@ -49,7 +49,7 @@ class SolutionRows {
   int next_ = 0;  // of the points
   bool started_ = false;
   SolutionRow last_{};  // the end of the last step, or after its switches
-  bool shown_ = false;  // whether it is a row
+  bool shown_ = false;  // whether last_ has been given as a row
   std::vector<double> values_;
   std::string inside_;  // switches inside the next step
 };

@@ -25,8 +25,8 @@ std::string hostName();
 std::string dateText();
 
 /// The folder that contains plots/: IRK_HOME, else that of an installed program (share/irk beside its bin), else the
-/// sources of this build, else a folder above the program. The
-/// working folder is never used: anybody may have written scripts there. Throws Misuse if there is none.
+/// sources of this build, else a folder above the program. Never the working folder, where anybody may have written
+/// scripts. Throws Misuse if there is none.
 std::filesystem::path homeFolder();
 
 }  // namespace irk

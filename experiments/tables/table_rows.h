@@ -13,8 +13,8 @@
 
 namespace irk {
 
-/// The rows of a table in a file, one at a time; readTable says what it throws. If the file is replaced, the old one is
-/// read on. Not thread-safe.
+/// Reads the rows of a table in a file, one at a time. Throws what readTable throws. If the file is replaced, it
+/// continues to read the old one. Not thread-safe.
 class TableFile {
  public:
   /// Reads the head and the columns.
@@ -46,7 +46,7 @@ class TableWriter {
  public:
   /// Writes beside `file`.
   TableWriter(std::filesystem::path file, const TableHead& head, const std::vector<std::string>& columns);
-  /// Without `close` nothing is left.
+  /// Removes the file unless `close` was called.
   ~TableWriter();
   TableWriter(const TableWriter&) = delete;
   TableWriter& operator=(const TableWriter&) = delete;
