@@ -72,7 +72,7 @@ TEST(CompilerMessages, TheRefusalNamesLineAndError) {
   EXPECT_EQ(refusal("killed\n"), "mine.cpp: it does not compile");
 }
 
-void compute(double seconds) {
+void keepBusy(double seconds) {
   const auto end = std::clock() + static_cast<std::clock_t>(seconds * CLOCKS_PER_SEC);
   while (std::clock() < end) {
   }
@@ -82,7 +82,7 @@ TEST(StuckDeathTest, CodeThatDoesNotReturnIsToldOnce) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const auto stuck = [] {
     own::askWhenStuck("mine.cpp", 1);
-    compute(3.5);
+    keepBusy(3.5);
     std::_Exit(3);
   };
   EXPECT_EXIT(stuck(), testing::ExitedWithCode(3),
@@ -90,7 +90,7 @@ TEST(StuckDeathTest, CodeThatDoesNotReturnIsToldOnce) {
   const auto going = [] {
     own::askWhenStuck("mine.cpp", 2);
     for (int i = 0; i < 30; ++i) {
-      compute(0.1);
+      keepBusy(0.1);
       own::stillGoing(0);
     }
     std::_Exit(3);
@@ -104,7 +104,7 @@ TEST(StuckDeathTest, CodeThatDoesNotReturnEndsAfterTheTimeLimit) {
   const auto stuck = [](double limit) {
     own::askWhenStuck("mine.cpp", 1);
     own::stillGoing(limit);
-    compute(2.5 + std::thread::hardware_concurrency());
+    keepBusy(2.5 + std::thread::hardware_concurrency());
     std::_Exit(3);
   };
   const std::string asked = "^irk: no step has ended for 1 s of CPU time[^\n]*mine.cpp[^\n]*\n";

@@ -11,10 +11,10 @@
 namespace irk {
 namespace {
 
-const std::string kSeeds[] = {
+const std::string kTableSeeds[] = {
     "# study: small\n# version: 1\nkey,a,b\n0123456789abcdef,1,2\n00000000000000aa,\"x,y\",3\nff,,nan\n",
     "key,a,b\r\n01,\"say \"\"no\"\"\",1e-3\r\n02,\"two\nlines\",4\r\n"};
-const std::string kPieces[] = {
+const std::string kTablePieces[] = {
     "\"", "\"\"", ",", "\n", "\r\n", "#", "# a", "key,a,b\n", "nan", std::string(1, '\0'), "\xff", "ff,1,2\n"};
 
 class MutatedTables : public testing::Test {
@@ -30,7 +30,7 @@ class MutatedTables : public testing::Test {
 
 // Reading gives a table with complete rows, or a misuse that names the file.
 TEST_F(MutatedTables, AreReadOrRefused) {
-  test::Mutations mutations(kSeeds, kPieces, 20043);
+  test::Mutations mutations(kTableSeeds, kTablePieces, 20043);
   int read = 0, refused = 0;
   for (int i = 0; i < 20'000; ++i) {
     const std::string text = mutations.next();
@@ -52,7 +52,7 @@ TEST_F(MutatedTables, AreReadOrRefused) {
 // In a part, no row with a wrong number of cells is read, and every line is a row, damaged, or part of the head.
 TEST_F(MutatedTables, PartsGiveWholeRowsOnly) {
   const std::vector<std::string> columns{"key", "a", "b"};
-  test::Mutations mutations(kSeeds, kPieces, 20044);
+  test::Mutations mutations(kTableSeeds, kTablePieces, 20044);
   int rows = 0, damaged = 0;
   for (int i = 0; i < 20'000; ++i) {
     const auto file = written(mutations.next());
