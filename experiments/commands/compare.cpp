@@ -3,6 +3,7 @@
 
 #include "experiments/analyses/results.h"
 #include "experiments/commands/commands.h"
+#include "experiments/compare/compare.h"
 #include "experiments/compare/folders.h"
 #include "irk/misuse.h"
 
@@ -45,8 +46,8 @@ int compareCommand(const CompareOptions& options, Streams streams) {
   for (const auto& [study, file] : first) {
     const auto other = second.find(study);
     if (other == second.end()) continue;
-    const auto comparison = compare::compareRuns(compare::readRuns(file), compare::readRuns(other->second), limits);
-    differences += comparison.differences.size();
+    const auto comparison = compare::compareRuns(compare::runsOf(file), compare::runsOf(other->second), limits);
+    differences += comparison.total();
     streams.out << compare::textOf(study, comparison);
     for (const auto& its : {file, other->second}) tellDrift(its.parent_path().string(), its, streams.err);
   }

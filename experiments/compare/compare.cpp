@@ -4,16 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
-#include <sstream>
+#include <utility>
 
 #include "experiments/base/numbers.h"
 #include "experiments/compare/matching.h"
-#include "experiments/compare/ratio.h"
+#include "experiments/compare/times.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "irk/misuse.h"
-#include "irk/statistics.h"
 
 namespace irk::compare {
 namespace {
@@ -22,88 +22,90 @@ constexpr std::string_view kErrors[] = {"error",   "error_u", "error_v",        
                                         "error_z", "drift",   "invariant_change"};
 // Errors below this many units of round-off of their scalar are not compared: 1.1e-14 in double precision.
 constexpr double kRoundOff = 50;
-// A rank test with fewer repetitions cannot be significant: for samples of four and four the most extreme order has
-// probability 1/70, for five and five 1/252.
-constexpr std::size_t kFew = 5;
-// The factor by which minima of fewer repetitions, which are not tested, must differ.
-constexpr double kFewFactor = 2;
 
-// The larger number divided by the smaller: 1 for equal numbers, infinity if one of them is 0 or unknown.
-double factorOf(double a, double b) {
-  if (a == b || (std::isnan(a) && std::isnan(b))) return 1;
-  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
-  const double factor = std::max(a, b) / std::min(a, b);
-  return std::isfinite(factor) ? factor : std::numeric_limits<double>::infinity();
+/// A column that both tables have.
+struct Column {
+  std::string name;
+  std::size_t first, second;
+
+  const std::string& of(const TableRow& row, bool is_second) const { return row[is_second ? second : first]; }
+};
+
+bool isWorse(const Difference& a, const Difference& b) {
+  return a.size != b.size ? a.size > b.size : a.order < b.order;
 }
 
 /// Compares two tables row by row.
 class Comparer {
  public:
   Comparer(const Runs& first, const Runs& second, const Limits& limits)
-      : first_(first), second_(second), limits_(limits), matching_(first.table, second.table) {
-    for (const auto* runs : {&first, &second}) {
-      if (!runs->table.hasColumn("outcome")) throw Misuse("no table of runs: it has no column 'outcome'");
+      : limits_(limits), matching_(first.file, second.file), times_(first, second, limits, matching_) {
+    for (const auto* names : {&matching_.firstNames(), &matching_.secondNames()}) {
+      if (!names->hasColumn("outcome")) throw Misuse("no table of runs: it has no column 'outcome'");
     }
+    outcome_ = columnOf("outcome").value();
+    scalar_ = columnOf("scalar");
     chooseColumns();
-    result_.first = first.table.rows.size();
-    result_.second = second.table.rows.size();
+    result_.first = matching_.firstRows();
+    result_.second = matching_.secondRows();
   }
 
   Comparison run() {
-    for (const auto& pair : matching_.pairs()) {
-      if (!pair.first || !pair.second) {
-        add(Kind::kMissing, pair, pair.first ? "only in the first" : "only in the second", 1);
-        continue;
-      }
-      ++result_.both;
-      if (!compareOutcome(pair)) continue;
-      compareCounters(pair);
-      compareErrors(pair);
-      noteTimes(pair);
-    }
-    judgeTimes();
-    std::stable_sort(
-        result_.differences.begin(), result_.differences.end(),
-        [](const Difference& a, const Difference& b) { return a.kind != b.kind ? a.kind < b.kind : a.size > b.size; });
+    matching_.forEachPair([this](const Pair& pair) { compare(pair); });
+    result_.times = times_.judge(
+        [this](const Pair& pair, std::string what, double size) { add(Kind::kTime, pair, std::move(what), size); });
+    for (auto& worst : worst_) std::move(worst.begin(), worst.end(), std::back_inserter(result_.differences));
     return std::move(result_);
   }
 
  private:
-  /// The repetitions of a run in both tables, or only their minima if one table has too few.
-  struct Timed {
-    Pair pair;
-    std::vector<double> first, second;
-    bool few;
-  };
+  std::optional<Column> columnOf(std::string_view name) const {
+    const Table &a = matching_.firstNames(), &b = matching_.secondNames();
+    if (!a.hasColumn(name) || !b.hasColumn(name)) return {};
+    return Column{std::string(name), a.column(name), b.column(name)};
+  }
 
   void chooseColumns() {
-    const auto choose = [this](std::string_view name, std::vector<std::string>& chosen) {
-      const bool a = first_.table.hasColumn(name), b = second_.table.hasColumn(name);
-      if (a && b) chosen.emplace_back(name);
+    const auto choose = [this](std::string_view name, std::vector<Column>* chosen) {
+      const auto column = columnOf(name);
+      if (column && chosen) chosen->push_back(*column);
+      const bool a = matching_.firstNames().hasColumn(name), b = matching_.secondNames().hasColumn(name);
       if (a != b) {
         result_.not_compared.push_back(fmt::format("{} (only in the {})", name, a ? "first" : "second"));
       }
     };
-    Counters{}.forEach([&](const char* name, std::int64_t) { choose(name, counters_); });
-    for (const auto name : kErrors) choose(name, errors_);
-    std::vector<std::string> ignored;
-    for (const auto& field : specFields()) choose(field.name, ignored);
+    Counters{}.forEach([&](const char* name, std::int64_t) { choose(name, &counters_); });
+    for (const auto name : kErrors) choose(name, &errors_);
+    for (const auto& field : specFields()) choose(field.name, nullptr);
   }
 
+  void compare(const Pair& pair) {
+    if (!pair.first || !pair.second) {
+      add(Kind::kMissing, pair, pair.first ? "only in the first" : "only in the second", 1);
+      return;
+    }
+    ++result_.both;
+    const auto &a = outcome_.of(*pair.first, false), &b = outcome_.of(*pair.second, true);
+    const std::string_view success = name(Outcome::kSuccess);
+    if (a != b) {  // then nothing else is compared
+      add(Kind::kOutcome, pair, fmt::format("{} -> {}", a, b), a == success || b == success ? 2 : 1);
+      return;
+    }
+    compareCounters(pair);
+    compareErrors(pair);
+    if (a == success) times_.note(pair);
+  }
+
+  // Keeps the difference if it is one of the worst.
   void add(Kind kind, const Pair& pair, std::string what, double size) {
-    result_.differences.push_back({kind, matching_.nameOf(pair), std::move(what), size});
-  }
-  const std::string& text(const Pair& pair, std::string_view column, bool second) const {
-    return second ? textAt(second_.table, *pair.second, column) : textAt(first_.table, *pair.first, column);
-  }
-
-  // Returns false if the outcomes differ: then nothing else is compared.
-  bool compareOutcome(const Pair& pair) {
-    const auto &a = text(pair, "outcome", false), &b = text(pair, "outcome", true);
-    if (a == b) return true;
-    const std::string success(name(Outcome::kSuccess));
-    add(Kind::kOutcome, pair, fmt::format("{} -> {}", a, b), a == success || b == success ? 2 : 1);
-    return false;
+    const auto at = static_cast<std::size_t>(kind);
+    ++result_.counts[at];
+    auto& worst = worst_[at];
+    Difference difference{kind, {}, std::move(what), size, pair.order()};
+    if (worst.size() == kWorst && !isWorse(difference, worst.back())) return;
+    difference.run = matching_.nameOf(pair);
+    worst.insert(std::upper_bound(worst.begin(), worst.end(), difference, isWorse), std::move(difference));
+    if (worst.size() > kWorst) worst.pop_back();
   }
 
   // All changed counters of a run are reported as one difference, of the size of the largest change.
@@ -111,18 +113,18 @@ class Comparer {
     std::string what;
     double most = 0;
     for (const auto& column : counters_) {
-      const auto &a = text(pair, column, false), &b = text(pair, column, true);
+      const auto &a = column.of(*pair.first, false), &b = column.of(*pair.second, true);
+      if (a == b) continue;
       const double x = cellNumber(a), y = cellNumber(b);
-      if (a == b || std::abs(x - y) <= limits_.counters * std::max(x, y)) continue;
-      what += fmt::format("{}{} {} -> {}", what.empty() ? "" : ", ", column, a, b);
+      if (std::abs(x - y) <= limits_.counters * std::max(x, y)) continue;
+      what += fmt::format("{}{} {} -> {}", what.empty() ? "" : ", ", column.name, a, b);
       most = std::max(most, factorOf(x, y));
     }
     if (!what.empty()) add(Kind::kCounter, pair, std::move(what), most);
   }
 
   double roundOff(const Pair& pair) const {
-    if (!first_.table.hasColumn("scalar")) return kRoundOff * epsilonOf(ScalarKind::kDouble);
-    return kRoundOff * epsilonOf(parseId<ScalarKind>(text(pair, "scalar", false)));
+    return kRoundOff * epsilonOf(scalar_ ? parseId<ScalarKind>(scalar_->of(*pair.first, false)) : ScalarKind::kDouble);
   }
 
   // Like counters: one difference per run. Errors below round-off are not compared.
@@ -131,92 +133,25 @@ class Comparer {
     std::string what;
     double most = 0;
     for (const auto& column : errors_) {
-      const auto &a = text(pair, column, false), &b = text(pair, column, true);
-      const auto shown = [least](double x) { return std::isnan(x) ? x : std::max(std::abs(x), least); };
-      const double factor = factorOf(shown(cellNumber(a)), shown(cellNumber(b)));
+      const auto &a = column.of(*pair.first, false), &b = column.of(*pair.second, true);
+      if (a == b) continue;
+      const double x = cellNumber(a), y = cellNumber(b);
+      const auto shown = [least](double e) { return std::isnan(e) ? e : std::max(std::abs(e), least); };
+      const double factor = factorOf(shown(x), shown(y));
       if (factor <= limits_.errors) continue;
-      what += fmt::format("{}{} {:.3g} -> {:.3g}", what.empty() ? "" : ", ", column, cellNumber(a), cellNumber(b));
+      what += fmt::format("{}{} {:.3g} -> {:.3g}", what.empty() ? "" : ", ", column.name, x, y);
       most = std::max(most, factor);
     }
     if (!what.empty()) add(Kind::kError, pair, std::move(what), most);
   }
 
-  static std::string processorOf(const Runs& runs, const TableRow& row) {
-    if (runs.table.hasColumn("cpu_environment")) {
-      const auto found = runs.processors.find(textAt(runs.table, row, "cpu_environment"));
-      if (found != runs.processors.end()) return found->second;
-    }
-    for (const auto& [key, value] : runs.table.head) {
-      if (key == "cpu") return value;
-    }
-    return "unknown";
-  }
-
-  // The repetitions of the timing pass; empty if the run was not timed.
-  static std::vector<double> repetitions(const Runs& runs, const TableRow& row) {
-    std::vector<double> seconds;
-    if (!runs.table.hasColumn("cpu_s") || !runs.table.hasColumn("cpu_runs")) return seconds;
-    if (!(numberAt(runs.table, row, "cpu_runs") > 0)) return seconds;
-    if (runs.table.hasColumn("cpu_all")) {
-      std::istringstream in(textAt(runs.table, row, "cpu_all"));
-      for (std::string word; in >> word;) seconds.push_back(cellNumber(word));
-    }
-    if (seconds.size() < kFew) seconds = {numberAt(runs.table, row, "cpu_s")};
-    std::erase_if(seconds, [](double t) { return !(t > 0) || std::isinf(t); });
-    return seconds;
-  }
-
-  void noteTimes(const Pair& pair) {
-    if (!succeededAt(first_.table, *pair.first)) return;
-    Timed timed{pair, repetitions(first_, *pair.first), repetitions(second_, *pair.second), false};
-    if (timed.first.empty() || timed.second.empty()) {
-      ++result_.times.not_timed;
-      return;
-    }
-    const auto a = processorOf(first_, *pair.first), b = processorOf(second_, *pair.second);
-    if (a != b) {
-      ++result_.times.other_processor;
-      result_.times.processors = fmt::format("'{}' and '{}'", a, b);
-      return;
-    }
-    timed.few = std::min(timed.first.size(), timed.second.size()) < kFew;
-    if (timed.few) {
-      for (auto* seconds : {&timed.first, &timed.second}) {
-        *seconds = {*std::min_element(seconds->begin(), seconds->end())};
-      }
-      ++result_.times.few;
-    }
-    timed_.push_back(std::move(timed));
-  }
-
-  // alpha is the level of all tests together: each of m runs is tested with alpha / m.
-  void judgeTimes() {
-    result_.times.compared = timed_.size();
-    if (timed_.empty()) return;
-    const double alpha = limits_.alpha / static_cast<double>(timed_.size());
-    std::vector<double> ratios;
-    for (const auto& timed : timed_) {
-      const Ratio ratio = ratioOf(timed.first, timed.second, alpha);
-      ratios.push_back(ratio.ratio);
-      const double factor = factorOf(1, ratio.ratio);
-      const double noise = timed.few ? std::max(kFewFactor, 1 + limits_.times) : 1 + limits_.times;
-      if (ratio.low <= noise && ratio.high >= 1 / noise) continue;
-      const auto how = timed.few ? std::string("minima of fewer than five repetitions")
-                                 : fmt::format("{:.3g} to {:.3g}", ratio.low, ratio.high);
-      add(Kind::kTime, timed.pair, fmt::format("time x {:.3g} ({})", ratio.ratio, how), factor);
-    }
-    std::sort(ratios.begin(), ratios.end());
-    result_.times.least = ratios.front();
-    result_.times.median = ratios[ratios.size() / 2];
-    result_.times.most = ratios.back();
-  }
-
-  const Runs& first_;
-  const Runs& second_;
   const Limits& limits_;
   Matching matching_;
-  std::vector<std::string> counters_, errors_;
-  std::vector<Timed> timed_;
+  TimeComparer times_;
+  Column outcome_;
+  std::optional<Column> scalar_;
+  std::vector<Column> counters_, errors_;
+  std::array<std::vector<Difference>, kKindCount> worst_;  // by kind
   Comparison result_;
 };
 

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "experiments/tables/table.h"
 #include "irk/misuse.h"
 
 namespace irk::compare {
 namespace {
 
 constexpr const char* kFile = "runs.csv";
-constexpr std::size_t kShown = 10;
 
 struct KindName {
   Kind kind;
@@ -22,16 +22,15 @@ constexpr KindName kKinds[] = {{Kind::kMissing, "runs that only one has"},
                                {Kind::kError, "errors"},
                                {Kind::kTime, "times"}};
 
-std::string kindText(const KindName& kind, const std::vector<Difference>& all) {
-  std::size_t count = 0;
-  std::string text;
-  for (const auto& difference : all) {
-    if (difference.kind != kind.kind || ++count > kShown) continue;
-    text += fmt::format("    {}: {}\n", difference.run, difference.what);
-  }
+std::string kindText(const KindName& kind, const Comparison& comparison) {
+  const auto count = comparison.counts[static_cast<std::size_t>(kind.kind)];
   if (count == 0) return {};
-  const auto shown = count > kShown ? fmt::format(", the worst {}", kShown) : std::string();
-  return fmt::format("  {}: {} different{}\n", kind.name, count, shown) + text;
+  const auto shown = count > kWorst ? fmt::format(", the worst {}", kWorst) : std::string();
+  std::string text = fmt::format("  {}: {} different{}\n", kind.name, count, shown);
+  for (const auto& difference : comparison.differences) {
+    if (difference.kind == kind.kind) text += fmt::format("    {}: {}\n", difference.run, difference.what);
+  }
+  return text;
 }
 
 std::string timesText(const Times& times) {
@@ -71,8 +70,8 @@ std::map<std::string, std::filesystem::path> runsIn(const std::filesystem::path&
   return found;
 }
 
-Runs readRuns(const std::filesystem::path& file) {
-  Runs runs{readTable(file), {}};
+Runs runsOf(const std::filesystem::path& file) {
+  Runs runs{file, {}};
   const auto environments = file.parent_path() / "environments.csv";
   if (!std::filesystem::is_regular_file(environments)) return runs;
   const Table table = readTable(environments);
@@ -83,8 +82,8 @@ Runs readRuns(const std::filesystem::path& file) {
 
 std::string textOf(const std::string& study, const Comparison& comparison) {
   auto text = fmt::format("{}{}{} runs and {} runs: {} differences\n", study, study.empty() ? "" : ": ",
-                          comparison.first, comparison.second, comparison.differences.size());
-  for (const auto& kind : kKinds) text += kindText(kind, comparison.differences);
+                          comparison.first, comparison.second, comparison.total());
+  for (const auto& kind : kKinds) text += kindText(kind, comparison);
   text += timesText(comparison.times);
   if (!comparison.not_compared.empty()) {
     text += fmt::format("  not compared: {}\n", fmt::join(comparison.not_compared, ", "));

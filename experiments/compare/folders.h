@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "experiments/compare/compare.h"
+#include "experiments/compare/comparison.h"
 
 namespace irk::compare {
 
@@ -13,8 +13,8 @@ namespace irk::compare {
 /// relative to the tree. Throws Misuse for a path that is not a folder or contains none.
 std::map<std::string, std::filesystem::path> runsIn(const std::filesystem::path& folder);
 
-/// Reads a runs.csv, and the processors from the environments.csv beside it, if any.
-Runs readRuns(const std::filesystem::path& file);
+/// A runs.csv with the processors from the environments.csv beside it, if any.
+Runs runsOf(const std::filesystem::path& file);
 
 /// One line of numbers; then the differences by kind, the ten largest of each; then what was not compared and why.
 std::string textOf(const std::string& study, const Comparison& comparison);

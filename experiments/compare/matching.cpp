@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
-#include <utility>
+#include <optional>
+#include <tuple>
 
+#include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_spec.h"
@@ -16,77 +16,131 @@ namespace irk::compare {
 namespace {
 
 constexpr std::string_view kAlwaysNamed[] = {"scene", "settings", "method"};
+constexpr std::uint64_t kMostGroups = 128;  // each may have a file
 
 bool isAlwaysNamed(std::string_view field) {
   return std::find(std::begin(kAlwaysNamed), std::end(kAlwaysNamed), field) != std::end(kAlwaysNamed);
 }
 
 // A text that is the same for equal numbers, regardless of the number of digits in the cell.
-std::string plain(const std::string& cell) {
+std::string plainText(const std::string& cell) {
   const double number = cellNumber(cell);
   return std::isnan(number) ? cell : numberText(number);
 }
 
+/// The places of two rows of one run.
+struct Match {
+  std::optional<std::uint64_t> first, second;
+};
+
 }  // namespace
 
-Matching::Matching(const Table& first, const Table& second) : first_(first), second_(second) {
+Matching::Matching(const std::filesystem::path& first, const std::filesystem::path& second, std::uint64_t at_once)
+    : first_(first), second_(second) {
+  const auto bytes = std::filesystem::file_size(first) + std::filesystem::file_size(second);
+  const auto groups = std::min(1 + bytes / at_once, kMostGroups);
   findFields();
-  findPairs();
-  findVarying();
+  for (auto* side : {&first_, &second_}) {
+    side->groups.resize(groups);
+    readRows(*side);
+  }
 }
 
 void Matching::findFields() {
   for (const auto& field : specFields()) {
-    if (!first_.hasColumn(field.name) || !second_.hasColumn(field.name)) continue;
-    fields_.push_back({std::string(field.name), first_.column(field.name), second_.column(field.name)});
+    if (!firstNames().hasColumn(field.name) || !secondNames().hasColumn(field.name)) continue;
+    fields_.push_back({std::string(field.name), {}});
+    for (auto* side : {&first_, &second_}) side->columns.push_back(side->file.names().column(field.name));
   }
+  for (auto* side : {&first_, &second_}) side->cells = side->plain = TableRow(fields_.size());
 }
 
-std::string Matching::identity(const TableRow& row, std::size_t Field::*column) const {
+std::string Matching::identity(Side& side, const TableRow& row) {
   std::string text;
-  for (const auto& field : fields_) text += plain(row[field.*column]) + '\n';
+  for (std::size_t i = 0; i < side.columns.size(); ++i) {
+    const auto& cell = row[side.columns[i]];
+    if (cell != side.cells[i]) {
+      side.cells[i] = cell;
+      side.plain[i] = plainText(cell);
+    }
+    text.append(side.plain[i]) += '\n';
+  }
   return text;
 }
 
-void Matching::findPairs() {
-  std::map<std::string, std::vector<const TableRow*>> others;  // taken from the back
-  for (auto row = second_.rows.rbegin(); row != second_.rows.rend(); ++row) {
-    others[identity(*row, &Field::second)].push_back(&*row);
-  }
-  std::set<const TableRow*> taken;
-  for (const auto& row : first_.rows) {
-    const auto found = others.find(identity(row, &Field::first));
-    const TableRow* other = nullptr;
-    if (found != others.end() && !found->second.empty()) {
-      other = found->second.back();
-      found->second.pop_back();
-      taken.insert(other);
+void Matching::readRows(Side& side) {
+  for (auto position = side.file.position();; position = side.file.position()) {
+    const auto row = side.file.next();
+    if (!row) break;
+    const auto hash = fnv1a(identity(side, *row));
+    side.groups[hash % side.groups.size()].add({hash, position});
+    const bool is_first = first_.rows + second_.rows == 0;
+    ++side.rows;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (is_first) fields_[i].value = side.plain[i];
+      if (side.plain[i] != fields_[i].value) fields_[i].varies = true;
     }
-    pairs_.push_back({&row, other});
-  }
-  for (const auto& row : second_.rows) {
-    if (!taken.contains(&row)) pairs_.push_back({nullptr, &row});
   }
 }
 
-void Matching::findVarying() {
-  for (auto& field : fields_) {
-    std::set<std::string> values;
-    for (const auto& pair : pairs_) {
-      values.insert(plain(pair.first ? (*pair.first)[field.first] : (*pair.second)[field.second]));
-      if (values.size() > 1) break;
+std::vector<Matching::Place> Matching::sortedGroup(const Side& side, std::size_t group) {
+  auto places = side.groups[group].all();
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return std::tie(a.hash, a.position) < std::tie(b.hash, b.position); });
+  return places;
+}
+
+TableRow Matching::rowAt(Side& side, std::uint64_t position) {
+  side.file.seek(position);
+  auto row = side.file.next();
+  if (!row) throw Failure("a table is shorter than before");
+  return std::move(*row);
+}
+
+void Matching::visit(std::uint64_t first_at, std::uint64_t second_at, const std::function<void(const Pair&)>& take) {
+  const TableRow first = rowAt(first_, first_at), second = rowAt(second_, second_at);
+  if (identity(first_, first) != identity(second_, second)) throw Failure("two runs of two tables have the same hash");
+  take({&first, &second, first_at, second_at});
+}
+
+void Matching::forEachPair(const std::function<void(const Pair&)>& take) {
+  for (std::size_t group = 0; group < first_.groups.size(); ++group) {
+    std::vector<Match> matches;
+    const auto firsts = sortedGroup(first_, group), seconds = sortedGroup(second_, group);
+    for (auto a = firsts.begin(), b = seconds.begin(); a != firsts.end() || b != seconds.end();) {
+      const bool has_first = a != firsts.end() && (b == seconds.end() || a->hash <= b->hash);
+      const bool has_second = b != seconds.end() && (a == firsts.end() || b->hash <= a->hash);
+      Match match;
+      if (has_first) match.first = (a++)->position;
+      if (has_second) match.second = (b++)->position;
+      matches.push_back(match);
     }
-    field.varies = values.size() > 1;
+    // The files are read from their begin to their end.
+    std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
+      return std::tuple(!a.first, a.first, a.second) < std::tuple(!b.first, b.first, b.second);
+    });
+    for (const auto& match : matches) {
+      if (match.first && match.second) {
+        visit(*match.first, *match.second, take);
+      } else if (match.first) {
+        const TableRow row = rowAt(first_, *match.first);
+        take({&row, nullptr, *match.first, 0});
+      } else {
+        const TableRow row = rowAt(second_, *match.second);
+        take({nullptr, &row, 0, *match.second});
+      }
+    }
   }
 }
 
 std::string Matching::nameOf(const Pair& pair) const {
   std::string name;
-  for (const auto& field : fields_) {
-    const std::string& cell = pair.first ? (*pair.first)[field.first] : (*pair.second)[field.second];
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const Field& field = fields_[i];
+    const std::string& cell = pair.first ? (*pair.first)[first_.columns[i]] : (*pair.second)[second_.columns[i]];
     const bool always = isAlwaysNamed(field.name);
     if (cell.empty() || !(always || field.varies)) continue;
-    name += fmt::format("{}{}{}", name.empty() ? "" : " ", always ? "" : field.name + "=", plain(cell));
+    name += fmt::format("{}{}{}", name.empty() ? "" : " ", always ? "" : field.name + "=", plainText(cell));
   }
   return name;
 }

@@ -1,47 +1,80 @@
 // Matches rows of two tables that stand for the same run.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "experiments/tables/table.h"
+#include "experiments/store/spill_list.h"
+#include "experiments/tables/table_rows.h"
 
 namespace irk::compare {
 
 /// The rows of a run in two tables; null if a table does not have it.
 struct Pair {
-  const TableRow* first;
-  const TableRow* second;
+  const TableRow* first = nullptr;
+  const TableRow* second = nullptr;
+  std::uint64_t first_at = 0, second_at = 0;  ///< where they begin, in bytes
+
+  /// Orders pairs as the first table does, and behind them those that only the second one has.
+  std::uint64_t order() const { return first ? first_at : (std::uint64_t{1} << 63) + second_at; }
 };
 
 /// Matches the runs of two tables by the fields of a spec that both have. Numbers are compared by value: 0.1 equals
-/// 0.10000000000000001, as older tables write it. Rows with equal fields are matched in their order. Keeps references
-/// to the tables, which must outlive it.
+/// 0.10000000000000001, as older tables write it. Rows with equal fields are matched in their order. Reads both files
+/// once, and again for the pairs. Memory holds the places of the rows of 256 MB of the files, about 20 MB; the others
+/// are in temporary files. Not thread-safe. Throws what readTable throws.
 class Matching {
  public:
-  Matching(const Table& first, const Table& second);
+  static constexpr std::uint64_t kAtOnce = 1 << 28;
 
-  /// The runs in the order of the first table, then those that only the second one has.
-  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// Rows are matched in groups: one for every `at_once` bytes of the files, up to 128.
+  Matching(const std::filesystem::path& first, const std::filesystem::path& second, std::uint64_t at_once = kAtOnce);
+
+  /// Head and columns, no rows.
+  const Table& firstNames() const { return first_.file.names(); }
+  const Table& secondNames() const { return second_.file.names(); }
+  std::size_t firstRows() const { return first_.rows; }
+  std::size_t secondRows() const { return second_.rows; }
+
+  /// Visits all pairs, group by group, each group in the order of the first table. Throws Failure if the hashes of two
+  /// different runs are equal.
+  void forEachPair(const std::function<void(const Pair&)>& take);
+  /// Visits the pair whose rows begin there.
+  void visit(std::uint64_t first_at, std::uint64_t second_at, const std::function<void(const Pair&)>& take);
   /// Scene, settings and method, then `field=value` for all other fields that vary between runs.
   std::string nameOf(const Pair& pair) const;
 
  private:
-  /// The columns of a field in both tables.
+  struct Place {
+    std::uint64_t hash, position;
+  };
+  /// One of the two tables.
+  struct Side {
+    explicit Side(const std::filesystem::path& path) : file(path) {}
+
+    TableFile file;
+    std::size_t rows = 0;
+    std::vector<std::size_t> columns;             // of fields_
+    std::vector<store::SpillList<Place>> groups;  // by hash
+    TableRow cells, plain;  // of fields_ in the row that was read last, and as `identity` has them
+  };
   struct Field {
     std::string name;
-    std::size_t first, second;
+    std::string value;  // in the first row
     bool varies = false;
   };
   void findFields();
-  void findPairs();
-  void findVarying();
-  std::string identity(const TableRow& row, std::size_t Field::*column) const;
+  void readRows(Side& side);
+  static std::string identity(Side& side, const TableRow& row);
+  static std::vector<Place> sortedGroup(const Side& side, std::size_t group);
+  static TableRow rowAt(Side& side, std::uint64_t position);
 
-  const Table& first_;
-  const Table& second_;
+  Side first_, second_;
   std::vector<Field> fields_;
-  std::vector<Pair> pairs_;
 };
 
 }  // namespace irk::compare

@@ -16,6 +16,7 @@
 #include "experiments/store/store.h"
 #include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
+#include "tests/experiments/compared_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {
@@ -97,9 +98,28 @@ inline std::string failureOf(const std::function<void()>& f) {
   return {};
 }
 
+/// Calls `f` in another process; its exit status is 0, that of `f`, or 9 after an exception.
+template <class F>
+pid_t startProcess(F&& f) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  int status = 9;
+  try {
+    status = f();
+  } catch (...) {
+  }
+  _exit(status);
+}
+
+inline int exitStatusOf(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 // Equal except for times, dates and origin.
 inline void expectSame(const Table& a, const Table& b) {
-  const auto comparison = compare::compareRuns({a, {}}, {b, {}}, {.times = 10});
+  const auto comparison = compared(a, b, {.times = 10});
   EXPECT_TRUE(comparison.differences.empty()) << compare::textOf("", comparison);
   ASSERT_EQ(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_EQ(a.rows[i].front(), b.rows[i].front());

@@ -1,4 +1,4 @@
-// The comparison of results: statistics, the model of noise on synthetic tables, and the verb.
+// The comparison of results: the model of noise on synthetic tables, and the verb.
 #include "experiments/compare/compare.h"
 
 #include <fmt/format.h>
@@ -6,83 +6,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <sstream>
 
 #include "experiments/commands/cli.h"
 #include "experiments/compare/folders.h"
-#include "experiments/compare/ratio.h"
 #include "experiments/runs/run_table.h"
-#include "tests/experiments/support.h"
+#include "tests/experiments/compared_tables.h"
 
 namespace irk::compare {
 namespace {
 
-// --- Statistics.
-
-// Two and two numbers have six orderings, with U = 0, 1, 2, 2, 3, 4.
-TEST(Ratio, ProbabilitiesOfRanksAreThoseOfAllOrders) {
-  const auto two = rankProbabilities(2, 2);
-  const double expected[] = {1 / 6.0, 2 / 6.0, 4 / 6.0, 5 / 6.0, 1};
-  ASSERT_EQ(two.size(), 5u);
-  for (std::size_t u = 0; u < 5; ++u) EXPECT_NEAR(two[u], expected[u], 1e-15) << u;
-  EXPECT_NEAR(rankProbabilities(5, 5)[0], 1 / 252.0, 1e-15);
-  EXPECT_NEAR(rankProbabilities(5, 5)[2], 4 / 252.0, 1e-15);  // 1, 1 and 2 orders
-}
-
-// The normal approximation continues the exact values without a jump: at both sides of the limit, at the same
-// distance from the mean.
-TEST(Ratio, ManyNumbersHaveNearlyTheNormalDistribution) {
-  const auto exact = rankProbabilities(20, 20), normal = rankProbabilities(20, 21);
-  EXPECT_NEAR(exact[200 - 74], normal[210 - 76], 3e-3);
-  EXPECT_NEAR(normal[210], 0.5, 6e-3);
-}
-
-TEST(Ratio, IsTheMedianWithAllOfTheRangeForFewNumbers) {
-  const Ratio one = ratioOf({2}, {6}, 0.05);
-  EXPECT_EQ(one.ratio, 3);
-  EXPECT_EQ(one.low, 3);
-  EXPECT_EQ(one.high, 3);
-  EXPECT_EQ(one.level, 0);
-  const Ratio two = ratioOf({1, 2}, {3, 8}, 0.05);  // 1.5, 3, 4, 8
-  EXPECT_NEAR(two.ratio, std::sqrt(12), 1e-15);
-  EXPECT_EQ(two.low, 1.5);
-  EXPECT_EQ(two.high, 8);
-  EXPECT_NEAR(two.level, 1 - 2 / 6.0, 1e-15);
-}
-
-// For samples of five and five P(U <= 2) = 4/252 and P(U <= 3) = 7/252: at 5 % two ratios are left out at each end,
-// but not three.
-TEST(Ratio, TheIntervalLeavesOutWhatTheTestDoes) {
-  const std::vector<double> a{1, 1, 1, 1, 1}, b{1, 2, 3, 4, 5};  // each ratio five times
-  const Ratio wide = ratioOf(a, b, 0.05);
-  EXPECT_NEAR(wide.level, 1 - 8 / 252.0, 1e-12);
-  EXPECT_EQ(wide.ratio, 3);
-  EXPECT_NEAR(ratioOf(a, b, 0.06).level, 1 - 14 / 252.0, 1e-12);
-  EXPECT_NEAR(ratioOf(a, b, 1e-9).level, 1 - 2 / 252.0, 1e-12) << "all of the range";
-}
-
-// Samples of one distribution: at most a fraction alpha of the intervals excludes 1, and not many fewer.
-TEST(Ratio, TheIntervalHasItsLevel) {
-  std::mt19937 random(1);
-  std::lognormal_distribution<double> times(0, 0.1);
-  constexpr int kTrials = 4000;
-  int outside = 0;
-  for (int i = 0; i < kTrials; ++i) {
-    std::vector<double> a(8), b(8);
-    for (auto* sample : {&a, &b}) std::generate(sample->begin(), sample->end(), [&] { return times(random); });
-    const Ratio ratio = ratioOf(a, b, 0.05);
-    if (ratio.low > 1 || ratio.high < 1) ++outside;
-  }
-  // P = 0.0499 for eight and eight: 200 of 4000, standard deviation 14.
-  EXPECT_LT(outside, 200 + 4 * 14);
-  EXPECT_GT(outside, 200 - 4 * 14);
-}
-
-// --- Tables.
+// --- Small tables.
 
 constexpr const char* kColumns[] = {"key",   "scene",     "method",         "h",     "rtol",     "scalar", "outcome",
                                     "error", "residuals", "steps_accepted", "cpu_s", "cpu_runs", "cpu_all"};
+
+/// A table of runs that is not written yet.
+struct Made {
+  Table table;
+  std::map<std::string, std::string> processors = {};
+};
+
+Comparison compared(const Made& first, const Made& second, const Limits& limits) {
+  return irk::compared(first.table, second.table, limits, first.processors, second.processors);
+}
 
 std::string repetitions(double seconds, int count) {
   std::string all;
@@ -91,8 +40,8 @@ std::string repetitions(double seconds, int count) {
 }
 
 // Six successful runs of two methods, each with `count` repetitions one percent apart.
-Runs someRuns(int count = 5) {
-  Runs runs;
+Made someRuns(int count = 5) {
+  Made runs;
   runs.table.head = {{"cpu", "Processor X"}};
   runs.table.columns.assign(std::begin(kColumns), std::end(kColumns));
   for (const char* method : {"radau_iia_3", "gauss_2"}) {
@@ -104,10 +53,10 @@ Runs someRuns(int count = 5) {
   return runs;
 }
 
-void set(Runs& runs, std::size_t row, const char* column, const std::string& cell) {
+void set(Made& runs, std::size_t row, const char* column, const std::string& cell) {
   runs.table.rows[row][runs.table.column(column)] = cell;
 }
-void setTime(Runs& runs, std::size_t row, double seconds, int count = 5) {
+void setTime(Made& runs, std::size_t row, double seconds, int count = 5) {
   set(runs, row, "cpu_s", fmt::format("{}", seconds));
   set(runs, row, "cpu_all", repetitions(seconds, count));
 }
@@ -119,7 +68,7 @@ std::vector<Kind> kindsOf(const Comparison& comparison) {
 }
 
 TEST(Compare, NothingChangedIsNoDifference) {
-  const Comparison same = compareRuns(someRuns(), someRuns(), {});
+  const Comparison same = compared(someRuns(), someRuns(), {});
   EXPECT_TRUE(same.differences.empty());
   EXPECT_EQ(same.both, 6u);
   EXPECT_EQ(same.times.compared, 6u);
@@ -128,31 +77,31 @@ TEST(Compare, NothingChangedIsNoDifference) {
 }
 
 TEST(Compare, RunsAreMatchedByWhatWasAskedForNotByKeysAndDigits) {
-  Runs other = someRuns();
+  Made other = someRuns();
   for (auto& row : other.table.rows) row[0] = "another version's key " + row[0];
   set(other, 0, "rtol", "0.001");
   std::reverse(other.table.rows.begin(), other.table.rows.end());
-  EXPECT_TRUE(compareRuns(someRuns(), other, {}).differences.empty());
+  EXPECT_TRUE(compared(someRuns(), other, {}).differences.empty());
 }
 
 TEST(Compare, AMissingRunIsADifference) {
-  Runs fewer = someRuns();
+  Made fewer = someRuns();
   fewer.table.rows.pop_back();
-  for (const auto& comparison : {compareRuns(someRuns(), fewer, {}), compareRuns(fewer, someRuns(), {})}) {
+  for (const auto& comparison : {compared(someRuns(), fewer, {}), compared(fewer, someRuns(), {})}) {
     EXPECT_EQ(kindsOf(comparison), std::vector{Kind::kMissing});
     EXPECT_EQ(comparison.differences[0].run, "kepler gauss_2 rtol=1e-07");
   }
 }
 
 TEST(Compare, OutcomesComeFirstThenCountersErrorsAndTimes) {
-  Runs other = someRuns();
+  Made other = someRuns();
   setTime(other, 0, 0.03);
   set(other, 1, "error", "1.25e-04");
   set(other, 2, "residuals", "1001");
   set(other, 3, "outcome", "newton_failed");
   set(other, 3, "residuals", "7");
   set(other, 3, "error", "nan");
-  const Comparison comparison = compareRuns(someRuns(), other, {});
+  const Comparison comparison = compared(someRuns(), other, {});
   EXPECT_EQ(kindsOf(comparison), (std::vector{Kind::kOutcome, Kind::kCounter, Kind::kError, Kind::kTime}))
       << "of a run with another outcome nothing else";
   EXPECT_EQ(comparison.differences[0].what, "success -> newton_failed");
@@ -162,12 +111,12 @@ TEST(Compare, OutcomesComeFirstThenCountersErrorsAndTimes) {
 }
 
 TEST(Compare, CountersAreExactUnlessALimitIsGiven) {
-  Runs other = someRuns();
+  Made other = someRuns();
   set(other, 0, "residuals", "1015");
-  EXPECT_EQ(kindsOf(compareRuns(someRuns(), other, {})), std::vector{Kind::kCounter});
-  EXPECT_TRUE(compareRuns(someRuns(), other, {.counters = 0.02}).differences.empty());
+  EXPECT_EQ(kindsOf(compared(someRuns(), other, {})), std::vector{Kind::kCounter});
+  EXPECT_TRUE(compared(someRuns(), other, {.counters = 0.02}).differences.empty());
   set(other, 1, "residuals", "1030");
-  EXPECT_EQ(kindsOf(compareRuns(someRuns(), other, {.counters = 0.02})), std::vector{Kind::kCounter});
+  EXPECT_EQ(kindsOf(compared(someRuns(), other, {.counters = 0.02})), std::vector{Kind::kCounter});
 }
 
 struct ErrorChange {
@@ -192,25 +141,24 @@ TEST(Compare, ErrorsDifferByAFactorAboveRoundOff) {
       {"1.25e-6", "1.25000000000001e-6", "double", false},
   };
   for (const auto& change : changes) {
-    Runs first = someRuns(), second = someRuns();
+    Made first = someRuns(), second = someRuns();
     for (auto* runs : {&first, &second}) set(*runs, 0, "scalar", change.scalar);
     set(first, 0, "error", change.before);
     set(second, 0, "error", change.after);
-    EXPECT_EQ(compareRuns(first, second, {}).differences.size(), change.differs ? 1u : 0u)
+    EXPECT_EQ(compared(first, second, {}).differences.size(), change.differs ? 1u : 0u)
         << change.before << " -> " << change.after;
-    EXPECT_TRUE(compareRuns(first, second, {.errors = 1e15}).differences.empty() ||
-                std::isnan(std::stod(change.after)));
+    EXPECT_TRUE(compared(first, second, {.errors = 1e15}).differences.empty() || std::isnan(std::stod(change.after)));
   }
 }
 
 // Three of six runs are three times slower: these three are reported, the largest change first.
 TEST(Compare, ThreeRunsThreeTimesSlowerAreADifference) {
   for (const int count : {1, 3, 5, 9}) {
-    Runs other = someRuns(count);
+    Made other = someRuns(count);
     setTime(other, 0, 0.03, count);
     setTime(other, 2, 0.032, count);
     setTime(other, 4, 0.031, count);
-    const Comparison comparison = compareRuns(someRuns(count), other, {});
+    const Comparison comparison = compared(someRuns(count), other, {});
     ASSERT_EQ(kindsOf(comparison), std::vector(3, Kind::kTime)) << count;
     EXPECT_EQ(comparison.differences[0].run, "kepler radau_iia_3 rtol=1e-07");
     EXPECT_EQ(comparison.times.few, count < 5 ? 6u : 0u);
@@ -219,14 +167,14 @@ TEST(Compare, ThreeRunsThreeTimesSlowerAreADifference) {
 
 // A change of twelve percent is reported if the repetitions separate it from noise, unless it is allowed.
 TEST(Compare, SmallChangesOfTimesNeedRepetitions) {
-  Runs other = someRuns();
+  Made other = someRuns();
   for (std::size_t row = 0; row < 6; ++row) setTime(other, row, 0.0112);
-  EXPECT_EQ(compareRuns(someRuns(), other, {}).differences.size(), 6u);
-  EXPECT_EQ(compareRuns(other, someRuns(), {}).differences.size(), 6u) << "faster is different, too";
-  EXPECT_TRUE(compareRuns(someRuns(), other, {.times = 0.2}).differences.empty());
-  Runs few = someRuns(4), few_slower = someRuns(4);
+  EXPECT_EQ(compared(someRuns(), other, {}).differences.size(), 6u);
+  EXPECT_EQ(compared(other, someRuns(), {}).differences.size(), 6u) << "faster is different, too";
+  EXPECT_TRUE(compared(someRuns(), other, {.times = 0.2}).differences.empty());
+  Made few = someRuns(4), few_slower = someRuns(4);
   for (std::size_t row = 0; row < 6; ++row) setTime(few_slower, row, 0.0112, 4);
-  EXPECT_TRUE(compareRuns(few, few_slower, {}).differences.empty());
+  EXPECT_TRUE(compared(few, few_slower, {}).differences.empty());
 }
 
 // 200 runs with times from one distribution with 20 % of noise: alpha is the level of all of them together.
@@ -234,7 +182,7 @@ TEST(Compare, NoiseIsNoDifference) {
   std::mt19937 random(7);
   std::lognormal_distribution<double> noise(0, 0.2);
   const auto noisy = [&] {
-    Runs runs = someRuns(7);
+    Made runs = someRuns(7);
     const TableRow row = runs.table.rows.front();
     runs.table.rows.clear();
     for (int i = 0; i < 200; ++i) {
@@ -248,14 +196,14 @@ TEST(Compare, NoiseIsNoDifference) {
   };
   // For samples of seven and seven one ordering in 1716 separates them completely: among 200 runs that happens with
   // probability 12 %, if it is a difference of more than 5 %.
-  EXPECT_LE(compareRuns(noisy(), noisy(), {}).differences.size(), 1u);
+  EXPECT_LE(compared(noisy(), noisy(), {}).differences.size(), 1u);
 }
 
 TEST(Compare, AnotherProcessorIsNotComparable) {
-  Runs other = someRuns();
+  Made other = someRuns();
   other.table.head = {{"cpu", "Processor Y"}};
   setTime(other, 0, 5);
-  const Comparison comparison = compareRuns(someRuns(), other, {});
+  const Comparison comparison = compared(someRuns(), other, {});
   EXPECT_TRUE(comparison.differences.empty());
   EXPECT_EQ(comparison.times.other_processor, 6u);
   EXPECT_TRUE(containsAll(textOf("kepler", comparison), {"not comparable", "Processor X", "Processor Y"}));
@@ -263,35 +211,65 @@ TEST(Compare, AnotherProcessorIsNotComparable) {
 
 TEST(Compare, TheProcessorOfARowIsThatOfItsEnvironment) {
   const auto with = [](const char* processor) {
-    Runs runs = someRuns();
+    Made runs = someRuns();
     runs.table.columns.push_back("cpu_environment");
     for (auto& row : runs.table.rows) row.push_back("a-b");
     runs.processors = {{"a-b", processor}};
     return runs;
   };
-  EXPECT_EQ(compareRuns(with("X"), with("X"), {}).times.compared, 6u);
-  EXPECT_EQ(compareRuns(with("X"), with("Y"), {}).times.other_processor, 6u);
+  EXPECT_EQ(compared(with("X"), with("X"), {}).times.compared, 6u);
+  EXPECT_EQ(compared(with("X"), with("Y"), {}).times.other_processor, 6u);
 }
 
 TEST(Compare, ColumnsOfOneTableOnlyAreSaid) {
-  Runs other = someRuns();
+  Made other = someRuns();
   other.table.columns[other.table.column("residuals")] = "something_else";
-  const Comparison comparison = compareRuns(someRuns(), other, {});
+  const Comparison comparison = compared(someRuns(), other, {});
   EXPECT_TRUE(comparison.differences.empty());
   EXPECT_EQ(comparison.not_compared, std::vector<std::string>{"residuals (only in the first)"});
   other.table.columns[other.table.column("outcome")] = "end";
-  EXPECT_TRUE(containsAll(misuseOf([&] { (void)compareRuns(someRuns(), other, {}); }), {"outcome"}));
+  EXPECT_TRUE(containsAll(misuseOf([&] { (void)compared(someRuns(), other, {}); }), {"outcome"}));
 }
 
+// Of twelve errors the ten largest, the largest first; the two with equal sizes in the order of the table.
 TEST(Compare, TheTextShowsTheWorstTen) {
-  Comparison comparison;
+  Made first, second;
+  const Made some = someRuns(3);
+  for (auto* made : {&first, &second}) made->table = {some.table.head, some.table.columns, {}};
   for (int i = 0; i < 12; ++i) {
-    comparison.differences.push_back({Kind::kError, fmt::format("run {}", i), "error", 12.0 - i});
+    for (auto* made : {&first, &second}) {
+      made->table.rows.push_back(some.table.rows[0]);
+      set(*made, static_cast<std::size_t>(i), "h", std::to_string(i));
+    }
+    set(second, static_cast<std::size_t>(i), "error", fmt::format("{}", i == 4 ? 10.0 : 15.0 - i));
   }
-  comparison.times.few = 3;
+  const Comparison comparison = compared(first, second, {});
+  EXPECT_EQ(comparison.total(), 12u);
+  ASSERT_EQ(comparison.differences.size(), 10u);
+  EXPECT_EQ(comparison.differences[0].run, "kepler radau_iia_3 h=0");
+  EXPECT_EQ(comparison.differences[4].run, "kepler radau_iia_3 h=4");
+  EXPECT_EQ(comparison.differences[5].run, "kepler radau_iia_3 h=5");
   const auto text = textOf("order", comparison);
-  EXPECT_TRUE(containsAll(text, {"12 different, the worst 10", "run 9:", "fewer than five"}));
-  EXPECT_EQ(text.find("run 10:"), text.npos);
+  EXPECT_TRUE(containsAll(text, {"12 differences", "12 different, the worst 10", "h=9:", "fewer than five"}));
+  EXPECT_EQ(text.find("h=10:"), text.npos);
+}
+
+// The least ratio of 25 is below 1, the next one is 1.09. At a level of 5 % two are left out at each end; at that of
+// one of seven runs none is. Whether the run is the first or the last one to be read makes no difference.
+TEST(Compare, TheLevelIsThatOfAllRuns) {
+  for (const std::size_t runs : {1u, 7u}) {
+    for (const std::size_t changed : {std::size_t{0}, runs - 1}) {
+      Made first = someRuns();
+      first.table.rows.resize(runs, first.table.rows.front());
+      for (std::size_t i = 0; i < runs; ++i) set(first, i, "h", std::to_string(i));
+      Made second = first;
+      set(first, changed, "cpu_all", "0.0110 0.01 0.01 0.01 0.01");
+      set(second, changed, "cpu_all", "0.0109 0.02 0.02 0.02 0.02");
+      EXPECT_EQ(compared(first, second, {}).total(), runs == 1 ? 1u : 0u) << runs << changed;
+      set(second, changed, "cpu_all", "0.02 0.02 0.02 0.02 0.02");
+      EXPECT_EQ(compared(first, second, {}).total(), 1u) << runs << changed;
+    }
+  }
 }
 
 // --- The verb.
@@ -311,7 +289,7 @@ Ended compareFolders(const std::vector<std::string>& arguments) {
 TEST(CompareVerb, StudiesAndTreesByStatus) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return (folder.path() / name).string(); };
-  Runs changed = someRuns();
+  Made changed = someRuns();
   setTime(changed, 0, 0.05);
   for (const char* study : {"one/order", "one/steps", "same/order", "same/steps", "slower/order", "less/order"}) {
     writeTable(folder.path() / study / "runs.csv", someRuns().table);

@@ -15,6 +15,7 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/analyses/analysis_tables.h"
+#include "tests/experiments/compared_tables.h"
 #include "tests/experiments/study_runs.h"
 
 namespace irk {
@@ -118,7 +119,7 @@ TEST(Runner, ShardsTogetherAreTheWhole) {
   joined.exportTables(runKeys(small(), {}));
   const Table merged = readTable(folder.path() / "joined" / "runs.csv");
   const Table whole = runStudy(small(), options(folder, 1), quiet);
-  const auto comparison = compare::compareRuns({whole, {}}, {merged, {}}, {.times = 10});
+  const auto comparison = compared(whole, merged, {.times = 10});
   EXPECT_TRUE(comparison.differences.empty()) << compare::textOf("", comparison);
 }
 

@@ -1,0 +1,77 @@
+// Tables that are larger than the memory: their rows are matched in groups, and of their times only a summary is kept.
+#include "experiments/compare/matching.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "experiments/compare/times.h"
+#include "experiments/runs/run_table.h"
+#include "tests/experiments/support.h"
+
+namespace irk::compare {
+namespace {
+
+// Some runs are only in one table, some are there twice, and the second table has another order.
+TEST(Matching, GroupsDoNotChangeThePairs) {
+  Table first{{}, {"scene", "method", "h", "residuals"}, {}};
+  for (int i = 0; i < 9000; ++i) {
+    first.rows.push_back({"kepler", "gauss_2", std::to_string(i), std::to_string(i)});
+    if (i % 1000 == 0) first.rows.push_back(first.rows.back());
+  }
+  Table second = first;
+  std::shuffle(second.rows.begin(), second.rows.end(), std::mt19937(3));
+  first.rows.push_back({"kepler", "gauss_2", "-7", "0"});
+  second.rows.push_back({"kepler", "gauss_2", "-8", "0"});
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "first.csv", b = folder.path() / "second.csv";
+  writeTable(a, first);
+  writeTable(b, second);
+  for (const std::uint64_t at_once : {Matching::kAtOnce, std::uint64_t{10'000}, std::uint64_t{1}}) {
+    Matching matching(a, b, at_once);
+    std::size_t both = 0;
+    std::vector<std::string> only;
+    matching.forEachPair([&](const Pair& pair) {
+      if (!pair.first || !pair.second) {
+        only.push_back((pair.first ? "first " : "second ") + matching.nameOf(pair));
+      } else {
+        ++both;
+        ASSERT_EQ(*pair.first, *pair.second);
+      }
+    });
+    std::sort(only.begin(), only.end());
+    EXPECT_EQ(both, 9009u) << at_once;
+    EXPECT_EQ(only, (std::vector<std::string>{"first kepler gauss_2 h=-7", "second kepler gauss_2 h=-8"})) << at_once;
+  }
+}
+
+TEST(SpillList, KeepsTheOrderOfAnyNumberOfItems) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{5}, 3 * store::SpillList<std::size_t>::kHeld,
+                                 3 * store::SpillList<std::size_t>::kHeld + 7}) {
+    store::SpillList<std::size_t> list;
+    for (std::size_t i = 0; i < size; ++i) list.add(3 * i);
+    EXPECT_EQ(list.size(), size);
+    const auto all = list.all();
+    ASSERT_EQ(all.size(), size);
+    for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(all[i], 3 * i);
+  }
+}
+
+// The middle of 1, 2, ... n, in any order.
+TEST(Spread, IsOfAllNumbers) {
+  Spread spread;
+  for (int i = 0; i < 1001; ++i) spread.add(1 + 5 * i % 1001);
+  EXPECT_EQ(spread.least(), 1);
+  EXPECT_EQ(spread.most(), 1001);
+  EXPECT_NEAR(spread.middle(), 501, 501 * 1e-4);
+  Spread few;
+  for (const double number : {4.0, 1.5, 3.0}) few.add(number);
+  EXPECT_EQ(few.middle(), 3);
+}
+
+}  // namespace
+}  // namespace irk::compare
