@@ -10,6 +10,7 @@
 #include "experiments/base/progress.h"
 #include "experiments/base/time_left.h"
 #include "experiments/runner/over_time.h"
+#include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_walk.h"
@@ -72,11 +73,12 @@ class Counting {
       time_.made(kind, seconds);
     }
     const TimingOptions& timing = study_.timing;
-    if (!timing.wanted || !success || stale || seconds > timing.skip_above_s || earlier_.contains(key)) return;
-    const int repetitions = seconds > timing.once_above_s ? 1 : timing.repetitions;
+    if (!timing.wanted || !success || stale || earlier_.contains(key)) return;
+    const std::size_t repetitions = repetitionsFor(timing, seconds);
     if (entry.repetitions >= repetitions) return;
     ++status_.to_time;
-    status_.timing_seconds_left += (repetitions - entry.repetitions) * std::max(seconds, timing.min_time_s);
+    const auto missing = static_cast<double>(repetitions - entry.repetitions);
+    status_.timing_seconds_left += missing * std::max(seconds, timing.min_time_s);
   }
 
   bool isForeign(std::uint16_t environment) {

@@ -48,14 +48,16 @@ struct Candidate {
   double setup_s;                // the least of them; NaN: not measured
 };
 
+double leastOf(const std::vector<double>& seconds) { return *std::min_element(seconds.begin(), seconds.end()); }
+
 // Timing takes about the same time for runs of about the same length.
 std::string kindOf(const Candidate& candidate) { return std::to_string(std::ilogb(candidate.seconds)); }
 
 /// The timing pass of one process. It keeps no table: every round reads the rows again.
 class Pass {
  public:
-  Pass(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share)
-      : study_(study), keys_(keys), store_(store), share_(share), earlier_(earlierEnds(study)) {}
+  Pass(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, const TimeCall& time_call)
+      : study_(study), keys_(keys), store_(store), share_(share), time_call_(time_call), earlier_(earlierEnds(study)) {}
 
   void expect(Progress& progress) const {
     forEachSeries([&](const Series& series, const std::vector<std::uint64_t>& keys) {
@@ -77,8 +79,9 @@ class Pass {
         calibrate();
         time(series.runs[run], *candidate);
         store_.addTimes(candidate->row);
-        if (candidate->wanted == 1) once_.insert(keys[run]);
         progress.finished(kind, wallSeconds() - start);
+        const auto wanted = repetitionsFor(study_.timing, leastOf(candidate->measured));
+        for (auto i = candidate->wanted; i < wanted; ++i) progress.expect(kind);
       }
     });
   }
@@ -98,12 +101,11 @@ class Pass {
     const TimingOptions& timing = study_.timing;
     const bool counts = store_.options().times == store::Times::kAll || store_.timedHere(*entry);
     const std::size_t repetitions = counts ? entry->repetitions : 0;
-    const bool enough = repetitions >= static_cast<std::size_t>(timing.repetitions);
-    if (enough || earlier_.contains(key) || once_.contains(key)) return {};
+    if (repetitions >= static_cast<std::size_t>(timing.repetitions) || earlier_.contains(key)) return {};
     Candidate candidate{runs.row(*entry), 0, 0, {}, kNotMeasured};
     candidate.seconds = numberAt(names_, candidate.row, "cpu_s");
-    candidate.wanted = static_cast<std::size_t>(candidate.seconds > timing.once_above_s ? 1 : timing.repetitions);
-    if (candidate.seconds > timing.skip_above_s || repetitions >= candidate.wanted) return {};
+    candidate.wanted = repetitionsFor(timing, candidate.seconds);
+    if (repetitions >= candidate.wanted) return {};
     if (!store_.timedHere(*entry)) return candidate;
     std::istringstream in(textAt(names_, candidate.row, "cpu_all"));
     for (std::string word; in >> word;) candidate.measured.push_back(cellNumber(word));
@@ -117,8 +119,12 @@ class Pass {
     const auto run = prepare(spec);
     // Warm up long runs, which are not repeated within the measurement: the first call touches new memory.
     if (candidate.wanted > 1 && candidate.seconds > min_time_s) run->wholeCall();
-    candidate.measured.push_back(timeCall([&] { run->wholeCall(); }, min_time_s));
-    const double setup = timeCall([&] { run->setUp(); }, kSetUpPart * min_time_s);
+    const auto measure = [&] { candidate.measured.push_back(time_call_([&] { run->wholeCall(); }, min_time_s)); };
+    measure();
+    // The stored row does not tell that its first measurement is longer than the accuracy run.
+    const bool ends_repetitions = repetitionsFor(study_.timing, candidate.measured.front()) < candidate.wanted;
+    if (candidate.measured.size() == 1 && ends_repetitions) measure();
+    const double setup = time_call_([&] { run->setUp(); }, kSetUpPart * min_time_s);
     Timing timing = timingOf(candidate.measured);
     timing.setup_s = std::fmin(candidate.setup_s, setup);
     setTiming(names_, candidate.row, timing);
@@ -134,9 +140,9 @@ class Pass {
   const RunKeys& keys_;
   store::Store& store_;
   TimingShare share_;
+  const TimeCall& time_call_;
   const std::unordered_set<std::uint64_t> earlier_;
   const Table names_{{}, runColumns(), {}};
-  std::unordered_set<std::uint64_t> once_;  // long runs that are measured
   double calibrated_ = -kCalibrationPeriod;
 };
 
@@ -159,9 +165,15 @@ double timeCall(const std::function<void()>& call, double min_time_s) {
   return collector.seconds;
 }
 
-void timeStudy(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, std::ostream& out) {
+std::size_t repetitionsFor(const TimingOptions& timing, double least_s) {
+  if (least_s > timing.skip_above_s) return 0;
+  return static_cast<std::size_t>(least_s > timing.once_above_s ? 1 : timing.repetitions);
+}
+
+void timeStudy(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, std::ostream& out,
+               const TimeCall& time_call) {
   Progress progress(out, study.id + " timing");
-  Pass pass(study, keys, store, share);
+  Pass pass(study, keys, store, share, time_call);
   pass.expect(progress);
   for (int round = 0; round < study.timing.repetitions; ++round)
     pass.measure(static_cast<std::size_t>(round), progress);

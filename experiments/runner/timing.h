@@ -18,6 +18,11 @@ Timing timingOf(std::vector<double> seconds);
 
 /// Seconds of one call, the mean over at least `min_time_s`. Call it while nothing else runs.
 double timeCall(const std::function<void()>& call, double min_time_s);
+using TimeCall = std::function<double(const std::function<void()>& call, double min_time_s)>;
+
+/// How often the timing pass measures a run whose least time so far is known: 0 for a run that keeps the time of its
+/// accuracy run, 1 for a long run.
+std::size_t repetitionsFor(const TimingOptions& timing, double least_s);
 
 /// The series that one of several hosts times: those with i % hosts == host. One host makes all repetitions of a run.
 struct TimingShare {
@@ -30,6 +35,11 @@ struct TimingShare {
 /// whole study, so that a machine that is slow for some seconds does not slow all repetitions of a run. Every new time
 /// is a new row of the store: after an interrupt only the missing ones are measured. A calibration is stored before the
 /// first run and then every second. Call it while nothing else runs on this host.
-void timeStudy(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, std::ostream& progress);
+///
+/// The least time so far decides how often a run is measured, so that one slow measurement decides nothing: after a
+/// slow accuracy run the first measurement decides again, and a slow first measurement is made twice before it is
+/// stored.
+void timeStudy(const Study& study, const RunKeys& keys, store::Store& store, TimingShare share, std::ostream& progress,
+               const TimeCall& time_call = timeCall);
 
 }  // namespace irk

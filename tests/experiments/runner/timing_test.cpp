@@ -80,10 +80,10 @@ tolerances = [1e-4, 1e-7]
 )";
 
 // Times the study and reads what is exported.
-Table timed(const Study& study, store::Store& store) {
+Table timed(const Study& study, store::Store& store, const TimeCall& time_call = timeCall) {
   std::ostringstream quiet;
   const RunKeys keys = runKeys(study, {});
-  timeStudy(study, keys, store, {}, quiet);
+  timeStudy(study, keys, store, {}, quiet, time_call);
   store.exportTables(keys);
   return readTable(store.folder() / "runs.csv");
 }
@@ -184,13 +184,94 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
     }
     ++day;
     study.timing = {true, 1e-4, 3, 0.5, 3};
-    const Table table = timed(study, store);
+    const Table table = timed(study, store, [&](const auto&, double) { return std::stod(cpu); });
     return numberAt(table, table.rows.front(), "cpu_runs");
   };
   EXPECT_EQ(repetitions("3.5", "success"), 0);
   EXPECT_EQ(repetitions("0.4", "max_steps"), 0);
   EXPECT_EQ(repetitions("0.6", "success"), 1);
   EXPECT_EQ(repetitions("0.4", "success"), 3);
+}
+
+/// Stores the runs of a small study, the first one with a made-up accuracy time, and times it with a made-up clock.
+class MadeUpTimes : public testing::Test {
+ protected:
+  MadeUpTimes() : study_(parseStudy(kTimedStudy, "small.toml", StudyVariant::kFull)) {
+    RunnerOptions options;
+    options.results = folder_.path();
+    options.jobs = 1;
+    made_ = runStudy(study_, options, quiet_);
+    study_.timing = {true, 1e-3, 3, 0.5, 3};
+  }
+
+  // The cells cpu_all of the first run after a start of the program, which measures these times in turn.
+  std::string allAfter(const std::vector<double>& seconds) {
+    store::Store store(folder_.path() / "small", study_.id, store::Use::kWrite, {}, quiet_);
+    const RunKeys keys = runKeys(study_, {});
+    std::size_t next = 0;
+    timeStudy(study_, keys, store, {.host = 0, .hosts = 1}, quiet_, [&](const auto&, double min_time_s) {
+      if (min_time_s < study_.timing.min_time_s) return 1e-3;  // the set-up
+      return next < seconds.size() ? seconds[next++] : throw std::runtime_error("one time too many");
+    });
+    EXPECT_EQ(next, seconds.size());
+    store.exportTables(keys);
+    const Table table = readTable(folder_.path() / "small/runs.csv");
+    return textAt(table, table.rows.front(), "cpu_all");
+  }
+
+  // Stores new rows for both runs: the first with this time of its accuracy run, the second as failed.
+  void setAccuracyTime(const char* seconds) {
+    store::Store store(folder_.path() / "small", study_.id, store::Use::kWrite, {}, quiet_);
+    for (TableRow row : made_.rows) {
+      const bool first = row == made_.rows.front();
+      row[made_.column("cpu_s")] = seconds;
+      if (!first) row[made_.column("outcome")] = "max_steps";
+      row[made_.column("remade")] = "2100-01-01T00:00:00Z";  // replaces the rows before
+      store.addTimes(row);
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::ostringstream quiet_;
+  Study study_;
+  Table made_;
+};
+
+TEST_F(MadeUpTimes, OneSlowFirstMeasurementDoesNotEndTheRepetitions) {
+  setAccuracyTime("0.4");
+  EXPECT_EQ(allAfter({0.7, 0.41, 0.42}), "0.7 0.41 0.42");
+  EXPECT_EQ(allAfter({}), "0.7 0.41 0.42");
+}
+
+TEST_F(MadeUpTimes, OneVerySlowFirstMeasurementDoesNotEither) {
+  setAccuracyTime("0.4");
+  EXPECT_EQ(allAfter({5, 0.41, 0.42}), "5 0.41 0.42");
+}
+
+TEST_F(MadeUpTimes, TwoSlowMeasurementsDo) {
+  setAccuracyTime("0.4");
+  EXPECT_EQ(allAfter({0.7, 0.6}), "0.7 0.6");
+  EXPECT_EQ(allAfter({}), "0.7 0.6");
+}
+
+TEST_F(MadeUpTimes, ASlowAccuracyRunDoesNotEndTheRepetitions) {
+  setAccuracyTime("0.6");
+  EXPECT_EQ(allAfter({0.4, 0.42, 0.41}), "0.4 0.42 0.41") << "in the same start";
+}
+
+TEST_F(MadeUpTimes, LongRunsAreMeasuredOnce) {
+  setAccuracyTime("0.6");
+  EXPECT_EQ(allAfter({0.7}), "0.7");
+  EXPECT_EQ(allAfter({}), "0.7");
+}
+
+// A start that was killed after its first measurement.
+TEST_F(MadeUpTimes, AResumeMeasuresWhatIsMissing) {
+  setAccuracyTime("0.4");
+  study_.timing.repetitions = 1;
+  EXPECT_EQ(allAfter({0.45}), "0.45");
+  study_.timing.repetitions = 3;
+  EXPECT_EQ(allAfter({0.46, 0.44}), "0.45 0.46 0.44");
 }
 
 }  // namespace
