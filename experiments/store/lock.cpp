@@ -25,13 +25,41 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(100);
 
+/// What /proc knows of a process.
+struct ProcessState {
+  char state = '?';
+  std::string start = "unknown";  ///< in ticks of the machine
+};
+
+// Line `pid (name) state ...` with the start as cell 22; the name may contain anything.
+ProcessState stateOf(long process) {
+  std::ifstream in(fmt::format("/proc/{}/stat", process));
+  const std::string line{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto name_end = line.rfind(')');
+  ProcessState found;
+  if (name_end == line.npos) return found;
+  constexpr int kBetween = 18;  // cells
+  std::istringstream cells(line.substr(name_end + 1));
+  std::string skipped, start;
+  cells >> found.state;
+  for (int i = 0; i < kBetween; ++i) cells >> skipped;
+  if (cells >> start) found.start = start;
+  return found;
+}
+
 struct Holder {
-  std::string host = "unknown", date = "unknown";
+  std::string host = "unknown", date = "unknown", start = "unknown";
   long process = 0;  ///< 0: unknown
   std::string text;  ///< of the file
 
+  // Whether it was a process of this machine that has ended: its parent may not have asked for its status yet, and its
+  // number may be that of another process now.
   bool isDead() const {
-    return process > 0 && host == hostName() && kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+    if (process <= 0 || host != hostName()) return false;
+    if (kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) return true;
+    const ProcessState now = stateOf(process);
+    const bool is_another = start != "unknown" && now.start != "unknown" && start != now.start;
+    return now.state == 'Z' || now.state == 'X' || is_another;
   }
 };
 
@@ -43,6 +71,7 @@ Holder readHolder(const std::filesystem::path& file) {
   Holder read;
   if (words >> read.host >> read.process >> read.date) {
     read.text = holder.text;
+    if (!(words >> read.start)) read.start = holder.start;  // of a former version
     return read;
   }
   return holder;
@@ -76,11 +105,25 @@ bool Lock::create() {
 }
 
 Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messages)
-    : file_(folder / "lock"), text_(fmt::format("{} {} {}\n", hostName(), getpid(), dateText())) {
+    : file_(folder / "lock"),
+      text_(fmt::format("{} {} {} {}\n", hostName(), getpid(), dateText(), stateOf(getpid()).start)) {
   std::filesystem::create_directories(folder);
   bool told = false;
-  for (int attempt = 0; !create(); ++attempt) {
+  int unknown_for = 0;  // attempts
+  while (!create()) {
     const Holder holder = readHolder(file_);
+    // A lock file is empty for a moment, before its holder has written to it, or it has just been removed. It remains
+    // empty if its holder was killed in this moment.
+    constexpr int kEmptyAttempts = 10;
+    unknown_for = holder.process == 0 ? unknown_for + 1 : 0;
+    const bool unknown = holder.process == 0 && unknown_for <= kEmptyAttempts;
+    if (unknown_for > kEmptyAttempts && holder.text.empty()) {
+      unknown_for = 0;
+      if (removeDead(file_, holder)) {
+        fmt::print(messages, "{}: its lock is empty: its holder was killed; going on in its place\n", folder.string());
+      }
+      continue;
+    }
     if (holder.isDead()) {
       if (!removeDead(file_, holder)) continue;
       fmt::print(messages,
@@ -88,9 +131,6 @@ Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messa
                  folder.string(), holder.process, holder.date);
       continue;
     }
-    // A lock file is empty for a moment, before its holder has written to it, or it has just been removed.
-    constexpr int kEmptyAttempts = 10;
-    const bool unknown = holder.process == 0 && attempt < kEmptyAttempts;
     const auto who = fmt::format("process {} on {} writes there since {}", holder.process, holder.host, holder.date);
     if (if_locked == IfLocked::kRefuse && !unknown) {
       throw Failure(fmt::format("{}: {}; --wait waits for its end. If it is no more, remove {}", folder.string(), who,

@@ -32,9 +32,14 @@ std::filesystem::path freeName(const std::filesystem::path& file) {
   return to;
 }
 
+// Of runs: a table that is taken in has no part of runs until all its other tables have one.
 bool hasParts(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder / "parts")) return false;
-  return std::filesystem::directory_iterator(folder / "parts") != std::filesystem::directory_iterator();
+  for (const auto& part : std::filesystem::directory_iterator(folder / "parts")) {
+    const auto name = part.path().filename().string();
+    if (name.starts_with(std::string(kTables[0]) + '.') && name.ends_with(".csv")) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -57,11 +62,16 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
   for (auto* rows : {&runs_, &states_, &environments_, &calibrations_}) rows->read(damage, messages);
 }
 
-// Handles exported tables without parts: they were copied here, or written by a version that had no parts.
+// Handles exported tables without parts: they were copied here, or written by a version that had no parts. After an
+// interrupt before the end of the first run the table has no rows.
 void Store::adoptFormerTable(std::ostream& messages) {
   const auto file = folder_ / "runs.csv";
   if (hasParts(folder_) || !std::filesystem::is_regular_file(file)) return;
-  const auto reading = readPart(file, runColumns(), [](const auto&, std::uint64_t) { return true; });
+  std::size_t rows = 0;
+  const auto reading = readPart(file, runColumns(), [&rows](const auto&, std::uint64_t) {
+    ++rows;
+    return true;
+  });
   if (!reading.columns_match) {
     const auto to = freeName(file);
     std::filesystem::rename(file, to);
@@ -69,6 +79,7 @@ void Store::adoptFormerTable(std::ostream& messages) {
                file.string(), to.filename().string());
     return;
   }
+  if (rows == 0) return;
   std::filesystem::create_directories(folder_ / "parts");
   for (const std::string table : {kTables[3], kTables[2], kTables[1], kTables[0]}) {
     const auto from = folder_ / (table + ".csv");
@@ -77,7 +88,11 @@ void Store::adoptFormerTable(std::ostream& messages) {
     std::filesystem::copy_file(from, part.string() + ".new", std::filesystem::copy_options::overwrite_existing);
     std::filesystem::rename(part.string() + ".new", part);
   }
-  fmt::print(messages, "{}: a table without its parts: it is taken in as one\n", file.string());
+  fmt::print(
+      messages,
+      "{}: a table of {} runs without its parts (the folder parts/ beside it has none): it was copied here, or "
+      "they were removed. Its runs are taken in to parts/ and count as finished; to make them again use --fresh\n",
+      file.string(), rows);
 }
 
 std::optional<Entry> Store::finished(std::uint64_t key) const {

@@ -2,13 +2,9 @@
 #include "experiments/store/store.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "experiments/base/numbers.h"
 #include "tests/experiments/stored_runs.h"
@@ -17,34 +13,6 @@ namespace irk {
 namespace {
 
 class Results : public StoredRuns {};
-
-// Runs of some milliseconds: after a while some of them are finished, but not all.
-constexpr char kLong[] = R"(
-[[block]]
-scene = "kepler"
-t_end = 60
-methods = ["radau_iia_2", "radau_iia_3", "gauss_2", "gauss_3"]
-tolerances = [1e-3, 1e-4, 1e-5, 1e-6]
-)";
-
-// Calls `f` in another process; its exit status is 0, that of `f`, or 9 after an exception.
-template <class F>
-pid_t startProcess(F&& f) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  int status = 9;
-  try {
-    status = f();
-  } catch (...) {
-  }
-  _exit(status);
-}
-
-int exitStatusOf(pid_t child) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 // --- One row per line.
 
@@ -106,15 +74,6 @@ TEST_F(Results, PartsOfAnotherVersionStay) {
   EXPECT_TRUE(containsAll(told_.str(), {other.string(), "columns"}));
   EXPECT_EQ(made(), 0);
   EXPECT_EQ(contentsOf(other), before);
-}
-
-TEST_F(Results, ATableWithoutPartsIsTakenIn) {
-  const Table first = run();
-  std::filesystem::remove_all(folder() / "parts");
-  EXPECT_EQ(run().rows, first.rows);
-  EXPECT_TRUE(containsAll(told_.str(), {"taken in"}));
-  EXPECT_EQ(made(), 0);
-  EXPECT_EQ(partsOf(folder()).size(), 1u);
 }
 
 std::vector<store::Entry> entriesOf(const Store& store) {
@@ -217,6 +176,7 @@ TEST_F(Results, TheRowThatCounts) {
       {row(own, early, "0", early), row(own, "", "3", late)},     // requested again
       {row(own, "", "1", early), row(own, "", "0", late)},        // timed
       {row(own, "", "1", late), row(own, "", "3", early)},        // later
+      {row(own, "", "3", late), row(own, "", "2", late)},         // more repetitions
       {row("other", "", "0", late), row("other", "", "0", early)}};
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     const auto& [better, worse] = ranked[i];
@@ -230,119 +190,47 @@ TEST_F(Results, TheRowThatCounts) {
   }
 }
 
-// --- Two writers, killed writers.
+// --- Tables without parts.
 
-TEST_F(Results, ASecondWriterIsToldWhoWrites) {
-  const Store first(folder(), "small", Use::kWrite, {}, told_);
-  const auto message = failureOf([&] { run(); });
-  EXPECT_TRUE(containsAll(message, {folder().string(), std::to_string(getpid()), hostName(), "--wait", "lock", "20"}));
-  EXPECT_EQ(reader().runs().size(), 0u) << "readers are not kept out";
+TEST_F(Results, ATableWithoutPartsIsTakenInAndExplained) {
+  const Table runs = run();
+  std::filesystem::remove_all(folder() / "parts");
+  EXPECT_EQ(run().rows, runs.rows);
+  EXPECT_TRUE(containsAll(told_.str(),
+                          {"9 runs without its parts", "copied here", "taken in", "count as finished", "--fresh"}));
+  EXPECT_EQ(made(), 0);
+  EXPECT_EQ(partsOf(folder()).size(), 1u);
+  told_.str({});
+  EXPECT_EQ(run().rows, runs.rows);
+  EXPECT_EQ(told_.str().find("without its parts"), std::string::npos) << "now it has them";
 }
 
-TEST_F(Results, ASecondWriterWaits) {
-  auto first = std::make_unique<Store>(folder(), "small", Use::kWrite, store::StoreOptions(), told_);
-  std::ostringstream told;
-  Table runs;
-  std::thread second([&] {
-    RunnerOptions waiting = options("results", {.if_locked = store::IfLocked::kWait});
-    runs = runStudy(study(), waiting, told);
-  });
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(rowsInParts(folder()), 0);
-  first.reset();
-  second.join();
-  EXPECT_EQ(runs.rows.size(), 9u);
-  EXPECT_TRUE(containsAll(told.str(), {"waiting", std::to_string(getpid())}));
-  EXPECT_FALSE(std::filesystem::exists(folder() / "lock"));
-}
-
-TEST_F(Results, TheLockOfADeadProcessIsTakenOver) {
-  const pid_t child = startProcess([&] {
-    std::ostringstream quiet;
-    const Store held(folder(), "small", Use::kWrite, {}, quiet);
-    _exit(0);  // without removing the lock
-    return 1;
-  });
-  ASSERT_EQ(exitStatusOf(child), 0);
-  ASSERT_TRUE(std::filesystem::exists(folder() / "lock"));
+// An interrupt before the end of the first run leaves a table without rows.
+TEST_F(Results, ATableWithoutRowsIsNotExplained) {
+  Table runs = run();
+  std::filesystem::remove_all(folder() / "parts");
+  runs.rows.clear();
+  writeTable(folder() / "runs.csv", runs);
+  told_.str({});
   EXPECT_EQ(run().rows.size(), 9u);
-  EXPECT_TRUE(containsAll(told_.str(), {std::to_string(child), "is no more"}));
-  // It is unknown whether a process on another host still exists.
-  std::ofstream(folder() / "lock") << "elsewhere " << child << " 2020-01-01T00:00:00Z\n";
-  EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {"elsewhere", "2020-01-01", "remove"}));
+  EXPECT_EQ(told_.str().find("without its parts"), std::string::npos);
 }
 
-// Two writers without locks, as on a file system whose locks do not work: no row is lost or torn.
-TEST_F(Results, TwoWritersAtOnceLoseNothing) {
-  constexpr int kRows = 2000;
-  const auto write = [&](std::uint64_t first) {
-    store::Rows rows(folder(), "runs", runColumns(), "code");
-    RunRecord record;
-    record.spec.scene = "kepler";
-    record.detail = "a \"detail\", with\na line end";
-    for (int i = 0; i < kRows; ++i)
-      rows.append(runRow(hexText(first + static_cast<std::uint64_t>(i)), "small", record));
-  };
-  const pid_t child = startProcess([&] {
-    write(1);
-    return 0;
-  });
-  std::thread other([&] { write(10'000); });
-  write(20'000);
-  other.join();
-  EXPECT_EQ(exitStatusOf(child), 0);
-  const Store read = reader();
-  EXPECT_EQ(read.runs().size(), 3u * kRows);
-  EXPECT_EQ(read.runs().damaged(), 0u);
-  EXPECT_EQ(partsOf(folder()).size(), 3u);
-}
-
-TEST_F(Results, KilledRunsKeepWhatIsFinished) {
-  const Table undisturbed = run("undisturbed", {}, kLong);
-  std::set<std::string> finished;
-  for (const int rows : {1, 4, 9}) {
-    const pid_t child = startProcess([&] {
-      std::ostringstream quiet;
-      runStudy(study(kLong), options("killed"), quiet);
-      return 0;
-    });
-    while (rowsInParts(folder("killed")) < rows && waitpid(child, nullptr, WNOHANG) == 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
-    const Store left = reader("killed");
-    EXPECT_GE(left.runs().size(), static_cast<std::size_t>(rows));
-    std::set<std::string> now;
-    left.runs().forEach([&](const store::Entry& entry) { now.insert(left.runs().line(entry)); });
-    EXPECT_TRUE(std::includes(now.begin(), now.end(), finished.begin(), finished.end())) << "with their times";
-    finished = now;
-  }
-  EXPECT_LT(finished.size(), undisturbed.rows.size()) << "the machine is too fast for this test";
-  expectSame(run("killed", {}, kLong), undisturbed);
-}
-
-// A limit on the file size stands for a full disk: the row that does not fit is cut short.
-TEST_F(Results, AFullDiskLosesNoFinishedRun) {
-  const Table undisturbed = run("undisturbed");
-  const pid_t child = startProcess([&] {
-    signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{4000, 4000};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      run();
-    } catch (const Failure& failure) {
-      return containsAll(failure.what(), {"cannot write", "parts"}) ? 7 : 8;
-    }
-    return 0;
-  });
-  EXPECT_EQ(exitStatusOf(child), 7);
-  const auto kept = reader().runs().size();
-  EXPECT_GT(kept, 2u);
-  EXPECT_LT(kept, 9u);
-  expectSame(run(), undisturbed);
-  EXPECT_EQ(static_cast<std::size_t>(made()), 9 - kept);
-  EXPECT_TRUE(containsAll(told_.str(), {"1 rows cannot be read"}));
+// A process that is killed while it takes in a table has copied the environments, but not the runs.
+TEST_F(Results, ATableThatIsTakenInByHalfIsNotLost) {
+  const Table runs = run();
+  for (const auto& part : partsOf(folder())) std::filesystem::remove(part);
+  ASSERT_FALSE(partsOf(folder(), "environments").empty());
+  const std::string other = R"(
+[[block]]
+scene = "kepler"
+t_end = 0.5
+methods = ["gauss_2"]
+tolerances = [1e-6]
+)";
+  run("results", {}, other);
+  EXPECT_EQ(run().rows, runs.rows);
+  EXPECT_EQ(made(), 0);
 }
 
 }  // namespace
