@@ -6,10 +6,13 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "experiments/analyses/costs/cost_at_error.h"
+#include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/fields.h"
@@ -36,34 +39,111 @@ double errorAt(const Table& runs, const TableRow& run, std::string_view column) 
   return column == "error" ? errorBoundAt(runs, run) : numberAt(runs, run, column);
 }
 
-// The columns of all fields of a run but t_end.
-std::vector<std::size_t> columnsButEnd(const Table& runs) {
-  std::vector<std::size_t> columns;
-  for (const auto& field : specFields()) {
-    if (field.name != "t_end" && runs.hasColumn(field.name)) columns.push_back(runs.column(field.name));
+/// overTimes of rows that come one after another: keeps one row for all times of a run.
+class OverTimes {
+ public:
+  explicit OverTimes(const Table& names) : names_{names.head, names.columns, {}} {
+    for (const auto& field : specFields()) {
+      if (field.name != "t_end" && names.hasColumn(field.name)) fields_.push_back(names.column(field.name));
+    }
   }
-  return columns;
+
+  void add(TableRow row) {
+    std::string text;
+    for (const auto field : fields_) text.append(row[field]) += '\0';
+    const auto [at, added] = places_.try_emplace(fnv1a(text), groups_.size());
+    if (added) groups_.push_back({row, 0, {}});
+    Group& group = groups_[at->second];
+    const auto same = [&](std::size_t field) { return row[field] == group.last[field]; };
+    if (!std::all_of(fields_.begin(), fields_.end(), same)) throw Failure("two runs of one table have the same hash");
+    ++group.times;
+    for (std::size_t i = 0; i < std::size(kErrorColumns); ++i) {
+      if (!names_.hasColumn(kErrorColumns[i]) || !succeededAt(names_, row)) continue;
+      const double error = errorAt(names_, row, kErrorColumns[i]);
+      if (std::isnan(error)) continue;
+      Largest& largest = group.errors[i];
+      ++largest.known;
+      if (!(largest.error >= error)) largest.error = error;
+    }
+    if (numberAt(names_, group.last, "t_end") < numberAt(names_, row, "t_end")) group.last = std::move(row);
+  }
+
+  // The runs with the last t_end, with the largest errors of all.
+  Table result(std::string_view study) && {
+    for (auto& group : groups_) {
+      if (group.times < kReferenceTimes) continue;
+      for (std::size_t i = 0; i < std::size(kErrorColumns); ++i) {
+        if (!names_.hasColumn(kErrorColumns[i])) continue;
+        const Largest& largest = group.errors[i];
+        const double error = largest.known >= kReferenceTimes ? largest.error : kUnknown;
+        group.last[names_.column(kErrorColumns[i])] = irk::numberText(error);
+      }
+      names_.rows.push_back(std::move(group.last));
+    }
+    if (!names_.rows.empty()) return std::move(names_);
+    throw MissingResults(fmt::format("study {} lacks errors at {} reference times", study, kReferenceTimes));
+  }
+
+ private:
+  struct Largest {
+    double error = kUnknown;
+    int known = 0;
+  };
+  struct Group {
+    TableRow last;
+    int times;
+    Largest errors[std::size(kErrorColumns)];
+  };
+  Table names_;
+  std::vector<std::size_t> fields_;  // all but t_end
+  std::unordered_map<std::uint64_t, std::size_t> places_;
+  std::vector<Group> groups_;
+};
+
+bool isOfSetting(const Table& names, const TableRow& row, Setting setting) {
+  const auto& configuration = textAt(names, row, "configuration");
+  return setting == Setting::kPaper ? configuration == "paper"
+                                    : configuration == "embedded" || configuration == "variable";
 }
 
-// Joins runs to several times: the run with the last t_end, with the largest errors of all.
-TableRow joined(const Table& runs, const std::vector<const TableRow*>& times) {
-  const auto last = std::max_element(times.begin(), times.end(), [&](auto* a, auto* b) {
-    return numberAt(runs, *a, "t_end") < numberAt(runs, *b, "t_end");
-  });
-  TableRow row = **last;
-  for (const auto column : kErrorColumns) {
-    if (!runs.hasColumn(column)) continue;
-    double largest = kUnknown;
-    int known = 0;
-    for (const auto* run : times) {
-      const double error = errorAt(runs, *run, column);
-      if (std::isnan(error) || !succeededAt(runs, *run)) continue;
-      ++known;
-      if (!(largest >= error)) largest = error;
+[[noreturn]] void throwNoSetting(std::string_view study, Setting setting) {
+  throw MissingResults(fmt::format("study {} lacks these runs with configuration '{}'", study,
+                                   setting == Setting::kPaper ? "paper" : "embedded"));
+}
+
+// Calls take(names, row) for the runs of these blocks.
+Table forEachInBlocks(const ResultTables& tables, std::string_view study, const Blocks& blocks,
+                      const std::function<void(const Table& names, TableRow row)>& take) {
+  for (const auto name : blocks) {
+    if (!blocksOf(study).contains(std::string(name))) {
+      throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
     }
-    row[runs.column(column)] = irk::numberText(known >= kReferenceTimes ? largest : kUnknown);
   }
-  return row;
+  const auto wanted = [&](const std::string& cell) {
+    return std::any_of(blocks.begin(), blocks.end(), [&](auto name) { return hasBlock(cell, name); });
+  };
+  return tables.forEachRun(study, wanted, take);
+}
+
+// The runs of these blocks in a setting.
+Table runsOf(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting) {
+  std::vector<TableRow> rows;
+  Table chosen = forEachInBlocks(tables, study, blocks, [&](const Table& names, TableRow row) {
+    if (isOfSetting(names, row, setting)) rows.push_back(std::move(row));
+  });
+  if (rows.empty()) throwNoSetting(study, setting);
+  chosen.rows = std::move(rows);
+  return chosen;
+}
+
+// All blocks of the study claims whose names begin so.
+Blocks claimBlocks(std::string_view beginning) {
+  Blocks blocks;
+  for (const auto& name : blocksOf("claims")) {
+    if (name.starts_with(beginning)) blocks.push_back(name);
+  }
+  if (blocks.empty()) throw std::logic_error(fmt::format("study claims has no block '{}...'", beginning));
+  return blocks;
 }
 
 void compareSeries(const Table& runs, const RunSeries& base, const RunSeries& other, std::string_view cost,
@@ -105,16 +185,12 @@ Table where(const Table& table, const Cells& cells) {
   });
 }
 
-Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks) {
-  for (const auto name : blocks) {
-    if (!blocksOf(study).contains(std::string(name))) {
-      throw std::logic_error(fmt::format("study {} has no block '{}'", study, name));
-    }
-  }
-  const auto column = table.column(kBlockColumn);
-  return where(table, [&](const TableRow& row) {
-    return std::any_of(blocks.begin(), blocks.end(), [&](auto name) { return hasBlock(row[column], name); });
-  });
+Table inBlocks(const ResultTables& tables, std::string_view study, const Blocks& blocks) {
+  std::vector<TableRow> rows;
+  Table chosen =
+      forEachInBlocks(tables, study, blocks, [&rows](const Table&, TableRow row) { rows.push_back(std::move(row)); });
+  chosen.rows = std::move(rows);
+  return chosen;
 }
 
 std::vector<std::string> distinct(const Table& table, std::string_view column) {
@@ -136,55 +212,38 @@ std::vector<double> numbersOf(const Table& table, std::string_view column) {
 }
 
 Table inSetting(const Table& table, std::string_view study, Setting setting) {
-  Table chosen = where(table, [&](const TableRow& row) {
-    const auto& configuration = textAt(table, row, "configuration");
-    return setting == Setting::kPaper ? configuration == "paper"
-                                      : configuration == "embedded" || configuration == "variable";
-  });
-  if (!chosen.rows.empty()) return chosen;
-  throw MissingResults(fmt::format("study {} lacks these runs with configuration '{}'", study,
-                                   setting == Setting::kPaper ? "paper" : "embedded"));
+  Table chosen = where(table, [&](const TableRow& row) { return isOfSetting(table, row, setting); });
+  if (chosen.rows.empty()) throwNoSetting(study, setting);
+  return chosen;
 }
 
 Table overTimes(const Table& runs, std::string_view study) {
-  std::map<TableRow, std::size_t> place;
-  std::vector<std::vector<const TableRow*>> groups;
-  const auto columns = columnsButEnd(runs);
-  for (const auto& run : runs.rows) {
-    TableRow key;
-    for (const auto column : columns) key.push_back(run[column]);
-    const auto [at, added] = place.try_emplace(std::move(key), groups.size());
-    if (added) groups.emplace_back();
-    groups[at->second].push_back(&run);
-  }
-  Table all{runs.head, runs.columns, {}};
-  for (const auto& times : groups) {
-    if (times.size() >= kReferenceTimes) all.rows.push_back(joined(runs, times));
-  }
-  if (!all.rows.empty()) return all;
-  throw MissingResults(fmt::format("study {} lacks errors at {} reference times", study, kReferenceTimes));
+  OverTimes all(runs);
+  for (const auto& run : runs.rows) all.add(run);
+  return std::move(all).result(study);
 }
 
 Table timedRuns(const ResultTables& tables, std::string_view study, const Blocks& blocks, Setting setting) {
-  return overTimes(inSetting(inBlocks(tables.runs(study), study, blocks), study, setting), study);
+  std::optional<OverTimes> all;
+  (void)forEachInBlocks(tables, study, blocks, [&](const Table& names, TableRow row) {
+    if (!isOfSetting(names, row, setting)) return;
+    if (!all) all.emplace(names);
+    all->add(std::move(row));
+  });
+  if (!all) throwNoSetting(study, setting);
+  return std::move(*all).result(study);
 }
 
 Table claimRuns(const ResultTables& tables, std::string_view beginning) {
-  const Table& runs = tables.runs("claims");
-  Blocks blocks;
-  for (const auto& name : blocksOf("claims")) {
-    if (name.starts_with(beginning)) blocks.push_back(name);
-  }
-  if (blocks.empty()) throw std::logic_error(fmt::format("study claims has no block '{}...'", beginning));
-  return inBlocks(runs, "claims", blocks);
+  return inBlocks(tables, "claims", claimBlocks(beginning));
 }
 
 Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting setting) {
-  return inSetting(claimRuns(tables, beginning), "claims", setting);
+  return runsOf(tables, "claims", claimBlocks(beginning), setting);
 }
 
 Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting) {
-  return overTimes(claimRuns(tables, beginning, setting), "claims");
+  return timedRuns(tables, "claims", claimBlocks(beginning), setting);
 }
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }

@@ -21,9 +21,9 @@ using Cells = std::vector<std::pair<std::string_view, std::string_view>>;
 /// The rows with these cells.
 Table where(const Table& table, const Cells& cells);
 using Blocks = std::vector<std::string_view>;
-/// The rows of a built-in study's table that belong to one of these blocks. Throws Misuse for a table without a column
-/// of blocks, std::logic_error for a block that the study does not have.
-Table inBlocks(const Table& table, std::string_view study, const Blocks& blocks);
+/// The runs of a built-in study that belong to one of these blocks. Throws Misuse for a table without the column of
+/// blocks, std::logic_error for a block that the study does not have.
+Table inBlocks(const ResultTables& tables, std::string_view study, const Blocks& blocks);
 /// The rows that the test accepts.
 Table where(const Table& table, const std::function<bool(const TableRow&)>& test);
 /// Different cells, in order of appearance.

@@ -139,7 +139,7 @@ Measurement costOverLocating(const ResultTables& tables, Setting setting, std::s
 Measurement stepAtSwitch(const ResultTables& tables, Setting) {
   Measurement measured;
   for (const auto& [block, times] : kLively) {
-    const Table runs = inBlocks(tables.runs("steps"), "steps", {block});
+    const Table runs = inBlocks(tables, "steps", {block});
     for (const auto& run : runs.rows) {
       if (!succeededAt(runs, run)) continue;
       const Table& steps = stepsOf(tables, runs, run);
@@ -182,7 +182,7 @@ Measurement repairedByFullNewton(const ResultTables& tables, Setting) {
 }
 
 Measurement rejectedWithGamma(const ResultTables& tables, Setting) {
-  const Table runs = inBlocks(tables.runs("control"), "control",
+  const Table runs = inBlocks(tables, "control",
                               {"gamma_smooth", "gamma_crank", "gamma_crank_torque_off", "gamma_arm", "gamma_friction"});
   struct Rejected {
     double with = 0, without = 0;

@@ -115,6 +115,36 @@ TEST(Measures, ErrorsAreTheLargestOfTenTimes) {
   EXPECT_THROW(overTimes(where(runs.table(), {{"rtol", "1e-9"}}), "s"), MissingResults);
 }
 
+// Rows of blocks are read again from the file, wherever they are in it; those of other blocks never.
+TEST(Measures, RunsOfAFileAreThoseOfATable) {
+  RunTable runs;
+  for (int i = 1; i <= 10; ++i) {
+    for (const char* block : {"stages_few", "norm_mixed", "stages_many norm_mixed", ""}) {
+      for (const char* configuration : {"paper", "variable"}) {
+        runs.add({{"block", block},
+                  {"configuration", configuration},
+                  {"t_end", std::to_string(i)},
+                  {"error", text(0.1 * (i * 7 % 10))},
+                  {"detail", "of " + std::string(block)}});
+      }
+    }
+  }
+  const TemporaryFolder folder;
+  writeTable(folder.path() / "results/claims/runs.csv", runs.table());
+  const ResultTables in_file(folder.path() / "results"), made_up = runs.results();
+  const Blocks blocks = {"norm_mixed"};
+  const Table expected = inBlocks(made_up, "claims", blocks), read = inBlocks(in_file, "claims", blocks);
+  EXPECT_EQ(expected.rows.size(), 40u);
+  EXPECT_EQ(read.rows, expected.rows);
+  EXPECT_EQ(read.columns, expected.columns);
+  EXPECT_EQ(inBlocks(in_file, "claims", blocks).rows, expected.rows) << "a second time";
+  const Table paper = timedRuns(in_file, "claims", blocks, Setting::kPaper);
+  EXPECT_EQ(paper.rows, overTimes(inSetting(expected, "claims", Setting::kPaper), "claims").rows);
+  ASSERT_EQ(paper.rows.size(), 1u) << "blocks are no part of a run";
+  EXPECT_EQ(numberAt(paper, paper.rows[0], "error"), 0.9);
+  EXPECT_THROW(inBlocks(ResultTables(folder.path()), "claims", blocks), MissingResults);
+}
+
 TEST(Measures, CostsAreComparedAtEqualErrors) {
   RunTable runs;
   runs.addSeries({{"scene", "kepler"}, {"norm", "mixed"}}, 1);
