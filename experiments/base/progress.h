@@ -26,6 +26,8 @@ class Progress {
   void skipped(const std::string& kind);
   /// So many runs are stored that were not announced.
   void stored(std::size_t runs);
+  /// What is being done now, for terminals: behind the numbers until a run is finished.
+  void note(std::string text);
 
  private:
   void show();
@@ -34,10 +36,28 @@ class Progress {
   std::ostream& out_;
   std::string label_;
   TimeLeft time_;
+  std::string note_;
   std::size_t total_ = 0, made_ = 0, skipped_ = 0;
   double start_, shown_;
   double interval_;  ///< seconds between two lines
   bool terminal_;
+};
+
+/// A line that is rewritten in place if `out` is standard error and a terminal; else nothing. Not thread-safe.
+class StatusLine {
+ public:
+  explicit StatusLine(std::ostream& out);
+  ~StatusLine() { show(""); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  /// Empty: removes the line, as is necessary before any other output.
+  void show(const std::string& text);
+
+ private:
+  std::ostream& out_;
+  bool terminal_;
+  bool shown_ = false;
 };
 
 /// `0:42`, `12:03`, `1:02:03`.

@@ -2,11 +2,13 @@
 // throws on misuse.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/base/numbers.h"
+#include "experiments/base/progress.h"
 #include "experiments/base/streams.h"
 #include "experiments/reference/library.h"
 #include "experiments/runner/runner.h"
@@ -27,8 +29,18 @@ struct SolveOptions {
 };
 int solveCommand(const SolveOptions& options, Streams streams);
 
-/// The options with which `solve` makes references: all processors, until an interrupt, one line each to `err`.
-ReferenceLibrary::Options referenceOptions(std::ostream& err);
+/// The references of runs of `solve`: made on all processors, until an interrupt, with one line each to `err` and, on a
+/// terminal, a line that says how far they are.
+class SolveReferences {
+ public:
+  explicit SolveReferences(std::ostream& err);
+  /// The Watch::reference of a run: makes the references at all its reference times together.
+  std::function<MadeReference(const RunSpec&)> of(const RunSpec& whole);
+
+ private:
+  StatusLine status_;
+  ReferenceLibrary library_;
+};
 
 /// The spec that the options describe. Throws Misuse.
 RunSpec solveSpec(const SolveOptions& options);

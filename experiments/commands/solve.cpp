@@ -219,10 +219,18 @@ RunSpec solveSpec(const SolveOptions& options) {
   return spec;
 }
 
-ReferenceLibrary::Options referenceOptions(std::ostream& err) {
-  return {.jobs = threadCount(0), .stop = &interruptFlag(), .tell = [&err](const std::string& line) {
-            fmt::print(err, "{}\n", line);
-          }};
+SolveReferences::SolveReferences(std::ostream& err)
+    : status_(err),
+      library_({.jobs = threadCount(0),
+                .stop = &interruptFlag(),
+                .tell = [&err](const std::string& line) { fmt::print(err, "{}\n", line); },
+                .show = [this](const std::string& text) { status_.show(text); }}) {}
+
+std::function<MadeReference(const RunSpec&)> SolveReferences::of(const RunSpec& whole) {
+  return [this, whole](const RunSpec& run) {
+    library_.prepare(atReferenceTimes(whole));
+    return library_.of(run);
+  };
 }
 
 int solveCommand(const SolveOptions& options, Streams streams) {
@@ -231,8 +239,8 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   const RunSpec spec = solveSpec(options);
   OutFile out(options, spec);
   const InterruptScope interrupts;
-  ReferenceLibrary references(referenceOptions(streams.err));
-  Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
+  SolveReferences references(streams.err);
+  Watch watch{&interruptFlag(), {}, {}, references.of(spec)};
   watch.invariants = true;
   out.addTo(watch);
   bool drawn = true;

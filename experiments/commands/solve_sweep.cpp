@@ -145,11 +145,11 @@ int solveSweep(const Sweep& sweep, Streams streams) {
                "outcome", "error", "accepted", "rejected", "newton", "cpu_s");
   }
   const InterruptScope interrupts;
-  ReferenceLibrary references(referenceOptions(streams.err));
-  const Watch watch{&interruptFlag(), {}, {}, [&](const RunSpec& run) { return references.of(run); }};
+  SolveReferences references(streams.err);
   std::size_t made = 0, failed = 0;
   for (std::size_t i = 0; i < specs.size() && !interruptFlag(); ++i) {
     const RunSpec& spec = specs[i];
+    const Watch watch{&interruptFlag(), {}, {}, references.of(spec)};
     const RunRecord record = orRefused(spec, [&] { return execute(spec, watch); });
     ++made;
     if (!record.succeeded()) ++failed;

@@ -27,22 +27,23 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
   const double start = threadSeconds();
   const auto setup = makeSetup<Real>(spec);
   auto integrator = setup.integrator();
+  Integrated result;
+  State<Real> state = setup.scene.start;
+  double reached = static_cast<double>(state.t);
+  std::string refused;
   Monitor<Real> monitor;
+  monitor.accepted = [&](const StepRecord<Real>& step) { reached = static_cast<double>(step.t); };
   monitor.interrupt = [&] {
     own::stillGoing(0);
     if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
-    const bool late = watch.budget && watch.budget->exceededBy(threadSeconds() - start);
-    return late ? Outcome::kTimeout : Outcome::kSuccess;
+    if (watch.refuse) refused = watch.refuse(reached, threadSeconds() - start);
+    return refused.empty() ? Outcome::kSuccess : Outcome::kTimeout;
   };
-  Integrated result;
-  State<Real> state = setup.scene.start;
   for (const auto& t : times) {
     const auto solution = integrator.integrate(state, decimalNumber<Real>(t), monitor);
     if (solution.outcome != Outcome::kSuccess) {
-      const bool late = solution.outcome == Outcome::kTimeout && watch.budget;
-      result.failure =
-          fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol, name(solution.outcome),
-                      late ? fmt::format("longer than {:g} s of CPU time", watch.budget->limit()) : solution.detail);
+      result.failure = fmt::format("{} at tol {:g}: {}, {}", spec.method, spec.options.tolerances.rtol,
+                                   name(solution.outcome), refused.empty() ? solution.detail : refused);
       return result;
     }
     state = solution.state;
@@ -65,7 +66,6 @@ template std::vector<mp50> componentsAndOutputs(const Scene<double>&, const Stat
 template std::vector<mp50> componentsAndOutputs(const Scene<mp50>&, const State<mp50>&);
 
 Integrated integrated(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch) {
-  const double start = threadSeconds();
   Integrated result;
   try {
     result = spec.scalar == ScalarKind::kDouble ? integratedIn<double>(spec, times, watch)
@@ -73,7 +73,6 @@ Integrated integrated(const RunSpec& spec, const std::vector<std::string>& times
   } catch (const std::exception& error) {
     result.failure = error.what();
   }
-  if (watch.budget) watch.budget->spend(threadSeconds() - start);
   return result;
 }
 

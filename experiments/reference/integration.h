@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,29 +11,17 @@
 
 namespace irk {
 
-/// CPU seconds that several integrations share. Thread-safe.
-class CpuBudget {
- public:
-  explicit CpuBudget(double limit) : limit_(limit) {}
-  void spend(double seconds) { spent_ += seconds; }
-  /// Whether less than `more` seconds are left.
-  bool exceededBy(double more) const { return spent_ + more > limit_; }
-  double limit() const { return limit_; }
-
- private:
-  double limit_;
-  std::atomic<double> spent_ = 0;
-};
-
-/// A stop flag and a budget, which may end an integration before its last time. Both are optional.
+/// What may end an integration before its last time. Both are optional.
 struct IntegrationWatch {
   const std::atomic<bool>* stop = nullptr;
-  CpuBudget* budget = nullptr;
+  /// Called before each step with the time reached and the CPU seconds of this integration: a text, one line, ends it
+  /// as the reason.
+  std::function<std::string(double t, double cpu_s)> refuse = {};
 };
 
 struct Integrated {
-  std::vector<std::vector<mp50>> rows;  ///< for each time the components and then the outputs of the scene
-  std::string failure;                  ///< why there are no rows, in one line; empty: none
+  std::vector<std::vector<mp50>> rows;  ///< for each time reached the components and then the outputs of the scene
+  std::string failure;                  ///< why there are not all rows, in one line; empty: there are
 };
 
 /// The components u, v, x, z of the state, then the outputs of the scene.
@@ -40,7 +29,7 @@ template <class Real>
 std::vector<mp50> componentsAndOutputs(const Scene<Real>& scene, const State<Real>& state);
 
 /// Integrates the spec, in its scalar (double or mp50), to each of the times: decimal, ascending, from the scene's
-/// start on. Exceptions become failures. The budget is looked at before each step.
+/// start on. Exceptions become failures.
 Integrated integrated(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch);
 
 }  // namespace irk

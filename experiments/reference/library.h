@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <functional>
-#include <iosfwd>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,7 +15,7 @@
 
 namespace irk {
 
-/// Thread-safe. Several processes may make the same reference at the same time; each then writes the same file.
+/// Thread-safe. Several processes may make the same reference at the same time; each then writes its file whole.
 class ReferenceLibrary {
  public:
   struct Options {
@@ -25,6 +24,9 @@ class ReferenceLibrary {
     /// Called with one line for each reference that is made (not for those from the cache), never by two threads at
     /// once.
     std::function<void(const std::string& line)> tell = {};
+    /// Called now and then with what is being computed and how far it is, and with an empty text before `tell` and when
+    /// nothing is computed any more; never by two threads at once.
+    std::function<void(const std::string& text)> show = {};
     ReferenceLimits limits = {};
   };
   explicit ReferenceLibrary(Options options);
@@ -32,22 +34,25 @@ class ReferenceLibrary {
   /// The reference for the run; waits if another thread is making it.
   MadeReference of(const RunSpec& resolved);
 
-  /// Makes the references that these runs need, each once, with progress on `out`. Runs that can never work are left
-  /// out; they are refused when they are made.
-  void prepare(const std::vector<RunSpec>& resolved, const std::string& label, std::ostream& out);
+  /// Makes the references that these runs need, each once, those of one problem at several times together. Runs that
+  /// can never work are left out; they are refused when they are made. `progress` replaces `show`.
+  void prepare(const std::vector<RunSpec>& resolved, Progress* progress = nullptr);
 
  private:
   struct Shelf {
     std::once_flag once;
+    std::atomic<bool> filled = false;
     MadeReference reference;
-    bool made = false;  // not read from the cache
   };
+  using Questions = std::vector<ReferenceQuestion>;
   Shelf& shelfOf(const ReferenceQuestion& question);
-  const Shelf& fill(const ReferenceQuestion& question, int jobs);
+  static void fill(Shelf& shelf, const std::function<ComputedReference()>& find);
+  bool isFilled(const ReferenceQuestion& question);
   std::optional<ComputedReference> kept(const ReferenceQuestion& question);
-  ComputedReference made(const ReferenceQuestion& question, int jobs);
+  std::vector<ComputedReference> made(const Questions& questions, int jobs, Progress* progress);
   void keep(const ReferenceQuestion& question, const ComputedReference& reference);
   void tell(const std::string& line);
+  void show(const std::string& text, Progress* progress);
 
   Options options_;
   std::mutex mutex_;                                       // of the shelves and of what is told

@@ -8,15 +8,14 @@
 
 #include "experiments/base/clock.h"
 #include "experiments/base/numbers.h"
+#include "experiments/base/progress.h"
 #include "experiments/reference/agreement.h"
-#include "experiments/reference/integration.h"
+#include "experiments/reference/attempt.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/setup.h"
 
 namespace irk {
 namespace {
-
-using Specs = std::array<RunSpec, kReferenceRuns>;  // the best one last
 
 // Values in double are not better than this, relative to the magnitude of the component.
 constexpr double kDoubleRoundOff = 1e-14;
@@ -45,8 +44,8 @@ ReferenceCase caseOf(const ReferenceQuestion& question) {
   return best;
 }
 
-Specs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase& of) {
-  Specs specs;
+ReferenceSpecs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase& of) {
+  ReferenceSpecs specs;
   for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     specs[i] = referenceRun({question.scene, of}, i);
     if (question.smooth) specs[i].discontinuity = Discontinuity::kSmooth;
@@ -55,8 +54,8 @@ Specs specsInFiftyDigits(const ReferenceQuestion& question, const ReferenceCase&
 }
 
 // All options are given explicitly, so that changed defaults change no reference.
-Specs specsInDouble(const ReferenceQuestion& question, double length, const Strictness& strictness) {
-  Specs specs;
+ReferenceSpecs specsInDouble(const ReferenceQuestion& question, double length, const Strictness& strictness) {
+  ReferenceSpecs specs;
   for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     const bool fine = i >= 2, radau = i % 2 == 1;
     const std::string tolerance = numberText(strictness.tolerance * (fine ? 0.1 : 1));
@@ -72,97 +71,111 @@ Specs specsInDouble(const ReferenceQuestion& question, double length, const Stri
   return specs;
 }
 
+// A run that finds the course of the solution may take this part of the CPU time of the four runs.
+constexpr double kCourseShare = 0.05;
+
 class Making {
  public:
-  Making(const ReferenceQuestion& question, const ReferenceLimits& limits, int jobs, const std::atomic<bool>* stop)
-      : question_(question),
+  Making(const std::vector<ReferenceQuestion>& questions, const ReferenceLimits& limits, const MakingWatch& watch)
+      : questions_(questions),
         limits_(limits),
-        jobs_(jobs),
-        stop_(stop),
-        scene_(makeScene<double>(question.scene, question.settings)) {}
+        watch_(watch),
+        scene_(makeScene<double>(last().scene, last().settings)),
+        results_(questions.size()),
+        in_fifty_(questions.size()),
+        in_double_(questions.size()) {}
 
-  ComputedReference made() {
-    std::string fifty = whyNotInFiftyDigits();
-    if (fifty.empty()) {
-      const ReferenceCase of = caseOf(question_);
-      fifty = attempt(specsInFiftyDigits(question_, of), of.tolerance * kFiner);
-      if (done()) return result_;
+  std::vector<ComputedReference> made() {
+    course_ = courseOf(last(), kCourseShare * limits_.cpu_s, watch_.stop);
+    const std::string no_fifty = whyNotInFiftyDigits();
+    std::fill(in_fifty_.begin(), in_fifty_.end(), no_fifty);
+    if (no_fifty.empty()) {
+      const ReferenceCase of = caseOf(last());
+      attemptOpen("in 50 digits", specsInFiftyDigits(last(), of), of.tolerance * kFiner, in_fifty_);
     }
-    std::string problem;
     for (const auto& strictness : kStrictnesses) {
-      problem = attempt(specsInDouble(question_, question_.t_end - scene_.start.t, strictness), kDoubleRoundOff);
-      if (problem.empty()) {
-        result_.problem.clear();
-        result_.in_double = fifty;
-        return result_;
-      }
-      if (stopped()) return result_;
+      const double length = last().t_end - static_cast<double>(scene_.start.t);
+      attemptOpen("in double", specsInDouble(last(), length, strictness), kDoubleRoundOff, in_double_);
     }
-    result_.problem = fmt::format("in 50 digits: {}; in double: {}", fifty, problem);
-    return result_;
+    for (const std::size_t k : open()) {
+      results_[k].interrupted = stopped();
+      results_[k].problem =
+          stopped() ? "interrupted" : fmt::format("in 50 digits: {}; in double: {}", in_fifty_[k], in_double_[k]);
+    }
+    return results_;
   }
 
  private:
-  bool stopped() {
-    result_.interrupted = stop_ && stop_->load(std::memory_order_relaxed);
-    if (result_.interrupted) {
-      result_.values.clear();
-      result_.problem = "interrupted";
+  const ReferenceQuestion& last() const { return questions_.back(); }
+  bool stopped() const { return watch_.stop && watch_.stop->load(std::memory_order_relaxed); }
+
+  // The questions that have no answer yet.
+  std::vector<std::size_t> open() const {
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < results_.size(); ++k) {
+      if (results_[k].values.empty() && results_[k].problem.empty()) open.push_back(k);
     }
-    return result_.interrupted;
+    return open;
   }
-  bool done() { return stopped() || !result_.values.empty() || !result_.problem.empty(); }
 
   std::string whyNotInFiftyDigits() const {
-    if (!findScene(question_.scene).make_mp50) return "the scene has no 50-digit instance";
+    if (!findScene(last().scene).make_mp50) return "the scene has no 50-digit instance";
     const Index n = scene_.sizes().n();
     if (n <= limits_.most_unknowns) return "";
     return fmt::format("{} unknowns are too many, up to {} are computed in 50 digits", n, limits_.most_unknowns);
   }
 
-  // Makes the four runs and keeps what they agree on. Returns why there is nothing to keep.
-  std::string attempt(const Specs& specs, double least) {
-    std::array<Integrated, kReferenceRuns> runs;
-    CpuBudget budget(limits_.cpu_s);
-    const std::vector<std::string> times{numberText(question_.t_end)};
-    // The last runs take longest: start with them.
-#pragma omp parallel for schedule(dynamic, 1) num_threads(jobs_)
-    for (std::size_t turn = 0; turn < kReferenceRuns; ++turn) {
-      const std::size_t i = kReferenceRuns - 1 - turn;
-      runs[i] = integrated(specs[i], times, {.stop = stop_, .budget = &budget});
+  // Makes the four runs through all open times and keeps what they agree on; `why_not` says it of the others.
+  void attemptOpen(const char* how, const ReferenceSpecs& specs, double least, std::vector<std::string>& why_not) {
+    const auto wanted = open();
+    if (wanted.empty() || stopped()) return;
+    std::vector<std::string> times;
+    for (const std::size_t k : wanted) times.push_back(numberText(questions_[k].t_end));
+    const double start = wallSeconds();
+    const auto progress = [&](double part) { show(how, part, wallSeconds() - start); };
+    const auto attempted = attempt(
+        specs, times,
+        {.jobs = watch_.jobs, .stop = watch_.stop, .cpu_s = limits_.cpu_s, .course = course_, .progress = progress});
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const bool reached = std::all_of(attempted.runs.begin(), attempted.runs.end(),
+                                       [i](const Integrated& run) { return run.rows.size() > i; });
+      why_not[wanted[i]] = reached ? agree(specs, attempted.runs, i, least, wanted[i]) : attempted.failure;
     }
-    for (const auto& run : runs) {
-      if (!run.failure.empty()) return run.failure;
-    }
-    return agree(specs, runs, least);
   }
 
-  std::string agree(const Specs& specs, const std::array<Integrated, kReferenceRuns>& runs, double least) {
-    result_.values.clear();
-    result_.accuracy = 0;
+  void show(const char* how, double part, double seconds) const {
+    if (!watch_.show) return;
+    const std::string far = std::isnan(part) ? fmt::format("{} so far", durationText(seconds))
+                                             : fmt::format("{:.0f} %, about {} left", 100 * part,
+                                                           durationText(part > 0 ? seconds / part * (1 - part) : 0));
+    watch_.show(fmt::format("reference {}: {}, {}", placeText(questions_), how, far));
+  }
+
+  // Of the i-th row of the runs, for question k. Returns why there is nothing to keep.
+  std::string agree(const ReferenceSpecs& specs, const std::array<Integrated, kReferenceRuns>& runs, std::size_t i,
+                    double least, std::size_t k) {
     const auto names = namesOf();
+    ComputedReference result;
+    result.in_double = in_fifty_[k];
     for (std::size_t j = 0; j < names.size(); ++j) {
       std::array<mp50, kReferenceRuns> values;
-      for (std::size_t i = 0; i < kReferenceRuns; ++i) values[i] = runs[i].rows.front()[j];
+      for (std::size_t run = 0; run < kReferenceRuns; ++run) values[run] = runs[run].rows[i][j];
       if (!std::all_of(values.begin(), values.end(), [](const mp50& x) { return isfinite(x); })) continue;
       const double size = std::max(std::abs(static_cast<double>(values.back())), scaleOf(j));
       const AgreedValue found = agreed(values, least * size);
       if (found.accuracy > limits_.disagreement * size) {
-        result_.values.clear();
-        return disagreementText(specs.back(), names[j], found.accuracy / size);
+        const auto text = fmt::format("the four runs disagree, {} by {:.0e}", names[j], found.accuracy / size);
+        // In 50 digits this is the end; in double a stricter attempt may follow.
+        if (specs.back().scalar == ScalarKind::kMp50) results_[k].problem = "in 50 digits " + text;
+        return text;
       }
-      result_.accuracy = std::max(result_.accuracy, found.accuracy / size);
-      result_.values.push_back({question_.scene, settingsText(question_.settings), numberText(question_.t_end),
-                                names[j], found.value, found.accuracy, "four runs that agree"});
+      result.accuracy = std::max(result.accuracy, found.accuracy / size);
+      result.values.push_back({last().scene, settingsText(last().settings), numberText(questions_[k].t_end), names[j],
+                               found.value, found.accuracy, "four runs that agree"});
     }
-    return result_.values.empty() ? "no component is finite" : "";
-  }
-
-  // In 50 digits this is the end; in double a stricter attempt may follow.
-  std::string disagreementText(const RunSpec& spec, const std::string& component, double difference) {
-    const auto text = fmt::format("the four runs disagree, {} by {:.0e}", component, difference);
-    if (spec.scalar == ScalarKind::kMp50) result_.problem = "in 50 digits " + text;
-    return text;
+    if (result.values.empty()) return "no component is finite";
+    results_[k] = std::move(result);
+    return "";
   }
 
   std::vector<std::string> namesOf() const {
@@ -176,28 +189,32 @@ class Making {
     return j < scene_.names.size() && i < scene_.scale.size() ? scene_.scale[i] : 1;
   }
 
-  const ReferenceQuestion& question_;
+  const std::vector<ReferenceQuestion>& questions_;
   const ReferenceLimits& limits_;
-  int jobs_;
-  const std::atomic<bool>* stop_;
+  const MakingWatch& watch_;
   Scene<double> scene_;
-  ComputedReference result_;
+  Course course_;
+  std::vector<ComputedReference> results_;
+  std::vector<std::string> in_fifty_, in_double_;  // why there are no values, for each question
 };
 
 }  // namespace
 
-ComputedReference makeReference(const ReferenceQuestion& question, const ReferenceLimits& limits, int jobs,
-                                const std::atomic<bool>* stop) {
+std::vector<ComputedReference> makeReferences(const std::vector<ReferenceQuestion>& questions,
+                                              const ReferenceLimits& limits, const MakingWatch& watch) {
   const double start = wallSeconds();
-  ComputedReference made;
+  std::vector<ComputedReference> made(questions.size());
   try {
-    made = Making(question, limits, jobs, stop).made();
+    made = Making(questions, limits, watch).made();
   } catch (const std::exception& error) {
-    made.problem = error.what();
+    for (auto& reference : made) reference.problem = error.what();
   }
-  std::replace(made.problem.begin(), made.problem.end(), '\n', ' ');
-  std::replace(made.in_double.begin(), made.in_double.end(), '\n', ' ');
-  made.seconds = wallSeconds() - start;
+  const double seconds = wallSeconds() - start;
+  for (auto& reference : made) {
+    std::replace(reference.problem.begin(), reference.problem.end(), '\n', ' ');
+    std::replace(reference.in_double.begin(), reference.in_double.end(), '\n', ' ');
+    reference.seconds = seconds;
+  }
   return made;
 }
 

@@ -1,8 +1,8 @@
-// Computes the reference of one question: by two methods with two tolerances each, in 50 digits if possible, else in
-// double.
+// Computes references: by two methods with two tolerances each, in 50 digits if possible, else in double.
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@
 namespace irk {
 
 struct ReferenceLimits {
-  double cpu_s = 120;  ///< > 0; CPU time of the four runs in 50 digits together, and again of those in double
+  double cpu_s = 60;  ///< > 0; CPU time of the four runs in 50 digits together, and again of those in double
   /// Above this many unknowns the four runs are made in double only: one factorization in 50 digits takes minutes, and
   /// the CPU time is looked at between steps only.
   Index most_unknowns = 100;
@@ -26,16 +26,26 @@ struct ComputedReference {
   /// Why the values are not those of 50 digits, in one line; empty if they are.
   std::string in_double;
   double accuracy = 0;  ///< of all values, measured as an error
-  double seconds = 0;   ///< wall-clock time of the computation
+  double seconds = 0;   ///< wall-clock time of the computation, with that of the references made together with it
   bool interrupted = false;
 };
 
-/// The values of all components and outputs at t_end on which the four runs agree. With 50 digits: radau_iia_16 and
-/// lobatto_iiic_16 as in `irk reference`; in double: radau_iia_7 and lobatto_iiic_6 with small steps. Switches are
-/// located; index 2. Double is used where the scene has no 50 digits or too many unknowns for them, and where the runs
-/// in 50 digits fail or take too long; runs in 50 digits that disagree are not followed by others. `jobs` threads.
-/// Exceptions become `problem`.
-ComputedReference makeReference(const ReferenceQuestion& question, const ReferenceLimits& limits, int jobs,
-                                const std::atomic<bool>* stop);
+/// How references are made.
+struct MakingWatch {
+  int jobs = 1;  ///< threads, > 0
+  const std::atomic<bool>* stop = nullptr;
+  /// Called now and then, never by two threads at once, with what is being computed, how far it is, and how long it
+  /// still takes.
+  std::function<void(const std::string& text)> show = {};
+};
+
+/// For each question the values of all components and outputs at its t_end on which the four runs agree. The questions
+/// (at least one) differ in t_end only and have ascending ones: each run is one integration through all of them. With
+/// 50 digits: radau_iia_16 and lobatto_iiic_16 as in `irk reference`; in double: radau_iia_7 and lobatto_iiic_6 with
+/// small steps. Switches are located; index 2. Double is used where the scene has no 50 digits or too many unknowns for
+/// them, and from the time on at which the runs in 50 digits fail or can be expected to take too long; runs in 50
+/// digits that disagree are not followed by others. Exceptions become `problem`.
+std::vector<ComputedReference> makeReferences(const std::vector<ReferenceQuestion>& questions,
+                                              const ReferenceLimits& limits, const MakingWatch& watch);
 
 }  // namespace irk

@@ -25,10 +25,16 @@ std::string keyText(const ReferenceQuestion& question) {
                      numberText(question.t_end), question.smooth, buildInfo().code);
 }
 
-std::string placeText(const ReferenceQuestion& question) {
-  return fmt::format("{}{}{}{}, t = {}", question.scene, question.settings.empty() ? "" : " ",
-                     settingsText(question.settings), question.smooth ? " smooth" : "", numberText(question.t_end));
+std::string placeText(const std::vector<ReferenceQuestion>& questions) {
+  const ReferenceQuestion& first = questions.front();
+  const std::string others =
+      questions.size() == 1 ? ""
+                            : fmt::format(" ... {} ({} times)", numberText(questions.back().t_end), questions.size());
+  return fmt::format("{}{}{}{}, t = {}{}", first.scene, first.settings.empty() ? "" : " ", settingsText(first.settings),
+                     first.smooth ? " smooth" : "", numberText(first.t_end), others);
 }
+
+std::string placeText(const ReferenceQuestion& question) { return placeText(std::vector{question}); }
 
 std::string sourceOf(const SceneEntry& scene) { return own::hashOf("scene", scene.id); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/runs/run_spec.h"
 
@@ -22,8 +23,10 @@ ReferenceQuestion referenceQuestion(const RunSpec& resolved);
 /// names the file in the cache. Throws Misuse for an unknown scene.
 std::string keyText(const ReferenceQuestion& question);
 
-/// For messages: `slider_crank torque_off_at=0.5 smooth, t = 1`.
+/// For messages: `slider_crank torque_off_at=0.5 smooth, t = 1`; of several that differ in t_end only, ascending,
+/// `kepler, t = 0.1 ... 1 (10 times)`.
 std::string placeText(const ReferenceQuestion& question);
+std::string placeText(const std::vector<ReferenceQuestion>& questions);
 
 /// A hash of the user's file from which the scene is made. Empty for scenes of the program, whose code is in the
 /// fingerprint of the build.

@@ -91,8 +91,9 @@ class Sweep {
   void makeReferences(Ranks& ranks, std::ostream& out) {
     constexpr std::size_t kAtOnce = 10'000;  // specs
     std::vector<RunSpec> missing;
+    std::optional<Progress> progress(std::in_place, out, study_.id + " references");
     const auto prepare = [&] {
-      if (ranks.rank() == 0) references_.prepare(missing, study_.id + " references", out);
+      if (ranks.rank() == 0) references_.prepare(missing, &*progress);
       missing.clear();
     };
     for (const std::size_t i : asking_) {
@@ -105,6 +106,7 @@ class Sweep {
       if (missing.size() >= kAtOnce) prepare();
     }
     prepare();
+    progress.reset();  // tells the sum
     for (const auto& line : told_) fmt::print(out, "{}\n", line);
     ranks.meet();
   }

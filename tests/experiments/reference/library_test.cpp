@@ -1,10 +1,15 @@
 // References of runs: which runs get one, the cache, sweeps.
 #include "experiments/reference/library.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -63,7 +68,7 @@ TEST_F(ReferenceLibraryTest, IsMadeOnceAndThenRead) {
 
 TEST_F(ReferenceLibraryTest, ADamagedFileIsMadeAgain) {
   const auto question = referenceQuestion(spec(kUnknown));
-  keepReference(question, makeReference(question, {}, 1, nullptr));
+  keepReference(question, makeReferences({question}, {}, {}).front());
   ASSERT_EQ(cached().size(), 1u);
   const auto file = cached().front();
   const std::string good = contentsOf(file);
@@ -162,6 +167,55 @@ TEST_F(ReferenceLibraryTest, SolveHasAnErrorWithTheFlagOnly) {
   EXPECT_EQ(cached().size(), 1u);
 }
 
+// Standard error as a terminal, while one lives.
+class Terminal {
+ public:
+  Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY)), before_(dup(STDERR_FILENO)) {
+    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) throw std::runtime_error("no terminal");
+    const int slave = open(ptsname(master_), O_RDWR | O_NOCTTY);
+    dup2(slave, STDERR_FILENO);
+    close(slave);
+  }
+  ~Terminal() {
+    dup2(before_, STDERR_FILENO);
+    close(before_);
+    close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  /// What was printed, up to 64 kB.
+  std::string text() const {
+    std::string text(65536, '\0');
+    fcntl(master_, F_SETFL, O_NONBLOCK);
+    std::size_t length = 0;
+    for (ssize_t n = 0; (n = read(master_, text.data() + length, text.size() - length)) > 0;) {
+      length += static_cast<std::size_t>(n);
+    }
+    text.resize(length);
+    return text;
+  }
+
+ private:
+  int master_, before_;
+};
+
+TEST_F(ReferenceLibraryTest, OnlyATerminalSeesHowFarItIs) {
+  const std::vector<std::string> arguments{"solve",       "mechanical_dae",    "--t-end", "0.02",
+                                           "--method",    "radau_iia_2",       "--tol",   "1e-4",
+                                           "--reference", "--reference-times", "2"};
+  const auto silent = program(arguments);
+  EXPECT_EQ(std::count(silent.err.begin(), silent.err.end(), '\n'), 1) << silent.err;
+  EXPECT_TRUE(silent.err.starts_with("reference mechanical_dae, t = 0.01 ... 0.02 (2 times): ")) << silent.err;
+  std::filesystem::remove_all(folder() / "references");
+  const Terminal terminal;
+  std::ostringstream out;
+  EXPECT_EQ(runProgram(arguments, {out, std::cerr}), 0);
+  const std::string seen = terminal.text();
+  const std::string line = "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): in 50 digits, 0:00 so far";
+  EXPECT_TRUE(
+      containsAll(seen, {line, "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): 3", " digits, "}));
+}
+
 TEST_F(ReferenceLibraryTest, SolveSaysWhatIsNotMeasurable) {
   const auto run = program({"solve", "mechanical_dae", "--t-end", "0.02", "--scalar", "mp50", "--method",
                             "radau_iia_16", "--tol", "1e-30", "--reference"});
@@ -209,8 +263,8 @@ TEST_F(ReferenceLibraryTest, FinishedSweepsNeedNone) {
       parseStudy(std::string(kLibraryStudy) + "reference = \"auto\"\n", "small.toml", StudyVariant::kFull);
   std::ostringstream first, second;
   static_cast<void>(runStudy(study, options, first));
-  EXPECT_TRUE(containsAll(first.str(), {"small references: 2 runs made", "reference mechanical_dae, t = 0.02: ",
-                                        "reference mechanical_dae, t = 0.03: "}));
+  EXPECT_TRUE(containsAll(
+      first.str(), {"small references: 2 runs made", "reference mechanical_dae, t = 0.02 ... 0.03 (2 times): "}));
   std::filesystem::remove_all(folder() / "references");
   static_cast<void>(runStudy(study, options, second));
   EXPECT_TRUE(cached().empty());

@@ -12,7 +12,7 @@ namespace irk {
 namespace {
 
 ComputedReference make(const ReferenceQuestion& question, const ReferenceLimits& limits = {}) {
-  return makeReference(question, limits, 1, nullptr);
+  return makeReferences({question}, limits, {}).front();
 }
 
 ReferenceLimits onlyDouble() {
@@ -119,9 +119,26 @@ TEST(Making, TakesNoLongerThanItMay) {
       << made.problem;
 }
 
+// Each of the four runs is one integration through all times. kaps has the solution exp(-t).
+TEST(Making, SeveralTimesAreMadeTogether) {
+  const std::vector<ReferenceQuestion> questions{{"kaps", {}, 0.1}, {"kaps", {}, 0.25}, {"kaps", {}, 0.3}};
+  std::vector<std::string> shown;
+  const auto made = makeReferences(questions, {}, {.show = [&](const std::string& text) { shown.push_back(text); }});
+  ASSERT_EQ(made.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_TRUE(made[k].problem.empty()) << made[k].problem;
+    const auto& value = valueOf(made[k], "y2");
+    EXPECT_LE(abs(value.value - exp(-mp50(std::to_string(questions[k].t_end)))), mp50(value.accuracy));
+    EXPECT_LT(value.accuracy, 1e-24);
+    EXPECT_EQ(made[k].seconds, made[0].seconds) << "together";
+  }
+  ASSERT_FALSE(shown.empty());
+  EXPECT_TRUE(containsAll(shown[0], {"reference kaps, t = 0.1 ... 0.3 (3 times): in 50 digits, "}));
+}
+
 TEST(Making, AnInterruptIsNoAnswer) {
   const std::atomic<bool> stop = true;
-  const auto made = makeReference({"mechanical_dae", {}, 0.02}, {}, 1, &stop);
+  const auto made = makeReferences({{"mechanical_dae", {}, 0.02}}, {}, {.stop = &stop}).front();
   EXPECT_TRUE(made.interrupted);
   EXPECT_TRUE(made.values.empty());
 }
