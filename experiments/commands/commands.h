@@ -48,6 +48,10 @@ RunSpec solveSpec(const SolveOptions& options);
 /// The JSON object that `irk solve --json` prints, see solve.schema.json; indent -1: in one line.
 std::string solveJson(const RunRecord& record, int indent = 2);
 
+/// `the error is 5e+04 tolerances` for a success whose error in u, v or x, at t_end or over time, is above the audit's
+/// bar; else empty. Errors of multipliers are not judged.
+std::string largeErrorText(const RunRecord& record);
+
 /// The runs that options with lists describe, `m=1,2,4`: all combinations, the last list changes fastest. Throws
 /// Misuse for empty and repeated items.
 struct Sweep {

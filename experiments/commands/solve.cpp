@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/base/text.h"
+#include "experiments/audit/judge.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
@@ -81,6 +82,8 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
       fmt::print(out, "largest error at {} times {:.3e}\n", spec.reference_times, record.errors_over_time.all);
     }
     printDigits(out, record.errors);
+    const std::string large = largeErrorText(record);
+    if (!large.empty()) fmt::print(out, "{}, though the run is a success\n", large);
   } else if (!record.errors.remark.empty()) {
     fmt::print(out, "{}\n", record.errors.remark);
   } else if (record.succeeded()) {
@@ -217,6 +220,17 @@ RunSpec solveSpec(const SolveOptions& options) {
   spec = resolved(spec);
   refuseUnused(spec, givenFields(options));
   return spec;
+}
+
+std::string largeErrorText(const RunRecord& record) {
+  const auto& options = record.spec.options;
+  if (!record.succeeded() || options.step.control == StepControl::kFixed) return {};
+  const double tolerance = std::max(options.tolerances.rtol, options.tolerances.atol);
+  double error = 0;
+  for (const RunErrors* errors : {&record.errors, &record.errors_over_time}) {
+    for (const double group : {errors->u, errors->v, errors->x}) error = std::fmax(error, group);
+  }
+  return error > audit::bar(tolerance) ? fmt::format("the error is {:.2g} tolerances", error / tolerance) : "";
 }
 
 SolveReferences::SolveReferences(std::ostream& err)

@@ -100,9 +100,10 @@ std::string valuesText(const std::vector<std::string>& values, const std::vector
 
 void printLine(std::ostream& out, const std::string& values, const RunRecord& record) {
   const Counters& c = record.counters;
+  const std::string remark = record.succeeded() ? largeErrorText(record) : record.detail;
   fmt::print(out, "{}{:<14}  {:<10.3e}  {:>8}  {:>8}  {:>8}  {:>9.3g}{}{}\n", values, record.outcome, record.errors.all,
              c.steps_accepted, c.steps_rejected_error + c.steps_rejected_newton, c.newton_iterations, record.cpu_s,
-             record.succeeded() ? "" : "  ", record.succeeded() ? "" : record.detail);
+             remark.empty() && record.succeeded() ? "" : "  ", remark);
 }
 
 }  // namespace

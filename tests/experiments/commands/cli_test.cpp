@@ -71,6 +71,21 @@ TEST(Cli, AnExactSolutionIsAReference) {
   EXPECT_EQ(nlohmann::json::parse(run.out)["reference"], "exact");
 }
 
+// Other libraries' codes make such errors on this circuit; it is no failure.
+TEST(Cli, AKnownLargeErrorOfASuccessIsALine) {
+  const std::vector<std::string> run{"solve", "ringmod", "--method", "cvode_bdf", "--t-end", "1e-3", "--tol"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), run.begin(), run.end());
+    return program(more);
+  };
+  const auto large = with({"1e-6"});
+  EXPECT_EQ(large.status, 0);
+  EXPECT_TRUE(containsAll(large.out, {"\nthe error is ", "e+03 tolerances, though the run is a success\n"}));
+  EXPECT_TRUE(containsAll(with({"1e-6,1e-3"}).out, {"  the error is ", "e+03 tolerances\n"}));
+  const auto small = program({"solve", "van_der_pol", "--method", "cvode_bdf", "--tol", "1e-6"});
+  EXPECT_EQ(small.out.find("tolerances"), std::string::npos) << small.out;
+}
+
 // z = h lambda is known for fixed steps only; the names of components do not depend on it.
 TEST(Cli, ASettingOverTheStepIsSolvedAndPrinted) {
   const auto run =
