@@ -150,9 +150,13 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
   const bool quick = variant == StudyVariant::kQuick;
   for (const auto& [key, node] : root) readStudyKey(reader, key.str(), node, quick, result.study);
 
-  StudyKeys defaults;
+  StudyKeys defaults, common_quick;
   if (const auto* node = root.get("defaults"))
     reader.merge(reader.table("defaults", *node), defaults, FileReader::Quick::kRefused);
+  if (quick) reader.mergeQuick(root, common_quick);
+  for (auto* keys : {&defaults, &common_quick}) {
+    for (auto& [key, value] : *keys) value.common = true;
+  }
   const auto* blocks = root.get_as<toml::array>("block");
   if (root.contains("audit")) {
     for (const auto& [key, name] :
@@ -169,7 +173,7 @@ StudyFile parseStudyFile(std::string_view text, const std::string& file, StudyVa
     const toml::table& block = reader.table("block", node);
     StudyKeys keys = defaults;
     reader.merge(block, keys, FileReader::Quick::kLeftOut);
-    if (quick) reader.mergeQuick(root, keys);
+    for (const auto& [key, value] : common_quick) keys.insert_or_assign(key, value);
     if (quick) reader.mergeQuick(block, keys);
     keys.try_emplace("scene", StudyValue{{}, reader.place(node.source())});
     nameBlock(keys, names.size() + 1, reader.place(node.source()), names);

@@ -25,6 +25,8 @@ namespace irk {
 struct StudyValue {
   std::vector<std::string> items;
   std::string place;  ///< `file:line`
+  /// From [defaults] or [quick]: it need not have an effect on each block.
+  bool common = false;
 };
 using StudyKeys = std::map<std::string, StudyValue, std::less<>>;
 

@@ -106,7 +106,7 @@ void appendBlock(const StudyKeys& keys, SeriesList& all) {
   const auto most = integer(keys, "most_runs", kMaxRuns, 1, kMaxRunsAsked);
   refuseTooMany(keys, methods.size(), runsOfSeries(keys), most);
   const BlockSeries series(keys, methods);
-  refusePeersInSweeps(keys, methods);
+  refuseUnusedByPeers(keys, methods);
   all.append(series.size(), series);
 }
 

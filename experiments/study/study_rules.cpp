@@ -80,17 +80,29 @@ void refuseContradictions(const StudyKeys& block) {
   }
 }
 
-void refusePeersInSweeps(const StudyKeys& block, const std::vector<std::string>& methods) {
-  const auto peer = std::find_if(methods.begin(), methods.end(), [](const auto& id) { return findPeer(id); });
+void refuseUnusedByPeers(const StudyKeys& block, const std::vector<std::string>& methods) {
+  const auto isPeer = [](const auto& id) { return findPeer(id) != nullptr; };
+  const auto peer = std::find_if(methods.begin(), methods.end(), isPeer);
   if (peer == methods.end()) return;
+  const bool others = !std::all_of(methods.begin(), methods.end(), isPeer);
   const auto& taken = peerFields();
   for (const auto& [key, value] : block) {
-    if (value.items.size() < 2 || !isSpecKey(key) || key == "scene" || key == "settings") continue;
+    if (!isSpecKey(key) || key == "scene" || key == "settings") continue;
     if (std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
-    throw Misuse(
-        fmt::format("{}: {}: a list of {} has no effect on '{}', another library's integrator: give it a "
-                    "block of its own",
-                    value.place, key, value.items.size(), *peer));
+    if (value.items.size() > 1) {
+      throw Misuse(
+          fmt::format("{}: {}: a list of {} has no effect on '{}', another library's integrator: give it a "
+                      "block of its own",
+                      value.place, key, value.items.size(), *peer));
+    }
+    if (others || value.common) continue;
+    std::string names;
+    for (const auto& field : specFields()) {
+      const bool is_key = field.name != "method" && std::find(taken.begin(), taken.end(), field.name) != taken.end();
+      if (is_key) names += field.name + ", ";
+    }
+    throw Misuse(fmt::format("{}: {} has no effect on '{}', another library's integrator; it takes {}settings",
+                             value.place, key, *peer, names));
   }
 }
 

@@ -25,8 +25,9 @@ bool isSpecKey(std::string_view key);
 /// ineffective: `tolerances` and `steps`, `rtol` beside `tolerances`, `stages` without `families`, ...
 void refuseContradictions(const StudyKeys& block);
 
-/// Throws Misuse if a block varies an option that a peer does not use: the peer would repeat equal runs.
-void refusePeersInSweeps(const StudyKeys& block, const std::vector<std::string>& methods);
+/// Throws Misuse if a block varies an option that a peer does not use, since the peer would repeat equal runs, and if a
+/// block of peers only gives one, unless that is common to all blocks.
+void refuseUnusedByPeers(const StudyKeys& block, const std::vector<std::string>& methods);
 
 /// Throws Misuse for a block with more than `most` runs, naming its lists.
 void refuseTooMany(const StudyKeys& block, std::size_t methods, std::size_t runs_of_series, std::int64_t most);

@@ -1,6 +1,9 @@
 #include "experiments/study/toml/block_series.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "experiments/runs/setup.h"
@@ -39,10 +42,21 @@ BlockSeries::BlockSeries(const StudyKeys& keys, std::vector<std::string> methods
   findSweep(keys);
   const auto& scene = *find(keys, "scene");
   const auto* listed = find(keys, "methods");
+  const auto* given_end = find(keys, "t_end");
+  std::map<std::pair<std::string, Settings>, double> starts;  // a scene is made once for all its combinations
+  const auto startOf = [&](const RunSpec& spec) {
+    const auto [at, is_new] = starts.try_emplace({spec.scene, settingsAtStep(spec)});
+    if (is_new) at->second = atPlace(scene, [&] { return sceneOf<double>(spec).start.t; });
+    return at->second;
+  };
   for (std::size_t i = 0; i < combinations(); ++i) {
     RunSpec spec = atPlace(scene, [&] { return resolved(combination(i)); });
     t_ends_.push_back(spec.t_end);
-    if (planned_) starts_.push_back(atPlace(scene, [&] { return sceneOf<double>(spec).start.t; }));
+    if (planned_) starts_.push_back(startOf(spec));
+    if (given_end && spec.t_end < startOf(spec)) {
+      throw Misuse(fmt::format("{}: t_end = {} lies before the start of {}, t = {}", given_end->place,
+                               numberText(spec.t_end), spec.scene, numberText(startOf(spec))));
+    }
     for (const auto& method : listed ? methods_ : std::vector<std::string>()) {
       spec.method = method;
       atPlace(*listed, [&] { refuseFamilyOfFixedOrder(spec); });

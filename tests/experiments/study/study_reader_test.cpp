@@ -121,6 +121,27 @@ TEST(StudyReader, RefusesListsThatPeersDoNotTake) {
                                "\"difference_forward\"]\n"));
 }
 
+TEST(StudyReader, RefusesWhatBlocksOfPeersDoNotTake) {
+  const std::string peer = "[[block]]\nscene = \"kepler\"\nmethods = [\"ida_bdf\", \"cvode_bdf\"]\n";
+  EXPECT_EQ(misuseOf([&] { parse(peer + "newton = \"full\"\ntolerances = 0.1\n"); }).substr(0, 113),
+            "mine.toml:4: newton has no effect on 'ida_bdf', another library's integrator; it takes formulation, "
+            "scaling, disc");
+  EXPECT_TRUE(containsAll(misuseOf([&] { parse(peer + "tolerances = 0.1\nconfiguration = \"paper\"\n"); }),
+                          {"mine.toml:5: configuration has no effect", "h_max, ", "time_limit, ", ", settings"}));
+  EXPECT_NO_THROW(parse("[defaults]\nnewton = \"full\"\n" + peer + "tolerances = 0.1\nstorage = \"dense\"\n"));
+  static_cast<void>(parseStudy("[quick]\nnewton = \"full\"\n" + peer, "mine.toml", StudyVariant::kQuick));
+  EXPECT_TRUE(containsAll(misuseOf([&] { parse("[defaults]\nnewton = \"full\"\n" + peer + "newton = \"full\"\n"); }),
+                          {"mine.toml:6", "newton"}));
+}
+
+TEST(StudyReader, RefusesEndsBeforeTheStart) {
+  EXPECT_EQ(misuseOfLines("tolerances = 0.1\nt_end = [1, -0.5]"),
+            "mine.toml:5: t_end = -0.5 lies before the start of kepler, t = 0");
+  EXPECT_EQ(misuseOfLines("refine_most = 8\nt_end = -1"),
+            "mine.toml:5: t_end = -1 lies before the start of kepler, t = 0");
+  EXPECT_NO_THROW(parse(kStart + "t_end = [\"scene\", 1]\n"));
+}
+
 // These texts ended the program inside toml++.
 TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
   EXPECT_TRUE(containsAll(misuseOfLines("[\n[[block]]\n"), {"mine.toml:4", "name"}));
