@@ -117,17 +117,6 @@ std::vector<fs::path> userFiles(const std::vector<std::string>& files) {
   return users;
 }
 
-// An object that was compiled with other headers than the program would spoil its memory.
-void requireHeadersOfProgram(const std::vector<std::string>& files) {
-  std::error_code none;
-  const auto built = fs::last_write_time(fs::read_symlink("/proc/self/exe", none), none);
-  for (const auto& file : files) {
-    if (!isWithin(file, headerFolders()) || fs::last_write_time(file, none) <= built) continue;
-    throw Misuse(fmt::format(
-        "{} is newer than this program, which was built with a former version of it: build the program again", file));
-  }
-}
-
 std::string hashOfFiles(const std::vector<fs::path>& files) {
   std::string text;
   for (const auto& file : files) text += readInputFile(file.string()) + '\0';
@@ -197,6 +186,23 @@ std::string refusalOf(const fs::path& given, const std::string& source, const st
   return given.string() + ": it does not compile";
 }
 
+void requireHeadersOfProgram(const std::vector<std::string>& files, const fs::path& program) {
+  std::error_code none;
+  const auto built = fs::last_write_time(program, none);  // of the file that runs, also if it has no name any more
+  for (const auto& file : files) {
+    if (!isWithin(file, headerFolders()) || fs::last_write_time(file, none) <= built) continue;
+    constexpr std::string_view kGone = " (deleted)";  // as the system marks it
+    std::string name = fs::read_symlink(program, none).string();
+    if (name.ends_with(kGone)) {
+      name.resize(name.size() - kGone.size());
+      throw Misuse(fmt::format(
+          "{} was replaced since this program was started from it, and {} is newer: start it again", name, file));
+    }
+    throw Misuse(fmt::format(
+        "{} is newer than this program, which was built with a former version of it: build the program again", file));
+  }
+}
+
 Compiled compile(const fs::path& source, int digits, std::ostream& log) {
   (void)readInputFile(source.string());  // for its message
   const fs::path file = fs::canonical(source);
@@ -226,7 +232,7 @@ Compiled compile(const fs::path& source, int digits, std::ostream& log) {
   const auto files = userFiles(all);
   fs::remove(rule, none);
   try {
-    requireHeadersOfProgram(all);
+    requireHeadersOfProgram(all, "/proc/self/exe");
   } catch (const Misuse&) {
     fs::remove(made, none);
     throw;

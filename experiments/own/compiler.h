@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace irk::own {
 
@@ -26,5 +27,10 @@ std::string messagesAbout(const std::string& source, const std::string& messages
 /// `GIVEN:LINE: it does not compile: ERROR` with the first error of the messages; LINE is that of the error, or of the
 /// last place of `source` before it, if the error is in another file.
 std::string refusalOf(const std::filesystem::path& given, const std::string& source, const std::string& messages);
+
+/// An object that was compiled with other headers than the program would spoil its memory: throws Misuse if one of the
+/// program's own headers among `files` is newer than `program`, a link as /proc/self/exe, or says that the program was
+/// replaced by a new build since it was started.
+void requireHeadersOfProgram(const std::vector<std::string>& files, const std::filesystem::path& program);
 
 }  // namespace irk::own

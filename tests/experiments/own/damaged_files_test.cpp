@@ -1,6 +1,12 @@
 // What the program says about users' files that do not do what they should.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <ctime>
+#include <filesystem>
 #include <thread>
 
 #include "experiments/own/compiler.h"
@@ -70,6 +76,33 @@ TEST(CompilerMessages, TheRefusalNamesLineAndError) {
   EXPECT_EQ(refusal("/usr/x.h:1:2: error: no member\n    7 | text  error: none\n"),
             "mine.cpp: it does not compile: no member");
   EXPECT_EQ(refusal("killed\n"), "mine.cpp: it does not compile");
+}
+
+// The cause is told, though a program that was replaced is older than all headers, too.
+TEST(CompilerMessages, AProgramThatWasReplacedIsToBeStartedAgain) {
+  const TemporaryFolder folder;
+  const auto program = folder.path() / "irk";
+  std::filesystem::copy("/bin/sleep", program);
+  const auto ten_years = std::chrono::hours(24 * 3652);
+  std::filesystem::last_write_time(program, std::filesystem::file_time_type::clock::now() - ten_years);
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(program.c_str(), "irk", "100", nullptr);
+    _exit(127);
+  }
+  const std::filesystem::path running = "/proc/" + std::to_string(child) + "/exe";
+  while (std::filesystem::read_symlink(running) != program) std::this_thread::yield();
+  const std::string header = IRK_SOURCE_DIR "/core/include/irk/problem.h";
+  const auto refused = [&] { return misuseOf([&] { own::requireHeadersOfProgram({header}, running); }); };
+  EXPECT_EQ(refused(), header +
+                           " is newer than this program, which was built with a former version of it: build the "
+                           "program again");
+  std::filesystem::remove(program);
+  EXPECT_EQ(refused(), program.string() + " was replaced since this program was started from it, and " + header +
+                           " is newer: start it again");
+  EXPECT_NO_THROW(own::requireHeadersOfProgram({"/usr/include/stdio.h"}, running));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 void keepBusy(double seconds) {
