@@ -1,5 +1,6 @@
 #include "core/base/legendre.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -54,15 +55,18 @@ void legendre(const Real& x, Eigen::Ref<Vec<Real>> p) {
   const Real X = Real(2) * x - Real(1);
   Real now(1), before(0);
   const Table<Real>& known = table<Real>();
-  for (Index k = 0; k < p.size(); ++k) {
-    const Coefficients<Real> c = known.at(k);
+  const Index size = p.size();
+  Real* const values = p.data();
+  const auto add = [&](Index k, const Coefficients<Real>& c) {
     if (k > 0) {
       const Real next = c.up * X * now - c.down * before;
       before = now;
       now = next;
     }
-    p[k] = c.normal * now;
-  }
+    values[k] = c.normal * now;
+  };
+  for (Index k = 0; k < std::min(size, Table<Real>::kSize); ++k) add(k, known.row[static_cast<std::size_t>(k)]);
+  for (Index k = Table<Real>::kSize; k < size; ++k) add(k, Coefficients<Real>(k));
 }
 
 template <class Real>

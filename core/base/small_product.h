@@ -1,6 +1,8 @@
 // Products of matrices with few rows. There a general product spends more time on overhead than on arithmetic.
 #pragma once
 
+#include <array>
+
 #include "core/base/small_size.h"
 
 namespace irk {
@@ -8,6 +10,30 @@ namespace detail {
 
 /// Square matrices of this size at most are unrolled by columns, too.
 inline constexpr Index kUnrolledColumns = 3;
+/// Up to so many rows products of that size are made without a call.
+inline constexpr Index kInlinedRows = 4;
+
+/// All of N x K times K x C. Reads everything before it writes: else the compiler asks at run time whether `out`
+/// overlaps what is read, which takes longer than the product.
+template <Index N, Index K, Index C, class Real, class Start>
+[[gnu::always_inline]] inline void unrolledProduct(const Real* A, Index stride, const Real* B, Real* out,
+                                                   Index out_stride, Index row, const Start& start) {
+  std::array<Real, static_cast<std::size_t>(N * K)> a;
+  std::array<Real, static_cast<std::size_t>(N * C)> sum;
+  for (Index k = 0; k < K; ++k) {
+    for (Index i = 0; i < N; ++i) a[static_cast<std::size_t>(k * N + i)] = A[k * stride + i];
+  }
+  for (Index j = 0; j < C; ++j) {
+    Real* const s = sum.data() + j * N;
+    for (Index i = 0; i < N; ++i) s[i] = start(row + i, j);
+    for (Index k = 0; k < K; ++k) {
+      for (Index i = 0; i < N; ++i) s[i] += a[static_cast<std::size_t>(k * N + i)] * B[j * K + k];
+    }
+  }
+  for (Index j = 0; j < C; ++j) {
+    for (Index i = 0; i < N; ++i) out[j * out_stride + i] = sum[static_cast<std::size_t>(j * N + i)];
+  }
+}
 
 /// Computes N rows, out(:, j) = start(j) + sum_k A(:, k) B(k, j), with N accumulators in registers.
 template <Index N, class Real, class RightHand, class Start>
@@ -29,7 +55,10 @@ template <Index N, class Real, class RightHand, class Start>
   withSize<kMaxInner>(B.rows(), [&](auto inner) {
     if constexpr (!std::is_same_v<decltype(inner), Index>) {
       if constexpr (decltype(inner)::value <= kUnrolledColumns) {
-        if (B.cols() == inner) return columns(inner, inner);
+        constexpr Index kInner = decltype(inner)::value;
+        if (B.cols() == inner) {
+          return unrolledProduct<N, kInner, kInner>(A, stride, B.data(), out, out_stride, row, start);
+        }
       }
     }
     columns(inner, B.cols());
@@ -75,6 +104,35 @@ void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, R
 template <class Real, class RightHand, class Result>
 void smallProduct(const Eigen::Ref<const Mat<Real>>& A, const RightHand& B, Result&& out) {
   smallProduct(A.data(), A.outerStride(), A.rows(), B, out.data(), out.outerStride());
+}
+
+/// The same as smallProduct, for places where its call takes longer than its arithmetic: with up to four rows and a
+/// square B of up to three, or one such column, the product is made in place.
+template <class Real, class RightHand, class Start>
+[[gnu::always_inline]] inline void inlinedProduct(const Real* A, Index stride, Index rows, const RightHand& B,
+                                                  Real* out, Index out_stride, const Start& start) {
+  constexpr bool kColumn = RightHand::ColsAtCompileTime == 1;
+  const bool few = rows <= detail::kInlinedRows && B.rows() <= detail::kUnrolledColumns;
+  if (!std::is_same_v<Real, double> || !few || (!kColumn && B.cols() != B.rows())) {
+    return smallProduct(A, stride, rows, B, out, out_stride, start);
+  }
+  withSize<detail::kInlinedRows>(rows, [&](auto n) {
+    using Rows = decltype(n);
+    withSize<detail::kUnrolledColumns>(B.rows(), [&](auto k) {
+      using Inner = decltype(k);
+      if constexpr (!std::is_same_v<Rows, Index> && !std::is_same_v<Inner, Index>) {  // else there are no rows
+        constexpr Index C = kColumn ? 1 : Inner::value;
+        detail::unrolledProduct<Rows::value, Inner::value, C>(A, stride, B.data(), out, out_stride, 0, start);
+      }
+    });
+  });
+}
+
+/// The same with start = 0.
+template <class Real, class RightHand>
+[[gnu::always_inline]] inline void inlinedProduct(const Real* A, Index stride, Index rows, const RightHand& B,
+                                                  Real* out, Index out_stride) {
+  inlinedProduct(A, stride, rows, B, out, out_stride, [](Index, Index) { return Real(0); });
 }
 
 }  // namespace irk

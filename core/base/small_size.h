@@ -1,6 +1,7 @@
 // Unrolls loops over a few entries.
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include "irk/scalar.h"
@@ -42,6 +43,12 @@ template <Index Most, class F>
     default:
       return f(n);
   }
+}
+
+/// Copies n numbers that are few as a rule: up to nine without a call.
+template <class Real>
+[[gnu::always_inline]] inline void copyFew(const Real* from, Index n, Real* to) {
+  withSize<9>(n, [&](auto size) { std::copy_n(from, Index(size), to); });
 }
 
 }  // namespace irk

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/small_size.h"
 #include "core/newton/broyden.h"
 #include "core/newton/newton.h"
 
@@ -67,7 +68,7 @@ class NewtonBase : public Newton<Real> {
 
   /// Begins a new step; keeps its start values for restarts.
   void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
-    W0_ = W;
+    copyFew(W.data(), W.size(), W0_.data());
     c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
   }
 
@@ -87,9 +88,11 @@ class NewtonBase : public Newton<Real> {
     matrix.solve(R_.rightCols(R_.cols() - first_));
     VecView<Real> increment = implicit();
     if (updates) updates->apply(increment);
-    Real* const w = W.col(first_).data();
-    const Real* const d = increment.data();
-    for (Index i = 0; i < increment.size(); ++i) w[i] -= d[i];
+    Real* const __restrict w = W.col(first_).data();
+    const Real* const __restrict d = increment.data();
+    withSize<9>(increment.size(), [&](auto n) {
+      for (Index i = 0; i < n; ++i) w[i] -= d[i];
+    });
     return c.norm.increment(R_, first_, row_weights_);
   }
   VecView<Real> implicit() { return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)}; }

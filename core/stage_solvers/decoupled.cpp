@@ -195,8 +195,8 @@ Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) {
 
 // Subtracts the contributions of the blocks to the right of this one, which are solved already, from its rows.
 template <class Real, template <class> class Lu>
-void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& block) {
-  const Index n = Y_.rows();
+template <class Size>
+void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& block, Size n) {
   for (Index i = block.start; i < block.start + block.size; ++i) {
     Real* const y = Y_.data() + i * n;
     for (Index m = block.start + block.size; m < Y_.cols(); ++m) {
@@ -210,7 +210,8 @@ void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& bloc
 
 // Multiplies D1 and D2 by a column of Y. D1 acts on (v, x) and D2 on u; their other columns are zero.
 template <class Real, template <class> class Lu>
-void Decoupled<Real, Lu>::multiply(Index column) {
+template <class Size>
+void Decoupled<Real, Lu>::multiply(Index column, Size n) {
   const Index nu = setup_.sizes.nu, rates = nu + setup_.sizes.nx;
   auto D1y = D1Y_.col(column);
   auto D2y = D2Y_.col(column);
@@ -228,7 +229,6 @@ void Decoupled<Real, Lu>::multiply(Index column) {
       }
     }
   } else {
-    const Index n = Y_.rows();
     const auto times = [n, &y](const Vec<Real>& D, Index columns, Real* out) {
       std::fill_n(out, n, Real(0));
       for (Index j = 0; j < columns; ++j) detail::subtract(out, D.data() + j * n, Real(-y[j]), n);
@@ -262,10 +262,10 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride) {
   withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
-    smallProduct(rhs, stride, n, to_basis_, Y_.data(), n);
+    inlinedProduct(rhs, stride, n, to_basis_, Y_.data(), n);
     for (std::size_t k = form_.blocks.size(); k-- > 0;) {
       const auto& block = form_.blocks[k];
-      if (!form_.diagonal) coupleRows(block);
+      if (!form_.diagonal) coupleRows(block, n);
       Real* const y = Y_.data() + block.start * n;
       const Real* const inverse = inverses_[k].data();
       if (block.size == 1) {
@@ -276,9 +276,9 @@ void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride) {
         multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
       }
       if (form_.diagonal || k == 0) continue;
-      for (Index j = block.start; j < block.start + block.size; ++j) multiply(j);
+      for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, n);
     }
-    smallProduct(Y_.data(), n, n, from_basis_, rhs, stride);
+    inlinedProduct(Y_.data(), n, n, from_basis_, rhs, stride);
   });
 }
 
@@ -309,10 +309,10 @@ void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
   if (gathered_) together_->solve(lanes_);
   for (std::size_t k = form_.blocks.size(); k-- > 0 && !gathered_;) {
     const auto& block = form_.blocks[k];
-    if (!form_.diagonal) coupleRows(block);
+    if (!form_.diagonal) coupleRows(block, Y_.rows());
     solveBlock(k);
     if (form_.diagonal || k == 0) continue;
-    for (Index j = block.start; j < block.start + block.size; ++j) multiply(j);
+    for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, Y_.rows());
   }
   smallProduct<Real>(Y_, from_basis_, rhs);
 }

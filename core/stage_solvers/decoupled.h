@@ -32,8 +32,11 @@ class Decoupled final : public StageSolver<Real> {
   void makeFactors();
   bool factorizeTogether();
   Outcome factorizeBlock(std::size_t index);
-  void coupleRows(const typename BlockForm<Real>::Block& block);
-  void multiply(Index column);
+  template <class Size>
+  void coupleRows(const typename BlockForm<Real>::Block& block, Size n);
+  // Not inlined: in this context the compiler would contract other products and sums of `solveSmall`.
+  template <class Size>
+  [[gnu::noinline]] void multiply(Index column, Size n);
   void solveBlock(std::size_t index);
   void solveSmall(Real* rhs, Index stride);
   Outcome invertBlock(std::size_t index);

@@ -139,10 +139,13 @@ template <class Real>
 double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const {
   double sum = 0;
   withSize<8>(dW.rows(), [&](auto n) {
-    for (Index j = first; j < dW.cols(); ++j) {
-      const Real* const column = dW.data() + j * n;
-      for (Index i = 0; i < n; ++i) sum += squares[i] * square(static_cast<double>(column[i]));
-    }
+    const Real* const columns = dW.data() + first * n;
+    const double* const weight = squares.data();
+    withSize<3>(dW.cols() - first, [&](auto count) {
+      for (Index j = 0; j < count; ++j) {
+        for (Index i = 0; i < n; ++i) sum += weight[i] * square(static_cast<double>(columns[j * n + i]));
+      }
+    });
   });
   return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));
 }

@@ -27,7 +27,8 @@ class Extrapolated : public StagePredictor<Real> {
  public:
   explicit Extrapolated(const Scheme<Real>& scheme);
   void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) override {
-    smallProduct<Real>(past.W, weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h)), W);
+    const MatView<Real> matrix = weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h));
+    inlinedProduct(past.W.data(), past.W.rows(), past.W.rows(), matrix, W.data(), W.rows());
   }
 
  private:
@@ -82,7 +83,7 @@ void Extrapolated<Real>::compute(Weights& w) {
   }
   const auto amplification = [&] { return static_cast<double>(Real(matrix.col(farthest_).cwiseAbs().sum())); };
   const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
-  smallProduct<Real>(to_stages, basis, matrix);
+  inlinedProduct(to_stages.data(), degrees, degrees, basis, matrix.data(), degrees);
   if (amplification() <= kAmplificationLimit) return;
   matrix.setZero();
   for (Index k = 0; k < degrees; ++k) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/small_product.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -26,6 +27,12 @@ bool hasHiddenUnknowns(const System<Real>& system) {
   const auto& powers = system.errorPowers().z;
   const auto multipliers = static_cast<std::ptrdiff_t>(system.sizes().constraints);
   return std::any_of(powers.begin() + multipliers, powers.end(), [](int power) { return power > 0; });
+}
+
+// The sum of the stages with these weights.
+template <class Real, class Weights>
+void addStages(const Mat<Real>& W, const Weights& weights, Vec<Real>& sum) {
+  inlinedProduct(W.data(), W.rows(), W.rows(), weights, sum.data(), sum.size());
 }
 
 // Only a problem with switches has modes to settle.
@@ -94,7 +101,7 @@ void Stepper<Real>::solveAndKeep(const State<Real>& from, const Real& h, Jacobia
   if (!stages_.valid) return;
   stages_.t = from.t;
   stages_.h = h;
-  stages_.W = W_;
+  copyFew(W_.data(), W_.size(), stages_.W.data());
 }
 
 template <class Real>
@@ -121,7 +128,7 @@ template <class Real>
 double Stepper<Real>::startDefect(const State<Real>& from) {
   // Rates that index 2 hides are not known at a restart: (a, k) are then those of the mode before.
   if (has_hidden_unknowns_) return 0;
-  rates_.noalias() = W_ * eq_.scheme().start;
+  addStages(W_, eq_.scheme().start, rates_);
   rates_ -= from.w;
   const double missed = rate_norm_(rates_, stages_.h);
   const double changed = rate_norm_.largestChange(W_, from.w, stages_.h);
@@ -140,7 +147,7 @@ bool Stepper<Real>::leavesRoot(const State<Real>& from) {
   // A step that moves the solution by more than a tolerance may change its rates.
   if (!has_hidden_unknowns_ || tellsRates()) return false;
   const Index n = sizes_.nu + sizes_.nx;
-  rates_.noalias() = W_ * eq_.scheme().start;
+  addStages(W_, eq_.scheme().start, rates_);
   const Real size = rates_.head(n).norm() + from.w.head(n).norm();
   const Real change = (rates_.head(n) - from.w.head(n)).norm();
   // At rest the rates are round-off of (v, x), divided by h.
@@ -158,12 +165,12 @@ double Stepper<Real>::roughness(const State<Real>& from) {
   // One coefficient passes through zeros as a jump moves through the step; two neighbours have no zero in common.
   double sum = 0;
   for (Index k = W_.cols() - highest(); k < W_.cols(); ++k) {
-    rates_.noalias() = W_ * eq_.scheme().legendre_inverse_transposed.col(k);
+    addStages(W_, eq_.scheme().legendre_inverse_transposed.col(k), rates_);
     const double size = rate_norm_(rates_, stages_.h);
     sum += size * size;
   }
   if (eq_.scheme().stiffly_accurate) {
-    rates_.noalias() = W_ * eq_.scheme().start;
+    addStages(W_, eq_.scheme().start, rates_);
     rates_ -= from.w;
     const double missed = rate_norm_(rates_, stages_.h);
     if (missed > kStartTolerances) sum += missed * missed;

@@ -39,6 +39,38 @@ TEST(SmallSize, ProductsOfEverySize) {
   }
 }
 
+// Every size that is made in place and some that are not, with the same bits as the general product; the rows lie
+// between others, which stay as they are.
+TEST(SmallSize, InlinedProductsHaveTheBitsOfTheGeneralOne) {
+  const auto start = [](Index i, Index j) { return 0.1 * static_cast<double>(i) - 0.3 * static_cast<double>(j); };
+  for (Index rows = 0; rows <= 6; ++rows) {
+    for (Index inner = 1; inner <= 5; ++inner) {
+      for (const Index columns : {Index(1), Index(2), inner}) {
+        const Mat<double> A = Mat<double>::Random(rows + 2, inner), B = Mat<double>::Random(inner, columns);
+        Mat<double> expected = Mat<double>::Constant(rows + 3, columns, 7.0), all = expected;
+        smallProduct(A.data() + 1, rows + 2, rows, B, expected.data() + 1, rows + 3, start);
+        inlinedProduct(A.data() + 1, rows + 2, rows, B, all.data() + 1, rows + 3, start);
+        EXPECT_EQ(all, expected) << rows << " " << inner << " " << columns;
+        const Vec<double> b = B.col(0);
+        Vec<double> one = Vec<double>::Constant(rows + 3, 7.0), in_place = one;
+        smallProduct(A.data() + 1, rows + 2, rows, b, one.data() + 1, rows + 3);
+        inlinedProduct(A.data() + 1, rows + 2, rows, b, in_place.data() + 1, rows + 3);
+        EXPECT_EQ(in_place, one) << rows << " " << inner;
+      }
+    }
+  }
+}
+
+TEST(SmallSize, CopiesOfEverySize) {
+  for (Index n = 0; n <= 12; ++n) {
+    const Vec<double> from = Vec<double>::Random(n);
+    Vec<double> to = Vec<double>::Constant(n + 1, 7.0);
+    copyFew(from.data(), n, to.data());
+    EXPECT_EQ(to.head(n), from);
+    EXPECT_EQ(to[n], 7);
+  }
+}
+
 // Covers the unrolled and the general loops; the rows are ordered so that pivoting is needed.
 TEST(SmallInverse, RealAndComplexAgainstEigen) {
   for (Index n = 1; n <= kSmallInverse; ++n) {
