@@ -91,11 +91,19 @@ Index EmbeddedEstimate<Real>::worstComponent() const {
   return norm_.worst(error_, zero_, 1, ones_);
 }
 
-// Solves for e with the residual at `at_`, w = K(0), and sets `error_` to the error of the state that follows from e.
+// The point with u, and v, x, d of `state`, and w = K(0).
 template <class Real>
-Outcome EmbeddedEstimate<Real>::filter(const Real& h, EquationsAt at) {
-  at_.w = defect_;
-  system_.evaluate(Level::kFormulated, pointOf(at_), VecView<Real>(e_.data(), e_.rows()));
+Point<Real> EmbeddedEstimate<Real>::pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const {
+  const Index nu = sizes_.nu, nx = sizes_.nx;
+  const Real* const w = defect_.data();
+  return {t,       {u.data(), nu}, {state.v.data(), nu},     {state.x.data(), nx},
+          {w, nu}, {w + nu, nx},   {w + nu + nx, sizes_.nz}, {state.d.data(), sizes_.discrete}};
+}
+
+// Solves for e with the residual at `p`, and sets `error_` to the error of the state that follows from e.
+template <class Real>
+Outcome EmbeddedEstimate<Real>::filter(const Real& h, const Point<Real>& p, EquationsAt at) {
+  system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
   if (scaled_) e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
   if (at == EquationsAt::kGap) {
@@ -110,10 +118,13 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h, EquationsAt at) {
     own_.solve(e_);
   }
   const Real step = h * mu_;
-  error_.v = -step * e_.col(0).head(sizes_.nu);
-  error_.u = slip_ + step * error_.v;
-  error_.x = -step * e_.col(0).segment(sizes_.nu, sizes_.nx);
-  error_.z() = -e_.col(0).tail(sizes_.nz);
+  const Real* const e = e_.data();
+  for (Index i = 0; i < sizes_.nu; ++i) {
+    error_.v[i] = -step * e[i];
+    error_.u[i] = slip_[i] + step * error_.v[i];
+  }
+  for (Index i = 0; i < sizes_.nx; ++i) error_.x[i] = -step * e[sizes_.nu + i];
+  for (Index i = sizes_.nu + sizes_.nx; i < sizes_.n(); ++i) error_.w[i] = -e[i];
   return Outcome::kSuccess;
 }
 
@@ -123,16 +134,15 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
   const Real& h = stages.h;
   Result result;
   if (scaled_) rowScales(row_powers_, h, scales_);
-  smallProduct<Real>(stages.W, at_start.weights, defect_);
+  inlinedProduct(stages.W.data(), sizes_.n(), sizes_.n(), at_start.weights, defect_.data(), sizes_.n());
   // v0 - V(0) = -h sum_j (A^T l)_j a_j
-  smallProduct(stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
-  slip_ *= -mu_ * h * h;
-  at_.t = from.t;
-  at_.d = from.d;
-  at_.u = from.u + slip_;
-  at_.v = from.v;
-  at_.x = from.x;
-  result.outcome = filter(h, EquationsAt::kStart);
+  inlinedProduct(stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
+  const Real factor = -mu_ * h * h;
+  for (Index i = 0; i < sizes_.nu; ++i) {
+    slip_[i] *= factor;
+    at_.u[i] = from.u[i] + slip_[i];
+  }
+  result.outcome = filter(h, pointAt(from.t, at_.u, from), EquationsAt::kStart);
   if (result.outcome != Outcome::kSuccess) return result;
   result.error = norm_.magnitude(error_, static_cast<double>(h));
   if (result.error > again_above) {
@@ -140,7 +150,8 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
     at_.u = from.u + error_.u + slip_;
     at_.v = from.v + error_.v;
     at_.x = from.x + error_.x;
-    result.outcome = filter(h, EquationsAt::kStart);
+    at_.d = from.d;
+    result.outcome = filter(h, pointAt(from.t, at_.u, at_), EquationsAt::kStart);
     if (result.outcome != Outcome::kSuccess) return result;
     result.error = norm_.magnitude(error_, static_cast<double>(h));
   }
@@ -165,7 +176,7 @@ auto EmbeddedEstimate<Real>::missed(const StagePolynomial<Real>& stages, const V
   smallProduct<Real>(stages.W, weights, defect_);
   slip_.setZero();
   const auto filtered = [&] {
-    result.outcome = filter(filter_h, EquationsAt::kGap);
+    result.outcome = filter(filter_h, pointAt(at_.t, at_.u, at_), EquationsAt::kGap);
     if (result.outcome != Outcome::kSuccess) return false;
     error_.z().setZero();
     const Real scale = part * stages.h / (mu_ * filter_h);

@@ -72,7 +72,8 @@ class EmbeddedEstimate {
                   double again_above);
   Result missed(const StagePolynomial<Real>& stages, const Vec<Real>& weights, const Real& part, const Real& filter_h);
   enum class EquationsAt { kStart, kGap };
-  Outcome filter(const Real& h, EquationsAt at);
+  Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
+  Outcome filter(const Real& h, const Point<Real>& p, EquationsAt at);
 
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
@@ -88,7 +89,7 @@ class EmbeddedEstimate {
   AtStart start_, lower_;  // with the full degree, and with a lower one
   Vec<Real> defect_;       // K(0), n
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
-  State<Real> at_;         // the point where the residual is evaluated
+  State<Real> at_;         // the point where the residual is evaluated, unless that is the step's start
   State<Real> error_, zero_;
   double behind_;  // 1 - c_s
   Vec<double> ones_;

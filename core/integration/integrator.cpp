@@ -142,12 +142,11 @@ class Integrator<Real>::Run {
     error_sum_.begin();
     too_small_ = Outcome::kStepTooSmall;
     for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
-      Stop stop = askCaller(h);
-      if (!stop) stop = cannotGoOn(attempts, h, t_end);
-      if (!stop) stop = adaptiveStep(h, beforeTime(t_end));
-      const Outcome outcome = stop ? Outcome::kSuccess : passTimes();
-      if (outcome != Outcome::kSuccess) stop = {outcome, h, "the switch cannot be passed"};
-      if (stop) return stop;
+      if (Stop stop = askCaller(h)) return stop;
+      if (Stop stop = cannotGoOn(attempts, h, t_end)) return stop;
+      if (Stop stop = adaptiveStep(h, beforeTime(t_end))) return stop;
+      const Outcome outcome = passTimes();
+      if (outcome != Outcome::kSuccess) return {outcome, h, "the switch cannot be passed"};
     }
     return {};
   }

@@ -19,10 +19,11 @@ template <class Real>
 class LocatedAfterStep final : public ModesAfterStep<Real> {
  public:
   LocatedAfterStep(const System<Real>& system, const IntegratorOptions& options)
-      : locator_(system, locationTolerance(options)) {}
+      : none_(system.sizes().switches == 0), locator_(system, locationTolerance(options)) {}
 
   CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
                              const Real& h, State<Real>& next) override {
+    if (none_) return {Outcome::kSuccess, solved, h};
     const Location<Real> at = locator_.locate(attempt, from, h, next);
     CommittedStep<Real> step{at.outcome, solved, h};
     step.index = at.index;
@@ -43,6 +44,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
   }
 
  private:
+  bool none_;  // no switches to look for
   EventLocator<Real> locator_;
 };
 

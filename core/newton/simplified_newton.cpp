@@ -113,7 +113,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
         // Increments at round-off no longer contract; above round-off this is divergence.
         if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
         eta = of_step = etaOf(theta);
-        const bool slow = adaptive_ && power(theta, limit - 1 - m) * eta * norm > kappa;
+        // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
+        const bool slow =
+            adaptive_ && !(eta * norm <= kappa && theta < 1) && power(theta, limit - 1 - m) * eta * norm > kappa;
         if (theta >= 0.99 || slow) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
