@@ -1,3 +1,5 @@
+#ifdef IRK_HAS_MPI
+
 #include "experiments/runner/mpi_ranks.h"
 
 #include <mpi.h>
@@ -196,3 +198,5 @@ class MpiRanks final : public Ranks {
 std::unique_ptr<Ranks> mpiRanks() { return std::make_unique<MpiRanks>(); }
 
 }  // namespace irk
+
+#endif  // IRK_HAS_MPI

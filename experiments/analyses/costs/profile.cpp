@@ -85,10 +85,10 @@ void appendProfile(const TableRow& start, std::vector<Time> times, const Ids& so
     }
     if (given == 0) continue;
     std::sort(ratios.begin(), ratios.end());
-    const auto addRow = [&](double ratio, std::size_t count) {
+    const auto addRow = [&, &name = solver](double ratio, std::size_t count) {
       const double fraction = static_cast<double>(count) / static_cast<double>(given);
       TableRow row = start;
-      row.insert(row.end(), {solver, numberText(ratio), numberText(fraction), std::to_string(given), problems});
+      row.insert(row.end(), {name, numberText(ratio), numberText(fraction), std::to_string(given), problems});
       table.add(row);
     };
     if (ratios.empty()) addRow(1, 0);
