@@ -141,11 +141,17 @@ double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<do
   withSize<8>(dW.rows(), [&](auto n) {
     const Real* const columns = dW.data() + first * n;
     const double* const weight = squares.data();
-    withSize<3>(dW.cols() - first, [&](auto count) {
+    const auto add = [&](auto count) {
       for (Index j = 0; j < count; ++j) {
         for (Index i = 0; i < n; ++i) sum += weight[i] * square(static_cast<double>(columns[j * n + i]));
       }
-    });
+    };
+    // With many rows, columns side by side would take longer than one after the other.
+    if constexpr (std::is_same_v<decltype(n), Index>) {
+      add(dW.cols() - first);
+    } else {
+      withSize<3>(dW.cols() - first, add);
+    }
   });
   return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));
 }
