@@ -137,20 +137,21 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
 
 template <class Real>
 double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const {
-  double sum = 0;
-  withSize<8>(dW.rows(), [&](auto n) {
+  const double sum = withSize<8>(dW.rows(), [&](auto n) {
     const Real* const columns = dW.data() + first * n;
     const double* const weight = squares.data();
-    const auto add = [&](auto count) {
+    const auto squared = [=](auto count) {
+      double sum_of_columns = 0;
       for (Index j = 0; j < count; ++j) {
-        for (Index i = 0; i < n; ++i) sum += weight[i] * square(static_cast<double>(columns[j * n + i]));
+        for (Index i = 0; i < n; ++i) sum_of_columns += weight[i] * square(static_cast<double>(columns[j * n + i]));
       }
+      return sum_of_columns;
     };
-    // With many rows, columns side by side would take longer than one after the other.
+    const Index count = dW.cols() - first;
     if constexpr (std::is_same_v<decltype(n), Index>) {
-      add(dW.cols() - first);
+      return squared(count);
     } else {
-      withSize<3>(dW.cols() - first, add);
+      return withSize<3>(count, squared);
     }
   });
   return std::sqrt(sum / static_cast<double>(sizes_.components() * (dW.cols() - first)));
