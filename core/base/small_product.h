@@ -118,13 +118,15 @@ template <class Real, class RightHand, class Start>
   }
   withSize<detail::kInlinedRows>(rows, [&](auto n) {
     using Rows = decltype(n);
-    withSize<detail::kUnrolledColumns>(B.rows(), [&](auto k) {
-      using Inner = decltype(k);
-      if constexpr (!std::is_same_v<Rows, Index> && !std::is_same_v<Inner, Index>) {  // else there are no rows
-        constexpr Index C = kColumn ? 1 : Inner::value;
-        detail::unrolledProduct<Rows::value, Inner::value, C>(A, stride, B.data(), out, out_stride, 0, start);
-      }
-    });
+    if constexpr (!std::is_same_v<Rows, Index>) {  // else there are no rows
+      withSize<detail::kUnrolledColumns>(B.rows(), [&](auto k) {
+        using Inner = decltype(k);
+        if constexpr (!std::is_same_v<Inner, Index>) {
+          constexpr Index C = kColumn ? 1 : Inner::value;
+          detail::unrolledProduct<Rows::value, Inner::value, C>(A, stride, B.data(), out, out_stride, 0, start);
+        }
+      });
+    }
   });
 }
 

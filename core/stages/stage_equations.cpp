@@ -40,9 +40,9 @@ bool areFinite(const Mat<Real>& R) {
     if constexpr (std::is_same_v<decltype(n), Index> || !std::is_same_v<Real, double>) {
       return (R.array() * Real(0)).sum() == Real(0);
     } else {
-      double sum = 0;
-      for (Index i = 0; i < n; ++i) sum += R.data()[i] * 0.0;
-      return sum == 0;
+      Real sum(0);
+      for (Index i = 0; i < n; ++i) sum += R.data()[i] * Real(0);
+      return sum == Real(0);
     }
   });
 }
