@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/reference/course.h"
@@ -37,7 +38,7 @@ Attempted attempt(const ReferenceSpecs& specs, const std::vector<std::string>& t
 /// What the runs of an attempt cost, while they are made. Not thread-safe.
 class AttemptCosts {
  public:
-  AttemptCosts(double limit, const Course& course) : limit_(limit), course_(course) {}
+  AttemptCosts(double limit, Course course) : limit_(limit), course_(std::move(course)) {}
 
   /// A run has come to t and has taken these seconds. Why all runs must end now, in one line; empty: they need not.
   std::string reached(std::size_t run, double t, double cpu_s);
@@ -50,7 +51,7 @@ class AttemptCosts {
     double cpu_s = 0, part = 0;
   };
   double limit_;
-  const Course& course_;
+  Course course_;
   std::array<Run, kReferenceRuns> runs_;
 };
 
