@@ -56,6 +56,26 @@ TEST(FigureCurves, WorkPrecision) {
   expectPoints(several.marks('c', 1, kLog, kLog), runPoints("error", "factorizations", 3, 7), "c");
 }
 
+// E5 reports errors of 1e-188 once its components have all but vanished; without a least error nothing else is legible.
+TEST(FigureCurves, WorkDrawsNoErrorBelowRoundOffOfDouble) {
+  for (const auto& [scalar, least] : {std::pair("double", 1e-17), std::pair("mp50", 1e-64)}) {
+    Drawing drawing;
+    std::vector<Cells> rows;
+    for (const char* error : {"1e-4", "1e-8", "1e-64"}) {
+      rows.push_back(
+          run(static_cast<int>(rows.size()) + 1,
+              {{"scene", "e5"}, {"family", "gauss"}, {"stages", "3"}, {"error", error}, {"scalar", scalar}}));
+    }
+    drawing.put("runs.csv", kRunColumns, rows);
+    const Svg svg = drawing.draw("work_precision.gp", "scene='e5'; family='gauss'");
+    auto marks = svg.marks('a', 1, kLog, kLog);
+    ASSERT_EQ(marks.size(), 3u);
+    EXPECT_NEAR(std::log10(marks[0].x), -4, 0.1);
+    EXPECT_NEAR(std::log10(marks[1].x), -8, 0.1);
+    EXPECT_NEAR(std::log10(marks[2].x), std::log10(least), 0.5) << scalar;
+  }
+}
+
 TEST(FigureCurves, WorkBy) {
   Drawing drawing;
   std::vector<Cells> rows;
