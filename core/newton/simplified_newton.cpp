@@ -35,6 +35,9 @@ constexpr double kWorthUpdates = 0.1;
 // With fewer unknowns the updates cost more than an iteration (van_der_pol: a tenth of the run).
 constexpr Index kUpdatesFrom = 3;
 
+// The round-off of increments has not been measured yet.
+constexpr double kUnknownFloor = -1;
+
 // theta before any step has shown one: assumes no contraction.
 constexpr double kUnknownTheta = 1;
 
@@ -83,6 +86,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   void forget() override {
     eta_ = theta_ = 1;
     slowest_ = kUnknownTheta;
+    floor_ = kUnknownFloor;
   }
 
  protected:
@@ -97,7 +101,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double kappa = limit_.after(c.counters.steps_accepted);
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
-    double previous = 0;
+    double previous = 0, before_previous = 0;
     if (updates_) updates_->begin(theta_ > kWorthUpdates);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
@@ -111,12 +115,13 @@ class SimplifiedNewton : public NewtonBase<Real> {
         const bool is_bound = m > 1 && norm <= kRoundOffUnits * this->round_off_;
         if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
         // Increments at round-off no longer contract; above round-off this is divergence.
-        if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+        const bool may_stagnate = theta >= 0.5 && norm <= kStagnationUnits * this->round_off_;
+        if (may_stagnate && (norm >= 0.5 * before_previous || norm <= kMeasuredRoundOff * floor(c, W))) return result;
         eta = of_step = etaOf(theta);
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
         const bool slow =
             adaptive_ && !(eta * norm <= kappa && theta < 1) && power(theta, limit - 1 - m) * eta * norm > kappa;
-        if (theta >= 0.99 || slow) {
+        if (!may_stagnate && (theta >= 0.99 || slow)) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
           return result;
@@ -131,6 +136,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
       }
+      before_previous = previous;
       previous = norm;
       if (updates_) updates_->learn(this->implicit(), this->row_weights_);
     }
@@ -139,36 +145,48 @@ class SimplifiedNewton : public NewtonBase<Real> {
   static double etaOf(double theta) {
     return theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
   }
-  // Whether an increment that no longer contracts is round-off of the residual: for a change of w in the last digits of
-  // the sums that it enters, the part of the increment that the change does not explain. With a singular matrix in
-  // front of k, or with large terms that cancel, the residual has much more round-off than eps.
+  // Whether an increment that no longer contracts is round-off of the residual.
   bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, double norm) {
-    if (!adaptive_ || !(norm <= kMaxRoundOff) || !this->residual(c, W)) return false;
-    const Mat<Real> before = this->R_;
-    const Mat<Real> change = lastDigits(c, W);
-    if (!this->residual(c, W + change)) return false;
-    this->R_ -= before;
-    c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
-    this->R_ -= change;
-    const double floor = c.norm.increment(this->R_, this->first_, this->row_weights_);
-    return norm <= kMeasuredRoundOff * floor;
+    return adaptive_ && norm <= kMaxRoundOff && norm <= kMeasuredRoundOff * measuredFloor(c, W);
   }
-  // Last digits of w, and of u, v, x to which h^2 a, h a and h k are added; with alternating signs.
-  static Mat<Real> lastDigits(const NewtonContext<Real>& c, const Mat<Real>& W) {
+  // The same round-off, measured at the first use after `forget`.
+  double floor(NewtonContext<Real>& c, const Mat<Real>& W) {
+    if (floor_ == kUnknownFloor) {
+      increment_ = this->R_;
+      floor_ = measuredFloor(c, W);
+      this->R_ = increment_;
+    }
+    return floor_;
+  }
+  // Round-off of an increment: for a change of w in the last digits of the sums that it enters, the part of the
+  // increment that the change does not explain. With a singular matrix in front of k, or with large terms that cancel,
+  // the residual has much more round-off than eps. 0 if it cannot be measured.
+  double measuredFloor(NewtonContext<Real>& c, const Mat<Real>& W) {
+    if (!this->residual(c, W)) return 0;
+    before_ = this->R_;
+    lastDigits(c, W);
+    changed_ = W + change_;
+    if (!this->residual(c, changed_)) return 0;
+    this->R_ -= before_;
+    c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
+    this->R_ -= change_;
+    return c.norm.increment(this->R_, this->first_, this->row_weights_);
+  }
+  // Sets change_ to last digits of w, and of u, v, x to which h^2 a, h a and h k are added; with alternating signs.
+  void lastDigits(const NewtonContext<Real>& c, const Mat<Real>& W) {
     using std::abs;
     const State<Real>& from = c.eq.from();
     const Index nu = from.u.size(), nx = from.x.size();
     const Real h = c.eq.h(), eps = Real(kLastDigits) * Eigen::NumTraits<Real>::epsilon();
-    Mat<Real> change(W.rows(), W.cols());
+    change_.resize(W.rows(), W.cols());
     for (Index j = 0; j < W.cols(); ++j) {
       for (Index i = 0; i < W.rows(); ++i) {
         Real size = abs(W(i, j));
         if (i < nu) size += abs(from.v[i]) / h + abs(from.u[i]) / (h * h);
         if (i >= nu && i < nu + nx) size += abs(from.x[i - nu]) / h;
-        change(i, j) = (i + j) % 2 == 0 ? Real(eps * size) : Real(-eps * size);
+        change_(i, j) = (i + j) % 2 == 0 ? Real(eps * size) : Real(-eps * size);
       }
     }
-    return change;
   }
   NewtonResult fail(NewtonResult result, Outcome outcome) {
     forget();
@@ -178,7 +196,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
 
   IncrementLimit limit_;
   bool adaptive_;
+  Mat<Real> increment_, before_, change_, changed_;  // of `floor`; empty until its first use
   double eta_ = 1, theta_ = 1;
+  double floor_ = kUnknownFloor;    // round-off of an increment, in tolerances
   double slowest_ = kUnknownTheta;  // theta of the last step's last increment, the third or a later one
 };
 
