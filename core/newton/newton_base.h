@@ -49,7 +49,10 @@ IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
   const double s = static_cast<double>(stages);
   const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
   const double kappa = options.newton.kappa;
-  const double wanted = kappa > 0 ? kappa : std::min(0.03, std::pow(rtol, (s - 1) / (s + 1)));
+  // The difference of a step and its halves, divided by 2^q - 1, hides what Newton's method leaves in them.
+  constexpr double kHidden = 0.1;
+  const double part = options.step.estimate == ErrorEstimate::kRichardson ? kHidden : 1;
+  const double wanted = kappa > 0 ? kappa : part * std::min(0.03, std::pow(rtol, (s - 1) / (s + 1)));
   const double limit = std::max(floor, wanted);
   return {limit, floor > wanted, kappa > 0 ? limit : floor};
 }

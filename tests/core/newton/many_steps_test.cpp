@@ -32,6 +32,14 @@ TEST(ManySteps, KappaFallsWithTheNumberOfSteps) {
   EXPECT_DOUBLE_EQ(limit.after(std::int64_t{1} << 60), 10 * 2.220446049250313e-16 / 1e-6);
 }
 
+// The difference of a step and its halves is divided by 2^q - 1, and with it what Newton's method has left in them.
+TEST(ManySteps, KappaIsSmallerWhereTheEstimateHidesNewtonsRest) {
+  const auto kappa = [](ErrorEstimate estimate) { return incrementLimit<double>(tight(1e-6, estimate), 3).kappa; };
+  EXPECT_DOUBLE_EQ(kappa(ErrorEstimate::kEmbedded), 1e-3);
+  EXPECT_DOUBLE_EQ(kappa(ErrorEstimate::kRichardson), 1e-4);
+  EXPECT_DOUBLE_EQ(kappa(ErrorEstimate::kDoubling), 1e-3) << "the paper's stays";
+}
+
 TEST(ManySteps, TheCallersKappaStays) {
   IntegratorOptions options = tight(1e-6, ErrorEstimate::kEmbedded);
   options.newton.kappa = 0.1;
@@ -63,6 +71,30 @@ TEST(ManySteps, OfAMethodOfOrderTwoOnThePendulumKeepTheTolerance) {
   EXPECT_GT(lobatto.solution.counters.steps_accepted, 50'000);
   EXPECT_LT((lobatto.solution.state.u - radau.solution.state.u).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT((lobatto.solution.state.v - radau.solution.state.v).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+// A top that spins at 358 rad/s and multiplies errors by 450. Newton's method contracts slowly, and one increment that
+// does not contract is not yet round-off: steps that ended there left 2.6e-9 in the end, 2600 tolerances.
+TEST(ManySteps, DoNotEndAtOneSlowIncrement) {
+  const Settings settings = {{"J1", "0.112"}, {"J3", "0.719"},         {"g", "29.3"},  {"l", "2.51"},
+                             {"m", "34.6"},   {"precession", "-1.72"}, {"spin", "358"}};
+  const auto scene = makeScene<double>("heavy_top", settings);
+  const auto end = [&](const Methods<double>& methods, NewtonKind newton, OrderControl order, double h_max) {
+    IntegratorOptions options = tight(1e-12, ErrorEstimate::kEmbedded);
+    options.newton.kind = newton;
+    options.order = order;
+    options.jacobian_point = JacobianPoint::kPredicted;
+    options.step.h_max = h_max;
+    Integrator<double> integrator(scene.system({.formulation = Formulation::kIndex2Projected}), methods, options,
+                                  scene.scale);
+    return integrator.integrate(scene.start, scene.t_end);
+  };
+  const auto fast = end(makeMethods<double>("radau_iia", 13, 9), NewtonKind::kBroyden, OrderControl::kVariable, 1e300);
+  const auto careful = end(makeTableau<double>("radau_iia_7"), NewtonKind::kSimplified, OrderControl::kFixed, 1e-3);
+  ASSERT_EQ(fast.outcome, Outcome::kSuccess) << fast.detail;
+  ASSERT_EQ(careful.outcome, Outcome::kSuccess) << careful.detail;
+  EXPECT_LT((fast.state.u - careful.state.u).cwiseAbs().maxCoeff(), 3e-10);
+  EXPECT_LT((fast.state.v - careful.state.v).cwiseAbs().maxCoeff(), 3e-10 * 200);
 }
 
 }  // namespace
