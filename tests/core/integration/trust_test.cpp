@@ -72,7 +72,7 @@ TEST(Success, ContactInsideOneStepIsSeenWithoutLocation) {
 }
 
 /// x' = d, where d is 1 while |t - centre| < `width`; the switching function, a parabola, is positive only then.
-struct Blink {
+struct Flash {
   double centre = 0.53, width = 1e-3;
   Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 2}; }
   template <class T>
@@ -94,7 +94,7 @@ struct Blink {
 // The pulse lasts a hundredth of the distance between two samples; it also occurs at both ends of a step.
 TEST(Success, SwitchThatComesAndGoesBetweenTwoSamplesIsFound) {
   for (const double centre : {0.002, 0.03, 0.06, 0.3, 0.53, 0.77, 0.94, 0.97, 0.998}) {
-    const Blink problem{centre, 1e-3};
+    const Flash problem{centre, 1e-3};
     const State<double> start(problem.sizes());
     for (IntegratorOptions options : {adaptive(1e-8), embedded(1e-8)}) {
       options.step.h = 1;  // the whole interval is the first step
