@@ -18,6 +18,16 @@ bool dampsStiffErrors(const Scheme<Real>& scheme) {
   return abs(Real(Real(1) - scheme.d.sum())) < Real(0.99);
 }
 
+/// Whether |R(z)| does not exceed 1 far in the left half plane: 1 + z b^T (I - z A)^-1 1 at z = -10^6.
+template <class Real>
+bool isStableAtInfinity(const Scheme<Real>& scheme) {
+  const Real z = Real(-1e6);
+  const Index s = scheme.s;
+  const Mat<Real> shifted = Mat<Real>::Identity(s, s) - z * scheme.A;
+  const Vec<Real> stages = shifted.fullPivLu().solve(Vec<Real>::Ones(s));
+  return std::abs(static_cast<double>(Real(Real(1) + z * scheme.b.dot(stages)))) < 1.01;
+}
+
 /// Factor of the estimate for stiff components: 1 if they have the order of the others and are damped, else 10. With
 /// Gauss, Radau IA and all Lobatto families they have the order of the stages or are not damped, which no estimate of
 /// one step shows.
@@ -72,8 +82,9 @@ inline double largestError(const Tolerances& tolerances) {
   return kBar + kRoundOff / std::max(tolerances.rtol, tolerances.atol);
 }
 
-/// The sum of the estimated errors of all steps. The result is better than the sum if errors of stiff components decay,
-/// and worse if the motion amplifies errors. A result above the limit is not trusted.
+/// The sum of the estimated errors of all steps. The result is better than the
+/// sum if errors of stiff components decay, and worse if the motion amplifies errors. A result above the limit is not
+/// trusted.
 class ErrorSum {
  public:
   explicit ErrorSum(const Tolerances& tolerances) : bar_(largestError(tolerances)) {}

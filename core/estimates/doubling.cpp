@@ -8,6 +8,7 @@
 
 #include "core/estimates/accumulation.h"
 #include "core/estimates/embedded.h"
+#include "core/estimates/error_transport.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -117,6 +118,7 @@ class Doubling : public StepAttempt<Real> {
     if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
     // ... and 2^p - 1 divides by too much where the halves do not show order p.
     if (looks_again_) result.error = worse(result.error, order_, unresolved(), 1);
+    if (transport_ && result.error <= 1) transport_->carry(whole_, from, coarse_, to, factor_, norm_);
     return result;
   }
   void forget() override {
@@ -128,12 +130,14 @@ class Doubling : public StepAttempt<Real> {
     steps_ = 0;
     sum_ = 0;
     accumulation_.begin();
+    if (transport_) transport_->begin();
     continues_ = restarted_ = watches_start_ = vague_start_ = false;
   }
   void restart() override {
     forget();
     continues_ = false;
     restarted_ = watches_start_ = vague_start_ = true;
+    if (transport_) transport_->restart();
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
     // If this step ended with a restart, restart() was called before: the next step is the first one after it.
@@ -143,7 +147,11 @@ class Doubling : public StepAttempt<Real> {
     }
     ++steps_;
     sum_ += result.added;
+    if (transport_) transport_->accept();
     return StepAttempt<Real>::accepted(result, h, h_next);
+  }
+  double carriedError() const override {
+    return transport_ ? transport_->size(norm_) : StepAttempt<Real>::carriedError();
   }
   int order() const override { return order_; }
   Index worstComponent() const override { return worst_; }
@@ -176,6 +184,10 @@ class Doubling : public StepAttempt<Real> {
         keeps_pieces_(locates_),
         coarse_(system.sizes()),
         middle_(system.sizes()) {
+    const bool keeps = catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
+    if (ownOrders(options) && keeps && isStableAtInfinity(scheme)) {
+      transport_ = std::make_unique<ErrorTransport<Real>>(system.sizes(), scheme.s);
+    }
     if (!looks_again_ || !canLookIntoGaps(scheme, options)) return;
     gaps_ = std::make_unique<EmbeddedEstimate<Real>>(system, scheme, options, setup.jacobian, half_.matrix(),
                                                      setup.norm, setup.counters);
@@ -213,7 +225,8 @@ class Doubling : public StepAttempt<Real> {
   }
 
   Stepper<Real> whole_, half_;
-  std::unique_ptr<EmbeddedEstimate<Real>> gaps_;  // null if the last stage is at the end
+  std::unique_ptr<ErrorTransport<Real>> transport_;  // null for the paper's estimates
+  std::unique_ptr<EmbeddedEstimate<Real>> gaps_;     // null if the last stage is at the end
   bool accumulates_;  // false for the paper's estimates, and in index 3 because of round-off of velocities
   Accumulation accumulation_;
   std::int64_t steps_ = 0;      // accepted

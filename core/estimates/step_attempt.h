@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,9 @@ class StepAttempt {
     static_cast<void>(h);
     return {h_next, result.error};
   }
+  /// The estimated error after the accepted steps, in tolerances, with the amplification by the motion
+  /// (core/estimates/error_transport.h). NaN if it is unknown.
+  virtual double carriedError() const { return std::numeric_limits<double>::quiet_NaN(); }
   /// p of the estimate's leading error h^(p+1) in the next attempt.
   virtual int order() const = 0;
   /// The component of (u, v, x, z) with the largest error of the last solved step; -1 if not known.

@@ -282,6 +282,18 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
 }
 
+// Why the errors of the steps, as the motion has carried them to the end, are too large; empty if they are not.
+template <class Real>
+std::string Trajectory<Real>::carriedError() const {
+  // Twice what the sum of estimates may be: the amplification by the motion is in it.
+  const double error = attempt_->carriedError();
+  if (!(error > 2 * largestError(options_.tolerances))) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "the errors of all steps, carried along by the motion, are about " << error << " tolerances at the end";
+  return text.str();
+}
+
 // Why the end is too far from the slow motion; empty if it is not, or if the method damps such errors.
 template <class Real>
 std::string Trajectory<Real>::undampedRest() {
@@ -304,8 +316,9 @@ Solution<Real> Trajectory<Real>::success() {
     const std::string violation =
         constraintViolation(system_, state_, norm_.weights(), allowedDrift(options_.tolerances));
     if (!violation.empty()) return solution(Outcome::kDrift, violation);
-    const std::string rest = undampedRest();
-    if (!rest.empty()) return solution(Outcome::kInaccurate, rest);
+    for (const std::string& doubt : {carriedError(), undampedRest()}) {
+      if (!doubt.empty()) return solution(Outcome::kInaccurate, doubt);
+    }
   }
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
   if (solved_anew) addNote(start_.applyAtEnd(state_));

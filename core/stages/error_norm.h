@@ -1,6 +1,8 @@
 // The error norm: weights of the state's components, and norms of errors and Newton increments.
 #pragma once
 
+#include <algorithm>
+
 #include "irk/options.h"
 #include "irk/system.h"
 
@@ -25,6 +27,8 @@ class ErrorNorm {
 
   /// The weights sc of (u, v, x, z); 2 nu + nx + nz numbers.
   const Vec<double>& weights() const { return weight_; }
+  /// The larger one of rtol and atol.
+  double tolerance() const { return std::max(tolerances_.rtol, tolerances_.atol); }
   /// Index of the component of (u, v, x, z) that contributes most to `difference`.
   Index worst(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor) const;
 
