@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "core/base/input_file.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/study/study_reader.h"
@@ -21,6 +22,7 @@ int statusCommand(const RunOptions& options, Streams streams) {
   if (store.runs().damaged() > 0) {
     fmt::print(streams.out, "  {} rows cannot be read: irk run sets them aside\n", store.runs().damaged());
   }
+  requireRegularFile(folder / "lock");
   std::ifstream lock(folder / "lock");
   std::string host, process, date;
   if (lock >> host >> process >> date) {

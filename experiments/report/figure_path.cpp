@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/input_file.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -30,6 +31,7 @@ std::filesystem::path figurePath(std::string_view option, const std::string& pat
   if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
     throw Misuse(fmt::format("{} '{}': there is no folder '{}'", option, path, folder.string()));
   }
+  for (const char* its : {".svg", ".png", ".csv"}) requireRegularFile(figure.string() + its);
   return figure;
 }
 

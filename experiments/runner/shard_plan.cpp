@@ -9,6 +9,7 @@
 #include <ostream>
 #include <string>
 
+#include "core/base/input_file.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runner/costs.h"
@@ -64,6 +65,7 @@ std::string fingerprint(const Study& study) {
 
 // Reads the plan; empty if there is none for these series.
 std::vector<int> readPlan(const Study& study, const RunnerOptions& options) {
+  requireRegularFile(planFile(study, options));
   std::ifstream in(planFile(study, options));
   std::string its;
   if (!(in >> its) || its != fingerprint(study)) return {};

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/base/input_file.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
@@ -94,7 +95,7 @@ void requireSolutionPath(const std::filesystem::path& path) {
   if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
     throw Misuse(fmt::format("--out '{}': there is no folder '{}'", path.string(), folder.string()));
   }
-  if (std::filesystem::is_directory(path, none)) throw Misuse(fmt::format("--out '{}': is a folder", path.string()));
+  requireRegularFile(path);
 }
 
 std::unique_ptr<SolutionFile> solutionFile(const std::filesystem::path& path, const RunSpec& spec) {

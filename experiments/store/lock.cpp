@@ -16,6 +16,7 @@
 #include <thread>
 #include <tuple>
 
+#include "core/base/input_file.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/tables/environment.h"
@@ -111,6 +112,7 @@ Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messa
   bool told = false;
   int unknown_for = 0;  // attempts
   while (!create()) {
+    requireRegularFile(file_);
     const Holder holder = readHolder(file_);
     // A lock file is empty for a moment, before its holder has written to it, or it has just been removed. It remains
     // empty if its holder was killed in this moment.

@@ -164,6 +164,7 @@ Table readTable(const std::filesystem::path& path) {
 
 TableWriter::TableWriter(std::filesystem::path file, const TableHead& head, const std::vector<std::string>& columns)
     : file_(std::move(file)), beside_(file_.string() + ".new") {
+  requireRegularFile(file_);  // renaming would put the table in the place of a device
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
   out_.open(beside_, std::ios::binary);
   for (const auto& [key, value] : head) out_ << "# " << key << ": " << value << '\n';

@@ -152,6 +152,7 @@ TEST_F(SolveOut, OtherLibrariesGiveTheirStepsOnly) {
 
 TEST_F(SolveOut, RefusesWhatItCannotDo) {
   std::ofstream(file("kept.csv")) << "mine\n";
+  for (const char* name : {"device.csv", "device.svg"}) std::filesystem::create_symlink("/dev/null", file(name));
   struct Bad {
     std::vector<std::string> arguments;
     std::vector<std::string> message;
@@ -160,6 +161,8 @@ TEST_F(SolveOut, RefusesWhatItCannotDo) {
       {{"--points", "10"}, {"--points", "--out"}},
       {{"--out", file("run.txt")}, {"run.txt", ".csv", ".jsonl"}},
       {{"--out", file("none/run.csv")}, {"no folder", "none"}},
+      {{"--out", file("device.csv")}, {"device.csv", "a device", "regular file"}},
+      {{"--plot", file("device")}, {"device.svg", "a device", "regular file"}},
       {{"--out", file("run.csv"), "--points", "1"}, {"points", "1", "2"}},
       {{"--out", file("run.csv"), "--points", "2000000"}, {"points", "2000000"}},
       {{"--out", file("run.csv"), "--points", "many"}, {"points", "many"}},

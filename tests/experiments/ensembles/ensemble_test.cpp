@@ -10,6 +10,7 @@
 #include "experiments/tables/table.h"
 #include "irk/misuse.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/support.h"
 
 namespace irk {
 namespace {
@@ -112,6 +113,17 @@ TEST(EnsembleVerb, WritesATable) {
   ASSERT_EQ(table.rows.size(), 6U);
   EXPECT_EQ(table.rows[4][table.column("e")], "0.4");
   EXPECT_EQ(table.rows[4][table.column("q2_start")], "0.01");
+}
+
+// A table is renamed to its name when it is complete: that must not remove a device such as /dev/null.
+TEST(EnsembleVerb, LeavesDevicesAlone) {
+  const TemporaryFolder folder;
+  const auto device = folder.path() / "device";
+  std::filesystem::create_symlink("/dev/null", device);
+  const auto run = program({"ensemble", "kepler", "--set", "e=0.2,0.4", "--t-end", "1", "--out", device.string()});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_TRUE(containsAll(run.err, {device.string(), "a device", "regular file"})) << run.err;
+  EXPECT_TRUE(std::filesystem::is_symlink(device));
 }
 
 TEST(EnsembleVerb, FailedMembersAreRows) {

@@ -8,6 +8,7 @@
 
 #include "experiments/runner/shard_plan.h"
 #include "tests/experiments/stored_runs.h"
+#include "tests/refusal.h"
 
 namespace irk {
 namespace {
@@ -103,6 +104,11 @@ TEST_F(Costs, ThePlanOfTheFirstJobStays) {
   // A damaged plan is none.
   std::ofstream(folder() / "shards_of_2", std::ios::app) << "3\n";
   EXPECT_EQ(shardsOf(study(edited), half).size(), 6u);
+  // Nor is a device, which may have no end.
+  std::filesystem::remove(folder() / "shards_of_2");
+  std::filesystem::create_symlink("/dev/null", folder() / "shards_of_2");
+  const auto message = refusal([&] { shardsOf(study(edited), half); });
+  EXPECT_TRUE(containsAll(message, {"shards_of_2", "a device", "regular file"})) << message;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/store/store.h"
 #include "tests/experiments/stored_runs.h"
+#include "tests/refusal.h"
 
 namespace irk {
 namespace {
@@ -94,6 +95,14 @@ TEST_F(Writers, AnEmptyLockIsTakenOver) {
   std::ofstream(folder() / "lock").close();
   EXPECT_EQ(run("results", {.if_locked = store::IfLocked::kWait}).rows.size(), 9u);
   EXPECT_TRUE(containsAll(told_.str(), {"empty", "going on"}));
+}
+
+// Devices may have no end, and a pipe waits for its writer.
+TEST_F(Writers, ALockThatIsADeviceIsRefused) {
+  std::filesystem::create_directories(folder());
+  std::filesystem::create_symlink("/dev/null", folder() / "lock");
+  const auto message = refusal([&] { run(); });
+  EXPECT_TRUE(containsAll(message, {"lock", "a device", "regular file"})) << message;
 }
 
 // Two writers without locks, as on a file system whose locks do not work: no row is lost or torn.
