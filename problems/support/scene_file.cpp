@@ -15,6 +15,7 @@
 #include "core/derivatives/differentiator.h"
 #include "irk/lanes.h"
 #include "irk/misuse.h"
+#include "irk/system_check.h"
 
 namespace irk {
 namespace {
@@ -207,6 +208,7 @@ void solveRates(const System<Real>& system, State<Real>& state) {
 template <class Real>
 void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
+  requireStart(*system, scene.start, scene.start.t);  // a residual may read beyond the end of a short vector
   ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true, nullptr, scene.scale);
   StartReport report = consistent.apply(scene.start);
   if (report.outcome == Outcome::kInconsistentStart) {
@@ -260,6 +262,7 @@ Real correct(const Mat<Real>& G, const Vec<Real>& r, const std::vector<Index>& c
 template <class Real>
 void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) {
   const auto system = scene.system({});
+  requireStart(*system, scene.start, scene.start.t);
   const Index nu = system->sizes().nu;
   std::vector<std::string> known(scene.names.begin(),
                                  scene.names.begin() + std::min<std::ptrdiff_t>(2 * nu, std::ssize(scene.names)));

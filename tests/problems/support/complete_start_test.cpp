@@ -3,6 +3,7 @@
 
 #include "irk/misuse.h"
 #include "irk/scene_file.h"
+#include "tests/refusal.h"
 
 namespace irk {
 namespace {
@@ -43,6 +44,17 @@ TEST(CompleteStart, RefusesAStartThatTheEquationsContradict) {
     FAIL() << "0.5 + 0.75 is not 1";
   } catch (const Misuse& misuse) {
     EXPECT_NE(std::string(misuse.what()).find("its start"), std::string::npos) << misuse.what();
+  }
+}
+
+// Its residual would read beyond the end.
+TEST(CompleteStart, RefusesAStartOfAnotherSize) {
+  for (const Index size : {1, 3}) {
+    auto scene = circuit<double>(0.25, 0.75);
+    scene.start.x.setZero(size);
+    const auto message = refusal([&] { completeStart(scene); });
+    EXPECT_EQ(message, "start: x: " + std::to_string(size) + " numbers, 2 are expected");
+    EXPECT_EQ(refusal([&] { completeStart(scene, {}); }), message);
   }
 }
 
