@@ -14,66 +14,68 @@
 
 namespace irk {
 
-// The scenes, sorted by id: a function of each scene's file.
+// The structs of the scenes, sorted by id. IRK_SCENE in a scene's file defines the function irk::scenes::STRUCT.
 // clang-format off
 #define IRK_SCENES(scene) \
-  scene(ancfCantileverEntry) \
-  scene(ancfLeafStopEntry) \
-  scene(ancfPendulumEntry) \
-  scene(ancfStopEntry) \
-  scene(andrewsEntry) \
-  scene(beamEntry) \
-  scene(beamChainEntry) \
-  scene(bouncingMassEntry) \
-  scene(caraxisEntry) \
-  scene(chemakzoEntry) \
-  scene(dahlquistEntry) \
-  scene(dcMotorChopperEntry) \
-  scene(e5Entry) \
-  scene(elasticaEntry) \
-  scene(elastoplasticEntry) \
-  scene(heatEntry) \
-  scene(heavyTopEntry) \
-  scene(hiresEntry) \
-  scene(hydraulicArmEntry) \
-  scene(hydraulicManipulatorEntry) \
-  scene(index1NonlinearEntry) \
-  scene(index2NonlinearEntry) \
-  scene(index3NonlinearEntry) \
-  scene(kapsEntry) \
-  scene(keplerEntry) \
-  scene(mechanicalDaeEntry) \
-  scene(mechatronicCrankEntry) \
-  scene(medakzoEntry) \
-  scene(nandEntry) \
-  scene(oregoEntry) \
-  scene(pendulumEntry) \
-  scene(pollutionEntry) \
-  scene(protheroRobinsonEntry) \
-  scene(pumpEntry) \
-  scene(riccatiTrackingEntry) \
-  scene(ringmodEntry) \
-  scene(robertsonEntry) \
-  scene(sampledControlEntry) \
-  scene(sliderCrankEntry) \
-  scene(sliderCrankFlexibleEntry) \
-  scene(slidingMassEntry) \
-  scene(spatialSliderCrankEntry) \
-  scene(stickSlipEntry) \
-  scene(stickSlipLugreEntry) \
-  scene(transampEntry) \
-  scene(vanDerPolEntry)
+  scene(AncfCantilever) \
+  scene(AncfLeafStop) \
+  scene(AncfPendulum) \
+  scene(AncfStop) \
+  scene(Andrews) \
+  scene(Beam) \
+  scene(BeamChain) \
+  scene(BouncingMass) \
+  scene(CarAxis) \
+  scene(ChemicalAkzo) \
+  scene(Dahlquist) \
+  scene(DcMotorChopper) \
+  scene(E5) \
+  scene(Elastica) \
+  scene(Elastoplastic) \
+  scene(Heat) \
+  scene(HeavyTop) \
+  scene(Hires) \
+  scene(HydraulicArm) \
+  scene(HydraulicManipulator) \
+  scene(Index1Nonlinear) \
+  scene(Index2Nonlinear) \
+  scene(Index3Nonlinear) \
+  scene(Kaps) \
+  scene(Kepler) \
+  scene(MechanicalDae) \
+  scene(MechatronicCrank) \
+  scene(MedicalAkzo) \
+  scene(NandGate) \
+  scene(Oregonator) \
+  scene(Pendulum) \
+  scene(Pollution) \
+  scene(ProtheroRobinson) \
+  scene(ChargePump) \
+  scene(RiccatiTracking) \
+  scene(RingModulator) \
+  scene(Robertson) \
+  scene(SampledControl) \
+  scene(SliderCrank) \
+  scene(FlexibleSliderCrank) \
+  scene(SlidingMass) \
+  scene(SpatialSliderCrank) \
+  scene(StickSlip) \
+  scene(LuGre) \
+  scene(TransistorAmplifier) \
+  scene(VanDerPol)
 // clang-format on
 
-#define IRK_DECLARE(entry) SceneEntry entry();
+namespace scenes {
+#define IRK_DECLARE(scene) SceneEntry scene();
 IRK_SCENES(IRK_DECLARE)
 #undef IRK_DECLARE
+}  // namespace scenes
 
 namespace {
 
 // A deque: entries keep their addresses when others are added.
 std::deque<SceneEntry>& catalogue() {
-#define IRK_CALL(entry) entry(),
+#define IRK_CALL(scene) scenes::scene(),
   static std::deque<SceneEntry> entries = {IRK_SCENES(IRK_CALL)};
 #undef IRK_CALL
   return entries;

@@ -6,13 +6,13 @@
 // the tip leaves with less than 1 / c. Friction is Coulomb's, mu N against the tip's velocity v along the plane; below
 // the speed `creep` it falls in proportion to v, so that the tip creeps instead of sticking.
 #include <algorithm>
-#include <cmath>
 
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "problems/mechanisms/ancf_beam.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d = (1 in contact, 0 otherwise; sign of v while sliding, 0 while creeping; 1 while creeping, 0 otherwise).
@@ -20,7 +20,7 @@ enum Discrete : Index { kContact, kSign, kCreeping };
 enum Switch : Index { kTouches, kSlidesAhead, kSlidesBack, kCreeps };
 
 template <class Real>
-struct AncfStop {
+struct ArmWithStop {
   AncfBeam<Real> beam;
   Real gap;        // m, of the stop below the support
   Real k, c;       // N/m, s/m
@@ -89,7 +89,7 @@ struct AncfStop {
 };
 
 template <class Real>
-void setOutputs(const AncfStop<Real>& problem, Scene<Real>& scene) {
+void setOutputs(const ArmWithStop<Real>& problem, Scene<Real>& scene) {
   const auto depth = [problem](const State<Real>& s) { return problem.penetration(pointOf(s)); };
   const auto energy = [problem, depth](const State<Real>& s) {
     const Real beam = problem.beam.energy(s.u, s.v), deep = depth(s);
@@ -104,8 +104,8 @@ void setOutputs(const AncfStop<Real>& problem, Scene<Real>& scene) {
                    {"energy", energy, "J", problem.mu == 0 && problem.c == 0}};
 }
 
-template <class Real, AncfSupport support>
-Scene<Real> make(const Settings& settings) {
+template <class Real>
+Scene<Real> sceneOf(AncfSupport support, const Settings& settings) {
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
   const Real L = value("L"), E = value("E"), A = value("A");
   const AncfData<Real> data{.elements = static_cast<Index>(number<double>(settings, "elements")),
@@ -116,13 +116,13 @@ Scene<Real> make(const Settings& settings) {
                             .g = value("g"),
                             .tip_load = Real(0),
                             .support = support};
-  const AncfStop<Real> problem{.beam = AncfBeam<Real>(data),
-                               .gap = value("gap"),
-                               .k = value("k"),
-                               .c = value("c"),
-                               .mu = value("mu"),
-                               .creep = value("creep"),
-                               .smoothing = value("smoothing")};
+  const ArmWithStop<Real> problem{.beam = AncfBeam<Real>(data),
+                                  .gap = value("gap"),
+                                  .k = value("k"),
+                                  .c = value("c"),
+                                  .mu = value("mu"),
+                                  .creep = value("creep"),
+                                  .smoothing = value("smoothing")};
   Scene<Real> scene;
   setProblem(scene, problem);
   const State<Real> straight = problem.beam.straightStart();
@@ -137,10 +137,10 @@ Scene<Real> make(const Settings& settings) {
   return scene;
 }
 
-template <AncfSupport support>
-SceneEntry entry(const char* gap, const char* times) {
-  return {.id = "",
-          .title = "",
+SceneEntry entryOf(const char* id, const char* title, const char* gap) {
+  constexpr const char* kTimes = "0.21 0.22 0.23 0.24 0.25 0.26 0.27 0.28 0.29";
+  return {.id = id,
+          .title = title,
           .shows = "a flexible mechanism with contact and friction",
           .collections = {"multibody", "switching"},
           .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
@@ -160,28 +160,29 @@ SceneEntry entry(const char* gap, const char* times) {
                      {"velocity of the tip", {"tip_x'", "tip_y'"}},
                      {"normal force", {"N"}},
                      {"path of the tip", {"tip_x:tip_y"}}},
-          .reference_cases = {{.times = times, .tolerance = kFewDigits},
-                              {.settings = "mu=0 c=0", .times = times, .tolerance = kFewDigits}},
-          .make = make<double, support>,
-          .make_mp50 = make<mp50, support>};
+          .reference_cases = {{.times = kTimes, .tolerance = kFewDigits},
+                              {.settings = "mu=0 c=0", .times = kTimes, .tolerance = kFewDigits}}};
 }
+
+// Contact begins at t = 0.205.
+template <class Real>
+struct AncfStop {
+  static Scene<Real> make(const Settings& values) { return sceneOf<Real>(AncfSupport::kHinged, values); }
+  static SceneEntry entry() {
+    return entryOf("ancf_stop", "hinged elastic arm of ANCF elements that strikes a stop with friction", "0.3");
+  }
+};
+
+// Contact begins at t = 0.153.
+template <class Real>
+struct AncfLeafStop {
+  static Scene<Real> make(const Settings& values) { return sceneOf<Real>(AncfSupport::kClamped, values); }
+  static SceneEntry entry() {
+    return entryOf("ancf_leaf_stop", "leaf spring of ANCF elements that strikes a stop with friction", "0.15");
+  }
+};
 
 }  // namespace
 
-// Contact begins at t = 0.205.
-SceneEntry ancfStopEntry() {
-  SceneEntry hinged = entry<AncfSupport::kHinged>("0.3", "0.21 0.22 0.23 0.24 0.25 0.26 0.27 0.28 0.29");
-  hinged.id = "ancf_stop";
-  hinged.title = "hinged elastic arm of ANCF elements that strikes a stop with friction";
-  return hinged;
-}
-
-// Contact begins at t = 0.153.
-SceneEntry ancfLeafStopEntry() {
-  SceneEntry clamped = entry<AncfSupport::kClamped>("0.15", "0.21 0.22 0.23 0.24 0.25 0.26 0.27 0.28 0.29");
-  clamped.id = "ancf_leaf_stop";
-  clamped.title = "leaf spring of ANCF elements that strikes a stop with friction";
-  return clamped;
-}
-
-}  // namespace irk
+IRK_SCENE(AncfStop)
+IRK_SCENE(AncfLeafStop)

@@ -1,15 +1,18 @@
 // A simply supported beam in finite differences: u'' + c K u' + K u = 100 x_i sin 50 t, K = D^2,
 // D = tridiag(1, -2, 1) (m + 1)^2, x_i = i / (m + 1). The system is linear; the exact solution is the sum of the
 // modes of the discrete system, with frequencies w_k = 4 (m + 1)^2 sin^2(k pi / (2 (m + 1))).
-#include <cmath>
 #include <cstddef>
 
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 constexpr int kForce = 100, kForceRate = 50;
+
+template <class Real>
+class ExactBeamChain;
 
 template <class Real>
 struct BeamChain {
@@ -43,6 +46,27 @@ struct BeamChain {
       before = here;
       here = after;
     }
+  }
+  static Scene<Real> make(const Settings& values) {
+    const BeamChain<Real> problem{static_cast<Index>(number<double>(values, "m")), number<Real>(values, "damping")};
+    const ExactBeamChain<Real> exact(problem);
+    Scene<Real> scene;
+    setProblem(scene, problem);
+    scene.t_end = 2;
+    setComponents(scene, numbered(problem.m, "u", "", 1, 10));  // amplitudes 1 at the frequency pi^2 of the first mode
+    scene.exact = [exact](const Real& t) { return exact.at(t); };
+    scene.start = exact.start();
+    return scene;
+  }
+  static SceneEntry entry() {
+    return {.id = "beam_chain",
+            .title = "simply supported beam in finite differences, damped and driven",
+            .shows = "cost against the number of unknowns; linear, sparse, exactly solvable",
+            .collections = {"multibody"},
+            .size = {.parameter = "m", .unknowns = 1, .step = 1e-3},
+            .parameters = {wholeParameter("m", "interior points = unknowns", "25", 3, 40000, 100),
+                           numberParameter("damping", "s", "stiffness-proportional damping", "1e-3", 0, 1e3)},
+            .reference_cases = {{.times = "0.5 1"}}};
   }
 };
 
@@ -142,37 +166,6 @@ class ExactBeamChain {
   std::vector<Real> sines_;  // sin(j pi / (m + 1)) over one period
 };
 
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const BeamChain<Real> problem{static_cast<Index>(number<double>(settings, "m")), number<Real>(settings, "damping")};
-  const ExactBeamChain<Real> exact(problem);
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.t_end = 2;
-  // Amplitudes are about 1, at the frequency pi^2 of the first mode.
-  std::vector<Component> deflections;
-  for (Index i = 1; i <= problem.m; ++i) deflections.push_back({"u" + std::to_string(i), "", 1, 10});
-  setComponents(scene, deflections);
-  scene.exact = [exact](const Real& t) { return exact.at(t); };
-  scene.start = exact.start();
-  return scene;
-}
-
 }  // namespace
 
-SceneEntry beamChainEntry() {
-  Parameter points = numberParameter("m", "", "interior points = unknowns", "25", 3, 40000);
-  points.whole = true;
-  points.audit_max = 100;
-  return {.id = "beam_chain",
-          .title = "simply supported beam in finite differences, damped and driven",
-          .shows = "cost against the number of unknowns; linear, sparse, exactly solvable",
-          .collections = {"multibody"},
-          .size = {.parameter = "m", .unknowns = 1, .step = 1e-3},
-          .parameters = {points, numberParameter("damping", "s", "stiffness-proportional damping", "1e-3", 0, 1e3)},
-          .reference_cases = {{.times = "0.5 1"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(BeamChain)

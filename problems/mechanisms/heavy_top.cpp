@@ -8,15 +8,14 @@
 //   4 G^T J G e'' + 8 G'^T J G e' = f - lambda e,   0 = (e^T e - 1) / 2.
 // The mass matrix is singular along e; with the constraint the motion is determined.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <type_traits>
 #include <vector>
 
 #include "irk/scene_file.h"
 #include "problems/mechanisms/heavy_top_motion.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 using heavy_top::Data;
@@ -296,46 +295,45 @@ Scene<Real> sceneOf(const P& plain) {
 }
 
 template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Data<Real> d{.m = value("m"),
-                     .l = value("l"),
-                     .J1 = value("J1"),
-                     .J3 = value("J3"),
-                     .g = value("g"),
-                     .spin = value("spin"),
-                     .precession = value("precession")};
-  return settings.at("coordinates") == "absolute" ? sceneOf<Real>(Absolute<Real>{d})
+struct HeavyTop {
+  static Scene<Real> make(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Data<Real> d{.m = value("m"),
+                       .l = value("l"),
+                       .J1 = value("J1"),
+                       .J3 = value("J3"),
+                       .g = value("g"),
+                       .spin = value("spin"),
+                       .precession = value("precession")};
+    return values.at("coordinates") == "absolute" ? sceneOf<Real>(Absolute<Real>{d})
                                                   : sceneOf<Real>(FixedPoint<Real>{d});
-}
+  }
+  static SceneEntry entry() {
+    return {
+        .id = "heavy_top",
+        .title = "heavy top in Euler parameters",
+        .shows = "a singular mass matrix M(u), fast rotation in space; against elliptic functions",
+        .collections = {"multibody"},
+        .literature = "O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137",
+        .kind = SceneKind::kConstrained,
+        .parameters = {descriptionParameter("coordinates",
+                                            "position and attitude, or the attitude about the fixed point",
+                                            {"absolute", "fixed_point"}),
+                       positiveParameter("m", "kg", "mass", "15"),
+                       positiveParameter("l", "m", "distance of the centre of mass from the fixed point", "1"),
+                       positiveParameter("J1", "kg m^2", "moment of inertia across the axis, about the centre of mass",
+                                         "0.234375"),
+                       positiveParameter("J3", "kg m^2", "moment of inertia about the axis", "0.46875"),
+                       positiveParameter("g", "m/s^2", "gravity", "9.81"),
+                       numberParameter("spin", "rad/s", "speed about the axis", "150", -1e6, 1e6),
+                       numberParameter("precession", "rad/s",
+                                       "speed of the horizontal axis about the vertical, at the start", "-4.61538",
+                                       -1e6, 1e6)},
+        .panels = {{"centre of mass", {"x", "y", "z"}}, {"path from above", {"x:y"}}, {"path from the front", {"x:z"}}},
+        .reference_cases = {{.times = "0.3726 0.5", .tolerance = kFewDigits}}};
+  }
+};
 
 }  // namespace
 
-SceneEntry heavyTopEntry() {
-  Parameter coordinates = wordParameter("coordinates", "position and attitude, or the attitude about the fixed point",
-                                        {"absolute", "fixed_point"});
-  coordinates.changes_solution = false;
-  return {
-      .id = "heavy_top",
-      .title = "heavy top in Euler parameters",
-      .shows = "a singular mass matrix M(u), fast rotation in space; against elliptic functions",
-      .collections = {"multibody"},
-      .literature = "O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137",
-      .kind = SceneKind::kConstrained,
-      .parameters = {coordinates, positiveParameter("m", "kg", "mass", "15"),
-                     positiveParameter("l", "m", "distance of the centre of mass from the fixed point", "1"),
-                     positiveParameter("J1", "kg m^2", "moment of inertia across the axis, about the centre of mass",
-                                       "0.234375"),
-                     positiveParameter("J3", "kg m^2", "moment of inertia about the axis", "0.46875"),
-                     positiveParameter("g", "m/s^2", "gravity", "9.81"),
-                     numberParameter("spin", "rad/s", "speed about the axis", "150", -1e6, 1e6),
-                     numberParameter("precession", "rad/s",
-                                     "speed of the horizontal axis about the vertical, at the start", "-4.61538", -1e6,
-                                     1e6)},
-      .panels = {{"centre of mass", {"x", "y", "z"}}, {"path from above", {"x:y"}}, {"path from the front", {"x:z"}}},
-      .reference_cases = {{.times = "0.3726 0.5", .tolerance = kFewDigits}},
-      .make = make<double>,
-      .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(HeavyTop)

@@ -3,12 +3,11 @@
 //
 // u = angle of the arm from the horizontal, x = (p0, p1), pressures in the chambers. The cylinder runs from (0, -L/4)
 // to the point of the arm at L/4 from the hinge; its length is s = L/4 sqrt(2 + 2 sin angle).
-#include <cmath>
-
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 enum class ArmReference { kKinked, kSmooth };
@@ -24,6 +23,7 @@ struct HydraulicArm {
   Real L, m, g;           // m, kg, m/s^2
   Real A, d;              // m^2, N s/m
   Real V, K, Qn, pS, pT;  // m^3, Pa, m^3/s/sqrt(Pa), Pa
+  Real p0, p1;            // Pa, at the start
   Real LH0, pi;           // m, length of the cylinder at angle 0
   ArmReference reference;
   Real smoothing;  // m
@@ -124,72 +124,70 @@ struct HydraulicArm {
     constexpr const char* kNames[] = {"valve", "lower kink", "upper kink"};
     return kNames[i];
   }
+  static HydraulicArm with(const Settings& values) {
+    using std::sqrt;
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Real L = value("L");
+    return {.L = L,
+            .m = value("m"),
+            .g = value("g"),
+            .A = value("A"),
+            .d = value("d"),
+            .V = value("V"),
+            .K = value("K"),
+            .Qn = value("Qn"),
+            .pS = value("pS"),
+            .pT = value("pT"),
+            .p0 = value("p0"),
+            .p1 = value("p1"),
+            .LH0 = L / 4 * sqrt(Real(2)),
+            .pi = piOf<Real>(),
+            .reference = values.at("reference") == "smooth" ? ArmReference::kSmooth : ArmReference::kKinked,
+            .smoothing = value("smoothing")};
+  }
+  void start(State<Real>& s) const {
+    s.x << p0, p1;
+    s.d[kSupply0] = 1;  // the valve is closed; the arm falls first, which opens chamber 0 to the supply
+  }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 2,
+            .u = {{"angle", "rad"}},
+            .x = {{"p0", "Pa", 1e7}, {"p1", "Pa", 1e7}},
+            .outputs = {{"s", [*this](const State<Real>& s) { return length<Real>(s.u[0]); }, "m"}}};
+  }
+  static SceneEntry entry() {
+    return {
+        .id = "hydraulic_arm",
+        .title = "rigid arm lifted by a hydraulic cylinder through a proportional valve",
+        .shows = "stiff pressures with sign-switched flow and a kinked reference",
+        .collections = {"multibody", "switching"},
+        .parameters = {wordParameter("reference",
+                                     "wanted length of the cylinder: 1 - cos pi t with its ends "
+                                     "cut off, or whole",
+                                     {"kinked", "smooth"}),
+                       positiveParameter("L", "m", "length of the arm", "1"),
+                       positiveParameter("m", "kg", "mass of the arm", "120"),
+                       numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
+                       positiveParameter("A", "m^2", "area of the piston", "0.01"),
+                       numberParameter("d", "N s/m", "viscous friction of the cylinder", "2e5", 0, 1e15),
+                       positiveParameter("V", "m^3", "volume of a chamber", "1"),
+                       positiveParameter("K", "Pa", "bulk modulus", "1e11"),
+                       positiveParameter("Qn", "m^3/s/sqrt(Pa)", "nominal flow of the valve", "2e-5"),
+                       positiveParameter("pS", "Pa", "supply pressure", "2e7"),
+                       numberParameter("pT", "Pa", "tank pressure", "0", 0, 1e15),
+                       numberParameter("p0", "Pa", "pressure in chamber 0 at the start", "2e6", 0, 1e15),
+                       numberParameter("p1", "Pa", "pressure in chamber 1 at the start", "2e6", 0, 1e15),
+                       smoothingParameter(
+                           "m", "opening of the valve until it has changed sides, and how far the kinks are rounded",
+                           "1e-4")},
+        .panels = {{"angle", {"angle"}}, {"angular velocity", {"angle'"}}, {"pressures", {"p0", "p1"}, "MPa", 1e-6}},
+        .reference_cases = {{.times = "0.2 0.4 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits},
+                            {.settings = "reference=smooth",
+                             .times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8",
+                             .tolerance = kManyDigits}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  using std::sqrt;
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Real L = value("L");
-  const HydraulicArm<Real> arm{
-      .L = L,
-      .m = value("m"),
-      .g = value("g"),
-      .A = value("A"),
-      .d = value("d"),
-      .V = value("V"),
-      .K = value("K"),
-      .Qn = value("Qn"),
-      .pS = value("pS"),
-      .pT = value("pT"),
-      .LH0 = L / 4 * sqrt(Real(2)),
-      .pi = piOf<Real>(),
-      .reference = settings.at("reference") == "smooth" ? ArmReference::kSmooth : ArmReference::kKinked,
-      .smoothing = value("smoothing")};
-  Scene<Real> scene;
-  setProblem(scene, arm);
-  scene.start.x << value("p0"), value("p1");
-  scene.start.d[kSupply0] = 1;  // the valve is closed; the arm falls first, which opens chamber 0 to the supply
-  completeStart(scene);
-  scene.t_end = 2;
-  setComponents(scene, {{"angle", "rad"}}, {{"p0", "Pa", 1e7}, {"p1", "Pa", 1e7}});
-  scene.outputs = {{"s", [arm](const State<Real>& s) { return arm.template length<Real>(s.u[0]); }, "m"}};
-  return scene;
-}
 
 }  // namespace
 
-SceneEntry hydraulicArmEntry() {
-  return {.id = "hydraulic_arm",
-          .title = "rigid arm lifted by a hydraulic cylinder through a proportional valve",
-          .shows = "stiff pressures with sign-switched flow and a kinked reference",
-          .collections = {"multibody", "switching"},
-          .parameters = {wordParameter("reference",
-                                       "wanted length of the cylinder: 1 - cos pi t with its ends "
-                                       "cut off, or whole",
-                                       {"kinked", "smooth"}),
-                         positiveParameter("L", "m", "length of the arm", "1"),
-                         positiveParameter("m", "kg", "mass of the arm", "120"),
-                         numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
-                         positiveParameter("A", "m^2", "area of the piston", "0.01"),
-                         numberParameter("d", "N s/m", "viscous friction of the cylinder", "2e5", 0, 1e15),
-                         positiveParameter("V", "m^3", "volume of a chamber", "1"),
-                         positiveParameter("K", "Pa", "bulk modulus", "1e11"),
-                         positiveParameter("Qn", "m^3/s/sqrt(Pa)", "nominal flow of the valve", "2e-5"),
-                         positiveParameter("pS", "Pa", "supply pressure", "2e7"),
-                         numberParameter("pT", "Pa", "tank pressure", "0", 0, 1e15),
-                         numberParameter("p0", "Pa", "pressure in chamber 0 at the start", "2e6", 0, 1e15),
-                         numberParameter("p1", "Pa", "pressure in chamber 1 at the start", "2e6", 0, 1e15),
-                         smoothingParameter(
-                             "m", "opening of the valve until it has changed sides, and how far the kinks are rounded",
-                             "1e-4")},
-          .panels = {{"angle", {"angle"}}, {"angular velocity", {"angle'"}}, {"pressures", {"p0", "p1"}, "MPa", 1e-6}},
-          .reference_cases = {{.times = "0.2 0.4 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits},
-                              {.settings = "reference=smooth",
-                               .times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8",
-                               .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(HydraulicArm)

@@ -2,12 +2,11 @@
 //
 // u = (theta, phi), z = (lambda) as in the redundant form of slider_crank; x = (i, e), the current of the motor and
 // the integral of the speed error.
-#include <cmath>
-
 #include "irk/scene_file.h"
 #include "problems/mechanisms/slider_crank_data.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 using slider_crank::Angles;
@@ -18,6 +17,20 @@ using slider_crank::treeRows;
 // hysteresis of the chopper is a memory.
 enum Discrete : Index { kSupply, kDirection };
 enum Switch : Index { kChopper, kSliderTurns };
+
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> all = slider_crank::bodyParameters();
+  all.insert(all.end(), {positiveParameter("U", "V", "supply voltage", "12"),
+                         numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
+                         positiveParameter("L", "H", "inductance of the armature", "0.1"),
+                         positiveParameter("kM", "N m/A", "motor constant", "0.1"),
+                         numberParameter("Fc", "N", "Coulomb friction of the slider", "1", 0, 1e15),
+                         numberParameter("wref", "rad/s", "wanted speed of the crank", "10", -1e6, 1e6),
+                         numberParameter("Kp", "A s", "proportional gain", "0.5", -1e15, 1e15),
+                         numberParameter("Ki", "A", "integral gain", "2", -1e15, 1e15),
+                         positiveParameter("D", "A", "half width of the current's band", "1")});
+  return all;
+}
 
 template <class Real>
 struct MechatronicCrank {
@@ -62,69 +75,47 @@ struct MechatronicCrank {
     }
   }
   std::string switchName(Index i) const { return i == kChopper ? "chopper" : "slider turns"; }
+  static MechatronicCrank with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return {.crank = slider_crank::dataFrom<Real>(values),
+            .U = value("U"),
+            .R = value("R"),
+            .L = value("L"),
+            .kM = value("kM"),
+            .Fc = value("Fc"),
+            .wref = value("wref"),
+            .Kp = value("Kp"),
+            .Ki = value("Ki"),
+            .D = value("D")};
+  }
+  void start(State<Real>& s) const { s.d << 1, -1; }
+  SceneFrame<Real> frame() const {
+    const auto slider = [crank = crank](const State<Real>& s) {
+      using std::cos;
+      return Real(crank.L1 * cos(s.u[0]) + crank.L2 * cos(s.u[1]));
+    };
+    return {.t_end = 1,
+            .u = {{"theta", "rad", 1, 10}, {"phi", "rad", 1, 10}},
+            .x = {{"i", "A", 5}, {"e", "rad"}},
+            .z = {{"lambda", "N"}},
+            .outputs = {{"x3", slider, "m"}}};
+  }
+  static SceneEntry entry() {
+    return {.id = "mechatronic_crank",
+            .title = "slider-crank with motor, chopper, speed controller and friction",
+            .shows = "a whole mechatronic system: u, x, z and two kinds of switches",
+            .collections = {"multibody", "switching"},
+            .parameters = parameters(),
+            .panels = {{"angles", {"theta", "phi"}},
+                       {"angular velocities", {"theta'", "phi'"}},
+                       {"current", {"i"}},
+                       {"controller state", {"e"}},
+                       {"slider", {"x3"}},
+                       {"multiplier", {"lambda"}}},
+            .reference_cases = {{.times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const MechatronicCrank<Real> problem{.crank = slider_crank::dataFrom<Real>(settings),
-                                       .U = value("U"),
-                                       .R = value("R"),
-                                       .L = value("L"),
-                                       .kM = value("kM"),
-                                       .Fc = value("Fc"),
-                                       .wref = value("wref"),
-                                       .Kp = value("Kp"),
-                                       .Ki = value("Ki"),
-                                       .D = value("D")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.start.d << 1, -1;
-  completeStart(scene);
-  scene.t_end = 1;
-  setComponents(scene, {{"theta", "rad", 1, 10}, {"phi", "rad", 1, 10}}, {{"i", "A", 5}, {"e", "rad"}},
-                {{"lambda", "N"}});
-  scene.outputs = {{"x3",
-                    [problem](const State<Real>& s) {
-                      using std::cos;
-                      return Real(problem.crank.L1 * cos(s.u[0]) + problem.crank.L2 * cos(s.u[1]));
-                    },
-                    "m"}};
-  return scene;
-}
-
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> all = slider_crank::bodyParameters();
-  all.insert(all.end(), {positiveParameter("U", "V", "supply voltage", "12"),
-                         numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
-                         positiveParameter("L", "H", "inductance of the armature", "0.1"),
-                         positiveParameter("kM", "N m/A", "motor constant", "0.1"),
-                         numberParameter("Fc", "N", "Coulomb friction of the slider", "1", 0, 1e15),
-                         numberParameter("wref", "rad/s", "wanted speed of the crank", "10", -1e6, 1e6),
-                         numberParameter("Kp", "A s", "proportional gain", "0.5", -1e15, 1e15),
-                         numberParameter("Ki", "A", "integral gain", "2", -1e15, 1e15),
-                         positiveParameter("D", "A", "half width of the current's band", "1")});
-  return all;
-}
 
 }  // namespace
 
-SceneEntry mechatronicCrankEntry() {
-  return {.id = "mechatronic_crank",
-          .title = "slider-crank with motor, chopper, speed controller and friction",
-          .shows = "a whole mechatronic system: u, x, z and two kinds of switches",
-          .collections = {"multibody", "switching"},
-          .kind = SceneKind::kConstrained,
-          .parameters = parameters(),
-          .panels = {{"angles", {"theta", "phi"}},
-                     {"angular velocities", {"theta'", "phi'"}},
-                     {"current", {"i"}},
-                     {"controller state", {"e"}},
-                     {"slider", {"x3"}},
-                     {"multiplier", {"lambda"}}},
-          .reference_cases = {{.times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(MechatronicCrank)

@@ -1,11 +1,9 @@
 // The planar pendulum in Cartesian coordinates, released from the horizontal.
-#include <cmath>
-
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 #include "problems/support/elliptic.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -46,44 +44,30 @@ struct Pendulum {
     s.w << -s.u[0] * lambda / m, -s.u[1] * lambda / m - g, lambda;
     return s;
   }
+  void start(State<Real>& s) const { s.u[0] = l; }  // exact(0) has rounding errors
+  SceneFrame<Real> frame() const {
+    const double mass = static_cast<double>(m), length = static_cast<double>(l), gravity = static_cast<double>(g);
+    const double speed = std::sqrt(2 * gravity * length);
+    const auto energy = [*this](const State<Real>& s) { return Real(m * (s.v.squaredNorm() / 2 + g * s.u[1])); };
+    return {.t_end = 10,
+            .u = {{"x", "m", length, speed}, {"y", "m", length, speed}},
+            .z = {{"lambda", "N/m", mass * gravity / length}},
+            .outputs = {{"energy", energy, "J", true}}};
+  }
+  static SceneEntry entry() {
+    return {.id = "pendulum",
+            .title = "pendulum in Cartesian coordinates, one multiplier",
+            .shows = "index 3, index 2 and GGL against an exact solution, multiplier included",
+            .collections = {"ivp", "multibody"},
+            .literature = "HW II (VII.1)",
+            .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("l", "m", "length", "1"),
+                           positiveParameter("g", "m/s^2", "gravity", "9.81")},
+            .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
+            .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Pendulum>};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto problem = Pendulum<Real>::with(settings);
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.t_end = 10;
-  const double m = static_cast<double>(problem.m), l = static_cast<double>(problem.l);
-  const double g = static_cast<double>(problem.g);
-  const double speed = std::sqrt(2 * g * l);
-  setComponents(scene, {{"x", "m", l, speed}, {"y", "m", l, speed}}, {}, {{"lambda", "N/m", m * g / l}});
-  scene.exact = [problem](const Real& t) { return problem.exact(t); };
-  scene.start.u[0] = problem.l;  // exact(0) gives these values up to rounding only
-  scene.start.w[1] = -problem.g;
-  scene.outputs = {
-      {"energy",
-       [problem](const State<Real>& s) { return Real(problem.m * (s.v.squaredNorm() / 2 + problem.g * s.u[1])); }, "J",
-       true}};
-  return scene;
-}
 
 }  // namespace
 
-SceneEntry pendulumEntry() {
-  return {.id = "pendulum",
-          .title = "pendulum in Cartesian coordinates, one multiplier",
-          .shows = "index 3, index 2 and GGL against an exact solution, multiplier included",
-          .collections = {"ivp", "multibody"},
-          .literature = "HW II (VII.1)",
-          .kind = SceneKind::kConstrained,
-          .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("l", "m", "length", "1"),
-                         positiveParameter("g", "m/s^2", "gravity", "9.81")},
-          .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
-          .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>,
-          .make_lanes = lanesOf<Pendulum>};
-}
-
-}  // namespace irk
+IRK_SCENE(Pendulum)

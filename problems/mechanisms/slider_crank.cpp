@@ -1,11 +1,11 @@
 // The rigid slider-crank: one mechanism in three sets of coordinates.
-#include <cmath>
 #include <limits>
 
 #include "irk/scene_file.h"
 #include "problems/mechanisms/slider_crank_coordinates.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 using slider_crank::Absolute;
@@ -72,39 +72,7 @@ void makeAbsolute(const SwitchedTorque<Real>& torque, const Data<Real>& d, Scene
   scene.start.u[6] = d.L1 + d.L2;
 }
 
-// The start is stretched and at rest: theta = phi = 0.
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Data<Real> d = slider_crank::dataFrom<Real>(settings);
-  const auto ever = [&](const char* name) { return settings.at(name) != kNever; };
-  const auto time = [&](const char* name) { return ever(name) ? value(name) : std::numeric_limits<Real>::infinity(); };
-  const SwitchedTorque<Real> torque{.first = value("T"),
-                                    .second = settings.at("T2") == "T" ? value("T") : value("T2"),
-                                    .ever_off = ever("torque_off_at"),
-                                    .ever_alternates = ever("torque_every"),
-                                    .off_at = time("torque_off_at"),
-                                    .every = time("torque_every"),
-                                    .smoothing = value("smoothing")};
-  Scene<Real> scene;
-  const std::string& coordinates = settings.at("coordinates");
-  if (coordinates == "minimal") {
-    makeMinimal(torque, d, scene);
-  } else if (coordinates == "absolute") {
-    makeAbsolute(torque, d, scene);
-  } else {
-    makeRedundant(torque, d, scene);
-  }
-  scene.start.d.setOnes();  // the torque is on, at its first level; the next change is the first one
-  completeStart(scene);
-  scene.t_end = 2;
-  return scene;
-}
-
 std::vector<Parameter> parameters() {
-  Parameter coordinates =
-      wordParameter("coordinates", "description of the same mechanism", {"redundant", "absolute", "minimal"});
-  coordinates.changes_solution = false;
   Parameter off =
       numberParameter("torque_off_at", "s", "time when the torque is switched off; inf = never", kNever, 0, 1e15);
   off.is_time = true;
@@ -112,32 +80,63 @@ std::vector<Parameter> parameters() {
       "torque_every", "s", "time after which the torque changes between T and T2; inf = never", kNever, 1e-6, 1e15);
   every.is_time = true;
   std::vector<Parameter> all = slider_crank::bodyParameters();
-  all.insert(all.begin(), coordinates);
+  all.insert(all.begin(), descriptionParameter("coordinates", "description of the same mechanism",
+                                               {"redundant", "absolute", "minimal"}));
   all.insert(all.end(), {numberParameter("T", "N m", "crank torque", "0.1", -1e6, 1e6), off, every,
                          numberParameter("T2", "N m", "second level of the crank torque", "T", -1e6, 1e6),
                          smoothingParameter("s", "half of the time in which the torque changes", "1e-3")});
   return all;
 }
 
+template <class Real>
+struct SliderCrank {
+  // The start is stretched and at rest: theta = phi = 0.
+  static Scene<Real> make(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Data<Real> d = slider_crank::dataFrom<Real>(values);
+    const auto ever = [&](const char* name) { return values.at(name) != kNever; };
+    const auto time = [&](const char* name) {
+      return ever(name) ? value(name) : std::numeric_limits<Real>::infinity();
+    };
+    const SwitchedTorque<Real> torque{.first = value("T"),
+                                      .second = values.at("T2") == "T" ? value("T") : value("T2"),
+                                      .ever_off = ever("torque_off_at"),
+                                      .ever_alternates = ever("torque_every"),
+                                      .off_at = time("torque_off_at"),
+                                      .every = time("torque_every"),
+                                      .smoothing = value("smoothing")};
+    Scene<Real> scene;
+    const std::string& coordinates = values.at("coordinates");
+    if (coordinates == "minimal") {
+      makeMinimal(torque, d, scene);
+    } else if (coordinates == "absolute") {
+      makeAbsolute(torque, d, scene);
+    } else {
+      makeRedundant(torque, d, scene);
+    }
+    scene.start.d.setOnes();  // the torque is on, at its first level; the next change is the first one
+    completeStart(scene);
+    scene.t_end = 2;
+    return scene;
+  }
+  static SceneEntry entry() {
+    return {.id = "slider_crank",
+            .title = "rigid slider-crank driven by a constant torque",
+            .shows = "M(u) with a constraint: every term of the Jacobian is alive",
+            .collections = {"multibody"},
+            .kind = SceneKind::kConstrained,
+            .parameters = parameters(),
+            .panels = {{"angles", {"theta", "phi"}},
+                       {"angular velocities", {"theta'", "phi'"}},
+                       {"slider", {"x3"}},
+                       {"multiplier", {"lambda"}}},
+            .reference_cases = {
+                {.times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.6 1.8"},
+                {.settings = "torque_off_at=0.5", .times = "1"},
+                {.settings = "torque_every=0.5 T2=0.05", .times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1"}}};
+  }
+};
+
 }  // namespace
 
-SceneEntry sliderCrankEntry() {
-  return {
-      .id = "slider_crank",
-      .title = "rigid slider-crank driven by a constant torque",
-      .shows = "M(u) with a constraint: every term of the Jacobian is alive",
-      .collections = {"multibody"},
-      .kind = SceneKind::kConstrained,
-      .parameters = parameters(),
-      .panels = {{"angles", {"theta", "phi"}},
-                 {"angular velocities", {"theta'", "phi'"}},
-                 {"slider", {"x3"}},
-                 {"multiplier", {"lambda"}}},
-      .reference_cases = {{.times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.6 1.8"},
-                          {.settings = "torque_off_at=0.5", .times = "1"},
-                          {.settings = "torque_every=0.5 T2=0.05", .times = "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1"}},
-      .make = make<double>,
-      .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(SliderCrank)

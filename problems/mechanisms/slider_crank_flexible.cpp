@@ -3,13 +3,12 @@
 // u = (phi1, phi2, x3, q1, q2, q3, q4): angles of crank and rod, position of the slider, lateral sine modes q1, q2,
 // longitudinal displacements q3 (middle) and q4 (end). The crank turns at the constant rate omega. The letters are
 // those of the source; B is its skew matrix, c.q a dot product. Coulomb friction of the slider can be added.
-#include <cmath>
-
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "irk/vanishes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -114,6 +113,79 @@ class FlexibleSliderCrank {
     g[2] = u[0] - d_.omega * t;
   }
 
+  static FlexibleSliderCrank with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return FlexibleSliderCrank({.m2 = value("m2"),
+                                .m3 = value("m3"),
+                                .J1 = value("J1"),
+                                .J2 = value("J2"),
+                                .l1 = value("l1"),
+                                .l2 = value("l2"),
+                                .b = value("b"),
+                                .h = value("h"),
+                                .E = value("E"),
+                                .rho = value("rho"),
+                                .omega = value("omega"),
+                                .Fc = value("Fc"),
+                                .smoothing = value("smoothing")});
+  }
+  // The start of the test set, made consistent: x3(0) and phi2'(0) are computed, since the printed values are rounded
+  // to 9 digits.
+  void start(State<Real>& s) const {
+    s.u[5] = decimal<Real>("0.103339863e-4");
+    s.u[6] = decimal<Real>("0.169327969e-4");
+    s.u[2] = d_.l1 + d_.l2 + s.u[6];
+    s.v[0] = d_.omega;
+    s.v[1] = -d_.l1 * d_.omega / (d_.l2 + s.u[6]);
+    s.v[3] = decimal<Real>("0.444896105");
+    s.v[4] = decimal<Real>("0.463434311e-2");
+    s.v[5] = decimal<Real>("-0.178591076e-5");
+    s.v[6] = decimal<Real>("-0.268938672e-5");
+    s.v[2] = s.v[6];
+    s.d.setConstant(-1);  // the slider begins to move towards the crank
+  }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 0.1,
+            .u = {{"phi1", "rad", 1, 100},
+                  {"phi2", "rad", 1, 100},
+                  {"x3", "m", 0.1, 10},
+                  {"q1", "m", 1e-4, 0.1},
+                  {"q2", "m", 1e-5, 1e-2},
+                  {"q3", "m", 1e-5, 1e-2},
+                  {"q4", "m", 1e-5, 1e-2}},
+            .z = {{"lambda1", "N", 100}, {"lambda2", "N", 100}, {"lambda3", "N m", 100}}};
+  }
+  static SceneEntry entry() {
+    return {
+        .id = "slider_crank_flexible",
+        .title = "slider-crank with an elastic rod (Simeon; IVP test set 'crank')",
+        .shows = "M(u), three multipliers and stiff elastic modes, against a published solution",
+        .collections = {"ivp", "multibody"},
+        .literature = "IVP test set, CRANK",
+        .parameters = {positiveParameter("m2", "kg", "mass of the rod", "0.151104"),
+                       positiveParameter("m3", "kg", "mass of the slider", "0.075552"),
+                       positiveParameter("J1", "kg m^2", "inertia of the crank", "0.002727"),
+                       positiveParameter("J2", "kg m^2", "inertia of the rod", "0.0045339259"),
+                       positiveParameter("l1", "m", "crank length", "0.15"),
+                       positiveParameter("l2", "m", "rod length", "0.30"),
+                       positiveParameter("b", "m", "width of the rod", "0.008"),
+                       positiveParameter("h", "m", "height of the rod", "0.008"),
+                       positiveParameter("E", "Pa", "Young's modulus", "2e11"),
+                       positiveParameter("rho", "kg/m^3", "density of the rod", "7870"),
+                       positiveParameter("omega", "rad/s", "rate of the crank", "150"),
+                       numberParameter("Fc", "N", "Coulomb friction of the slider", "0", 0, 1e15),
+                       smoothingParameter("m/s", "speed from which on friction has its full size", "1e-2")},
+        .panels = {{"angles", {"phi1", "phi2"}},
+                   {"bending modes", {"q1", "q2"}, "mm", 1e3},
+                   {"longitudinal modes", {"q3", "q4"}, "µm", 1e6},
+                   {"multipliers", {"lambda1", "lambda2"}},
+                   {"multiplier", {"lambda3"}}},
+        .reference_cases = {{.times = "0.01 0.02 0.025 0.03 0.04 0.05 0.06 0.07 0.08 0.09", .tolerance = kFewDigits},
+                            {.settings = "Fc=20",
+                             .times = "0.005 0.01 0.015 0.02 0.025 0.03 0.035 0.04 0.045 0.05",
+                             .tolerance = kFewDigits}}};
+  }
+
  private:
   // r -= M(u) a.
   template <class T>
@@ -141,89 +213,6 @@ class FlexibleSliderCrank {
   Real B13_, B14_, B24_, c1_3_, c1_4_, c2_1_, c12_3_, c12_4_, c21_1_, c21_2_;
 };
 
-// The start of the test set, made consistent: x3(0) and phi2'(0) are computed, since the printed values are rounded
-// to 9 digits.
-template <class Real>
-void setStart(const RodData<Real>& d, State<Real>& s) {
-  s.u[5] = decimal<Real>("0.103339863e-4");
-  s.u[6] = decimal<Real>("0.169327969e-4");
-  s.u[2] = d.l1 + d.l2 + s.u[6];
-  s.v[0] = d.omega;
-  s.v[1] = -d.l1 * d.omega / (d.l2 + s.u[6]);
-  s.v[3] = decimal<Real>("0.444896105");
-  s.v[4] = decimal<Real>("0.463434311e-2");
-  s.v[5] = decimal<Real>("-0.178591076e-5");
-  s.v[6] = decimal<Real>("-0.268938672e-5");
-  s.v[2] = s.v[6];
-}
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const RodData<Real> data{.m2 = value("m2"),
-                           .m3 = value("m3"),
-                           .J1 = value("J1"),
-                           .J2 = value("J2"),
-                           .l1 = value("l1"),
-                           .l2 = value("l2"),
-                           .b = value("b"),
-                           .h = value("h"),
-                           .E = value("E"),
-                           .rho = value("rho"),
-                           .omega = value("omega"),
-                           .Fc = value("Fc"),
-                           .smoothing = value("smoothing")};
-  Scene<Real> scene;
-  setProblem(scene, FlexibleSliderCrank<Real>(data));
-  setStart(data, scene.start);
-  scene.start.d.setConstant(-1);  // the slider begins to move towards the crank
-  completeStart(scene);
-  scene.t_end = 0.1;
-  setComponents(scene,
-                {{"phi1", "rad", 1, 100},
-                 {"phi2", "rad", 1, 100},
-                 {"x3", "m", 0.1, 10},
-                 {"q1", "m", 1e-4, 0.1},
-                 {"q2", "m", 1e-5, 1e-2},
-                 {"q3", "m", 1e-5, 1e-2},
-                 {"q4", "m", 1e-5, 1e-2}},
-                {}, {{"lambda1", "N", 100}, {"lambda2", "N", 100}, {"lambda3", "N m", 100}});
-  return scene;
-}
-
 }  // namespace
 
-SceneEntry sliderCrankFlexibleEntry() {
-  return {.id = "slider_crank_flexible",
-          .title = "slider-crank with an elastic rod (Simeon; IVP test set 'crank')",
-          .shows = "M(u), three multipliers and stiff elastic modes, against a published solution",
-          .collections = {"ivp", "multibody"},
-          .literature = "IVP test set, CRANK",
-          .kind = SceneKind::kConstrained,
-          .parameters = {positiveParameter("m2", "kg", "mass of the rod", "0.151104"),
-                         positiveParameter("m3", "kg", "mass of the slider", "0.075552"),
-                         positiveParameter("J1", "kg m^2", "inertia of the crank", "0.002727"),
-                         positiveParameter("J2", "kg m^2", "inertia of the rod", "0.0045339259"),
-                         positiveParameter("l1", "m", "crank length", "0.15"),
-                         positiveParameter("l2", "m", "rod length", "0.30"),
-                         positiveParameter("b", "m", "width of the rod", "0.008"),
-                         positiveParameter("h", "m", "height of the rod", "0.008"),
-                         positiveParameter("E", "Pa", "Young's modulus", "2e11"),
-                         positiveParameter("rho", "kg/m^3", "density of the rod", "7870"),
-                         positiveParameter("omega", "rad/s", "rate of the crank", "150"),
-                         numberParameter("Fc", "N", "Coulomb friction of the slider", "0", 0, 1e15),
-                         smoothingParameter("m/s", "speed from which on friction has its full size", "1e-2")},
-          .panels = {{"angles", {"phi1", "phi2"}},
-                     {"bending modes", {"q1", "q2"}, "mm", 1e3},
-                     {"longitudinal modes", {"q3", "q4"}, "µm", 1e6},
-                     {"multipliers", {"lambda1", "lambda2"}},
-                     {"multiplier", {"lambda3"}}},
-          .reference_cases = {{.times = "0.01 0.02 0.025 0.03 0.04 0.05 0.06 0.07 0.08 0.09", .tolerance = kFewDigits},
-                              {.settings = "Fc=20",
-                               .times = "0.005 0.01 0.015 0.02 0.025 0.03 0.035 0.04 0.045 0.05",
-                               .tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(FlexibleSliderCrank)

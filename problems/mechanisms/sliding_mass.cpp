@@ -5,13 +5,13 @@
 // slope r' are continuous, r'' jumps, and with it the force on the mass, r'' s'^2: a switch. Beyond the tip the last
 // element goes on.
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 
 #include "irk/scene_file.h"
 #include "problems/mechanisms/ancf_beam.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 enum Switch : Index { kNext, kPrevious };
@@ -205,40 +205,9 @@ void setUp(const Inserted<Real>& problem, const Real& s0, const Real& v0, double
                    {"energy", energy, "J", true}};
 }
 
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Real L = value("L"), E = value("E"), A = value("A"), s0 = value("start") * L, v0 = value("v0");
-  const AncfData<Real> data{.elements = static_cast<Index>(number<double>(settings, "elements")),
-                            .L = L,
-                            .EA = E * A,
-                            .EI = E * value("I"),
-                            .rhoA = value("rho") * A,
-                            .g = value("g"),
-                            .tip_load = Real(0),
-                            .support = AncfSupport::kClamped};
-  const Slide<Real> slide{.beam = AncfBeam<Real>(data), .m = value("m"), .g = data.g};
-  // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
-  const double speed = std::max(std::sqrt(static_cast<double>(Real(3 * data.g * L))), 1.0);
-  Scene<Real> scene;
-  if (settings.at("coordinates") == "inserted") {
-    setUp(Inserted<Real>{slide}, s0, v0, speed, scene);
-  } else {
-    setUp(Joint<Real>{slide}, s0, v0, speed, scene);
-  }
-  const Vec<Real> straight = slide.beam.straightStart().u;
-  scene.start.u.head(straight.size()) = straight;
-  scene.start.d << static_cast<double>(slide.elementAt(s0));
-  completeStart(scene);
-  scene.t_end = 0.35;
-  return scene;
-}
-
 std::vector<Parameter> parameters() {
-  Parameter coordinates = wordParameter("coordinates", "the joint by constraints, or the mass inserted into the beam",
-                                        {"joint", "inserted"});
-  coordinates.changes_solution = false;
-  return {coordinates,
+  return {descriptionParameter("coordinates", "the joint by constraints, or the mass inserted into the beam",
+                               {"joint", "inserted"}),
           elementsParameter("2"),
           positiveParameter("L", "m", "length of the beam", "1"),
           positiveParameter("A", "m^2", "area of the section", "0.0018"),
@@ -251,24 +220,52 @@ std::vector<Parameter> parameters() {
           numberParameter("v0", "m/s", "velocity of the mass at the start", "1", -1e6, 1e6)};
 }
 
+template <class Real>
+struct SlidingMass {
+  static Scene<Real> make(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Real L = value("L"), E = value("E"), A = value("A"), s0 = value("start") * L, v0 = value("v0");
+    const AncfData<Real> data{.elements = static_cast<Index>(number<double>(values, "elements")),
+                              .L = L,
+                              .EA = E * A,
+                              .EI = E * value("I"),
+                              .rhoA = value("rho") * A,
+                              .g = value("g"),
+                              .tip_load = Real(0),
+                              .support = AncfSupport::kClamped};
+    const Slide<Real> slide{.beam = AncfBeam<Real>(data), .m = value("m"), .g = data.g};
+    // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
+    const double speed = std::max(std::sqrt(static_cast<double>(Real(3 * data.g * L))), 1.0);
+    Scene<Real> scene;
+    if (values.at("coordinates") == "inserted") {
+      setUp(Inserted<Real>{slide}, s0, v0, speed, scene);
+    } else {
+      setUp(Joint<Real>{slide}, s0, v0, speed, scene);
+    }
+    const Vec<Real> straight = slide.beam.straightStart().u;
+    scene.start.u.head(straight.size()) = straight;
+    scene.start.d << static_cast<double>(slide.elementAt(s0));
+    completeStart(scene);
+    scene.t_end = 0.35;
+    return scene;
+  }
+  static SceneEntry entry() {
+    return {.id = "sliding_mass",
+            .title = "mass that slides along an ANCF cantilever",
+            .shows = "a joint that moves along a deforming body; the force jumps between elements",
+            .collections = {"multibody", "switching"},
+            .literature = "H. Sugiyama, J. L. Escalona, A. A. Shabana, Nonlinear Dyn. 31 (2003) 167-195",
+            .kind = SceneKind::kConstrained,
+            .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
+            .parameters = parameters(),
+            .panels = {{"place on the beam", {"s"}},
+                       {"mass and tip", {"y", "tip_y"}},
+                       {"force of the joint", {"lambda_x", "lambda_y"}},
+                       {"path of the mass", {"x:y"}}},
+            .reference_cases = {{.times = "0.1 0.2 0.3", .tolerance = kFewDigits}}};
+  }
+};
+
 }  // namespace
 
-SceneEntry slidingMassEntry() {
-  return {.id = "sliding_mass",
-          .title = "mass that slides along an ANCF cantilever",
-          .shows = "a joint that moves along a deforming body; the force jumps between elements",
-          .collections = {"multibody", "switching"},
-          .literature = "H. Sugiyama, J. L. Escalona, A. A. Shabana, Nonlinear Dyn. 31 (2003) 167-195",
-          .kind = SceneKind::kConstrained,
-          .size = {.parameter = "elements", .unknowns = 4, .step = 1e-4},
-          .parameters = parameters(),
-          .panels = {{"place on the beam", {"s"}},
-                     {"mass and tip", {"y", "tip_y"}},
-                     {"force of the joint", {"lambda_x", "lambda_y"}},
-                     {"path of the mass", {"x:y"}}},
-          .reference_cases = {{.times = "0.1 0.2 0.3", .tolerance = kFewDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(SlidingMass)

@@ -6,12 +6,11 @@
 // The slider moves along the x-axis and is at (s, 0, 0). The rod is slender and uniform: with its ends A and B it has
 // the kinetic energy m2 (|A'|^2 + A'.B' + |B'|^2) / 6, and half of its weight acts at each end. Its turning about its
 // own axis, which the two spherical joints leave free, has no inertia (in Haug's book 4e-4 kg m^2) and is left out.
-#include <cmath>
-
 #include "irk/misuse.h"
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -187,46 +186,9 @@ void addEnergy(const P& problem, Scene<Real>& scene) {
   scene.outputs.push_back({"energy", [problem](const State<Real>& s) { return problem.energy(s); }, "J", true});
 }
 
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  using std::sqrt;
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Data<Real> d{.r = value("r"),
-                     .L = value("L"),
-                     .b = value("b"),
-                     .c = value("c"),
-                     .J1 = value("J1"),
-                     .m2 = value("m2"),
-                     .m3 = value("m3"),
-                     .g = value("g"),
-                     .T = value("T"),
-                     .start = value("theta0"),
-                     .speed = value("omega0")};
-  if (!(d.L > d.r + sqrt(d.b * d.b + d.c * d.c))) {
-    throw Misuse("spatial_slider_crank: the crank cannot turn, L must be greater than r + sqrt(b^2 + c^2)");
-  }
-  Scene<Real> scene;
-  const std::string& coordinates = settings.at("coordinates");
-  if (coordinates == "minimal") {
-    makeMinimal(d, scene);
-    addEnergy(Minimal<Real>{{d}}, scene);
-  } else if (coordinates == "reduced") {
-    makeReduced(d, scene);
-    addEnergy(Reduced<Real>{d}, scene);
-  } else {
-    makeNatural(d, scene);
-    addEnergy(Natural<Real>{d}, scene);
-  }
-  setStart(d, scene);
-  scene.t_end = 2;
-  return scene;
-}
-
 std::vector<Parameter> parameters() {
-  Parameter coordinates = wordParameter("coordinates", "description of the same mechanism: four, one or no constraints",
-                                        {"natural", "reduced", "minimal"});
-  coordinates.changes_solution = false;
-  return {coordinates,
+  return {descriptionParameter("coordinates", "description of the same mechanism: four, one or no constraints",
+                               {"natural", "reduced", "minimal"}),
           positiveParameter("r", "m", "length of the crank", "0.08"),
           positiveParameter("L", "m", "length of the rod", "0.3"),
           numberParameter("b", "m", "y of the crank's axis", "0.1", -1e6, 1e6),
@@ -240,25 +202,59 @@ std::vector<Parameter> parameters() {
           numberParameter("omega0", "rad/s", "speed of the crank at the start", "6.283185307179586", -1e6, 1e6)};
 }
 
+template <class Real>
+struct SpatialSliderCrank {
+  static Scene<Real> make(const Settings& values) {
+    using std::sqrt;
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Data<Real> d{.r = value("r"),
+                       .L = value("L"),
+                       .b = value("b"),
+                       .c = value("c"),
+                       .J1 = value("J1"),
+                       .m2 = value("m2"),
+                       .m3 = value("m3"),
+                       .g = value("g"),
+                       .T = value("T"),
+                       .start = value("theta0"),
+                       .speed = value("omega0")};
+    if (!(d.L > d.r + sqrt(d.b * d.b + d.c * d.c))) {
+      throw Misuse("spatial_slider_crank: the crank cannot turn, L must be greater than r + sqrt(b^2 + c^2)");
+    }
+    Scene<Real> scene;
+    const std::string& coordinates = values.at("coordinates");
+    if (coordinates == "minimal") {
+      makeMinimal(d, scene);
+      addEnergy(Minimal<Real>{{d}}, scene);
+    } else if (coordinates == "reduced") {
+      makeReduced(d, scene);
+      addEnergy(Reduced<Real>{d}, scene);
+    } else {
+      makeNatural(d, scene);
+      addEnergy(Natural<Real>{d}, scene);
+    }
+    setStart(d, scene);
+    scene.t_end = 2;
+    return scene;
+  }
+  static SceneEntry entry() {
+    return {.id = "spatial_slider_crank",
+            .title = "slider-crank in space, a rod between two spherical joints",
+            .shows = "a closed chain in three dimensions; four, one or no constraints for the same motion",
+            .collections = {"multibody"},
+            .literature = "E. J. Haug, Computer-Aided Kinematics and Dynamics, 1989",
+            .kind = SceneKind::kConstrained,
+            .parameters = parameters(),
+            .panels = {{"crank", {"theta"}},
+                       {"slider", {"s"}},
+                       {"velocity of the slider", {"s'"}},
+                       {"force of the joint", {"lambda_x", "lambda_y", "lambda_z"}},
+                       {"force along the rod", {"lambda"}},
+                       {"path of the rod's end", {"Ay:Az"}}},
+            .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}}};
+  }
+};
+
 }  // namespace
 
-SceneEntry spatialSliderCrankEntry() {
-  return {.id = "spatial_slider_crank",
-          .title = "slider-crank in space, a rod between two spherical joints",
-          .shows = "a closed chain in three dimensions; four, one or no constraints for the same motion",
-          .collections = {"multibody"},
-          .literature = "E. J. Haug, Computer-Aided Kinematics and Dynamics, 1989",
-          .kind = SceneKind::kConstrained,
-          .parameters = parameters(),
-          .panels = {{"crank", {"theta"}},
-                     {"slider", {"s"}},
-                     {"velocity of the slider", {"s'"}},
-                     {"force of the joint", {"lambda_x", "lambda_y", "lambda_z"}},
-                     {"force along the rod", {"lambda"}},
-                     {"path of the rod's end", {"Ay:Az"}}},
-          .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(SpatialSliderCrank)

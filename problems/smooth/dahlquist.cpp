@@ -1,8 +1,8 @@
 // Dahlquist's equation y' = lambda y with complex lambda, written as two real equations.
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -28,22 +28,20 @@ struct Dahlquist {
   static Dahlquist with(const Settings& values) {
     return {number<Real>(values, "lambda_re"), number<Real>(values, "lambda_im")};
   }
-  SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{"y1"}, {"y2"}}}; }
+  SceneFrame<Real> frame() const { return {.t_end = 1}; }
+  static SceneEntry entry() {
+    return {.id = "dahlquist",
+            .title = "Dahlquist's equation y' = lambda y, lambda complex",
+            .shows = "the stability function R(h lambda) itself",
+            .collections = {"probes"},
+            .literature = "HW II (IV.3)",
+            .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
+                           numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Dahlquist>};
+  }
 };
 
 }  // namespace
 
-SceneEntry dahlquistEntry() {
-  return sceneEntryOf<Dahlquist>(
-      {.id = "dahlquist",
-       .title = "Dahlquist's equation y' = lambda y, lambda complex",
-       .shows = "the stability function R(h lambda) itself",
-       .collections = {"probes"},
-       .literature = "HW II (IV.3)",
-       .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
-                      numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
-       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<Dahlquist>});
-}
-
-}  // namespace irk
+IRK_SCENE(Dahlquist)

@@ -5,15 +5,18 @@
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "irk/scene_file.h"
 #include "problems/support/elliptic.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
+
+template <class Real>
+class ExactElastica;
 
 template <class Real>
 struct Elastica {
@@ -27,6 +30,33 @@ struct Elastica {
     r.u[0] = load / (L * L) * cos(p.u[0]) - p.a[0];
     r.x[0] = cos(p.u[0]) - p.k[0];
     r.x[1] = sin(p.u[0]) - p.k[1];
+  }
+  static Scene<Real> make(const Settings& values) {
+    const Elastica<Real> problem{number<Real>(values, "L"), number<Real>(values, "load")};
+    const ExactElastica<Real> exact(problem);
+    Scene<Real> scene;
+    setProblem(scene, problem);
+    const Real L = problem.L;
+    const double length = static_cast<double>(L);
+    scene.t_end = length;
+    scene.time_unit = "m";  // t is the arc length
+    setComponents(scene, {{"theta", "rad", 1, 1 / length}}, {{"x", "m", length}, {"y", "m", length}});
+    scene.exact = [exact](const Real& s) { return exact.at(s); };
+    scene.start = scene.exact(Real(0));
+    scene.start.u[0] = scene.start.x[0] = scene.start.x[1] = Real(0);  // exact(0) is 0 up to rounding only
+    scene.outputs = {{"u_x", [](const State<Real>& s) { return Real(s.x[0] - s.t); }, "m"},
+                     {"u_y", [](const State<Real>& s) { return s.x[1]; }, "m"}};
+    return scene;
+  }
+  static SceneEntry entry() {
+    return {.id = "elastica",
+            .title = "inextensible cantilever under a dead tip load, along its arc length",
+            .shows = "large bending against elliptic integrals: the limit of ancf_cantilever at rest",
+            .collections = {"probes"},
+            .parameters = {positiveParameter("L", "m", "length", "2"),
+                           numberParameter("load", "", "f L^2 / EI, down", "3", 1e-2, 100)},
+            .panels = {{"angle", {"theta"}}, {"shape", {"x:y"}}},
+            .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}}};
   }
 };
 
@@ -89,38 +119,6 @@ class ExactElastica {
   Real a_, k_, start_, F_, E_;
 };
 
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const Elastica<Real> problem{number<Real>(settings, "L"), number<Real>(settings, "load")};
-  const ExactElastica<Real> exact(problem);
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  const Real L = problem.L;
-  const double length = static_cast<double>(L);
-  scene.t_end = length;
-  scene.time_unit = "m";  // t is the arc length
-  setComponents(scene, {{"theta", "rad", 1, 1 / length}}, {{"x", "m", length}, {"y", "m", length}});
-  scene.exact = [exact](const Real& s) { return exact.at(s); };
-  scene.start = scene.exact(Real(0));
-  scene.start.u[0] = scene.start.x[0] = scene.start.x[1] = Real(0);  // exact(0) is 0 up to rounding only
-  scene.outputs = {{"u_x", [](const State<Real>& s) { return Real(s.x[0] - s.t); }, "m"},
-                   {"u_y", [](const State<Real>& s) { return s.x[1]; }, "m"}};
-  return scene;
-}
-
 }  // namespace
 
-SceneEntry elasticaEntry() {
-  return {.id = "elastica",
-          .title = "inextensible cantilever under a dead tip load, along its arc length",
-          .shows = "large bending against elliptic integrals: the limit of ancf_cantilever at rest",
-          .collections = {"probes"},
-          .parameters = {positiveParameter("L", "m", "length", "2"),
-                         numberParameter("load", "", "f L^2 / EI, down", "3", 1e-2, 100)},
-          .panels = {{"angle", {"theta"}}, {"shape", {"x:y"}}},
-          .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(Elastica)

@@ -2,12 +2,12 @@
 // u_i' = N (F_{i+1/2} - F_{i-1/2}) + q_i(t), F_{i+1/2} = N (1 + ((u_i + u_{i+1}) / 2)^2) (u_{i+1} - u_i), N = n + 1,
 // u = 0 at both ends. The source q makes u_i = sin(pi x_i) g(t), g = 1 + sin(5 t) / 2, x_i = i / N, the exact solution
 // of these equations, for any n.
-#include <cmath>
 #include <memory>
 
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // The source is q_i = S_i g' + w S_i g - B_i g^3: with c = cos(pi / (2 N)), s = sin(pi / (2 N)), w = 4 N^2 s^2,
@@ -70,28 +70,19 @@ struct Heat {
     s.w = source->S * Real(cos(Real(5 * t)) * 5 / 2);
     return s;
   }
-  SceneFrame<Real> frame() const {
-    SceneFrame<Real> frame{.t_end = 1, .time_unit = ""};
-    for (Index i = 1; i <= n; ++i) frame.x.push_back({"u" + std::to_string(i)});
-    return frame;
+  SceneFrame<Real> frame() const { return {.t_end = 1, .time_unit = "", .x = numbered(n, "u")}; }
+  static SceneEntry entry() {
+    return {.id = "heat",
+            .title = "heat conduction in a rod, conductivity 1 + u^2",
+            .shows = "a parabolic equation: tridiagonal, nonlinear, exactly solvable, up to 200 000 unknowns",
+            .collections = {"probes"},
+            .size = {.parameter = "n", .unknowns = 1, .step = 1e-2},
+            .parameters = {wholeParameter("n", "interior points = unknowns", "20", 3, 200000, 100)},
+            .panels = {{"temperatures", {"u1", "u3"}}},
+            .reference_cases = {{.times = "0.5"}}};
   }
 };
 
 }  // namespace
 
-SceneEntry heatEntry() {
-  Parameter points = numberParameter("n", "", "interior points = unknowns", "20", 3, 200000);
-  points.whole = true;
-  points.audit_max = 100;
-  return sceneEntryOf<Heat>(
-      {.id = "heat",
-       .title = "heat conduction in a rod, conductivity 1 + u^2",
-       .shows = "a parabolic equation: tridiagonal, nonlinear, exactly solvable, up to 200 000 unknowns",
-       .collections = {"probes"},
-       .size = {.parameter = "n", .unknowns = 1, .step = 1e-2},
-       .parameters = {points},
-       .panels = {{"temperatures", {"u1", "u3"}}},
-       .reference_cases = {{.times = "0.5"}}});
-}
-
-}  // namespace irk
+IRK_SCENE(Heat)

@@ -1,8 +1,8 @@
 // HIRES: high irradiance responses of photomorphogenesis, Schaefer (1975). HW II (IV.10).
-#include "irk/scene_lanes.h"
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -32,21 +32,19 @@ struct Hires {
   }
   // As in HW II (IV.10): Atol = 1e-4 Rtol.
   SceneFrame<Real> frame() const { return {.t_end = 321.8122, .x = numbered(8, "y", "", 1e-4)}; }
+  static SceneEntry entry() {
+    return {.id = "hires",
+            .title = "HIRES, eight chemical reactions of plant physiology",
+            .shows = "a moderately stiff ODE of the standard test sets",
+            .collections = {"ivp"},
+            .literature = "IVP test set, HIRES; HW II (IV.10)",
+            .reference_cases =
+                {{.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
+                  .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Hires>};
+  }
 };
 
 }  // namespace
 
-SceneEntry hiresEntry() {
-  return sceneEntryOf<Hires>(
-      {.id = "hires",
-       .title = "HIRES, eight chemical reactions of plant physiology",
-       .shows = "a moderately stiff ODE of the standard test sets",
-       .collections = {"ivp"},
-       .literature = "IVP test set, HIRES; HW II (IV.10)",
-       .reference_cases =
-           {{.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
-             .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<Hires>});
-}
-
-}  // namespace irk
+IRK_SCENE(Hires)

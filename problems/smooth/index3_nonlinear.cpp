@@ -1,21 +1,16 @@
 // A nonlinear DAE of index 3 after Jay (Appl. Numer. Math. 17, 1995, section 7). Its solution is
 // y = z = (exp 2t, exp -t), w = exp t. z enters y' nonlinearly: y and z are not positions and velocities.
-#include <array>
+#include "problems/smooth/exponentials.h"
 
-#include "problems/smooth/exponential_dae.h"
+using namespace irk;
 
-namespace irk {
 namespace {
 
+template <class Real>
 struct Index3Nonlinear {
   static constexpr int kAlgebraicIndex = 3;
   static constexpr std::array kDifferentialIndices = {1, 1, 2, 2};
-  static constexpr std::array kRates = {2, -1, 2, -1};
-  static constexpr std::array kNames = {"y1", "y2", "z1", "z2"};
-  static constexpr int kAlgebraicRate = 1;
-  static constexpr const char* kAlgebraicName = "w";
 
-  static ReferenceCase referenceCase() { return {.times = "0.25 0.5", .step = 0.1}; }
   Sizes sizes() const { return {.nu = 0, .nx = 4, .nz = 1, .constraints = 0}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -27,10 +22,20 @@ struct Index3Nonlinear {
     r.x[3] = -(y1 * y2 * y2 * square * w) - p.k[3];
     r.z[0] = y1 * y2 * y2 - 1;
   }
+  State<Real> exact(const Real& t) const { return exponentials(sizes(), t, std::array{2, -1, 2, -1, 1}); }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 1, .time_unit = "", .x = {{"y1"}, {"y2"}, {"z1"}, {"z2"}}, .z = {{"w"}}};
+  }
+  static SceneEntry entry() {
+    return {.id = "index3_nonlinear",
+            .title = "nonlinear DAE of index 3, exactly solvable",
+            .shows = "orders of differential and algebraic unknowns, index 3",
+            .collections = {"probes"},
+            .kind = SceneKind::kIndex3,
+            .reference_cases = {{.times = "0.25 0.5", .step = 0.1}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry index3NonlinearEntry() { return ExponentialDae<Index3Nonlinear>::entry(); }
-
-}  // namespace irk
+IRK_SCENE(Index3Nonlinear)

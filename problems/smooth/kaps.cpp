@@ -1,9 +1,9 @@
 // Kaps' problem: y1' = -(2 + 1/eps) y1 + y2^2 / eps, y2' = y1 - y2 - y2^2. The solution is y = (exp -2t, exp -t)
 // for every eps.
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -26,21 +26,20 @@ struct Kaps {
     return s;
   }
   static Kaps with(const Settings& values) { return {number<Real>(values, "eps")}; }
-  SceneFrame<Real> frame() const { return {.t_end = 1, .time_unit = "", .x = {{"y1"}, {"y2"}}}; }
+  SceneFrame<Real> frame() const { return {.t_end = 1, .time_unit = ""}; }
+  static SceneEntry entry() {
+    return {.id = "kaps",
+            .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
+            .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
+            .collections = {"probes"},
+            .kind = SceneKind::kSingularlyPerturbed,
+            .stiffness = {.parameter = "eps", .reciprocal = true},
+            .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Kaps>};
+  }
 };
 
 }  // namespace
 
-SceneEntry kapsEntry() {
-  return sceneEntryOf<Kaps>({.id = "kaps",
-                             .title = "Kaps' problem, singularly perturbed with a smooth exact solution",
-                             .shows = "order reduction of a nonlinear stiff system; index 1 as eps vanishes",
-                             .collections = {"probes"},
-                             .kind = SceneKind::kSingularlyPerturbed,
-                             .stiffness = {.parameter = "eps", .reciprocal = true},
-                             .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-                             .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-                             .make_lanes = lanesOf<Kaps>});
-}
-
-}  // namespace irk
+IRK_SCENE(Kaps)

@@ -1,8 +1,8 @@
 // The planar two-body problem q'' = -q / |q|^3 with eccentricity e, started at the pericentre.
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -62,20 +62,18 @@ struct Kepler {
                 {"angular_momentum", [](const State<Real>& s) { return Real(s.u[0] * s.v[1] - s.u[1] * s.v[0]); }, "",
                  true}}};
   }
+  static SceneEntry entry() {
+    return {.id = "kepler",
+            .title = "Kepler's two-body problem",
+            .shows = "invariants: energy and angular momentum over many revolutions",
+            .collections = {"probes"},
+            .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
+            .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
+            .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Kepler>};
+  }
 };
 
 }  // namespace
 
-SceneEntry keplerEntry() {
-  return sceneEntryOf<Kepler>(
-      {.id = "kepler",
-       .title = "Kepler's two-body problem",
-       .shows = "invariants: energy and angular momentum over many revolutions",
-       .collections = {"probes"},
-       .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
-       .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
-       .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<Kepler>});
-}
-
-}  // namespace irk
+IRK_SCENE(Kepler)

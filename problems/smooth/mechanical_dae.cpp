@@ -1,9 +1,9 @@
 // A small mechanical system with gyroscopic and nonlinear forces, for measuring the orders of q, v and lambda:
 // M = diag(1, 2), constraint x^2 + y^2 (1 + 0.3 x) = 1.
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -27,18 +27,16 @@ struct MechanicalDae {
     s.v[1] = Real(0.5);
   }
   SceneFrame<Real> frame() const { return {.t_end = 1, .time_unit = "", .u = {{"x"}, {"y"}}, .z = {{"lambda"}}}; }
+  static SceneEntry entry() {
+    return {.id = "mechanical_dae",
+            .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
+            .shows = "orders of q, v and lambda in every formulation",
+            .collections = {"probes"},
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<MechanicalDae>};
+  }
 };
 
 }  // namespace
 
-SceneEntry mechanicalDaeEntry() {
-  return sceneEntryOf<MechanicalDae>({.id = "mechanical_dae",
-                                      .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
-                                      .shows = "orders of q, v and lambda in every formulation",
-                                      .collections = {"probes"},
-                                      .kind = SceneKind::kConstrained,
-                                      .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-                                      .make_lanes = lanesOf<MechanicalDae>});
-}
-
-}  // namespace irk
+IRK_SCENE(MechanicalDae)

@@ -1,9 +1,9 @@
 // Prothero & Robinson's problem: y' = lambda (y - phi) + phi' with phi = cos t. The solution is y = phi.
 // HW II (IV.15).
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -28,22 +28,20 @@ struct ProtheroRobinson {
   }
   static ProtheroRobinson with(const Settings& values) { return {number<Real>(values, "lambda")}; }
   SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{"y"}}}; }
+  static SceneEntry entry() {
+    return {.id = "prothero_robinson",
+            .title = "y' = lambda (y - cos t) - sin t",
+            .shows = "order reduction of stiff systems, one component, one parameter",
+            .collections = {"probes"},
+            .literature = "A. Prothero, A. Robinson, Math. Comp. 28 (1974) 145-162",
+            .kind = SceneKind::kStiffTest,
+            .stiffness = {.parameter = "lambda"},
+            .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<ProtheroRobinson>};
+  }
 };
 
 }  // namespace
 
-SceneEntry protheroRobinsonEntry() {
-  return sceneEntryOf<ProtheroRobinson>(
-      {.id = "prothero_robinson",
-       .title = "y' = lambda (y - cos t) - sin t",
-       .shows = "order reduction of stiff systems, one component, one parameter",
-       .collections = {"probes"},
-       .literature = "A. Prothero, A. Robinson, Math. Comp. 28 (1974) 145-162",
-       .kind = SceneKind::kStiffTest,
-       .stiffness = {.parameter = "lambda"},
-       .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
-       .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<ProtheroRobinson>});
-}
-
-}  // namespace irk
+IRK_SCENE(ProtheroRobinson)

@@ -1,8 +1,8 @@
 // Robertson's chemical kinetics to t = 1e11. HW II (IV.10), "ROBER".
-#include "irk/scene_lanes.h"
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -22,20 +22,18 @@ struct Robertson {
   void start(State<Real>& s) const { s.x[0] = Real(1); }
   // As in HW II (IV.10): Atol = 1e-6 Rtol.
   SceneFrame<Real> frame() const { return {.t_end = 1e11, .x = numbered(3, "y", "", 1e-6)}; }
+  static SceneEntry entry() {
+    return {.id = "robertson",
+            .title = "Robertson's chemical kinetics to t = 1e11",
+            .shows = "eleven decades of time, a component that falls to 1e-13",
+            .collections = {"ivp"},
+            .literature = "IVP test set, ROBER; HW II (IV.10)",
+            .reference_cases = {{.times = "0.4 4e3 1e7 1e10 2e10 3e10 4e10 5e10 6e10 7e10 8e10 9e10",
+                                 .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Robertson>};
+  }
 };
 
 }  // namespace
 
-SceneEntry robertsonEntry() {
-  return sceneEntryOf<Robertson>(
-      {.id = "robertson",
-       .title = "Robertson's chemical kinetics to t = 1e11",
-       .shows = "eleven decades of time, a component that falls to 1e-13",
-       .collections = {"ivp"},
-       .literature = "IVP test set, ROBER; HW II (IV.10)",
-       .reference_cases = {{.times = "0.4 4e3 1e7 1e10 2e10 3e10 4e10 5e10 6e10 7e10 8e10 9e10",
-                            .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<Robertson>});
-}
-
-}  // namespace irk
+IRK_SCENE(Robertson)

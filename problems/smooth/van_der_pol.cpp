@@ -1,9 +1,9 @@
 // Van der Pol's equation, singularly perturbed: y1' = y2, eps y2' = (1 - y1^2) y2 - y1. HW II
 // (IV.10).
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -18,24 +18,22 @@ struct VanDerPol {
   }
   static VanDerPol with(const Settings& values) { return {number<Real>(values, "eps")}; }
   void start(State<Real>& s) const { s.x << Real(2), decimal<Real>("-0.66"); }
-  SceneFrame<Real> frame() const { return {.t_end = 2, .time_unit = "", .x = {{"y1"}, {"y2"}}}; }
+  SceneFrame<Real> frame() const { return {.t_end = 2, .time_unit = ""}; }
+  static SceneEntry entry() {
+    return {.id = "van_der_pol",
+            .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
+            .shows = "stiffness with fast transitions: step control and Newton",
+            .collections = {"ivp"},
+            .literature = "IVP test set, VDPOL; HW II (IV.10)",
+            .kind = SceneKind::kSingularlyPerturbed,
+            .stiffness = {.parameter = "eps", .reciprocal = true},
+            .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
+            .panels = {{"y1", {"y1"}}, {"y2", {"y2"}, "1e6", 1e-6}},
+            .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<VanDerPol>};
+  }
 };
 
 }  // namespace
 
-SceneEntry vanDerPolEntry() {
-  return sceneEntryOf<VanDerPol>(
-      {.id = "van_der_pol",
-       .title = "van der Pol's equation, eps y2' = (1 - y1^2) y2 - y1",
-       .shows = "stiffness with fast transitions: step control and Newton",
-       .collections = {"ivp"},
-       .literature = "IVP test set, VDPOL; HW II (IV.10)",
-       .kind = SceneKind::kSingularlyPerturbed,
-       .stiffness = {.parameter = "eps", .reciprocal = true},
-       .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-       .panels = {{"y1", {"y1"}}, {"y2", {"y2"}, "1e6", 1e-6}},
-       .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<VanDerPol>});
-}
-
-}  // namespace irk
+IRK_SCENE(VanDerPol)

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "irk/system.h"
+#include "irk/problem.h"
 
 namespace irk {
 
@@ -22,5 +22,16 @@ struct PiecewiseLinear {
   /// The state at t >= 0, with w = (a, k) and the discrete state d.
   State<Real> operator()(const Real& t) const;
 };
+
+/// The exact solution of a scene's problem P at t >= 0. P has a function `rates(d)`, and `start` if it does not start
+/// from zeros.
+template <class Real, class P>
+State<Real> exactBetweenSwitches(const P& problem, const Real& t, const Real& omega = 0) {
+  const std::shared_ptr<const System<Real>> system = makeSystem<Real>(problem);
+  State<Real> start(system->sceneSizes());
+  if constexpr (requires { problem.start(start); }) problem.start(start);
+  const auto rates = [&problem](const Vec<Real>& d) { return problem.rates(d); };
+  return PiecewiseLinear<Real>{system, start, rates, omega}(t);
+}
 
 }  // namespace irk

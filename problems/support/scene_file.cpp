@@ -68,11 +68,16 @@ Parameter smoothingParameter(std::string unit, std::string meaning, std::string 
   return p;
 }
 
-Parameter elementsParameter(std::string default_value) {
-  Parameter p = numberParameter("elements", "", "number of elements", std::move(default_value), 1, kMaxElements);
+Parameter wholeParameter(std::string name, std::string meaning, std::string default_value, double min, double max,
+                         double audit_max) {
+  Parameter p = numberParameter(std::move(name), "", std::move(meaning), std::move(default_value), min, max);
   p.whole = true;
-  p.audit_max = 4;
+  p.audit_max = audit_max;
   return p;
+}
+
+Parameter elementsParameter(std::string default_value) {
+  return wholeParameter("elements", "number of elements", std::move(default_value), 1, kMaxElements, 4);
 }
 
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices) {
@@ -81,6 +86,12 @@ Parameter wordParameter(std::string name, std::string meaning, std::vector<std::
   p.meaning = std::move(meaning);
   p.default_value = choices.front();
   p.choices = std::move(choices);
+  return p;
+}
+
+Parameter descriptionParameter(std::string name, std::string meaning, std::vector<std::string> choices) {
+  Parameter p = wordParameter(std::move(name), std::move(meaning), std::move(choices));
+  p.changes_solution = false;
   return p;
 }
 
@@ -153,6 +164,19 @@ Real piOf() {
 template <>
 Lanes piOf<Lanes>() {
   return piOf<double>();
+}
+
+std::vector<Component> named(const std::string& unit, std::initializer_list<const char*> names) {
+  std::vector<Component> all;
+  for (const char* name : names) all.push_back({name, unit});
+  return all;
+}
+
+std::vector<Component> numbered(Index count, const std::string& name, const std::string& unit, double scale,
+                                double rate_scale) {
+  std::vector<Component> all;
+  for (Index i = 1; i <= count; ++i) all.push_back({name + std::to_string(i), unit, scale, rate_scale});
+  return all;
 }
 
 namespace {

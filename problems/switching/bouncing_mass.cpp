@@ -1,11 +1,10 @@
 // A mass that falls on an elastic floor and bounces.
-#include <cmath>
-
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d = (1 in contact, 0 otherwise).
@@ -13,6 +12,7 @@ template <class Real>
 struct BouncingMass {
   Real m, k, g;    // kg, N/m, m/s^2
   Real smoothing;  // m
+  Real gap0, v0;   // m, m/s: at the start
 
   Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
   template <class T>
@@ -39,42 +39,38 @@ struct BouncingMass {
     return rows;
   }
   std::string switchName(Index) const { return "contact"; }
+  static BouncingMass with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return {.m = value("m"),
+            .k = value("k"),
+            .g = value("g"),
+            .smoothing = value("smoothing"),
+            .gap0 = value("gap0"),
+            .v0 = value("v0")};
+  }
+  void start(State<Real>& s) const {
+    s.u[0] = gap0;
+    s.v[0] = v0;
+    s.d[0] = Real(gap0 < 0 ? 1 : 0);
+  }
+  State<Real> exact(const Real& t) const { return exactBetweenSwitches(*this, t); }
+  SceneFrame<Real> frame() const { return {.t_end = 0.5, .u = {{"gap", "m", 0.01, 1}}}; }
+  static SceneEntry entry() {
+    return {.id = "bouncing_mass",
+            .title = "mass bouncing on an elastic floor",
+            .shows = "contact: a stiffness that comes and goes",
+            .collections = {"switching"},
+            .parameters = {positiveParameter("m", "kg", "mass", "0.25"),
+                           positiveParameter("k", "N/m", "stiffness of the floor", "2e4"),
+                           numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
+                           numberParameter("gap0", "m", "gap at the start", "0.01", -1e6, 1e6),
+                           numberParameter("v0", "m/s", "velocity at the start", "-1", -1e6, 1e6),
+                           smoothingParameter("m", "penetration until the floor has its whole stiffness", "1e-5")},
+            .panels = {{"gap", {"gap"}}, {"velocity", {"gap'"}}},
+            .reference_cases = {{.times = "0.1 0.3"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const BouncingMass<Real> problem{.m = value("m"), .k = value("k"), .g = value("g"), .smoothing = value("smoothing")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.start.u[0] = value("gap0");
-  scene.start.v[0] = value("v0");
-  scene.start.d[0] = Real(scene.start.u[0] < 0 ? 1 : 0);
-  completeStart(scene);
-  scene.t_end = 0.5;
-  scene.exact =
-      PiecewiseLinear<Real>{scene.system({}), scene.start, [problem](const Vec<Real>& d) { return problem.rates(d); }};
-  setComponents(scene, {{"gap", "m", 0.01, 1}});
-  return scene;
-}
 
 }  // namespace
 
-SceneEntry bouncingMassEntry() {
-  return {.id = "bouncing_mass",
-          .title = "mass bouncing on an elastic floor",
-          .shows = "contact: a stiffness that comes and goes",
-          .collections = {"switching"},
-          .parameters = {positiveParameter("m", "kg", "mass", "0.25"),
-                         positiveParameter("k", "N/m", "stiffness of the floor", "2e4"),
-                         numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
-                         numberParameter("gap0", "m", "gap at the start", "0.01", -1e6, 1e6),
-                         numberParameter("v0", "m/s", "velocity at the start", "-1", -1e6, 1e6),
-                         smoothingParameter("m", "penetration until the floor has its whole stiffness", "1e-5")},
-          .panels = {{"gap", {"gap"}}, {"velocity", {"gap'"}}},
-          .reference_cases = {{.times = "0.1 0.3"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(BouncingMass)

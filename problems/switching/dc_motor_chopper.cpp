@@ -1,12 +1,11 @@
 // A DC motor whose current is held in a band by a chopper with hysteresis.
 //
 // u = phi, angle of the rotor; x = i, current.
-#include <cmath>
-
 #include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d = (1 while the supply is on, 0 otherwise). There is no regularisation, since the hysteresis is a memory.
@@ -40,51 +39,40 @@ struct DcMotorChopper {
     return rows;
   }
   std::string switchName(Index) const { return "chopper"; }
+  static DcMotorChopper with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return {.U = value("U"),
+            .R = value("R"),
+            .L = value("L"),
+            .kM = value("kM"),
+            .J = value("J"),
+            .b = value("b"),
+            .TL = value("TL"),
+            .iref = value("iref"),
+            .D = value("D")};
+  }
+  void start(State<Real>& s) const { s.d[0] = 1; }
+  State<Real> exact(const Real& t) const { return exactBetweenSwitches(*this, t); }
+  SceneFrame<Real> frame() const { return {.t_end = 0.02, .u = {{"phi", "rad", 0.1, 10}}, .x = {{"i", "A", 5}}}; }
+  static SceneEntry entry() {
+    return {.id = "dc_motor_chopper",
+            .title = "DC motor behind a two-level chopper with hysteresis",
+            .shows = "power electronics: a supply that switches by the current's own band",
+            .collections = {"switching"},
+            .parameters = {positiveParameter("U", "V", "supply voltage", "24"),
+                           numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
+                           positiveParameter("L", "H", "inductance of the armature", "0.01"),
+                           positiveParameter("kM", "N m/A", "motor constant", "0.05"),
+                           positiveParameter("J", "kg m^2", "inertia of the rotor", "2e-4"),
+                           numberParameter("b", "N m s", "viscous friction", "1e-4", 0, 1e15),
+                           numberParameter("TL", "N m", "load torque", "0.05", -1e15, 1e15),
+                           numberParameter("iref", "A", "wanted current", "4", -1e15, 1e15),
+                           positiveParameter("D", "A", "half width of the current's band", "1")},
+            .panels = {{"angle", {"phi"}}, {"angular velocity", {"phi'"}}, {"current", {"i"}}},
+            .reference_cases = {{.times = "0.005 0.01"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const DcMotorChopper<Real> problem{.U = value("U"),
-                                     .R = value("R"),
-                                     .L = value("L"),
-                                     .kM = value("kM"),
-                                     .J = value("J"),
-                                     .b = value("b"),
-                                     .TL = value("TL"),
-                                     .iref = value("iref"),
-                                     .D = value("D")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.start.d[0] = 1;
-  completeStart(scene);
-  scene.t_end = 0.02;
-  scene.exact =
-      PiecewiseLinear<Real>{scene.system({}), scene.start, [problem](const Vec<Real>& d) { return problem.rates(d); }};
-  setComponents(scene, {{"phi", "rad", 0.1, 10}}, {{"i", "A", 5}});
-  return scene;
-}
 
 }  // namespace
 
-SceneEntry dcMotorChopperEntry() {
-  return {.id = "dc_motor_chopper",
-          .title = "DC motor behind a two-level chopper with hysteresis",
-          .shows = "power electronics: a supply that switches by the current's own band",
-          .collections = {"switching"},
-          .parameters = {positiveParameter("U", "V", "supply voltage", "24"),
-                         numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),
-                         positiveParameter("L", "H", "inductance of the armature", "0.01"),
-                         positiveParameter("kM", "N m/A", "motor constant", "0.05"),
-                         positiveParameter("J", "kg m^2", "inertia of the rotor", "2e-4"),
-                         numberParameter("b", "N m s", "viscous friction", "1e-4", 0, 1e15),
-                         numberParameter("TL", "N m", "load torque", "0.05", -1e15, 1e15),
-                         numberParameter("iref", "A", "wanted current", "4", -1e15, 1e15),
-                         positiveParameter("D", "A", "half width of the current's band", "1")},
-          .panels = {{"angle", {"phi"}}, {"angular velocity", {"phi'"}}, {"current", {"i"}}},
-          .reference_cases = {{.times = "0.005 0.01"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(DcMotorChopper)

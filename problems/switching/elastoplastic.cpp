@@ -1,13 +1,12 @@
 // A mass on a spring and an ideally plastic slider in series, driven by a harmonic force.
 //
 // u = displacement of the mass, x = displacement of the slider.
-#include <cmath>
-
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d = (1 while the slider moves, 0 otherwise; sign of the force at the last yield, 0 before the first one).
@@ -77,44 +76,35 @@ struct Elastoplastic {
     constexpr const char* kNames[] = {"yield at +Fy", "yield at -Fy", "unloading"};
     return kNames[i];
   }
+  static Elastoplastic with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return {.m = value("m"),
+            .k = value("k"),
+            .Fy = value("Fy"),
+            .P0 = value("P0"),
+            .Omega = value("Omega"),
+            .smoothing = value("smoothing")};
+  }
+  State<Real> exact(const Real& t) const { return exactBetweenSwitches(*this, t, Omega); }
+  SceneFrame<Real> frame() const {
+    const double yield = static_cast<double>(Real(Fy / k));
+    return {.t_end = 1.8, .u = {{"u", "m", yield, 10 * yield}}, .x = {{"x", "m", yield}}};
+  }
+  static SceneEntry entry() {
+    return {.id = "elastoplastic",
+            .title = "driven mass on a spring and an ideal-plastic slider in series",
+            .shows = "plasticity: a memory, a rate that jumps, and a kink at every unloading",
+            .collections = {"switching"},
+            .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "100"),
+                           positiveParameter("Fy", "N", "yield force", "1"),
+                           numberParameter("P0", "N", "amplitude of the load", "1.2", -1e15, 1e15),
+                           positiveParameter("Omega", "rad/s", "frequency of the load", "5"),
+                           smoothingParameter("", "part of Fy over which the slider starts to move", "1e-3")},
+            .panels = {{"displacements", {"u", "x"}}, {"velocity", {"u'"}}},
+            .reference_cases = {{.times = "0.5 1"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Elastoplastic<Real> problem{.m = value("m"),
-                                    .k = value("k"),
-                                    .Fy = value("Fy"),
-                                    .P0 = value("P0"),
-                                    .Omega = value("Omega"),
-                                    .smoothing = value("smoothing")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  completeStart(scene);
-  scene.t_end = 1.8;
-  scene.exact = PiecewiseLinear<Real>{scene.system({}), scene.start,
-                                      [problem](const Vec<Real>& d) { return problem.rates(d); }, problem.Omega};
-  const double yield = static_cast<double>(Real(problem.Fy / problem.k));
-  setComponents(scene, {{"u", "m", yield, 10 * yield}}, {{"x", "m", yield}});
-  return scene;
-}
 
 }  // namespace
 
-SceneEntry elastoplasticEntry() {
-  return {.id = "elastoplastic",
-          .title = "driven mass on a spring and an ideal-plastic slider in series",
-          .shows = "plasticity: a memory, a rate that jumps, and a kink at every unloading",
-          .collections = {"switching"},
-          .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "100"),
-                         positiveParameter("Fy", "N", "yield force", "1"),
-                         numberParameter("P0", "N", "amplitude of the load", "1.2", -1e15, 1e15),
-                         positiveParameter("Omega", "rad/s", "frequency of the load", "5"),
-                         smoothingParameter("", "part of Fy over which the slider starts to move", "1e-3")},
-          .panels = {{"displacements", {"u", "x"}}, {"velocity", {"u'"}}},
-          .reference_cases = {{.times = "0.5 1"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(Elastoplastic)

@@ -2,8 +2,6 @@
 //
 // u = (theta1, theta2), angles from the horizontal; x = (p1, p2), pressures in the chambers. The cylinder runs from
 // (sqrt(3)/2 L, 0) to the middle of rod 1, so that it is L/2 long at theta1 = 30 degrees.
-#include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "irk/misuse.h"
@@ -11,7 +9,8 @@
 #include "irk/scene_file.h"
 #include "irk/vanishes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 enum class Manoeuvre { kSteps, kSine };
@@ -38,12 +37,48 @@ struct Polyline {
   }
 };
 
+template <class Real>
+Polyline<Real> polylineOf(Manoeuvre manoeuvre) {
+  const auto number = [](const char* text) { return decimal<Real>(text); };
+  switch (manoeuvre) {
+    case Manoeuvre::kSteps:
+      return {{2, number("2.001"), 6, number("6.002")}, {0, number("-0.01"), number("-0.01"), number("0.02")}};
+    case Manoeuvre::kSine:
+      break;
+  }
+  return {{0, 1, 8, 9}, {0, number("0.1"), number("0.1"), 0}};
+}
+
 // d: the number of corners passed; level and slope of the present piece of the polyline, level + slope t; a flag for
 // each edge of the valve, 1 while the pressure drops in the direction of the flow.
 enum Discrete : Index { kPassed, kLevel, kSlope, kFirstEdge };
 constexpr Index kEdges = 4;
 // Switches: the next corner, then the edges of the valve.
 constexpr Index kCorner = 0, kFirstEdgeSwitch = 1;
+
+std::vector<Parameter> parameters() {
+  Parameter smoothing_p = smoothingParameter("Pa", "pressure drop over which an edge of the valve opens", "1e4");
+  smoothing_p.name += "_p";
+  return {wordParameter("manoeuvre", "what the valve does", {"steps", "sine"}),
+          positiveParameter("L", "m", "length of rod 1", "1"),
+          positiveParameter("L2", "m", "length of rod 2, massless", "0.5"),
+          positiveParameter("m1", "kg", "distributed mass of rod 1", "200"),
+          numberParameter("mt", "kg", "point mass at the tip of rod 1", "250", 0, 1e15),
+          positiveParameter("m2", "kg", "point mass at the end of rod 2", "100"),
+          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
+          positiveParameter("A", "m^2", "area of the piston", "0.0065"),
+          positiveParameter("Lc", "m", "length of both chambers", "0.442"),
+          numberParameter("c", "N s/m", "viscous friction of the cylinder", "1e5", 0, 1e15),
+          positiveParameter("Av", "m^2", "area of the valve", "5e-4"),
+          positiveParameter("cd", "", "discharge coefficient of the valve", "0.67"),
+          positiveParameter("rho", "kg/m^3", "density of the oil", "850"),
+          positiveParameter("pP", "Pa", "supply pressure", "7.6e6"),
+          numberParameter("pT", "Pa", "tank pressure", "1e5", 0, 1e15),
+          numberParameter("a", "1/Pa", "bulk modulus (1 + a p + b p^2) / (a + 2 b p)", "6.53e-10", 0, 1),
+          numberParameter("b", "1/Pa^2", "the same", "-1.19e-18", -1, 1),
+          smoothingParameter("s", "corners of the manoeuvre are rounded by it", "1e-4"),
+          smoothing_p};
+}
 
 template <class Real>
 struct HydraulicManipulator {
@@ -55,7 +90,7 @@ struct HydraulicManipulator {
   Polyline<Real> polyline;
   Real smoothing, smoothing_p;  // s, Pa
   Real pi, base;                // -, m: distance from the hinge to the foot of the cylinder
-  Real kappa0 = 0;
+  Real kappa0 = 0, p1 = 0;      // opening and pressure in chamber 1 at the start
 
   Sizes sizes() const { return {.nu = 2, .nx = 2, .discrete = kFirstEdge + kEdges, .switches = 1 + kEdges}; }
   Real s0() const { return L / 2; }
@@ -173,122 +208,79 @@ struct HydraulicManipulator {
   static std::size_t passed(const Point<T>& p) {
     return static_cast<std::size_t>(valueOf(p.d[kPassed]));
   }
+  // The equilibrium at theta1 = 30 degrees: the pressures carry the load, and the net flow into both chambers vanishes.
+  // With kappa / (1 - kappa) = q the latter means q^2 = (p1 - pT) / (pP - p1) = (pP - p2) / (p2 - pT), hence
+  // p1 + p2 = pP + pT.
+  void setEquilibrium() {
+    using std::cos;
+    using std::sqrt;
+    const Real theta1 = pi / 6;
+    const Real force = load() * cos(theta1) / lever<Real>(theta1);
+    const Real sum = pP + pT, difference = force / A;
+    p1 = (sum - difference) / 2;
+    if (!(p1 > pT && p1 < pP)) {
+      throw Misuse("no equilibrium, the load needs more than pP - pT");
+    }
+    const Real q = sqrt((p1 - pT) / (pP - p1));
+    kappa0 = q / (1 + q);
+  }
+  static HydraulicManipulator with(const Settings& values) {
+    using std::sqrt;
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Manoeuvre manoeuvre = values.at("manoeuvre") == "sine" ? Manoeuvre::kSine : Manoeuvre::kSteps;
+    HydraulicManipulator problem{.L = value("L"),
+                                 .L2 = value("L2"),
+                                 .m1 = value("m1"),
+                                 .mt = value("mt"),
+                                 .m2 = value("m2"),
+                                 .g = value("g"),
+                                 .A = value("A"),
+                                 .Lc = value("Lc"),
+                                 .c = value("c"),
+                                 .Av = value("Av"),
+                                 .cd = value("cd"),
+                                 .rho = value("rho"),
+                                 .pP = value("pP"),
+                                 .pT = value("pT"),
+                                 .a = value("a"),
+                                 .b = value("b"),
+                                 .manoeuvre = manoeuvre,
+                                 .polyline = polylineOf<Real>(manoeuvre),
+                                 .smoothing = value("smoothing"),
+                                 .smoothing_p = value("smoothing_p"),
+                                 .pi = piOf<Real>(),
+                                 .base = value("L") * sqrt(Real(3)) / 2};
+    problem.setEquilibrium();
+    return problem;
+  }
+  void start(State<Real>& s) const {
+    s.u << pi / 6, -pi / 2;
+    s.x << p1, pP + pT - p1;
+    passCorners(polyline.t[0] > 0 ? 0 : 1, s.d.data());
+    s.d.tail(kEdges).setOnes();
+  }
+  SceneFrame<Real> frame() const {
+    return {.t_end = 10,
+            .u = {{"theta1", "rad"}, {"theta2", "rad"}},
+            .x = {{"p1", "Pa", 1e6}, {"p2", "Pa", 1e6}},
+            .outputs = {{"s", [*this](const State<Real>& s) { return length<Real>(s.u[0]); }, "m"}}};
+  }
+  static SceneEntry entry() {
+    return {.id = "hydraulic_manipulator",
+            .title = "two links, the first lifted by a hydraulic cylinder behind a spool valve",
+            .shows =
+                "M(u) with stiff pressures, a bulk modulus that depends on them, and ramps of "
+                "a millisecond",
+            .collections = {"multibody", "switching"},
+            .parameters = parameters(),
+            .panels = {{"angles", {"theta1", "theta2"}},
+                       {"angular velocities", {"theta1'", "theta2'"}},
+                       {"pressures", {"p1", "p2"}, "MPa", 1e-6},
+                       {"cylinder", {"s"}}},
+            .reference_cases = {{.times = "2 4 6"}, {.settings = "manoeuvre=sine", .times = "2 5"}}};
+  }
 };
-
-template <class Real>
-Polyline<Real> polylineOf(Manoeuvre manoeuvre) {
-  const auto number = [](const char* text) { return decimal<Real>(text); };
-  switch (manoeuvre) {
-    case Manoeuvre::kSteps:
-      return {{2, number("2.001"), 6, number("6.002")}, {0, number("-0.01"), number("-0.01"), number("0.02")}};
-    case Manoeuvre::kSine:
-      break;
-  }
-  return {{0, 1, 8, 9}, {0, number("0.1"), number("0.1"), 0}};
-}
-
-// The equilibrium at theta1 = 30 degrees: the pressures carry the load, and the net flow into both chambers vanishes.
-// With kappa / (1 - kappa) = q the latter means q^2 = (p1 - pT) / (pP - p1) = (pP - p2) / (p2 - pT), hence
-// p1 + p2 = pP + pT.
-template <class Real>
-void setEquilibrium(HydraulicManipulator<Real>& problem, State<Real>& start) {
-  using std::cos;
-  using std::sqrt;
-  const Real theta1 = problem.pi / 6;
-  const Real force = problem.load() * cos(theta1) / problem.template lever<Real>(theta1);
-  const Real sum = problem.pP + problem.pT, difference = force / problem.A;
-  const Real p1 = (sum - difference) / 2;
-  if (!(p1 > problem.pT && p1 < problem.pP)) {
-    throw Misuse("no equilibrium, the load needs more than pP - pT");
-  }
-  const Real q = sqrt((p1 - problem.pT) / (problem.pP - p1));
-  problem.kappa0 = q / (1 + q);
-  start.u << theta1, -problem.pi / 2;
-  start.x << p1, sum - p1;
-}
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  using std::sqrt;
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Manoeuvre manoeuvre = settings.at("manoeuvre") == "sine" ? Manoeuvre::kSine : Manoeuvre::kSteps;
-  HydraulicManipulator<Real> problem{.L = value("L"),
-                                     .L2 = value("L2"),
-                                     .m1 = value("m1"),
-                                     .mt = value("mt"),
-                                     .m2 = value("m2"),
-                                     .g = value("g"),
-                                     .A = value("A"),
-                                     .Lc = value("Lc"),
-                                     .c = value("c"),
-                                     .Av = value("Av"),
-                                     .cd = value("cd"),
-                                     .rho = value("rho"),
-                                     .pP = value("pP"),
-                                     .pT = value("pT"),
-                                     .a = value("a"),
-                                     .b = value("b"),
-                                     .manoeuvre = manoeuvre,
-                                     .polyline = polylineOf<Real>(manoeuvre),
-                                     .smoothing = value("smoothing"),
-                                     .smoothing_p = value("smoothing_p"),
-                                     .pi = piOf<Real>(),
-                                     .base = value("L") * sqrt(Real(3)) / 2};
-  Scene<Real> scene;
-  State<Real> start(problem.sizes());
-  setEquilibrium(problem, start);
-  problem.passCorners(problem.polyline.t[0] > 0 ? 0 : 1, start.d.data());
-  start.d.tail(kEdges).setOnes();
-  setProblem(scene, problem);
-  scene.start = start;
-  completeStart(scene);
-  scene.t_end = 10;
-  setComponents(scene, {{"theta1", "rad"}, {"theta2", "rad"}}, {{"p1", "Pa", 1e6}, {"p2", "Pa", 1e6}});
-  scene.outputs = {{"s", [problem](const State<Real>& s) { return problem.template length<Real>(s.u[0]); }, "m"}};
-  return scene;
-}
-
-std::vector<Parameter> parameters() {
-  Parameter smoothing_p = smoothingParameter("Pa", "pressure drop over which an edge of the valve opens", "1e4");
-  smoothing_p.name += "_p";
-  return {wordParameter("manoeuvre", "what the valve does", {"steps", "sine"}),
-          positiveParameter("L", "m", "length of rod 1", "1"),
-          positiveParameter("L2", "m", "length of rod 2, massless", "0.5"),
-          positiveParameter("m1", "kg", "distributed mass of rod 1", "200"),
-          numberParameter("mt", "kg", "point mass at the tip of rod 1", "250", 0, 1e15),
-          positiveParameter("m2", "kg", "point mass at the end of rod 2", "100"),
-          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
-          positiveParameter("A", "m^2", "area of the piston", "0.0065"),
-          positiveParameter("Lc", "m", "length of both chambers", "0.442"),
-          numberParameter("c", "N s/m", "viscous friction of the cylinder", "1e5", 0, 1e15),
-          positiveParameter("Av", "m^2", "area of the valve", "5e-4"),
-          positiveParameter("cd", "", "discharge coefficient of the valve", "0.67"),
-          positiveParameter("rho", "kg/m^3", "density of the oil", "850"),
-          positiveParameter("pP", "Pa", "supply pressure", "7.6e6"),
-          numberParameter("pT", "Pa", "tank pressure", "1e5", 0, 1e15),
-          numberParameter("a", "1/Pa", "bulk modulus (1 + a p + b p^2) / (a + 2 b p)", "6.53e-10", 0, 1),
-          numberParameter("b", "1/Pa^2", "the same", "-1.19e-18", -1, 1),
-          smoothingParameter("s", "corners of the manoeuvre are rounded by it", "1e-4"),
-          smoothing_p};
-}
 
 }  // namespace
 
-SceneEntry hydraulicManipulatorEntry() {
-  return {.id = "hydraulic_manipulator",
-          .title = "two links, the first lifted by a hydraulic cylinder behind a spool valve",
-          .shows =
-              "M(u) with stiff pressures, a bulk modulus that depends on them, and ramps of "
-              "a millisecond",
-          .collections = {"multibody", "switching"},
-          .parameters = parameters(),
-          .panels = {{"angles", {"theta1", "theta2"}},
-                     {"angular velocities", {"theta1'", "theta2'"}},
-                     {"pressures", {"p1", "p2"}, "MPa", 1e-6},
-                     {"cylinder", {"s"}}},
-          .reference_cases = {{.times = "2 4 6"}, {.settings = "manoeuvre=sine", .times = "2 5"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(HydraulicManipulator)

@@ -1,10 +1,9 @@
 // An oscillator under a PD controller whose force is computed at sampling times and held constant in between.
-#include <cmath>
-
 #include "irk/scene_file.h"
 #include "problems/support/piecewise_linear.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d = (the held force F_k, the number k + 1 of the next sample). There is no regularisation, since d is a memory.
@@ -42,47 +41,36 @@ struct SampledControl {
     return rows;
   }
   std::string switchName(Index) const { return "sample"; }
+  static SampledControl with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return {.m = value("m"),
+            .d = value("d"),
+            .c = value("c"),
+            .Kp = value("Kp"),
+            .Kd = value("Kd"),
+            .r = value("r"),
+            .Ts = value("Ts")};
+  }
+  void start(State<Real>& s) const { s.d << control(s.u[0], s.v[0]), 1; }
+  State<Real> exact(const Real& t) const { return exactBetweenSwitches(*this, t); }
+  SceneFrame<Real> frame() const { return {.t_end = 1, .u = {{"x", "m", 1, 5}}}; }
+  static SceneEntry entry() {
+    return {.id = "sampled_control",
+            .title = "oscillator under a sampled PD controller",
+            .shows = "a digital controller: a discrete state that is set at fixed times",
+            .collections = {"switching"},
+            .parameters = {positiveParameter("m", "kg", "mass", "1"),
+                           numberParameter("d", "N s/m", "damping", "0.5", 0, 1e15),
+                           numberParameter("c", "N/m", "spring", "20", 0, 1e15),
+                           numberParameter("Kp", "N/m", "proportional gain", "60", -1e15, 1e15),
+                           numberParameter("Kd", "N s/m", "derivative gain", "5", -1e15, 1e15),
+                           numberParameter("r", "m", "wanted position", "1", -1e6, 1e6),
+                           positiveParameter("Ts", "s", "time between samples", "0.1")},
+            .panels = {{"position", {"x"}}, {"velocity", {"x'"}}},
+            .reference_cases = {{.times = "0.1 0.45"}}};
+  }
 };
-
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const SampledControl<Real> problem{.m = value("m"),
-                                     .d = value("d"),
-                                     .c = value("c"),
-                                     .Kp = value("Kp"),
-                                     .Kd = value("Kd"),
-                                     .r = value("r"),
-                                     .Ts = value("Ts")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.start.d << problem.control(scene.start.u[0], scene.start.v[0]), 1;
-  completeStart(scene);
-  scene.t_end = 1;
-  scene.exact =
-      PiecewiseLinear<Real>{scene.system({}), scene.start, [problem](const Vec<Real>& d) { return problem.rates(d); }};
-  setComponents(scene, {{"x", "m", 1, 5}});
-  return scene;
-}
 
 }  // namespace
 
-SceneEntry sampledControlEntry() {
-  return {.id = "sampled_control",
-          .title = "oscillator under a sampled PD controller",
-          .shows = "a digital controller: a discrete state that is set at fixed times",
-          .collections = {"switching"},
-          .parameters = {positiveParameter("m", "kg", "mass", "1"),
-                         numberParameter("d", "N s/m", "damping", "0.5", 0, 1e15),
-                         numberParameter("c", "N/m", "spring", "20", 0, 1e15),
-                         numberParameter("Kp", "N/m", "proportional gain", "60", -1e15, 1e15),
-                         numberParameter("Kd", "N s/m", "derivative gain", "5", -1e15, 1e15),
-                         numberParameter("r", "m", "wanted position", "1", -1e6, 1e6),
-                         positiveParameter("Ts", "s", "time between samples", "0.1")},
-          .panels = {{"position", {"x"}}, {"velocity", {"x'"}}},
-          .reference_cases = {{.times = "0.1 0.45"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(SampledControl)

@@ -1,16 +1,18 @@
 // A mass on a spring and a moving belt with set-valued Coulomb friction. With the belt at rest: free oscillations
 // that decay by Coulomb friction.
-#include <cmath>
-
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d = (friction force while slipping, Fd sign(vb - x'); 1 while sticking, 0 otherwise).
 enum Discrete : Index { kFriction, kSticks };
 enum Switch : Index { kSlipsBack, kSlipsAhead, kReachesBelt };
+
+template <class Real>
+class ExactStickSlip;
 
 template <class Real>
 struct StickSlip {
@@ -66,13 +68,48 @@ struct StickSlip {
     constexpr const char* kNames[] = {"slips back", "slips ahead", "reaches the belt"};
     return kNames[i];
   }
-
-  /// The discrete state at x0, v0.
-  void startMode(Real* d) const {
+  static StickSlip with(const Settings& values) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    return {.m = value("m"),
+            .k = value("k"),
+            .Fs = value("Fs"),
+            .Fd = value("Fd"),
+            .vb = value("vb"),
+            .x0 = value("x0"),
+            .v0 = value(values.at("v0") == "vb" ? "vb" : "v0"),
+            .smoothing = value("smoothing")};
+  }
+  void start(State<Real>& s) const {
+    s.u[0] = x0;
+    s.v[0] = v0;
     const Real spring = k * x0;
     const bool back = v0 < vb || (v0 == vb && spring > 0);
-    d[kFriction] = back ? Fd : Real(-Fd);
-    d[kSticks] = Real(v0 == vb && spring <= Fs && -spring <= Fs ? 1 : 0);
+    s.d[kFriction] = back ? Fd : Real(-Fd);
+    s.d[kSticks] = Real(v0 == vb && spring <= Fs && -spring <= Fs ? 1 : 0);
+  }
+  State<Real> exact(const Real& t) const { return ExactStickSlip<Real>(*this).at(t); }
+  SceneFrame<Real> frame() const {
+    // Velocities are measured by the speed of the belt: an error e of x delays a slip by e / vb.
+    const double belt = std::abs(static_cast<double>(vb));
+    return {.t_end = 50,
+            .u = {{"x", "m", static_cast<double>(Real(Fs / k)), belt > 0 ? belt : 1}},
+            .exact_holds = Fd <= Fs};
+  }
+  static SceneEntry entry() {
+    return {.id = "stick_slip",
+            .title = "mass on a belt with Coulomb friction",
+            .shows = "set-valued friction against an exact solution: what each treatment of discontinuities costs",
+            .collections = {"switching"},
+            .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "1"),
+                           positiveParameter("Fs", "N", "largest sticking force", "1.5"),
+                           positiveParameter("Fd", "N", "slip force", "1"),
+                           numberParameter("vb", "m/s", "belt speed", "0.1", -1e3, 1e3),
+                           numberParameter("x0", "m", "position at the start", "0", -1e6, 1e6),
+                           numberParameter("v0", "m/s", "velocity at the start; vb = on the belt", "vb", -1e6, 1e6),
+                           smoothingParameter("m/s", "relative velocity at which friction is Fs; Fd from twice that on",
+                                              "1e-4")},
+            .panels = {{"position", {"x"}}, {"velocity", {"x'"}}},
+            .reference_cases = {{.times = "20 30"}, {.settings = "Fs=1 k=100 v0=0 vb=0 x0=0.105"}}};
   }
 };
 
@@ -167,54 +204,6 @@ class ExactStickSlip {
   StickSlip<Real> p_;
 };
 
-template <class Real>
-Scene<Real> make(const Settings& settings) {
-  const auto value = [&](const std::string& name) { return number<Real>(settings, name); };
-  const StickSlip<Real> problem{.m = value("m"),
-                                .k = value("k"),
-                                .Fs = value("Fs"),
-                                .Fd = value("Fd"),
-                                .vb = value("vb"),
-                                .x0 = value("x0"),
-                                .v0 = value(settings.at("v0") == "vb" ? "vb" : "v0"),
-                                .smoothing = value("smoothing")};
-  Scene<Real> scene;
-  setProblem(scene, problem);
-  scene.start.u[0] = problem.x0;
-  scene.start.v[0] = problem.v0;
-  problem.startMode(scene.start.d.data());
-  completeStart(scene);
-  scene.t_end = 50;
-  // Velocities are measured by the speed of the belt: an error e of x delays a slip by e / vb.
-  const double belt = std::abs(static_cast<double>(problem.vb));
-  setComponents(scene, {{"x", "m", static_cast<double>(Real(problem.Fs / problem.k)), belt > 0 ? belt : 1}});
-  if (problem.Fd <= problem.Fs) {
-    scene.exact = [exact = ExactStickSlip<Real>(problem)](const Real& t) { return exact.at(t); };
-  }
-  return scene;
-}
-
 }  // namespace
 
-SceneEntry stickSlipEntry() {
-  return {.id = "stick_slip",
-          .title = "mass on a belt with Coulomb friction",
-          .shows =
-              "set-valued friction against an exact solution: what each way to treat a "
-              "discontinuity costs",
-          .collections = {"switching"},
-          .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "1"),
-                         positiveParameter("Fs", "N", "largest sticking force", "1.5"),
-                         positiveParameter("Fd", "N", "slip force", "1"),
-                         numberParameter("vb", "m/s", "belt speed", "0.1", -1e3, 1e3),
-                         numberParameter("x0", "m", "position at the start", "0", -1e6, 1e6),
-                         numberParameter("v0", "m/s", "velocity at the start; vb = on the belt", "vb", -1e6, 1e6),
-                         smoothingParameter("m/s", "relative velocity at which friction is Fs; Fd from twice that on",
-                                            "1e-4")},
-          .panels = {{"position", {"x"}}, {"velocity", {"x'"}}},
-          .reference_cases = {{.times = "20 30"}, {.settings = "Fs=1 k=100 v0=0 vb=0 x0=0.105"}},
-          .make = make<double>,
-          .make_mp50 = make<mp50>};
-}
-
-}  // namespace irk
+IRK_SCENE(StickSlip)

@@ -4,7 +4,8 @@
 // moves at the speed vb.
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -48,26 +49,24 @@ struct LuGre {
     const double slow = static_cast<double>(Vs);
     return {.t_end = 25, .u = {{"X", "m", 1, slow}}, .x = {{"Z", "m", bristle}}};
   }
+  static SceneEntry entry() {
+    return {.id = "stick_slip_lugre",
+            .title = "mass pulled over a surface with bristles (LuGre friction)",
+            .shows = "stick-slip without switches: smooth and very stiff",
+            .collections = {"switching"},
+            .parameters = {positiveParameter("M", "kg", "mass", "1"), positiveParameter("K", "N/m", "spring", "2"),
+                           numberParameter("vb", "m/s", "speed of the spring's other end", "0.1", -1e3, 1e3),
+                           positiveParameter("sigma0", "N/m", "stiffness of the bristles", "1e5"),
+                           numberParameter("sigma1", "N s/m", "damping of the bristles", "sqrt(sigma0)", 0, 1e15),
+                           numberParameter("sigma2", "N s/m", "viscous friction", "0.4", 0, 1e15),
+                           positiveParameter("Fc", "N", "Coulomb friction", "1"),
+                           positiveParameter("Fs", "N", "largest sticking force", "1.5"),
+                           positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc", "0.001")},
+            .panels = {{"position", {"X"}}, {"velocity", {"X'"}}, {"deflection of the bristles", {"Z"}, "µm", 1e6}},
+            .reference_cases = {{.times = "2.5 5 7.5 10 12.5 15 17.5 20 22.5"}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry stickSlipLugreEntry() {
-  return sceneEntryOf<LuGre>(
-      {.id = "stick_slip_lugre",
-       .title = "mass pulled over a surface with bristles (LuGre friction)",
-       .shows = "stick-slip without switches: smooth and very stiff",
-       .collections = {"switching"},
-       .parameters = {positiveParameter("M", "kg", "mass", "1"), positiveParameter("K", "N/m", "spring", "2"),
-                      numberParameter("vb", "m/s", "speed of the spring's other end", "0.1", -1e3, 1e3),
-                      positiveParameter("sigma0", "N/m", "stiffness of the bristles", "1e5"),
-                      numberParameter("sigma1", "N s/m", "damping of the bristles", "sqrt(sigma0)", 0, 1e15),
-                      numberParameter("sigma2", "N s/m", "viscous friction", "0.4", 0, 1e15),
-                      positiveParameter("Fc", "N", "Coulomb friction", "1"),
-                      positiveParameter("Fs", "N", "largest sticking force", "1.5"),
-                      positiveParameter("Vs", "m/s", "velocity over which friction falls from Fs to Fc", "0.001")},
-       .panels = {{"position", {"X"}}, {"velocity", {"X'"}}, {"deflection of the bristles", {"Z"}, "µm", 1e6}},
-       .reference_cases = {{.times = "2.5 5 7.5 10 12.5 15 17.5 20 22.5"}}});
-}
-
-}  // namespace irk
+IRK_SCENE(LuGre)

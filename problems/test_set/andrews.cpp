@@ -1,7 +1,8 @@
 // Andrews' squeezing mechanism: seven rigid bodies in three loops. IVP test set, ANDREWS; HW II (VII.7).
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 enum Angle : Index { kBeta, kTheta, kGamma, kPhi, kDelta, kOmega, kEpsilon };
@@ -108,20 +109,18 @@ struct Andrews {
     }
     return frame;
   }
+  static SceneEntry entry() {
+    return {.id = "andrews",
+            .title = "Andrews' squeezing mechanism: seven bodies, six multipliers",
+            .shows = "index 3 with M(u): many coupled loops, fast rotation",
+            .collections = {"ivp", "multibody"},
+            .literature = "IVP test set, ANDREWS; HW II (VII.7)",
+            .panels = {{"crank and its rod", {"beta", "Theta"}},
+                       {"other angles", {"gamma", "Phi", "delta", "Omega", "epsilon"}}},
+            .reference_cases = {{.tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry andrewsEntry() {
-  return sceneEntryOf<Andrews>({.id = "andrews",
-                                .title = "Andrews' squeezing mechanism: seven bodies, six multipliers",
-                                .shows = "index 3 with M(u): many coupled loops, fast rotation",
-                                .collections = {"ivp", "multibody"},
-                                .literature = "IVP test set, ANDREWS; HW II (VII.7)",
-                                .kind = SceneKind::kConstrained,
-                                .panels = {{"crank and its rod", {"beta", "Theta"}},
-                                           {"other angles", {"gamma", "Phi", "delta", "Omega", "epsilon"}}},
-                                .reference_cases = {{.tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(Andrews)

@@ -2,11 +2,10 @@
 //
 // theta'' = C v + D u with C u = D v + theta'^2: C is tridiagonal, 1, 2, ..., 2, 3 and -cos(theta_l - theta_l+-1)
 // beside, D has -sin(theta_l - theta_l+-1) beside its diagonal.
-#include <array>
+#include "irk/scene_file.h"
 
-#include "problems/support/numbered.h"
+using namespace irk;
 
-namespace irk {
 namespace {
 
 constexpr std::size_t kLinks = 40;
@@ -63,19 +62,18 @@ struct Beam {
     }
   }
   void start(State<Real>& s) const { s.d[0] = Real(1.5); }
-  SceneFrame<Real> frame() const { return {.t_end = 5, .u = numbered(static_cast<int>(kLinks), "theta", "rad")}; }
+  SceneFrame<Real> frame() const { return {.t_end = 5, .u = numbered(kLinks, "theta", "rad")}; }
+  static SceneEntry entry() {
+    return {.id = "beam",
+            .title = "elastic beam of 40 links",
+            .shows = "stiff oscillations of second order; a force that ends at t = pi",
+            .collections = {"ivp", "multibody"},
+            .literature = "IVP test set, BEAM; HW II (IV.10)",
+            .panels = {{"angle of the free end", {"theta40"}}},
+            .reference_cases = {{.tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry beamEntry() {
-  return sceneEntryOf<Beam>({.id = "beam",
-                             .title = "elastic beam of 40 links",
-                             .shows = "stiff oscillations of second order; a force that ends at t = pi",
-                             .collections = {"ivp", "multibody"},
-                             .literature = "IVP test set, BEAM; HW II (IV.10)",
-                             .panels = {{"angle of the free end", {"theta40"}}},
-                             .reference_cases = {{.tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(Beam)

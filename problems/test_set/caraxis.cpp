@@ -1,8 +1,8 @@
 // The axis of a car on a bumpy road (Schneider). IVP test set, CARAXIS.
-#include "irk/scene_lanes.h"
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -48,20 +48,18 @@ struct CarAxis {
   SceneFrame<Real> frame() const {
     return {.t_end = 3, .u = named("m", {"xl", "yl", "xr", "yr"}), .z = {{"lambda1"}, {"lambda2"}}};
   }
+  static SceneEntry entry() {
+    return {.id = "caraxis",
+            .title = "axis of a car on a bumpy road",
+            .shows = "constraints that depend on time, a small mass between stiff springs",
+            .collections = {"ivp", "multibody"},
+            .literature = "IVP test set, CARAXIS",
+            .panels = {{"heights of the ends", {"yl", "yr"}}},
+            .reference_cases = {{.tolerance = kFewDigits}},
+            .make_lanes = lanesOf<CarAxis>};
+  }
 };
 
 }  // namespace
 
-SceneEntry caraxisEntry() {
-  return sceneEntryOf<CarAxis>({.id = "caraxis",
-                                .title = "axis of a car on a bumpy road",
-                                .shows = "constraints that depend on time, a small mass between stiff springs",
-                                .collections = {"ivp", "multibody"},
-                                .literature = "IVP test set, CARAXIS",
-                                .kind = SceneKind::kConstrained,
-                                .panels = {{"heights of the ends", {"yl", "yr"}}},
-                                .reference_cases = {{.tolerance = kFewDigits}},
-                                .make_lanes = lanesOf<CarAxis>});
-}
-
-}  // namespace irk
+IRK_SCENE(CarAxis)

@@ -1,8 +1,8 @@
 // The chemical Akzo Nobel problem: two substances are mixed under a flow of carbon dioxide. IVP test set, CHEMAKZO.
-#include "irk/scene_lanes.h"
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -29,21 +29,19 @@ struct ChemicalAkzo {
   void start(State<Real>& s) const {
     s.x << decimal<Real>("0.444"), decimal<Real>("0.00123"), Real(0), decimal<Real>("0.007"), Real(0);
   }
-  SceneFrame<Real> frame() const { return {.t_end = 180, .x = numbered(5), .z = {{"y6"}}}; }
+  SceneFrame<Real> frame() const { return {.t_end = 180}; }
+  static SceneEntry entry() {
+    return {.id = "chemakzo",
+            .title = "chemical Akzo Nobel: five reactions, one equilibrium",
+            .shows = "an algebraic row; a square root that ends where a concentration is negative",
+            .collections = {"ivp"},
+            .literature = "IVP test set, CHEMAKZO",
+            .kind = SceneKind::kIndex1,
+            .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<ChemicalAkzo>};
+  }
 };
 
 }  // namespace
 
-SceneEntry chemakzoEntry() {
-  return sceneEntryOf<ChemicalAkzo>(
-      {.id = "chemakzo",
-       .title = "chemical Akzo Nobel: five reactions, one equilibrium",
-       .shows = "an algebraic row; a square root that ends where a concentration is negative",
-       .collections = {"ivp"},
-       .literature = "IVP test set, CHEMAKZO",
-       .kind = SceneKind::kIndex1,
-       .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
-       .make_lanes = lanesOf<ChemicalAkzo>});
-}
-
-}  // namespace irk
+IRK_SCENE(ChemicalAkzo)

@@ -4,9 +4,9 @@
 // sum of all increments would leave it an error of 1e-26, 1e-4 of what y2 falls to. The end values that are printed in
 // the IVP test set are wrong from the third digit on: they contradict this integral.
 #include "irk/scene_file.h"
-#include "irk/scene_lanes.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // Of the smallest component that matters: y3 falls to 9e-23. The codes of the test set are run with atol = 1.7e-24.
@@ -32,19 +32,18 @@ struct E5 {
     return {
         .t_end = 1e13, .x = {{"y1", "", kScale}, {"y3", "", kScale}, {"y4", "", kScale}}, .z = {{"y2", "", kScale}}};
   }
+  static SceneEntry entry() {
+    return {.id = "e5",
+            .title = "E5: chemical pyrolysis to t = 1e13",
+            .shows = "components down to 1e-22 over thirteen decades of time, cancellation",
+            .collections = {"ivp"},
+            .literature = "IVP test set, E5; HW II (IV.10)",
+            .kind = SceneKind::kIndex1,
+            .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
+            .make_lanes = lanesOf<E5>};
+  }
 };
 
 }  // namespace
 
-SceneEntry e5Entry() {
-  return sceneEntryOf<E5>({.id = "e5",
-                           .title = "E5: chemical pyrolysis to t = 1e13",
-                           .shows = "components down to 1e-22 over thirteen decades of time, cancellation",
-                           .collections = {"ivp"},
-                           .literature = "IVP test set, E5; HW II (IV.10)",
-                           .kind = SceneKind::kIndex1,
-                           .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
-                           .make_lanes = lanesOf<E5>});
-}
-
-}  // namespace irk
+IRK_SCENE(E5)

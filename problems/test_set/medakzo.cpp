@@ -1,7 +1,8 @@
 // The medical Akzo Nobel problem: antibodies penetrate a tissue, in finite differences. IVP test set, MEDAKZO.
 #include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // x = (u_1, v_1, ..., u_N, v_N) at zeta_j = j / N. d[0]: the concentration u_0 at the edge, 2 until t = 5, then 0.
@@ -42,24 +43,19 @@ struct MedicalAkzo {
     }
     return frame;
   }
+  static SceneEntry entry() {
+    return {.id = "medakzo",
+            .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
+            .shows = "400 unknowns in a band; an input that jumps at t = 5",
+            .collections = {"ivp"},
+            .literature = "IVP test set, MEDAKZO",
+            .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
+            .parameters = {wholeParameter("N", "points of the grid", "200", 3, 20000, 40)},
+            .panels = {{"antibodies", {"u3", "u50", "u100"}}, {"substrate", {"v50", "v100", "v150"}}},
+            .reference_cases = {{.times = "5", .tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry medakzoEntry() {
-  Parameter points = numberParameter("N", "", "points of the grid", "200", 3, 20000);
-  points.whole = true;
-  points.audit_max = 40;
-  return sceneEntryOf<MedicalAkzo>(
-      {.id = "medakzo",
-       .title = "medical Akzo Nobel: reaction and diffusion in a tissue",
-       .shows = "400 unknowns in a band; an input that jumps at t = 5",
-       .collections = {"ivp"},
-       .literature = "IVP test set, MEDAKZO",
-       .size = {.parameter = "N", .unknowns = 2, .step = 1e-2},
-       .parameters = {points},
-       .panels = {{"antibodies", {"u3", "u50", "u100"}}, {"substrate", {"v50", "v100", "v150"}}},
-       .reference_cases = {{.times = "5", .tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(MedicalAkzo)

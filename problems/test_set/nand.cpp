@@ -1,7 +1,8 @@
 // A NAND gate of three field-effect transistors (Guenther, Rentrop): C(y) y' = f(t, y). IVP test set, NAND.
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // d[0] + d[1] t and d[2] + d[3] t are the inputs V1 and V2, whose kinks are at 5, 10, ..., 75 ns.
@@ -97,23 +98,22 @@ struct NandGate {
     s.x << high, high, low, low, high, middle, high, low, low, middle, Real(0), middle, low, low;
   }
   SceneFrame<Real> frame() const { return {.t_end = 80, .time_unit = "ns", .x = numbered(14, "y", "V")}; }
+  static SceneEntry entry() {
+    return {
+        .id = "nand",
+        .title = "NAND gate of three field-effect transistors",
+        .shows = "capacities that depend on y; fifteen kinks of the inputs at known times",
+        .collections = {"ivp"},
+        .literature = "IVP test set, NAND",
+        .parameters = {numberParameter("beta_back", "mA/V^2",
+                                       "of an enhancement transistor's current from source to drain; 1.748e-3 in the "
+                                       "test set's report, but not in its program",
+                                       "1.748e-4", 0, 1)},
+        .panels = {{"output", {"y5"}}},
+        .reference_cases = {{.tolerance = kFewDigits}, {.settings = "beta_back=1.748e-3", .tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry nandEntry() {
-  return sceneEntryOf<NandGate>(
-      {.id = "nand",
-       .title = "NAND gate of three field-effect transistors",
-       .shows = "capacities that depend on y; fifteen kinks of the inputs at known times",
-       .collections = {"ivp"},
-       .literature = "IVP test set, NAND",
-       .parameters = {numberParameter("beta_back", "mA/V^2",
-                                      "of an enhancement transistor's current from source to drain; 1.748e-3 in the "
-                                      "test set's report, but not in its program",
-                                      "1.748e-4", 0, 1)},
-       .panels = {{"output", {"y5"}}},
-       .reference_cases = {{.tolerance = kFewDigits}, {.settings = "beta_back=1.748e-3", .tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(NandGate)

@@ -1,8 +1,8 @@
 // The Oregonator: the Belousov-Zhabotinskii reaction (Field, Noyes). IVP test set, OREGO; HW II (IV.10).
-#include "irk/scene_lanes.h"
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -18,19 +18,18 @@ struct Oregonator {
     r.x[2] = w * (y1 - y3) - p.k[2];
   }
   void start(State<Real>& state) const { state.x << Real(1), Real(2), Real(3); }
-  SceneFrame<Real> frame() const { return {.t_end = 360, .x = numbered(3)}; }
+  SceneFrame<Real> frame() const { return {.t_end = 360}; }
+  static SceneEntry entry() {
+    return {.id = "orego",
+            .title = "Oregonator: an oscillating chemical reaction",
+            .shows = "steps over ten decades: slow drifts and fast transitions",
+            .collections = {"ivp"},
+            .literature = "IVP test set, OREGO; HW II (IV.10)",
+            .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
+            .make_lanes = lanesOf<Oregonator>};
+  }
 };
 
 }  // namespace
 
-SceneEntry oregoEntry() {
-  return sceneEntryOf<Oregonator>({.id = "orego",
-                                   .title = "Oregonator: an oscillating chemical reaction",
-                                   .shows = "steps over ten decades: slow drifts and fast transitions",
-                                   .collections = {"ivp"},
-                                   .literature = "IVP test set, OREGO; HW II (IV.10)",
-                                   .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
-                                   .make_lanes = lanesOf<Oregonator>});
-}
-
-}  // namespace irk
+IRK_SCENE(Oregonator)

@@ -1,7 +1,8 @@
 // Air pollution: 25 reactions of 20 substances (Verwer). IVP test set, POLLU.
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -73,23 +74,21 @@ struct Pollution {
     set(9, "0.01");
     set(17, "0.007");
   }
-  SceneFrame<Real> frame() const { return {.t_end = 60, .x = numbered(20)}; }
+  SceneFrame<Real> frame() const { return {.t_end = 60}; }
+  static SceneEntry entry() {
+    return {.id = "pollution",
+            .title = "air pollution, 25 reactions of 20 substances",
+            .shows = "moderate stiffness, components from 1e-18 to 1",
+            .collections = {"ivp"},
+            .literature = "IVP test set, POLLU; J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250",
+            .panels = {{"NO2, NO", {"y1", "y2"}},
+                       {"O3", {"y4"}},
+                       {"HO2, OH", {"y5", "y6"}, "1e-6", 1e6},
+                       {"HCHO, CO", {"y7", "y8"}}},
+            .reference_cases = {{.times = "1", .tolerance = kManyDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry pollutionEntry() {
-  return sceneEntryOf<Pollution>(
-      {.id = "pollution",
-       .title = "air pollution, 25 reactions of 20 substances",
-       .shows = "moderate stiffness, components from 1e-18 to 1",
-       .collections = {"ivp"},
-       .literature = "IVP test set, POLLU; J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250",
-       .panels = {{"NO2, NO", {"y1", "y2"}},
-                  {"O3", {"y4"}},
-                  {"HO2, OH", {"y5", "y6"}, "1e-6", 1e6},
-                  {"HCHO, CO", {"y7", "y8"}}},
-       .reference_cases = {{.times = "1", .tolerance = kManyDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(Pollution)

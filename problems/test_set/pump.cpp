@@ -3,9 +3,10 @@
 // In ns, V, pC, pF, mA instead of the test set's s, V, C, F, A: all numbers are about 1. Its y2' + y3' = 0 and
 // y4' + y5' = 0 are rows for the sums of charges x[1] and x[2]. The input has slopes of 2 V/ns as in the test set's
 // program; its report prints 20.
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // The input; whether the transistor has a channel. Its gate voltage is never below that of flat bands.
@@ -95,19 +96,18 @@ struct ChargePump {
             .outputs = {{"y3", [](const State<Real>& s) { return Real(s.x[1] - s.z()[0]); }, "pC"},
                         {"y5", [](const State<Real>& s) { return Real(s.x[2] - s.z()[1]); }, "pC"}}};
   }
+  static SceneEntry entry() {
+    return {.id = "pump",
+            .title = "charge pump: a transistor and two capacitors",
+            .shows = "index 2; kinks at known times and where the transistor changes its region",
+            .collections = {"ivp", "switching"},
+            .literature = "IVP test set, PUMP",
+            .kind = SceneKind::kIndex2,
+            .panels = {{"voltages", {"y6", "y7", "y8"}}, {"charges", {"y1", "y2", "y4"}}},
+            .reference_cases = {{.tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry pumpEntry() {
-  return sceneEntryOf<ChargePump>({.id = "pump",
-                                   .title = "charge pump: a transistor and two capacitors",
-                                   .shows = "index 2; kinks at known times and where the transistor changes its region",
-                                   .collections = {"ivp", "switching"},
-                                   .literature = "IVP test set, PUMP",
-                                   .kind = SceneKind::kIndex2,
-                                   .panels = {{"voltages", {"y6", "y7", "y8"}}, {"charges", {"y1", "y2", "y4"}}},
-                                   .reference_cases = {{.tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(ChargePump)

@@ -1,7 +1,8 @@
 // The ring modulator: a low-frequency signal mixed with a high-frequency one (Horneber). IVP test set, RINGMOD.
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 // Cs = 0: the voltages y3 to y6 of the diodes are algebraic, x = (y1, y2, y7, ..., y15). Kirchhoff's law for the four
@@ -55,20 +56,18 @@ struct RingModulator {
     frame.x.erase(frame.x.begin() + 2, frame.x.begin() + 6);
     return frame;
   }
+  static SceneEntry entry() {
+    return {.id = "ringmod",
+            .title = "ring modulator: four diodes mix two signals",
+            .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
+            .collections = {"ivp"},
+            .literature = "IVP test set, RINGMOD",
+            .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
+            .panels = {{"signal y1", {"y1"}}, {"output y2", {"y2"}}, {"diode y3", {"y3"}}, {"carrier y7", {"y7"}}},
+            .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry ringmodEntry() {
-  return sceneEntryOf<RingModulator>(
-      {.id = "ringmod",
-       .title = "ring modulator: four diodes mix two signals",
-       .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
-       .collections = {"ivp"},
-       .literature = "IVP test set, RINGMOD",
-       .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
-       .panels = {{"signal y1", {"y1"}}, {"output y2", {"y2"}}, {"diode y3", {"y3"}}, {"carrier y7", {"y7"}}},
-       .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(RingModulator)

@@ -2,9 +2,10 @@
 //
 // The test set writes M y' = f with a singular M, whose rows are currents of five capacitors. Here x has the voltages
 // of the capacitors, z the other voltages, and the sums of two rows without y' are algebraic: the same equations.
-#include "problems/support/numbered.h"
+#include "irk/scene_file.h"
 
-namespace irk {
+using namespace irk;
+
 namespace {
 
 template <class Real>
@@ -48,19 +49,18 @@ struct TransistorAmplifier {
             .z = named("V", {"y2", "y5", "y8"}),
             .outputs = {sum("y1", 0, 0), sum("y4", 2, 1), sum("y7", 4, 2)}};
   }
+  static SceneEntry entry() {
+    return {.id = "transamp",
+            .title = "amplifier with two transistors",
+            .shows = "M y' = f with a singular M; exponentials, Newton near round-off",
+            .collections = {"ivp"},
+            .literature = "IVP test set, TRANSAMP; HW II (VI.1)",
+            .kind = SceneKind::kIndex1,
+            .panels = {{"input and output", {"y1", "y8"}}},
+            .reference_cases = {{.tolerance = kFewDigits}}};
+  }
 };
 
 }  // namespace
 
-SceneEntry transampEntry() {
-  return sceneEntryOf<TransistorAmplifier>({.id = "transamp",
-                                            .title = "amplifier with two transistors",
-                                            .shows = "M y' = f with a singular M; exponentials, Newton near round-off",
-                                            .collections = {"ivp"},
-                                            .literature = "IVP test set, TRANSAMP; HW II (VI.1)",
-                                            .kind = SceneKind::kIndex1,
-                                            .panels = {{"input and output", {"y1", "y8"}}},
-                                            .reference_cases = {{.tolerance = kFewDigits}}});
-}
-
-}  // namespace irk
+IRK_SCENE(TransistorAmplifier)

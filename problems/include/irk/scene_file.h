@@ -1,6 +1,11 @@
 // What a scene's file needs: parameters from settings, names, systems, consistent starts, and IRK_SCENE.
 //
-// A scene is a struct template over the scalar: a problem as in irk/problem.h, and what a scene says of it.
+// A scene is a struct template over the scalar: a problem as in irk/problem.h, and what the program needs besides the
+// equations. Scenes of the suite and of users have the same form:
+//
+//   using namespace irk;
+//
+//   namespace {  // names of this file only: other scenes may use the same ones
 //
 //   template <class Real>
 //   struct FourBar {
@@ -9,17 +14,22 @@
 //     void start(State<Real>& s) const;               // fills u, v, x, d where they are not 0, and guesses of z
 //     State<Real> exact(const Real& t) const;         // the exact solution, if it is known
 //     SceneFrame<Real> frame() const;                 // end, names, units
-//     static SceneEntry entry();                      // id, title, parameters, ...; without its makers
+//     static SceneEntry entry();                      // id, title, parameters, ...
 //   };
+//
+//   }  // namespace
+//
 //   IRK_SCENE(FourBar)
 //
 // Such a file outside the tree is complete: `irk new scene four_bar.cpp` writes one. The program compiles it when it is
 // named (`irk solve four_bar.cpp`). The same file linked with irk::program is a program with all verbs, which knows the
-// scene. A scene that has more to say makes itself: `static Scene<Real> make(const Settings& values)` instead of
-// `with`, `start`, `exact` and `frame`.
+// scene. A struct may instead make its scene itself: `static Scene<Real> make(const Settings& values)` replaces `with`,
+// `start`, `exact` and `frame`. Scenes need it that have several sets of coordinates.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -29,6 +39,7 @@
 
 #include "irk/registration.h"
 #include "irk/scene.h"
+#include "irk/scene_lanes.h"
 
 namespace irk {
 
@@ -40,6 +51,11 @@ Parameter numberParameter(std::string name, std::string unit, std::string meanin
 /// A positive physical quantity, at most 1e15.
 Parameter positiveParameter(std::string name, std::string unit, std::string meaning, std::string default_value);
 
+/// A whole number, such as a number of unknowns. The audit draws values up to `audit_max` only, which keeps its runs
+/// short.
+Parameter wholeParameter(std::string name, std::string meaning, std::string default_value, double min, double max,
+                         double audit_max);
+
 /// The width over which a regularised scene blends its modes. It has an effect with discontinuity `smooth` only.
 Parameter smoothingParameter(std::string unit, std::string meaning, std::string default_value);
 
@@ -48,6 +64,9 @@ Parameter elementsParameter(std::string default_value);
 
 /// A choice among words, the default first.
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices);
+
+/// A choice among descriptions of the same physics, such as sets of coordinates: the solution is the same with each.
+Parameter descriptionParameter(std::string name, std::string meaning, std::vector<std::string> choices);
 
 /// Any text, such as the name of a file with measured data; without blanks and ';'.
 Parameter textParameter(std::string name, std::string meaning, std::string default_value);
@@ -64,6 +83,14 @@ Real number(const Settings& settings, const std::string& name);
 template <class Real>
 Real decimal(const char* text);
 
+/// Constants of the scene with all digits of their decimal texts.
+template <class Real, std::size_t N>
+std::array<Real, N> decimals(const char* const (&texts)[N]) {
+  std::array<Real, N> values;
+  for (std::size_t i = 0; i < N; ++i) values[i] = decimal<Real>(texts[i]);
+  return values;
+}
+
 template <class Real>
 Real piOf();
 
@@ -74,6 +101,13 @@ struct Component {
   double scale = 1;       ///< typical magnitude
   double rate_scale = 1;  ///< typical magnitude of the time derivative; for u only
 };
+
+/// Components with these names, all with one unit and the scale 1.
+std::vector<Component> named(const std::string& unit, std::initializer_list<const char*> names);
+
+/// y1, y2, ... (or another name with numbers), all with one unit and one scale.
+std::vector<Component> numbered(Index count, const std::string& name = "y", const std::string& unit = "",
+                                double scale = 1, double rate_scale = 1);
 
 /// Sets scene.names, units and scale. If scene.time_unit is not s, set it before this call.
 template <class Real>
@@ -146,10 +180,22 @@ template <class Real>
 struct SceneFrame {
   double t_end = 1;
   std::string time_unit = "s";  ///< empty: the scene has no units
+  /// If all three are empty, the components are called y1, y2, ... in the order u, x, z, with the scale 1.
   std::vector<Component> u = {}, x = {}, z = {};
   std::vector<typename Scene<Real>::Output> outputs = {};
   std::vector<std::string> unknown = {};  ///< components of the start that the constraints determine: completeStart
+  bool exact_holds = true;                ///< false: with these parameters `exact` is not the solution
 };
+
+/// Names the components of a frame without names, as many as `start` has.
+template <class Real>
+void numberComponents(SceneFrame<Real>& frame, const State<Real>& start) {
+  const Index nu = start.u.size(), nx = start.x.size();
+  const auto all = numbered(nu + nx + start.z().size());
+  frame.u.assign(all.begin(), all.begin() + nu);
+  frame.x.assign(all.begin() + nu, all.begin() + nu + nx);
+  frame.z.assign(all.begin() + nu + nx, all.end());
+}
 
 /// The scene of a problem P with `frame`. Its start is that of `start`, completed; without `start` the exact solution
 /// at t = 0, or zeros, completed. Throws Misuse as completeStart.
@@ -161,10 +207,11 @@ Scene<Real> framedScene(const P& problem) {
   scene.t_end = frame.t_end;
   scene.time_unit = std::move(frame.time_unit);
   scene.outputs = std::move(frame.outputs);
+  if (frame.u.empty() && frame.x.empty() && frame.z.empty()) numberComponents(frame, scene.start);
   setComponents(scene, frame.u, frame.x, frame.z);
   constexpr bool kStarts = requires { problem.start(scene.start); };
   if constexpr (requires { problem.exact(scene.start.t); }) {
-    scene.exact = [problem](const Real& t) { return problem.exact(t); };
+    if (frame.exact_holds) scene.exact = [problem](const Real& t) { return problem.exact(t); };
     if (!kStarts) scene.start = problem.exact(Real(0));
     if (!kStarts) return scene;
   }
@@ -189,10 +236,21 @@ Scene<Real> sceneWith(const Settings& values) {
   }
 }
 
+namespace detail {
+
+template <class P>
+constexpr bool kHasConstraints = requires(const P& p, const Point<double>& at, double* g) {
+  p.constraints(at.t, at.u, g);
+};
+
+}  // namespace detail
+
 /// Completes the entry of a scene's struct by the makers of the scalars that this file is compiled for: double and
-/// mp50, or with IRK_DIGITS set to 16, 50 or 100 the one that it names.
+/// mp50, or with IRK_DIGITS set to 16, 50 or 100 the one that it names. A struct with `constraints` is of the kind
+/// kConstrained, unless its entry names another one.
 template <template <class> class S>
 SceneEntry sceneEntryOf(SceneEntry entry) {
+  if (detail::kHasConstraints<S<double>> && entry.kind == SceneKind::kOde) entry.kind = SceneKind::kConstrained;
 #if !defined(IRK_DIGITS) || IRK_DIGITS == 16
   entry.make = sceneWith<double, S<double>>;
 #endif
@@ -212,10 +270,16 @@ SceneEntry sceneEntryOf() {
 
 }  // namespace irk
 
-/// Makes the struct template S a scene of the program. One per file.
-#ifdef IRK_DIGITS
+/// Makes the struct template S a scene of the program. One per file; a file of the suite may have several, each of
+/// which defines the function irk::scenes::S that problems/catalogue/catalogue.cpp lists.
+#if defined(IRK_DIGITS)
 #define IRK_SCENE(S) \
   extern "C" void irk_scene(::irk::SceneEntry* entry) { *entry = ::irk::sceneEntryOf<S>(); }
+#elif defined(IRK_SUITE)
+#define IRK_SCENE(S)                             \
+  namespace irk::scenes {                        \
+  SceneEntry S() { return sceneEntryOf<::S>(); } \
+  }
 #else
 #define IRK_SCENE(S) \
   IRK_REGISTER { ::irk::registerScene(::irk::sceneEntryOf<S>()); }

@@ -119,6 +119,50 @@ TEST(SceneFrame, FindsTheComponentsThatTheConstraintsDetermine) {
   EXPECT_NEAR(scene.start.z()[0], -0.6, 1e-14) << "x x'' + y y'' = -lambda - y = 0";
 }
 
+// The same with a solution that is known only on request.
+template <class Real>
+struct PartlyKnown : Decay<Real> {
+  bool known;
+
+  static PartlyKnown with(const Settings& values) { return {{}, values.at("known") == "yes"}; }
+  SceneFrame<Real> frame() const { return {.exact_holds = known}; }
+};
+
+TEST(SceneFrame, AnExactSolutionMayHoldForSomeParametersOnly) {
+  const auto entry = sceneEntryOf<PartlyKnown>(
+      {.id = "partly", .title = "", .shows = "", .parameters = {wordParameter("known", "", {"yes", "no"})}});
+  EXPECT_TRUE(makeScene<double>(entry, {}).exact);
+  EXPECT_FALSE(makeScene<double>(entry, {{"known", "no"}}).exact);
+}
+
+// u'' = -u, x' = -x, z = u; a frame without names.
+template <class Real>
+struct Nameless {
+  Sizes sizes() const { return {.nu = 1, .nx = 1, .nz = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = p.a[0] + p.u[0];
+    r.x[0] = p.k[0] + p.x[0];
+    r.z[0] = p.z[0] - p.u[0];
+  }
+  SceneFrame<Real> frame() const { return {.t_end = 1}; }
+};
+
+TEST(SceneFrame, NumbersTheComponentsOfAFrameWithoutNames) {
+  const auto scene = makeScene<double>(sceneEntryOf<Nameless>({.id = "nameless", .title = "", .shows = ""}), {});
+  EXPECT_EQ(scene.names, (std::vector<std::string>{"y1", "y1'", "y2", "y3"}));
+  EXPECT_EQ(scene.units, (std::vector<std::string>{"", "1/s", "", ""}));
+  EXPECT_EQ(scene.scale, Vec<double>::Ones(4));
+}
+
+TEST(SceneFrame, AStructWithConstraintsIsAConstrainedSystem) {
+  EXPECT_EQ(sceneEntryOf<OnCircle>({.id = "a", .title = "", .shows = ""}).kind, SceneKind::kConstrained);
+  EXPECT_EQ(sceneEntryOf<Nameless>({.id = "b", .title = "", .shows = ""}).kind, SceneKind::kOde);
+  EXPECT_EQ(sceneEntryOf<OnCircle>({.id = "c", .title = "", .shows = "", .kind = SceneKind::kIndex3}).kind,
+            SceneKind::kIndex3)
+      << "a kind that the entry names is kept";
+}
+
 // A struct that makes its scene itself is asked first.
 template <class Real>
 struct Maker : Decay<Real> {
