@@ -54,7 +54,7 @@ class Motion {
     difference_ = integral((c2_ - c1_) / (1 - c1_), upper);
   }
 
-  /// False where the axis passes through the vertical or comes to it for ever: other formulas hold there.
+  /// False where the axis passes through the vertical or approaches it for ever: other formulas hold there.
   bool regular() const { return above_ > 0 && below_ > 0 && c3_ > 1 && c2_ < 1 && k2_ < 1; }
 
   Attitude<Real> at(const Real& t) const {

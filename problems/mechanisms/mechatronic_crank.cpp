@@ -13,8 +13,8 @@ using slider_crank::Angles;
 using slider_crank::Data;
 using slider_crank::treeRows;
 
-// d = (1 while the supply is on, 0 otherwise; sign of the slider's velocity). There is no regularisation, since the
-// hysteresis of the chopper is a memory.
+// d = (1 while the supply is on, 0 otherwise; sign of the slider's velocity). There is no regularisation: with
+// the hysteresis of the chopper the mode depends on the past.
 enum Discrete : Index { kSupply, kDirection };
 enum Switch : Index { kChopper, kSliderTurns };
 

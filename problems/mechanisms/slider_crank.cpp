@@ -122,7 +122,7 @@ struct SliderCrank {
   static SceneEntry entry() {
     return {.id = "slider_crank",
             .title = "rigid slider-crank driven by a constant torque",
-            .shows = "M(u) with a constraint: every term of the Jacobian is alive",
+            .shows = "M(u) with a constraint: no term of the Jacobian vanishes",
             .collections = {"multibody"},
             .kind = SceneKind::kConstrained,
             .parameters = parameters(),

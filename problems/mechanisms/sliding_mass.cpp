@@ -3,7 +3,7 @@
 //
 // The mass is at the arc length s of the undeformed beam: (x, y) = r(s, q). From one element to the next r and its
 // slope r' are continuous, r'' jumps, and with it the force on the mass, r'' s'^2: a switch. Beyond the tip the last
-// element goes on.
+// element is extrapolated.
 #include <algorithm>
 #include <type_traits>
 
@@ -72,8 +72,8 @@ struct Slide {
 };
 
 /// u = (beam, x, y, s, begin), z = force of the mass on the beam: 0 = (x, y) - r(s, q). The coordinate s has no mass;
-/// its row says that the force is normal to the beam. Constraints see u only and must not change inside a step, so that
-/// the place where the element begins is a coordinate, too: it rests, and jumps at a switch.
+/// its row says that the force is normal to the beam. Constraints depend on t and u only and must stay the same within
+/// a step. The place where the element begins is therefore a coordinate, too: it is constant, and jumps at a switch.
 template <class Real>
 struct Joint : Slide<Real> {
   Sizes sizes() const {

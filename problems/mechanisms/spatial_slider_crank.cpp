@@ -4,8 +4,9 @@
 //
 // The crank turns about an axis along x through (0, b, c); its end is C(theta) = (0, b + r sin theta, c + r cos theta).
 // The slider moves along the x-axis and is at (s, 0, 0). The rod is slender and uniform: with its ends A and B it has
-// the kinetic energy m2 (|A'|^2 + A'.B' + |B'|^2) / 6, and half of its weight acts at each end. Its turning about its
-// own axis, which the two spherical joints leave free, has no inertia (in Haug's book 4e-4 kg m^2) and is left out.
+// the kinetic energy m2 (|A'|^2 + A'.B' + |B'|^2) / 6, and half of its weight acts at each end. Its rotation about
+// its own axis, which the two spherical joints leave free, is left out; its inertia about this axis (4e-4 kg m^2 in
+// Haug's book) is set to 0.
 #include "irk/misuse.h"
 #include "irk/scene_file.h"
 

@@ -11,8 +11,8 @@ using namespace irk;
 namespace {
 
 // The source is q_i = S_i g' + w S_i g - B_i g^3: with c = cos(pi / (2 N)), s = sin(pi / (2 N)), w = 4 N^2 s^2,
-// B_i = N^2 c^2 s (sin(3 pi x_i) sin(3 pi / (2 N)) - S_i s), which is what the differences of S and S^3 add up to,
-// without the digits that they lose.
+// B_i = N^2 c^2 s (sin(3 pi x_i) sin(3 pi / (2 N)) - S_i s). This is the sum of the differences of S and S^3, written
+// without cancellation.
 template <class Real>
 struct Source {
   Vec<Real> S, B;

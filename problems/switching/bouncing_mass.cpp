@@ -58,7 +58,7 @@ struct BouncingMass {
   static SceneEntry entry() {
     return {.id = "bouncing_mass",
             .title = "mass bouncing on an elastic floor",
-            .shows = "contact: a stiffness that comes and goes",
+            .shows = "contact: a stiffness that acts only while the gap is closed",
             .collections = {"switching"},
             .parameters = {positiveParameter("m", "kg", "mass", "0.25"),
                            positiveParameter("k", "N/m", "stiffness of the floor", "2e4"),

@@ -8,7 +8,8 @@ using namespace irk;
 
 namespace {
 
-// d = (1 while the supply is on, 0 otherwise). There is no regularisation, since the hysteresis is a memory.
+// d = (1 while the supply is on, 0 otherwise). There is no regularisation: with hysteresis the mode depends
+// on the past.
 template <class Real>
 struct DcMotorChopper {
   Real U, R, L;       // V, Ohm, H
@@ -57,7 +58,7 @@ struct DcMotorChopper {
   static SceneEntry entry() {
     return {.id = "dc_motor_chopper",
             .title = "DC motor behind a two-level chopper with hysteresis",
-            .shows = "power electronics: a supply that switches by the current's own band",
+            .shows = "power electronics: the current switches the supply when it leaves a band",
             .collections = {"switching"},
             .parameters = {positiveParameter("U", "V", "supply voltage", "24"),
                            numberParameter("R", "Ohm", "resistance of the armature", "1", 0, 1e15),

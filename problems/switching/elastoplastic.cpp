@@ -93,7 +93,7 @@ struct Elastoplastic {
   static SceneEntry entry() {
     return {.id = "elastoplastic",
             .title = "driven mass on a spring and an ideal-plastic slider in series",
-            .shows = "plasticity: a memory, a rate that jumps, and a kink at every unloading",
+            .shows = "plasticity: history dependence, a rate that jumps, and a kink at every unloading",
             .collections = {"switching"},
             .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("k", "N/m", "spring", "100"),
                            positiveParameter("Fy", "N", "yield force", "1"),

@@ -59,25 +59,26 @@ constexpr Index kCorner = 0, kFirstEdgeSwitch = 1;
 std::vector<Parameter> parameters() {
   Parameter smoothing_p = smoothingParameter("Pa", "pressure drop over which an edge of the valve opens", "1e4");
   smoothing_p.name += "_p";
-  return {wordParameter("manoeuvre", "what the valve does", {"steps", "sine"}),
-          positiveParameter("L", "m", "length of rod 1", "1"),
-          positiveParameter("L2", "m", "length of rod 2, massless", "0.5"),
-          positiveParameter("m1", "kg", "distributed mass of rod 1", "200"),
-          numberParameter("mt", "kg", "point mass at the tip of rod 1", "250", 0, 1e15),
-          positiveParameter("m2", "kg", "point mass at the end of rod 2", "100"),
-          numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
-          positiveParameter("A", "m^2", "area of the piston", "0.0065"),
-          positiveParameter("Lc", "m", "length of both chambers", "0.442"),
-          numberParameter("c", "N s/m", "viscous friction of the cylinder", "1e5", 0, 1e15),
-          positiveParameter("Av", "m^2", "area of the valve", "5e-4"),
-          positiveParameter("cd", "", "discharge coefficient of the valve", "0.67"),
-          positiveParameter("rho", "kg/m^3", "density of the oil", "850"),
-          positiveParameter("pP", "Pa", "supply pressure", "7.6e6"),
-          numberParameter("pT", "Pa", "tank pressure", "1e5", 0, 1e15),
-          numberParameter("a", "1/Pa", "bulk modulus (1 + a p + b p^2) / (a + 2 b p)", "6.53e-10", 0, 1),
-          numberParameter("b", "1/Pa^2", "the same", "-1.19e-18", -1, 1),
-          smoothingParameter("s", "corners of the manoeuvre are rounded by it", "1e-4"),
-          smoothing_p};
+  return {
+      wordParameter("manoeuvre", "what the valve does", {"steps", "sine"}),
+      positiveParameter("L", "m", "length of rod 1", "1"),
+      positiveParameter("L2", "m", "length of rod 2, massless", "0.5"),
+      positiveParameter("m1", "kg", "distributed mass of rod 1", "200"),
+      numberParameter("mt", "kg", "point mass at the tip of rod 1", "250", 0, 1e15),
+      positiveParameter("m2", "kg", "point mass at the end of rod 2", "100"),
+      numberParameter("g", "m/s^2", "gravity", "9.81", 0, 1e6),
+      positiveParameter("A", "m^2", "area of the piston", "0.0065"),
+      positiveParameter("Lc", "m", "length of both chambers", "0.442"),
+      numberParameter("c", "N s/m", "viscous friction of the cylinder", "1e5", 0, 1e15),
+      positiveParameter("Av", "m^2", "area of the valve", "5e-4"),
+      positiveParameter("cd", "", "discharge coefficient of the valve", "0.67"),
+      positiveParameter("rho", "kg/m^3", "density of the oil", "850"),
+      positiveParameter("pP", "Pa", "supply pressure", "7.6e6"),
+      numberParameter("pT", "Pa", "tank pressure", "1e5", 0, 1e15),
+      numberParameter("a", "1/Pa", "coefficient of the bulk modulus (1 + a p + b p^2) / (a + 2 b p)", "6.53e-10", 0, 1),
+      numberParameter("b", "1/Pa^2", "coefficient of the same bulk modulus", "-1.19e-18", -1, 1),
+      smoothingParameter("s", "time before and after a corner of the manoeuvre in which it is rounded", "1e-4"),
+      smoothing_p};
 }
 
 template <class Real>

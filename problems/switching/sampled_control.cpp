@@ -6,7 +6,8 @@ using namespace irk;
 
 namespace {
 
-// d = (the held force F_k, the number k + 1 of the next sample). There is no regularisation, since d is a memory.
+// d = (the held force F_k, the number k + 1 of the next sample). There is no regularisation, since d depends on the
+// past.
 enum Discrete : Index { kForce, kNext };
 
 template <class Real>

@@ -44,8 +44,8 @@ struct LuGre {
   }
   SceneFrame<Real> frame() const {
     const double bristle = static_cast<double>(Real(Fs / sigma0));
-    // The friction falls within Vs, and the mass creeps far below it before it slips: an error of a tenth of Vs decides
-    // when. vb, a hundred times as large, is no measure of such velocities.
+    // Friction falls within the velocity Vs, and the mass creeps far more slowly before it slips: an error of a tenth
+    // of Vs changes the time of slip. vb is a hundred times as large and would be too coarse a scale.
     const double slow = static_cast<double>(Vs);
     return {.t_end = 25, .u = {{"X", "m", 1, slow}}, .x = {{"Z", "m", bristle}}};
   }

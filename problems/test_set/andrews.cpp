@@ -54,7 +54,7 @@ struct Andrews {
                     (m6 * ff * ff + I6) * a[5] + m67 * a[6],
                     m67 * a[5] + m77 * a[6]};
 
-    // Forces: the drive, the spring from C to D, and those of the velocities
+    // Forces: the drive, the spring from C to D, and the velocity-dependent terms
     const T dx = sd * cos_gamma + sc * sin_gamma + xb - xc, dy = sd * sin_gamma - sc * cos_gamma + yb - yc;
     const T length = sqrt(dx * dx + dy * dy), force = -c0 * (length - l0) / length;
     const T spring = force * (dx * (sc * cos_gamma - sd * sin_gamma) + dy * (sd * cos_gamma + sc * sin_gamma));
@@ -94,7 +94,7 @@ struct Andrews {
     g[4] = x - zf * cos(sum3) - u * sin(q[6]) - xa;
     g[5] = y - zf * sin(sum3) + u * cos(q[6]) - ya;
   }
-  // Digits of the test set; the constraints determine all of them, Theta is 0.
+  // The digits of the test set. Theta is 0; the constraints determine the other angles.
   void start(State<Real>& s) const {
     s.u << Real(-0.0617138900142765), Real(0), Real(0.455279819163070), Real(0.222668390165886),
         Real(0.487364979543843), Real(-0.222668390165886), Real(1.23054744454982);

@@ -1,7 +1,7 @@
 // The elastic beam of 40 links, driven at its free end until t = pi. IVP test set, BEAM; HW II (IV.10).
 //
-// theta'' = C v + D u with C u = D v + theta'^2: C is tridiagonal, 1, 2, ..., 2, 3 and -cos(theta_l - theta_l+-1)
-// beside, D has -sin(theta_l - theta_l+-1) beside its diagonal.
+// theta'' = C v + D u with C u = D v + theta'^2. Both matrices are tridiagonal. C has the diagonal 1, 2, ..., 2, 3 and
+// beside it -cos(theta_l - theta_l+-1); D has the diagonal 0 and beside it -sin(theta_l - theta_l+-1).
 #include "irk/scene_file.h"
 
 using namespace irk;
@@ -37,7 +37,8 @@ struct Beam {
     }
     const auto apply = [&](const std::array<T, kLinks>& beside, std::size_t l, const std::array<T, kLinks>& y,
                            int sign) {
-      T sum(0.0);  // beside: of the differences theta_l - theta_l+1, `sign` for those of theta_l - theta_l-1
+      // beside[l] is the function at theta_l - theta_l+1; `sign` is 1 for an even function, -1 for an odd one.
+      T sum(0.0);
       if (l + 1 < kLinks) sum -= beside[l] * y[l + 1];
       if (l > 0) sum -= sign * (beside[l - 1] * y[l - 1]);
       return sum;

@@ -34,7 +34,7 @@ struct CarAxis {
     r.u[2] = right * dx - across - mass * p.a[2];
     r.u[3] = right * dy - along - mass - mass * p.a[3];
   }
-  // -phi of the test set, whose multipliers have the other sign.
+  // The constraints are -phi of the test set, where the multipliers have the opposite sign.
   template <class T, class U, class G>
   void constraints(const T& t, const U& u, G&& c) const {
     const auto dx = u[0] - u[2], dy = u[1] - u[3];

@@ -33,7 +33,7 @@ struct ChemicalAkzo {
   static SceneEntry entry() {
     return {.id = "chemakzo",
             .title = "chemical Akzo Nobel: five reactions, one equilibrium",
-            .shows = "an algebraic row; a square root that ends where a concentration is negative",
+            .shows = "an algebraic equation; a square root of a concentration, which must not become negative",
             .collections = {"ivp"},
             .literature = "IVP test set, CHEMAKZO",
             .kind = SceneKind::kIndex1,

@@ -1,15 +1,16 @@
 // E5: a chemical pyrolysis to t = 1e13 (Enright, Hull, Lindberg). IVP test set, E5; HW II (IV.10).
 //
-// The test set writes y3' = y2' - y4'. Its integral y2 = y3 + y4 stands here instead of y2': in double precision the
-// sum of all increments would leave it an error of 1e-26, 1e-4 of what y2 falls to. The end values that are printed in
-// the IVP test set are wrong from the third digit on: they contradict this integral.
+// The test set writes y3' = y2' - y4'. Here the integral y2 = y3 + y4 replaces the equation of y2': in double precision
+// the sum of all increments would give y2 an error of 1e-26, which is 1e-4 of its last value. The end values that are
+// printed in the IVP test set are wrong from the third digit on: they contradict this integral.
 #include "irk/scene_file.h"
 
 using namespace irk;
 
 namespace {
 
-// Of the smallest component that matters: y3 falls to 9e-23. The codes of the test set are run with atol = 1.7e-24.
+// The magnitude of all components. It is small because y3 falls to 9e-23 and still matters. The codes of the test set
+// are run with atol = 1.7e-24.
 constexpr double kScale = 1.7e-24;
 
 template <class Real>

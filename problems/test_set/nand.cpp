@@ -42,7 +42,7 @@ struct NandGate {
   }
   template <class T>
   void onTime(Index i, const Point<T>&, T* d) const {
-    // Corners are at 0, 5, 10, ...; an input is 0 and 5 V at `half` corners each in turn.
+    // Corners are at 0, 5, 10, ... An input is 0 V at `half` corners, then 5 V at as many, and so on.
     const auto begin = [i](T* line, Index half) {
       const auto at = [half](Index corner) { return corner / half % 2 == 1 ? 5.0 : 0.0; };
       const double value = at(i + 1), rate = (at(i + 2) - value) / 5;
@@ -102,12 +102,12 @@ struct NandGate {
     return {
         .id = "nand",
         .title = "NAND gate of three field-effect transistors",
-        .shows = "capacities that depend on y; fifteen kinks of the inputs at known times",
+        .shows = "capacitances that depend on y; fifteen kinks of the inputs at known times",
         .collections = {"ivp"},
         .literature = "IVP test set, NAND",
         .parameters = {numberParameter("beta_back", "mA/V^2",
-                                       "of an enhancement transistor's current from source to drain; 1.748e-3 in the "
-                                       "test set's report, but not in its program",
+                                       "factor of an enhancement transistor's current from source to drain; the report "
+                                       "of the test set has 1.748e-3, its program the default",
                                        "1.748e-4", 0, 1)},
         .panels = {{"output", {"y5"}}},
         .reference_cases = {{.tolerance = kFewDigits}, {.settings = "beta_back=1.748e-3", .tolerance = kFewDigits}}};

@@ -9,7 +9,8 @@ using namespace irk;
 
 namespace {
 
-// The input; whether the transistor has a channel. Its gate voltage is never below that of flat bands.
+// d = (begin and rate of the present piece of the input; 1 while the transistor has a channel, 0 otherwise). The gate
+// voltage is never below that of flat bands, so that this third region of the transistor is left out.
 enum Discrete : Index { kBegin, kRate, kOn };
 
 template <class Real>
@@ -20,7 +21,7 @@ struct ChargePump {
   Real UT0 = decimal<Real>("0.2"), gamma = decimal<Real>("0.035"), phi = decimal<Real>("1.01");
 
   Sizes sizes() const { return {.nx = 3, .nz = 6, .discrete = 3, .switches = 1}; }
-  // Kinks of the input d[kBegin] + d[kRate] t: ten times 0, up, 20 V, down.
+  // Kinks of the input d[kBegin] + d[kRate] t. Ten times in turn it is 0, rises, is 20 V, and falls.
   std::vector<Real> times() const {
     std::vector<Real> t;
     for (int period = 0; period < 1200; period += 120) {
@@ -36,8 +37,8 @@ struct ChargePump {
     d[kRate] = T(rate);
   }
 
-  // The voltages of the gate over source and drain, less the threshold. On the solution y8 = 4 y7 >= 0: the two never
-  // change places.
+  // The voltages of the gate over source and drain, less the threshold. On the solution y8 = 4 y7 >= 0, so that
+  // source and drain never exchange their roles.
   template <class T>
   struct Voltages {
     T source, drain, depth;

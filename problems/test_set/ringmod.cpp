@@ -57,14 +57,15 @@ struct RingModulator {
     return frame;
   }
   static SceneEntry entry() {
-    return {.id = "ringmod",
-            .title = "ring modulator: four diodes mix two signals",
-            .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
-            .collections = {"ivp"},
-            .literature = "IVP test set, RINGMOD",
-            .parameters = {numberParameter("Cs", "F", "parasitic capacity of the diodes; 0: index 2", "2e-12", 0, 1)},
-            .panels = {{"signal y1", {"y1"}}, {"output y2", {"y2"}}, {"diode y3", {"y3"}}, {"carrier y7", {"y7"}}},
-            .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}}};
+    return {
+        .id = "ringmod",
+        .title = "ring modulator: four diodes mix two signals",
+        .shows = "fast oscillation and stiffness at once; index 2 with Cs = 0",
+        .collections = {"ivp"},
+        .literature = "IVP test set, RINGMOD",
+        .parameters = {numberParameter("Cs", "F", "parasitic capacitance of the diodes; 0: index 2", "2e-12", 0, 1)},
+        .panels = {{"signal y1", {"y1"}}, {"output y2", {"y2"}}, {"diode y3", {"y3"}}, {"carrier y7", {"y7"}}},
+        .reference_cases = {{.tolerance = kFewDigits}, {.settings = "Cs=0", .tolerance = kFewDigits}}};
   }
 };
 

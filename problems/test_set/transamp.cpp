@@ -1,7 +1,8 @@
 // The transistor amplifier (Rentrop). IVP test set, TRANSAMP; HW II (VI.1).
 //
-// The test set writes M y' = f with a singular M, whose rows are currents of five capacitors. Here x has the voltages
-// of the capacitors, z the other voltages, and the sums of two rows without y' are algebraic: the same equations.
+// The test set writes M y' = f with a singular M, whose rows are currents of five capacitors. Here x holds the voltages
+// of the capacitors and z the other voltages. Sums of two rows in which y' cancels are the algebraic equations. The
+// solution is the same.
 #include "irk/scene_file.h"
 
 using namespace irk;
@@ -38,7 +39,7 @@ struct TransistorAmplifier {
     s.x << Real(-3), Real(3), Real(3), Real(3), Real(6);
     s.z() << Real(3), Real(3), Real(0);
   }
-  // y_i, the sum of a capacitor's voltage and another one.
+  // y_i is the sum of a capacitor's voltage and another voltage.
   static auto sum(const char* name, Index capacitor, Index other) {
     const auto value = [=](const State<Real>& s) { return Real(s.x[capacitor] + s.z()[other]); };
     return typename Scene<Real>::Output{name, value, "V"};

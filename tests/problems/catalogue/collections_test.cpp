@@ -35,8 +35,8 @@ TEST(Collections, HoldTheirScenesInTheOrderOfTheCatalogue) {
   }
 }
 
-// A scene whose equations switch is in the collection of those, but for the slider-crank: its torque ends never by
-// default.
+// Every scene with switches is in the collection `switching`, except the slider-crank: with its defaults the torque
+// never switches.
 TEST(Collections, ScenesWithSwitchesAreTogether) {
   const auto switching = scenesOf("switching");
   for (const SceneEntry& entry : sceneCatalogue()) {

@@ -119,7 +119,7 @@ TEST(SceneFrame, FindsTheComponentsThatTheConstraintsDetermine) {
   EXPECT_NEAR(scene.start.z()[0], -0.6, 1e-14) << "x x'' + y y'' = -lambda - y = 0";
 }
 
-// The same with a solution that is known only on request.
+// x' = -x, whose exact solution holds with known = yes only.
 template <class Real>
 struct PartlyKnown : Decay<Real> {
   bool known;

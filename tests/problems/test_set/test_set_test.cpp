@@ -13,7 +13,8 @@
 namespace irk::test {
 namespace {
 
-// An integration ends before what happens at its last time, and one that begins there does not see it.
+// Applies the changes that are declared for the time of the state. Neither the integration that ends at this time nor
+// the one that begins at it applies them.
 void passTimes(const System<double>& system, State<double>& state) {
   const auto times = system.times();
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -37,7 +38,7 @@ std::map<std::string, std::pair<double, double>> valuesOf(const Scene<double>& s
 // Local errors accumulate: at most this many tolerances at the end.
 constexpr double kGrowth = 1e3;
 
-// The two scenes that take most of the time get an estimate that costs one solve, and a Jacobian that lasts.
+// The two most expensive scenes use an error estimate that costs one solve per step, and keep their Jacobian longer.
 IntegratorOptions optionsOf(const TestSetCase& c) {
   IntegratorOptions options;
   options.tolerances.rtol = options.tolerances.atol = c.tolerance;
