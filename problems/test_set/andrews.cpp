@@ -6,7 +6,6 @@ using namespace irk;
 namespace {
 
 enum Angle : Index { kBeta, kTheta, kGamma, kPhi, kDelta, kOmega, kEpsilon };
-constexpr const char* kAngles[] = {"beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"};
 
 template <class Real>
 Real c(const char* text) {
@@ -100,12 +99,13 @@ struct Andrews {
         Real(0.487364979543843), Real(-0.222668390165886), Real(1.23054744454982);
   }
   SceneFrame<Real> frame() const {
-    SceneFrame<Real> frame{.t_end = 0.03, .unknown = {"beta", "gamma", "Phi", "delta", "Omega", "epsilon"}};
-    for (const char* name : kAngles) frame.u.push_back({name, "rad"});
-    for (int i = 1; i <= 6; ++i) frame.z.push_back({"lambda" + std::to_string(i), "N"});
-    for (Index i = 0; i < 7; ++i) {
-      const auto acceleration = [i](const State<Real>& s) { return Real(s.w[i]); };
-      frame.outputs.push_back({std::string(kAngles[i]) + "''", acceleration, "rad/s^2"});
+    SceneFrame<Real> frame{.t_end = 0.03,
+                           .u = named("rad", {"beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"}),
+                           .z = numbered(6, "lambda", "N"),
+                           .unknown = {"beta", "gamma", "Phi", "delta", "Omega", "epsilon"}};
+    for (std::size_t i = 0; i < 7; ++i) {
+      const auto acceleration = [i](const State<Real>& s) { return Real(s.w[static_cast<Index>(i)]); };
+      frame.outputs.push_back({frame.u[i].name + "''", acceleration, "rad/s^2"});
     }
     return frame;
   }

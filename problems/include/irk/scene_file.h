@@ -247,9 +247,10 @@ constexpr bool kHasConstraints = requires(const P& p, const Point<double>& at, d
 
 /// Completes the entry of a scene's struct by the makers of the scalars that this file is compiled for: double and
 /// mp50, or with IRK_DIGITS set to 16, 50 or 100 the one that it names. A struct with `constraints` is of the kind
-/// kConstrained, unless its entry names another one.
+/// kConstrained, unless its entry names another one. `static`: to gcc, functions of equal templates S in the unnamed
+/// namespaces of two files are one function.
 template <template <class> class S>
-SceneEntry sceneEntryOf(SceneEntry entry) {
+static SceneEntry sceneEntryOf(SceneEntry entry) {
   if (detail::kHasConstraints<S<double>> && entry.kind == SceneKind::kOde) entry.kind = SceneKind::kConstrained;
 #if !defined(IRK_DIGITS) || IRK_DIGITS == 16
   entry.make = sceneWith<double, S<double>>;
@@ -264,7 +265,7 @@ SceneEntry sceneEntryOf(SceneEntry entry) {
 }
 /// The same for a struct that has its entry itself.
 template <template <class> class S>
-SceneEntry sceneEntryOf() {
+static SceneEntry sceneEntryOf() {
   return sceneEntryOf<S>(S<double>::entry());
 }
 

@@ -14,9 +14,10 @@
 
 namespace irk {
 
-/// The LanesMaker of a struct with a function `with`, or without parameters.
+/// The LanesMaker of a struct with a function `with`, or without parameters. `static` for the same reason as
+/// sceneEntryOf.
 template <template <class> class S>
-std::shared_ptr<const System<Lanes>> lanesOf(const Settings& values, const SystemOptions& options) {
+static std::shared_ptr<const System<Lanes>> lanesOf(const Settings& values, const SystemOptions& options) {
   using P = S<Lanes>;
   if constexpr (requires { P::with(values); }) {
     return std::make_shared<const ProblemSystem<P, Lanes>>(P::with(values), options);

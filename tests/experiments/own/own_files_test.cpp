@@ -74,6 +74,17 @@ TEST_F(OwnFiles, TheTemplateRunsAndStudiesTakeItFromTheirFolder) {
   EXPECT_NE(read("results/mine/runs.csv"), before);
 }
 
+// The suite has a struct Pendulum in an unnamed namespace, too. The linker must not take one for the other.
+TEST_F(OwnFiles, AStructMayBeCalledAsOneOfTheSuite) {
+  ASSERT_EQ(irk("new scene lift.cpp").status, 0);
+  std::string text = read("lift.cpp");
+  for (auto at = text.find("Lift"); at != text.npos; at = text.find("Lift", at)) text.replace(at, 4, "Pendulum");
+  write("lift.cpp", text);
+  const Ran ran = irk("solve lift.cpp --method gauss_3 --tol 1e-6");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_TRUE(containsAll(ran.text, {"lift", "gauss_3"})) << ran.text;
+}
+
 TEST_F(OwnFiles, MistakesAreNamed) {
   ASSERT_EQ(irk("new scene lift.cpp").status, 0);
   const std::string solve = " --method gauss_3 --tol 1e-6";

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -27,6 +29,17 @@ TEST(Catalogue, IsSortedWithUniqueIds) {
     EXPECT_FALSE(entry.shows.empty()) << entry.id;
     EXPECT_EQ(&findScene(entry.id), &entry);
   }
+}
+
+// A scene that a file makes and that the catalogue does not list would be missing without a word.
+TEST(Catalogue, ListsTheScenesOfAllFiles) {
+  std::ptrdiff_t made = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(IRK_SOURCE_DIR "/problems")) {
+    if (file.path().extension() != ".cpp") continue;
+    std::ifstream in(file.path());
+    for (std::string line; std::getline(in, line);) made += line.starts_with("IRK_SCENE(");
+  }
+  EXPECT_EQ(made, std::ranges::count(sceneCatalogue(), false, &SceneEntry::registered));
 }
 
 TEST(Catalogue, ScenesAreComplete) {
