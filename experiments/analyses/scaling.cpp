@@ -24,10 +24,10 @@ namespace {
 constexpr std::size_t kFirstSteps = 3;  // not counted
 constexpr double kMinUnknowns = 200;    // for a slope over n
 constexpr std::size_t kMinPoints = 3;   // for a slope
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct StepCost {
-  double n = 0, wall_s = kUnknown, cpu_s = kUnknown, iterations = kUnknown;
+  double n = 0, wall_s = kNotMeasured, cpu_s = kNotMeasured, iterations = kNotMeasured;
 };
 
 StepCost measure(const RunSpec& spec) {

@@ -27,6 +27,8 @@ struct SolveOptions {
   std::string points;                 ///< its equally spaced times; empty: the accepted steps
   bool json = false;
 };
+/// Whether the user gave this field of the spec.
+bool isGiven(const SolveOptions& options, std::string_view field);
 int solveCommand(const SolveOptions& options, Streams streams);
 
 /// The references of runs of `solve`: made on all processors, until an interrupt, with one line each to `err` and, on a

@@ -20,16 +20,11 @@
 namespace irk {
 namespace {
 
-bool given(const SolveOptions& options, std::string_view field) {
-  return std::any_of(options.fields.begin(), options.fields.end(),
-                     [field](const auto& entry) { return entry.first == field; });
-}
-
 // The spec without the grid. Strategies that the user does not set are those of lanes.
 RunSpec specOf(SolveOptions options) {
   options.settings.clear();
-  if (!given(options, "configuration")) options.fields.emplace_back("configuration", "embedded");
-  if (!given(options, "newton")) options.fields.emplace_back("newton", "simplified");
+  if (!isGiven(options, "configuration")) options.fields.emplace_back("configuration", "embedded");
+  if (!isGiven(options, "newton")) options.fields.emplace_back("newton", "simplified");
   return solveSpec(options);
 }
 
@@ -132,7 +127,7 @@ class MemberRows {
 
 int ensembleCommand(const EnsembleArguments& arguments, Streams streams) {
   const RunSpec spec = specOf(arguments.run);
-  const double t_end = given(arguments.run, "t_end") ? spec.t_end : std::numeric_limits<double>::quiet_NaN();
+  const double t_end = isGiven(arguments.run, "t_end") ? spec.t_end : std::numeric_limits<double>::quiet_NaN();
   const EnsembleScene scene(spec, gridOf(arguments), t_end);
   if (!arguments.single) static_cast<void>(LaneIntegrator(makeTableau<double>(spec.method), spec.options));
   if (!arguments.single) static_cast<void>(scene.lanes());

@@ -23,21 +23,22 @@
 #include "experiments/tables/environment.h"
 
 namespace irk {
-namespace {
 
-bool given(const SolveOptions& options, std::string_view field) {
+bool isGiven(const SolveOptions& options, std::string_view field) {
   return std::any_of(options.fields.begin(), options.fields.end(),
                      [field](const auto& entry) { return entry.first == field; });
 }
+
+namespace {
 
 void applyStep(const SolveOptions& options, RunSpec& spec) {
   if (options.step.empty()) return;
   auto& step = spec.options.step;
   findField("h").set(spec, options.step);
   if (findPeer(spec.method)) return;  // a peer chooses its own first step
-  if (!given(options, "control")) step.control = StepControl::kFixed;
+  if (!isGiven(options, "control")) step.control = StepControl::kFixed;
   if (step.control != StepControl::kFixed) return;
-  if (!given(options, "estimate")) step.estimate = ErrorEstimate::kNone;
+  if (!isGiven(options, "estimate")) step.estimate = ErrorEstimate::kNone;
   if (!options.tol.empty()) {
     throw Misuse(
         "illegal combination: step and tol: fixed steps have no tolerance; "

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostRuns = 10'000;
 
 /// An option with a list of values.
-struct List {
+struct SweptOption {
   std::string name;
   std::vector<std::string> values;
   std::function<void(SolveOptions&, const std::string&)> set;
@@ -42,8 +42,8 @@ std::vector<std::string> items(const std::string& name, const std::string& text)
 
 bool isList(const std::string& text) { return text.find(',') != std::string::npos; }
 
-std::vector<List> listsOf(const SolveOptions& options) {
-  std::vector<List> lists;
+std::vector<SweptOption> listsOf(const SolveOptions& options) {
+  std::vector<SweptOption> lists;
   for (std::size_t i = 0; i < options.settings.size(); ++i) {
     const std::string& setting = options.settings[i];
     const std::size_t equals = setting.find('=');
@@ -111,7 +111,7 @@ void printLine(std::ostream& out, const std::string& values, const RunRecord& re
 Sweep sweepOf(const SolveOptions& options) {
   const auto lists = listsOf(options);
   Sweep sweep{{}, {{options, {}}}};
-  for (const List& list : lists) {
+  for (const SweptOption& list : lists) {
     sweep.names.push_back(list.name);
     std::vector<Sweep::Run> runs;
     if (sweep.runs.size() * list.values.size() > kMostRuns) {

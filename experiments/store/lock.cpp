@@ -105,7 +105,7 @@ bool Lock::create() {
   return true;
 }
 
-Lock::Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messages)
+Lock::Lock(const std::filesystem::path& folder, IfLocked if_locked, std::ostream& messages)
     : file_(folder / "lock"),
       text_(fmt::format("{} {} {} {}\n", hostName(), getpid(), dateText(), stateOf(getpid()).start)) {
   std::filesystem::create_directories(folder);

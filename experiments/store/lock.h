@@ -18,7 +18,7 @@ class Lock {
   /// If another process holds the lock: throws Failure, or with kWait waits until it is free or for an interrupt.
   /// Takes over the lock of a process of this host that has ended, and one that has remained empty, with a line on
   /// `messages`. Whether a process of another host has ended is not known: its lock must be removed by hand.
-  Lock(std::filesystem::path folder, IfLocked if_locked, std::ostream& messages);
+  Lock(const std::filesystem::path& folder, IfLocked if_locked, std::ostream& messages);
   ~Lock();
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;

@@ -67,8 +67,8 @@ std::uint32_t secondsOf(std::string_view date) {
   const auto part = [date](std::size_t at, std::size_t length) { return numberOf<unsigned>(date.substr(at, length)); };
   const std::chrono::sys_days day =
       std::chrono::year(static_cast<int>(part(0, 4))) / std::chrono::month(part(5, 2)) / std::chrono::day(part(8, 2));
-  const auto seconds =
-      day.time_since_epoch() / std::chrono::seconds(1) + part(11, 2) * 3600 + part(14, 2) * 60 + part(17, 2);
+  const auto seconds = day.time_since_epoch() / std::chrono::seconds(1) + std::int64_t{part(11, 2)} * 3600 +
+                       std::int64_t{part(14, 2)} * 60 + part(17, 2);
   return static_cast<std::uint32_t>(seconds);
 }
 
@@ -78,7 +78,8 @@ std::string writerName() {
   return fmt::format("{}.{}.{}", date, hostName(), getpid());
 }
 
-Rows::Rows(std::filesystem::path folder, std::string name, std::vector<std::string> columns, std::string_view code)
+Rows::Rows(const std::filesystem::path& folder, std::string name, std::vector<std::string> columns,
+           std::string_view code)
     : folder_(folder / "parts"),
       name_(std::move(name)),
       columns_(std::move(columns)),

@@ -39,7 +39,7 @@ std::string writerName();
 class Rows {
  public:
   /// `code` is the fingerprint of this program.
-  Rows(std::filesystem::path folder, std::string name, std::vector<std::string> columns, std::string_view code);
+  Rows(const std::filesystem::path& folder, std::string name, std::vector<std::string> columns, std::string_view code);
   ~Rows();
 
   /// Reads all parts; if there are none, the exported <name>.csv. kSetAside copies unreadable lines to

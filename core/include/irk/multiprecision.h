@@ -136,7 +136,7 @@ using mp100 = BigFloat<100>;
 }  // namespace irk
 
 template <int Digits>
-struct std::numeric_limits<irk::BigFloat<Digits>> {
+struct std::numeric_limits<irk::BigFloat<Digits>> {  // NOLINTBEGIN(readability-identifier-naming): prescribed
   using Number = irk::BigFloat<Digits>;
   static constexpr bool is_specialized = true, is_signed = true, is_integer = false, is_exact = false;
   static constexpr bool has_infinity = true, has_quiet_NaN = true, has_signaling_NaN = false;
@@ -175,7 +175,7 @@ struct Eigen::NumTraits<irk::BigFloat<Digits>> : GenericNumTraits<irk::BigFloat<
     return 1000 * std::numeric_limits<irk::BigFloat<Digits>>::epsilon();
   }
   static int digits10() { return Digits; }
-};
+};  // NOLINTEND(readability-identifier-naming)
 
 template <int Digits, class T, class Operation>
 requires std::is_arithmetic_v<T>

@@ -23,7 +23,7 @@ struct Counts {
 };
 
 // Of one row of the table; `all` tolerances are -1, before the others.
-using Group = std::tuple<std::string, std::string, double>;
+using GroupKey = std::tuple<std::string, std::string, double>;
 
 std::string failuresText(const std::map<std::string, int>& failures) {
   std::string text;
@@ -37,7 +37,7 @@ std::string failuresText(const std::map<std::string, int>& failures) {
 
 void writeRobustness(const RunFile& runs, const std::filesystem::path& file) {
   const Table& names = runs.names();
-  std::map<Group, Counts> groups;
+  std::map<GroupKey, Counts> groups;
   runs.forEachRow([&](const TableRow& row) {
     const double tolerance = audit::toleranceOf(names, row);
     const auto& outcome = textAt(names, row, "outcome");

@@ -219,9 +219,9 @@ TEST_F(WholeTables, ProfilesAreThoseOfMaps) {
       }
       if (given == 0) continue;
       std::sort(ratios.begin(), ratios.end());
-      const TableRow names{curve.first, curve.second, solver};  // clang 14 captures no structured binding
-      const auto add = [&](double ratio, std::size_t count) {
-        expected.push_back({names[0], names[1], names[2], numberText(ratio),
+      // Clang 14 captures no structured binding by itself.
+      const auto add = [&, &curve = curve, &solver = solver](double ratio, std::size_t count) {
+        expected.push_back({curve.first, curve.second, solver, numberText(ratio),
                             numberText(static_cast<double>(count) / static_cast<double>(given)), std::to_string(given),
                             std::to_string(best.size())});
       };

@@ -189,12 +189,12 @@ class Hairer final : public Peer {
     if (loaded_.code->sequence == Sequence::kRadau) counts_.newton_iterations += iwork_[19];
   }
 
-  // The codes want unknowns sorted by their index. One that follows unknowns of a higher index counts as these.
+  // The codes expect unknowns sorted by their index. An unknown behind others of a higher index is given that index.
   void setIndices(const PeerLayout& layout) {
-    int highest = 1;
+    std::size_t highest = 1;
     for (const int index : layout.index) {
-      highest = std::max(highest, index);
-      ++iwork_[static_cast<std::size_t>(3 + highest)];
+      highest = std::max(highest, static_cast<std::size_t>(index));
+      ++iwork_[3 + highest];
     }
   }
 
