@@ -6,7 +6,7 @@
 
 namespace {
 
-// All digits, so that the number is read back as it was.
+// With enough digits to read back exactly the same number.
 void write(fmt::ostream& out, const auto& numbers) {
   for (const double number : numbers) out.print("{:a},", number);
   out.print("\n");

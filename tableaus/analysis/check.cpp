@@ -33,8 +33,8 @@ void checkWeights(const Subject& subject, Findings& findings) {
   const double residual = subject.analysis.residuals.B[0];
   const bool holds = residual <= subject.analysis.tolerance;
   add(findings, holds ? Verdict::kHolds : Verdict::kContradiction, Place::kWeights, "sum of b",
-      holds ? "sum of b is 1"
-            : fmt::format("not consistent: sum of b is {:.6g}, off 1 by {:.3g}",
+      holds ? "the sum of b is 1"
+            : fmt::format("not consistent: the sum of b is {:.6g} and differs from 1 by {:.3g}",
                           static_cast<double>(subject.tableau.b.sum()),
                           static_cast<double>(abs(subject.tableau.b.sum() - 1))));
 }
@@ -42,11 +42,11 @@ void checkWeights(const Subject& subject, Findings& findings) {
 void checkRowSums(const Subject& subject, Findings& findings) {
   if (subject.tableau.stage_order < 1) {
     add(findings, Verdict::kNote, Place::kStageOrder, "row sums",
-        "stage order 0 is declared: row sums of A need not be c");
+        "stage order 0 is declared: row sums of A need not equal c");
     return;
   }
   if (subject.analysis.q >= 1) {
-    add(findings, Verdict::kHolds, Place::kStageOrder, "row sums", "every row of A sums up to c");
+    add(findings, Verdict::kHolds, Place::kStageOrder, "row sums", "every row sum of A equals its node c");
     return;
   }
   Index row = 0;
@@ -62,7 +62,7 @@ void checkQuadrature(const Subject& subject, Findings& findings) {
   const int declared = tableau.order;
   if (declared < 1 || declared > 2 * tableau.stages()) {
     add(findings, Verdict::kContradiction, Place::kOrder, "B",
-        fmt::format("order {} is impossible: {} stages reach 1 to {}", declared, tableau.stages(),
+        fmt::format("order {} is impossible: with {} stages it is 1 to {}", declared, tableau.stages(),
                     2 * tableau.stages()));
   } else if (declared > analysis.p) {
     add(findings, Verdict::kContradiction, Place::kOrder, "B",
@@ -78,7 +78,7 @@ void checkStageOrder(const Subject& subject, Findings& findings) {
   const int declared = tableau.stage_order;
   if (declared < 0 || declared > tableau.stages()) {
     add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
-        fmt::format("stage order {} is impossible: {} stages reach 0 to {}", declared, tableau.stages(),
+        fmt::format("stage order {} is impossible: with {} stages it is 0 to {}", declared, tableau.stages(),
                     tableau.stages()));
   } else if (declared > analysis.q) {
     add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
@@ -136,7 +136,8 @@ void checkFamily(const Subject& subject, Findings& findings) {
   const Index s = subject.tableau.stages();
   if (family == nullptr) {
     add(findings, Verdict::kNote, Place::kFamily, "family",
-        fmt::format("'{}' is not one of the suite's families: judged by its numbers alone", subject.tableau.family));
+        fmt::format("'{}' is not one of the suite's families: only its coefficients are checked",
+                    subject.tableau.family));
   } else if (s < family->minStages() || s > kMaxStages) {
     add(findings, Verdict::kContradiction, Place::kFamily, "family",
         fmt::format("{} has {} to {} stages, not {}", family->title, family->minStages(), kMaxStages, s));
@@ -152,13 +153,14 @@ void checkProof(const Subject& subject, Findings& findings) {
   const bool of_family = findFamily(tableau.family) != nullptr;  // its order is known from theory
   if (declared > analysis.proven_order) {
     add(findings, Verdict::kUnproven, Place::kOrder, "order",
-        fmt::format("order {} is not proven by B, C, D, which reach {}; it may be true", declared,
+        fmt::format("order {} is not proven: B, C, D prove order {} only; it may be true", declared,
                     analysis.proven_order));
   } else if (declared == analysis.proven_order || of_family) {
     add(findings, Verdict::kHolds, Place::kOrder, "order", fmt::format("order {} is proven by B, C, D", declared));
   } else {
     add(findings, Verdict::kNote, Place::kOrder, "order",
-        fmt::format("order {} is declared, B, C, D reach {} to the tolerance", declared, analysis.proven_order));
+        fmt::format("order {} is declared, but B, C, D prove order {} within the tolerance", declared,
+                    analysis.proven_order));
   }
 }
 
@@ -175,7 +177,7 @@ void checkTrees(const Subject& subject, Findings& findings) {
   const std::string numbers = residualsText(residuals);
   if (order == kMaxTreeOrder) {
     add(findings, Verdict::kHolds, Place::kOrder, "trees",
-        fmt::format("the conditions of all rooted trees hold up to order {}, the largest looked at"
+        fmt::format("the conditions of all rooted trees hold up to order {}, the largest that is checked"
                     "; {}",
                     order, numbers));
   } else if (declared > order) {
@@ -224,8 +226,8 @@ std::string reportText(const Tableau<mp80>& tableau, const TableauReport& report
   for (const Finding& finding : report.findings) {
     text += fmt::format("  {:<9} {}\n", verdictName(finding.verdict), finding.text);
   }
-  return text + fmt::format("{}, to a tolerance of {:.1g}\n",
-                            report.ok ? "keeps what it declares" : "CONTRADICTS what it declares",
+  return text + fmt::format("{}, within a tolerance of {:.1g}\n",
+                            report.ok ? "agrees with its declarations" : "CONTRADICTS its declarations",
                             report.analysis.tolerance);
 }
 

@@ -42,7 +42,6 @@ struct TableauReport {
 /// Checks sum b = 1, row sums (unless stage order 0 is declared), B(p), C(q), orders and coefficients of a family of
 /// the suite, whether B, C, D prove the order, and the order by rooted trees. Real: double, mp50, mp80. Throws Misuse
 /// as analyzeTableau.
-/// rooted trees give. Real: double, mp50, mp80. Throws Misuse as analyzeTableau.
 template <class Real>
 TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance = roundingTolerance<Real>());
 

@@ -104,7 +104,7 @@ std::string stabilityFunctionText(const StabilityFunction& R) {
     return text + fmt::format("  order of R {}, error constant: e^z - R(z) = {:.6g} z^{} + ...\n", R.order,
                               R.error_constant, R.order + 1);
   }
-  return text + fmt::format("  order of R at least {}; error constant: below what the digits tell\n", R.order);
+  return text + fmt::format("  order of R at least {}; error constant: too small for the digits to resolve\n", R.order);
 }
 
 std::string limitText(double limit) {

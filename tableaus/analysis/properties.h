@@ -33,14 +33,14 @@ struct TableauProperties {
   TableauAnalysis analysis;
   StageKind kind;
   NodesAndWeights quadrature;
-  /// Equal to its adjoint for a permutation of the stages: c_i + c_i' = 1, b_i = b_i', a_i'j' + a_ij = b_j. GNI, V.2.
+  /// Equal to its adjoint up to a permutation of the stages: c_i + c_i' = 1, b_i = b_i', a_i'j' + a_ij = b_j. GNI, V.2.
   bool symmetric;
   StabilityFunction R;
   Stability stability;
   Spectrum spectrum;  ///< of A
 };
 
-/// The time of the analysis grows with s^3 and is a second at 40 stages.
+/// The analysis takes time proportional to s^3: about a second at 40 stages.
 inline constexpr Index kMaxAnalyzedStages = 40;
 
 /// Computed in 80 digits. Throws Misuse as analyzeTableau, and for more than kMaxAnalyzedStages stages.

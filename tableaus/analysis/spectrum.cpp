@@ -84,7 +84,7 @@ std::complex<double> Eigenvalue::rounded() const { return {static_cast<double>(r
 std::vector<Eigenvalue> eigenvalues(const Mat<mp80>& matrix) {
   if (matrix.rows() == 0) return {};
   const Eigen::RealSchur<Mat<mp80>> schur(matrix, false);
-  if (schur.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not end");
+  if (schur.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not converge");
   return ofSchurForm(schur.matrixT());
 }
 
@@ -106,7 +106,7 @@ std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending) {
 
 Spectrum spectrum(const Mat<mp80>& matrix, double tolerance) {
   const Eigen::EigenSolver<Mat<mp80>> eigen(matrix);
-  if (eigen.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not end");
+  if (eigen.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not converge");
   Spectrum result;
   // For a triangular matrix take the diagonal, which is exact. The QR iteration would spread the s equal eigenvalues
   // of an SDIRK method by the s-th root of its rounding errors.

@@ -109,13 +109,14 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
   constexpr int kWanted = std::numeric_limits<Real>::digits10;
   if (kWanted > kFileDigits) {
     throw Misuse(
-        fmt::format("{}: a tableau file is not for this scalar of {} digits; use one of "
-                    "the families",
+        fmt::format("{}: tableau files have too few digits for this scalar of {} digits; use "
+                    "one of the families",
                     id_or_file, kWanted));
   }
   if (file.digits < kWanted) {
-    throw Misuse(fmt::format("{}: right to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
-                             id_or_file, file.digits, kWanted, kWanted));
+    throw Misuse(
+        fmt::format("{}: accurate to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
+                    id_or_file, file.digits, kWanted, kWanted));
   }
   return file.tableau.cast<Real>();
 }
@@ -133,7 +134,7 @@ Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
                     id));
   }
   const Family& family = familyOf(member ? member->family : id);
-  // Members of stage order 0 are left out: their estimate would not see forces that change with time, see
+  // Members of stage order 0 are left out: their error estimate misses forces that depend on time only; see
   // EmbeddedEstimate.
   Index least = family.minStages();
   while (family.orders(least).q < 1) ++least;

@@ -1,6 +1,6 @@
 // Coefficients of the families rounded to double. The build writes them (tableaus/generate_constants.cpp) with the
-// construction that other precisions use at run time: constructing thirteen members takes milliseconds, more than
-// many an integration.
+// construction that other precisions use at run time: constructing thirteen members takes milliseconds, longer than
+// many integrations.
 #pragma once
 
 #include "tableaus/families/families.h"

@@ -11,7 +11,8 @@
 namespace irk {
 namespace {
 
-// In units of round-off: far above the construction's error (1e8 at s = 100), far below any coefficient.
+// A coefficient below this bound, in units of round-off, is zero. The construction's error is at most 1e8 (s = 100);
+// all coefficients that are not zero are far larger.
 constexpr double kZeroThreshold = 1e15;
 
 bool hasLeftEnd(Quadrature quadrature) {

@@ -102,7 +102,7 @@ class Parser {
     constexpr std::size_t kShown = 30;
     const std::string& text = lines_[position_].text;
     std::string shown = text.size() <= kShown ? text : text.substr(0, kShown) + "...";
-    // A message ends at its first zero.
+    // The message of an exception ends at the first zero byte.
     std::replace_if(
         shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
     return shown;
@@ -181,7 +181,7 @@ class Parser {
     return decimal(word.substr(0, slash), line) / denominator;
   }
 
-  // The exponent has at most three digits: no value overflows, and none takes long to read.
+  // An exponent has at most three digits, so that no value overflows and each is read quickly.
   mp80 decimal(const std::string& word, int line) const {
     static const std::regex form(R"([+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?)");
     if (word.size() > kMaxNumberLength || !std::regex_match(word, form)) {

@@ -74,7 +74,7 @@ struct PeerJacobian {
   void writeFull(double* to, Index leading) const;
 };
 
-/// What an evaluation says.
+/// The result of an evaluation.
 enum class Evaluated {
   kDone = 0,
   kNotFinite = 1,  ///< a value is not finite: try a smaller step

@@ -1,8 +1,7 @@
 // SUNDIALS ARKODE with its diagonally implicit Runge-Kutta method of order 5, set up as its manual recommends for
-// stiff systems: modified Newton with the exact Jacobian and the solver that
-// suits its pattern (dense, banded, KLU), rtol and a vector of atol, no step
-// beyond the end, stage derivatives deduced from Newton's result instead of evaluated. All other options keep their
-// defaults. Reynolds et al., ACM TOMS 49 (2023).
+// stiff systems: modified Newton with the exact Jacobian and the solver that suits its pattern (dense, banded, KLU),
+// rtol and a vector of atol, no step beyond the end, stage derivatives deduced from Newton's result instead of
+// evaluated. All other options keep their defaults. Reynolds et al., ACM TOMS 49 (2023).
 #include <arkode/arkode_arkstep.h>
 
 #include "experiments/runs/peers/catalogue.h"
@@ -18,7 +17,7 @@ constexpr int kArkodeIterations = 10;
 
 struct Arkode {
   IRK_SUNDIALS_API(ARKStep, ARKLsJacFn, ARKRootFn)
-  // Once its interpolant has asked for right-hand sides, ARKODE evaluates them in every later step.
+  // After the first interpolation, which needs right-hand sides, ARKODE evaluates them in every later step.
   static constexpr bool kRemembers = true;
   static void* create(SUNContext context, ARKRhsFn rates, N_Vector y) {
     return ARKStepCreate(nullptr, rates, 0, y, context);

@@ -42,7 +42,7 @@ class Gsl final : public Peer {
     y_ = ConstVec<double>(start.y, n_);
     double t = start.t;
     driver_->e->failed_steps = 0;
-    message_ = "the right-hand side at the start";
+    message_ = "the right-hand side cannot be evaluated at the start";
     if (problem_.rates(t, y_.data(), f_.data()) != Evaluated::kDone) return Outcome::kNotFinite;
     double h = given_h_ > 0 ? given_h_ : firstStep(y_, f_, t_end - t);
     gsl_odeiv2_driver_reset(driver_.get());

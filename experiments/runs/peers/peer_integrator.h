@@ -48,7 +48,7 @@ class PeerIntegrator {
   StallDetector stall_;
   DerivativeSource derivatives_;
   bool ends_consistent_;
-  StartReport stopped_;    // why the peer has to return; kSuccess: it may go on
+  StartReport stopped_;    // why the run is over; kSuccess: it goes on
   bool restarts_ = false;  // after a switch
 };
 

@@ -30,8 +30,8 @@ N_Vector Workspace::add(const Vec<double>& values) {
 
 namespace {
 
-// Whether a banded solver is better: with the band half full, it takes about the work of a sparse solver, without
-// indices.
+// Whether a banded solver is faster than a sparse one: if half of the band is filled, both do about the same work, but
+// the banded solver needs no indices.
 bool isBanded(const PeerPattern& pattern) {
   const Index band = (pattern.lower + pattern.upper + 1) * pattern.n;
   return band <= 2 * static_cast<Index>(pattern.row.size());
@@ -84,7 +84,7 @@ Outcome outcomeOf(int flag) {
   switch (flag) {
     case -1:
       return Outcome::kMaxSteps;
-    case -2:  // more accuracy requested than the machine has
+    case -2:  // the tolerance is below round-off
     case -3:
       return Outcome::kStepTooSmall;
     case -4:

@@ -43,9 +43,10 @@ class Workspace {
   const std::string& message() const { return message_; }
 
   /// Makes matrix and solver for a pattern: dense if it is full; banded if at least half of the band is filled; else
-  /// sparse, factorized by KLU. Returns false if those at hand fit.
+  /// sparse, factorized by KLU. Returns false if the present matrix already suits the pattern.
   bool choose(const std::shared_ptr<const PeerPattern>& pattern);
-  /// Writes a Jacobian to `to`, a matrix of the chosen kind. Returns false if its pattern has outgrown the chosen one.
+  /// Writes a Jacobian to `to`, a matrix of the chosen kind. Returns false if the Jacobian has entries outside the
+  /// pattern of that matrix.
   bool fill(const PeerJacobian& J, SUNMatrix to) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace irk::test {
 namespace {
 
-TEST(SmallSize, TheFunctionSeesTheNumberAsConstantOrNot) {
+TEST(SmallSize, PassesTheNumberAsAConstantUpToALimit) {
   for (Index n = 0; n <= 12; ++n) {
     const bool constant = withSize<4>(n, [&](auto size) {
       EXPECT_EQ(Index(size), n);
@@ -97,7 +97,7 @@ TEST(SmallInverse, RealAndComplexAgainstEigen) {
   }
 }
 
-TEST(SmallInverse, SaysWhatHasNone) {
+TEST(SmallInverse, ReportsSingularMatrices) {
   Mat<double> singular = Mat<double>::Ones(3, 3);
   EXPECT_EQ(invert<1>(singular.data(), Index(3)), Outcome::kSingular);
   for (Index at = 0; at < 9; ++at) {

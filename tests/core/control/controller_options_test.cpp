@@ -59,7 +59,7 @@ TEST(Predictive, FollowsGustafssonWhereStepAndErrorChange) {
 
 // In the ratio of errors, errors below 1e-2 count as 1e-2 (ERRACC of RADAU). After a change of order the history of
 // the new order is used.
-TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
+TEST(Predictive, BoundsOldErrorsFromBelowAndKeepsAHistoryPerOrder) {
   auto controller = makeController(controlled(StepControl::kPredictive), 3);
   (void)controller->decide(1e-9, 0.1);
   EXPECT_NEAR(controller->decide(0.9, 0.08).h, gustafsson(3, 0.9, 0.08, 1e-2, 0.1), 1e-12);
@@ -74,7 +74,7 @@ TEST(Predictive, RemembersNoErrorBelowItsFloorAndTakesTheOrdersOwnPast) {
 }
 
 TEST(Predictive, KeepsStepsLongerWhereFactorsAreExpensive) {
-  // Factors that cost so many steps, and the growth up to which a step is then kept.
+  // The cost of a factorization in steps, and the growth up to which the step size is then kept.
   for (const auto& [cost, up_to] : {std::pair{0.0, 1.2}, {1.0, 1.2}, {2.0, 1.6}, {3.0, 2.0}, {100.0, 2.0}}) {
     for (const double growth : {up_to - 0.02, up_to + 0.02}) {
       const auto controller = makeController(controlled(StepControl::kPredictive), 3);
@@ -92,7 +92,7 @@ TEST(Predictive, KeepsStepsLongerWhereFactorsAreExpensive) {
   EXPECT_NEAR(paper->decide(0.25 / std::pow(2.1, 4), 0.1).h, 0.21, 1e-12) << "the paper's rule knows no costs";
 }
 
-TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
+TEST(Predictive, DoesNotRepeatAtOnceAStepForWhichNewtonFailed) {
   const auto controller = makeController(controlled(StepControl::kPredictive), 3);
   EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
   int kept = 0;
@@ -103,8 +103,9 @@ TEST(Predictive, AfterNewtonFailedItsStepIsNotTriedAtOnce) {
   EXPECT_GT(controller->decide(1e-6, 0.05).h, 0.1) << "a restart knows of no failure";
 }
 
-// Before a step is accepted the first guess may be off by orders of magnitude; later, and after one failure, it is not.
-TEST(Predictive, GoesDownFastWhereTheFirstStepFailsAgain) {
+// Before the first accepted step the guess of the step size may be wrong by orders of magnitude. After an accepted
+// step, and after a single failure, it is assumed to be nearly right.
+TEST(Predictive, ShrinksTheFirstStepFastAfterRepeatedFailures) {
   const auto controller = makeController(controlled(StepControl::kPredictive), 3);
   for (int start = 0; start < 2; ++start) {
     EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);

@@ -72,7 +72,7 @@ TEST(PaperController, HalvesAfterAFailedNewton) {
   EXPECT_NEAR(makeController(paperRules(), 3)->afterFailure(0.1), 0.05, 1e-15);
 }
 
-TEST(PaperController, DoesNotReturnAtOnceToAStepThatNewtonFailed) {
+TEST(PaperController, DoesNotReturnAtOnceToAStepForWhichNewtonFailed) {
   const auto controller = makeController(paperRules(), 3);
   EXPECT_NEAR(controller->afterFailure(0.1), 0.05, 1e-15);
   int kept = 0;

@@ -37,7 +37,7 @@ TEST(OrderController, OnlyVariableOrderHasOne) {
   EXPECT_EQ(makeOrderController(OrderControl::kFixed, {kMembers, 3, {}}), nullptr);
 }
 
-// 1e-3 as the ratio of neighbouring errors: two stages more make a step that is more than twice as long.
+// Neighbouring members have errors in the ratio 1e-3: two more stages allow a step that is more than twice as long.
 TEST(OrderController, GoesUpWhereErrorsFallFast) {
   const auto decision = seventh(1, 1e3);
   EXPECT_EQ(decision.next, 2U);
@@ -45,7 +45,7 @@ TEST(OrderController, GoesUpWhereErrorsFallFast) {
   EXPECT_LT(decision.error, 0.01);
 }
 
-// The member below errs as little, and each of its steps costs less.
+// The error of the member below is as small, and each of its steps costs less.
 TEST(OrderController, GoesDownWhereTheMemberBelowIsAsAccurate) {
   const auto decision = seventh(0.9, 0.9);
   EXPECT_EQ(decision.next, 0U);

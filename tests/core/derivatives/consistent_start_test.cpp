@@ -64,8 +64,9 @@ TEST(ConsistentStart, FailuresNameThePlaceAndKeepWhatIsGiven) {
   EXPECT_EQ(nan.state.z()[0], 0.7);
 }
 
-// An equation without a root, whose residual is small enough for start values. At the end of a run it is no solution.
-TEST(ConsistentStart, AtTheEndOnlyWhatConvergesCounts) {
+// An equation without a root, whose residual is small enough for a start. At the end of a run it must not pass as a
+// solution.
+TEST(ConsistentStart, AtTheEndOnlyConvergedValuesCount) {
   const auto system = makeSystem<double>(Algebraic{Equation::kSquare}, {});
   State<double> state(system->sizes());
   state.x[0] = -1e-20;
@@ -78,7 +79,7 @@ TEST(ConsistentStart, AtTheEndOnlyWhatConvergesCounts) {
   EXPECT_EQ(start.apply(state).outcome, Outcome::kSuccess);
 }
 
-TEST(ConsistentStart, WhatCannotBeDeterminedIsKeptWhereItMayBe) {
+TEST(ConsistentStart, KeepsUndeterminedValuesWhereThatIsAllowed) {
   const auto kept = start(Equation::kNone, 1, 0.7);
   EXPECT_EQ(kept.report.outcome, Outcome::kSuccess) << kept.report.detail;
   EXPECT_EQ(kept.state.z()[0], 0.7);
@@ -104,7 +105,7 @@ struct PendulumIn {
   }
 };
 
-/// A start whose length is off by the part `du`, and whose velocity has the part `dv` along the rod.
+/// A start with a relative error `du` of the length, and with a fraction `dv` of the velocity along the rod.
 Outcome pendulumOutcome(const PendulumIn& problem, Formulation formulation, double du, double dv) {
   const auto system = makeSystem<double>(problem, {formulation});
   const double m = problem.unit;
@@ -138,7 +139,7 @@ TEST(ConsistentStart, ConstraintsAreJudgedAlikeInAllUnits) {
 }
 
 // The scale decides where the start is zero: a mechanism at rest, whose constraint moves slowly.
-TEST(ConsistentStart, TheScaleJudgesWhatIsZero) {
+TEST(ConsistentStart, ConstraintsAreJudgedByTheScaleWhereTheStartIsZero) {
   const auto outcome = [](double v, double scale) {
     const PendulumIn problem{1, 1};
     const auto system = makeSystem<double>(problem, {});
@@ -168,7 +169,8 @@ TEST(ConsistentStart, AFastStartMayBeGivenWithEightDigits) {
             Outcome::kInconsistentStart);
 }
 
-// g and dg/dt, and Newton's method, which needs one correction and a look at the next.
+// Expected: one evaluation each of g and dg/dt, and those of Newton's method, which corrects once and checks the next
+// correction.
 TEST(ConsistentStart, JudgingTakesNoCountedEvaluations) {
   const auto system = makeSystem<double>(CartesianPendulum{}, {});
   State<double> state = pendulumStart<double>();
@@ -203,7 +205,7 @@ struct Unknown {
   }
 };
 
-TEST(ConsistentStart, AResidualThatIsKeptIsJudgedAlikeInAllUnits) {
+TEST(ConsistentStart, RemainingResidualsAreJudgedAlikeInAllUnits) {
   for (const double unit : {1e-12, 1.0, 1e9}) {
     const auto outcome = [unit](double x_off, double k_off) {
       const auto system = makeSystem<double>(Unknown{unit}, {});

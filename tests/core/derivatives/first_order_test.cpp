@@ -68,7 +68,7 @@ struct Springs {
   }
 };
 
-// A constant M is factorized before the start, whatever is asked for.
+// A constant M is factorized before the start in both forms.
 TEST(FirstOrder, LeavesAConstantMassAlone) {
   State<double> start(Springs{}.sizes());
   start.u << 1, 0.5;

@@ -1,4 +1,4 @@
-// What the simplifications (4.4) and (4.8) of the Jacobian save: evaluations of M.
+// The simplifications (4.4) and (4.8) of the Jacobian save evaluations of M.
 #include <gtest/gtest.h>
 
 #include "core/derivatives/differentiator.h"
@@ -65,7 +65,7 @@ TEST(MassDerivatives, AreNotEvaluatedWhereTheyAreLeftOut) {
   EXPECT_EQ(differentiated(DerivativeSource::kAutomatic, JacobianTerms::kNoMass).evaluations, 3);
 }
 
-// M = 1 + u^2 stays in D0, d(M a)/du = 2 u a leaves D2.
+// M = 1 + u^2 remains in D0; the term d(M a)/du = 2 u a is missing in D2.
 TEST(MassDerivatives, LeaveForcesAndMassAsTheyAre) {
   const auto full = differentiated(DerivativeSource::kAutomatic, JacobianTerms::kFull);
   const auto none = differentiated(DerivativeSource::kAutomatic, JacobianTerms::kNoMass);
@@ -79,7 +79,7 @@ TEST(MassDerivatives, LeaveForcesAndMassAsTheyAre) {
   }
 }
 
-TEST(Vanishing, IsOfValuesAndDerivatives) {
+TEST(Vanishing, NeedsValueAndDerivativesToBeZero) {
   Dual<double> x(0.0);
   EXPECT_TRUE(vanishes(x));
   x.d[3] = 1e-300;

@@ -84,7 +84,7 @@ TEST(Sparse, DerivativesOfEverySceneEqualThoseColumnByColumn) {
   }
 }
 
-TEST(Sparse, AJacobianTakesAsManyDirectionsWhateverN) {
+TEST(Sparse, TheNumberOfDirectionsDoesNotGrowWithN) {
   const auto directions = [](const Scene<double>& scene) {
     std::size_t count = 0;
     linearize(*scene.system({}), moved(scene.start), Storage::kSparse, &count);
@@ -147,7 +147,7 @@ State<double> plucked(Index m) {
   return s;
 }
 
-TEST(Sparse, APatternThatASwitchChangesIsSeen) {
+TEST(Sparse, FollowsAPatternThatASwitchChanges) {
   const auto system =
       makeSystem<double>(LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
   Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull, Storage::kSparse);
@@ -175,7 +175,7 @@ struct NarrowContact {
   }
 };
 
-TEST(Sparse, APatternThatTheFirstLookMissesIsSeen) {
+TEST(Sparse, FindsEntriesThatTheFirstSearchMissed) {
   const auto system = makeSystem<double>(NarrowContact{});
   Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull, Storage::kSparse);
   const State<double> s(Sizes{.nu = 40});
@@ -289,7 +289,7 @@ void expectMisuse(const char* words, const F& f) {
   }
 }
 
-TEST(Sparse, WhatIsImpossibleIsRefused) {
+TEST(Sparse, IllegalCombinationsAreRefused) {
   const auto with = [](auto change) {
     return [change] {
       IntegratorOptions o = adaptive(1e-5);

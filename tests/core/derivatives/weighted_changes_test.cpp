@@ -1,4 +1,4 @@
-// What weighted changes of a state make of a residual.
+// The changes of a residual caused by weighted changes of a state.
 #include "core/derivatives/weighted_changes.h"
 
 #include <gtest/gtest.h>

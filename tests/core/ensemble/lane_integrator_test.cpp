@@ -178,7 +178,7 @@ TEST(LaneIntegrator, JudgesAStartRelativeToTheScale) {
   EXPECT_EQ(lanes[1].outcome, Outcome::kSuccess) << lanes[1].detail;
 }
 
-TEST(LaneIntegrator, StopsWhenItIsTold) {
+TEST(LaneIntegrator, StopsOnRequest) {
   const Members<ForcedOscillator> members{spread(0.5, 300, 20), 5};
   LaneIntegrator integrator(makeTableau<double>("radau_iia_3"), lanesAt(kLaneTolerance));
   std::size_t next = 0, steps = 0, interrupted = 0;

@@ -21,7 +21,7 @@ void setLane(ComplexLanes& to, std::size_t lane, const std::complex<double>& x) 
 std::complex<double> lane(const Lanes& x, std::size_t i) { return x[i]; }
 std::complex<double> lane(const ComplexLanes& x, std::size_t i) { return {x.re[i], x.im[i]}; }
 
-// Random matrices with a zero in front, which every lane has to pivot in its own way.
+// Random matrices whose first entry is zero, so that each lane needs its own exchange of rows.
 template <class Value>
 void expectSolutions(Index n) {
   LaneLu<Value> lu(n);

@@ -1,4 +1,4 @@
-// Forms of A are kept per process: they are those of the matrix that is asked for, for any thread.
+// Block forms of A are kept for the whole process. Each thread must get the form of its own matrix.
 #include "core/linear/block_form.h"
 
 #include <gtest/gtest.h>

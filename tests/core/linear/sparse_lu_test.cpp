@@ -117,7 +117,7 @@ TEST(SparseLu, ChoosesNewPivotsWhereTheOldOnesVanish) {
   expectSolves(*sparse.lu, A, 1e-14);
 }
 
-TEST(SparseLu, SaysSingularAndNotFiniteAndRecovers) {
+TEST(SparseLu, ReportsSingularAndNotFiniteAndRecovers) {
   Mat<double> A(2, 2), singular(2, 2);
   A << 1, 2, 3, 4;
   singular << 1, 2, 2, 4;
@@ -131,7 +131,7 @@ TEST(SparseLu, SaysSingularAndNotFiniteAndRecovers) {
 }
 
 // KLU's own rule: pivots of another matrix are used only if no entry of L exceeds 1 / 0.001.
-TEST(SparseLu, TakesOthersPivotsOnlyWhereTheyServe) {
+TEST(SparseLu, UsesGivenPivotsOnlyWhereTheyAreStable) {
   Mat<double> A(2, 2), like(2, 2), unlike(2, 2), beyond(2, 2);
   A << 1, 0.5, 0.5, 2;
   like << 1, 4, 400, 2;

@@ -51,7 +51,7 @@ TEST(SplitLu, SolvesAsLuWithCompletePivoting) {
   for (const Index n : kSizes) {
     SCOPED_TRACE(n);
     Mat<Complex> A = random.matrix(n);
-    if (n > 2) A.diagonal().setZero();  // nothing can be done without exchanges
+    if (n > 2) A.diagonal().setZero();  // no factorization without exchanges of rows
     SplitLu lu(n);
     fill(lu, A);
     ASSERT_EQ(lu.factorize(), Outcome::kSuccess);
@@ -96,7 +96,7 @@ TEST(SplitLu, IsUsedForLargeMatrices) {
   EXPECT_LT(residual(A, x, b), 1e-13);
 }
 
-TEST(SplitLu, ReportsZeroPivotsAndWhatIsNotFinite) {
+TEST(SplitLu, ReportsZeroPivotsAndNumbersThatAreNotFinite) {
   Random random;
   for (const Index n : {1, 8, 9, 30, 129}) {
     SCOPED_TRACE(n);
@@ -117,7 +117,7 @@ TEST(SplitLu, ReportsZeroPivotsAndWhatIsNotFinite) {
         }
       }
     }
-    // Nothing of a failure is left for the next factorization.
+    // The next factorization does not depend on the failed one.
     fill(lu, A);
     ASSERT_EQ(lu.factorize(), Outcome::kSuccess);
     const Vec<Complex> b = random.matrix(n).col(0);

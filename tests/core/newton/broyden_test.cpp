@@ -1,4 +1,4 @@
-// Broyden's updates against explicitly updated matrices, and the work that they save.
+// Compares Broyden's updates with explicitly updated matrices, and counts the work that they save.
 #include "core/newton/broyden.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Broyden, AgreesWithTheUpdatedMatrices) {
   EXPECT_LT(residual(x).norm(), 1e-5);
 }
 
-TEST(Broyden, StaysWithTheMatrixWhereAnUpdateWouldNotBeSafe) {
+TEST(Broyden, SkipsUpdatesThatWouldNotBeSafe) {
   BroydenUpdates<double> updates(2, 1);
   const Vec<double> squares = Vec<double>::Ones(2);
   Vec<double> d = (Vec<double>(2) << 1.0, 0.0).finished();

@@ -145,7 +145,7 @@ Linearization<double> termsOf(JacobianTerms terms, DerivativeSource source, doub
 }
 
 // Matrices derived by hand, rows (u0, u1, x, z): D0 by (a0, a1, k, z), D1 by (v0, v1, x, .), D2 by (u0, u1, ., .).
-TEST(JacobianTermsOption, LeaveOutWhatTheySay) {
+TEST(JacobianTermsOption, LeaveOutTheTermsThatTheirNamesSay) {
   const double m = 1 + 0.3 * 0.6 + 0.2 * 0.4 + 0.7 * 0.5 + 0.05 * 1.5, a = 2;
   for (const auto source : {DerivativeSource::kAutomatic, DerivativeSource::kCentral}) {
     const double tolerance = source == DerivativeSource::kAutomatic ? 1e-13 : 1e-8;

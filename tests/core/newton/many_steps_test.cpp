@@ -1,4 +1,4 @@
-// What Newton's method leaves in each of very many steps does not add up.
+// The errors that Newton's method leaves in very many steps must not add up.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -24,7 +24,7 @@ TEST(ManySteps, KappaFallsWithTheNumberOfSteps) {
   EXPECT_EQ(limit.after(0), limit.kappa);
   EXPECT_EQ(limit.after(1000), limit.kappa);
   EXPECT_DOUBLE_EQ(limit.after(1'000'000), 1e-5);
-  // The sum over all steps, were they all as large as they may be and of one sign.
+  // The sum over all steps if each error had its largest size and all had the same sign.
   double sum = 0;
   for (int n = 0; n < 1'000'000; ++n) sum += limit.after(n);
   EXPECT_LT(sum, 100);

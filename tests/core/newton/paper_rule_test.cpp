@@ -14,7 +14,7 @@ Solution<double> riccati(const char* newton, double residual_tolerance) {
 }
 
 // Five digits are within reach: both rules end in the same iterations.
-TEST(PaperRule, IsThatOfModifiedAboveRoundOff) {
+TEST(PaperRule, EqualsTheModifiedMethodAboveRoundOff) {
   const auto modified = riccati("modified", 1e-5), rule = riccati("paper_rule", 1e-5);
   ASSERT_EQ(rule.outcome, Outcome::kSuccess) << rule.detail;
   EXPECT_EQ(rule.counters.newton_iterations, modified.counters.newton_iterations);

@@ -15,7 +15,7 @@ constexpr int kOfStart = 1;
 
 NewtonKind newtonNamed(std::string_view id) { return parseId<NewtonKind>(id); }
 
-/// x' = -x: every Jacobian serves for ever, so that no iteration asks for another one.
+/// x' = -x: a Jacobian never becomes inaccurate, so that no iteration requests another one.
 struct Linear {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
   template <class T>

@@ -78,7 +78,7 @@ TEST(OptionFields, AFixedStepNeedsASize) {
   EXPECT_EQ(refusal([&] { validate(options); }), "");
 }
 
-TEST(Range, ReadsAsItIsChecked) {
+TEST(Range, TextAgreesWithTheCheck) {
   EXPECT_EQ(Range::from(0).below(1).text(), "0 <= x < 1");
   EXPECT_EQ(Range::above(0).to(1).text(), "0 < x <= 1");
   EXPECT_EQ(Range::above(0).text(), "> 0");

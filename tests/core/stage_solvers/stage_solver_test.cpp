@@ -1,4 +1,4 @@
-// All stage solvers agree with the simplest one.
+// All stage solvers agree with the simplest one, the coupled dense solver.
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 

@@ -69,7 +69,7 @@ TEST(StageEquations, ResidualsOfEverySize) {
   });
 }
 
-TEST(StageEquations, SeesANumberThatIsNotFiniteAtAnyPlace) {
+TEST(StageEquations, DetectsANumberThatIsNotFiniteAnywhere) {
   forSizes([](const Scheme<double>& scheme, const Uncoupled& problem) {
     const auto system = makeSystem<double>(problem);
     StageEquations<double> equations(*system, scheme, Summation::kPlain, 1);

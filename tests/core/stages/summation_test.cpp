@@ -31,7 +31,7 @@ State<double> afterManySteps(Summation summation) {
   return s.state;
 }
 
-TEST(Summation, CompensatedKeepsWhatAdditionsLose) {
+TEST(Summation, CompensatedKeepsTheRoundOffOfAdditions) {
   // 1000 + 0.1 * 100, with 0.1 as a double, to half an ulp of 1010.
   const double exact = 1010, ulp = 1010 * std::numeric_limits<double>::epsilon();
   const auto compensated = afterManySteps(Summation::kCompensated);
@@ -42,7 +42,7 @@ TEST(Summation, CompensatedKeepsWhatAdditionsLose) {
   EXPECT_GT(std::abs(plain.u[0] - exact), 100 * ulp);
 }
 
-TEST(Summation, CarryIsWhatTheStateLacks) {
+TEST(Summation, CarryIsTheRoundOffMissingInTheState) {
   const auto s = afterManySteps(Summation::kCompensated);
   EXPECT_LT(std::abs(s.carry[2]), 1010 * std::numeric_limits<double>::epsilon());
   EXPECT_EQ(afterManySteps(Summation::kPlain).carry.cwiseAbs().maxCoeff(), 0);

@@ -36,7 +36,7 @@ struct Sized {
   }
 };
 
-TEST(UserSystem, SizesThatCannotBeAreRefused) {
+TEST(UserSystem, ImpossibleSizesAreRefused) {
   struct Case {
     Sizes n;
     const char* message;
@@ -78,7 +78,7 @@ constexpr Reshaped kReshaped[] = {{"u", [](State<double>& s) { s.u.conservativeR
                                   {"carry", [](State<double>& s) { s.carry.resize(0); }},
                                   {"u", [](State<double>& s) { s = State<double>(); }}};
 
-// In each case memory was once read beyond its end.
+// Each of these starts once caused a read beyond the end of an array.
 TEST(UserSystem, StartsOfOtherSizesAreRefused) {
   for (const auto formulation : {Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl,
                                  Formulation::kFirstOrder, Formulation::kIndex2Projected}) {
@@ -94,7 +94,7 @@ TEST(UserSystem, StartsOfOtherSizesAreRefused) {
   }
 }
 
-// With an infinite v, 200 000 attempts were once made.
+// A start with an infinite v once led to 200 000 attempted steps.
 TEST(UserSystem, StartsThatAreNotFiniteEndBeforeTheFirstStep) {
   struct Damage {
     const char* place;
@@ -140,7 +140,7 @@ struct Root {
   }
 };
 
-TEST(UserSystem, AnEvaluationThatIsNoNumberAtTheStartIsNamed) {
+TEST(UserSystem, NamesTheEvaluationThatIsNotFiniteAtTheStart) {
   State<double> start(Root{}.sizes());
   start.x[0] = -1;
   const auto s = integrate<double>(Root{}, start, 1, makeTableau<double>("radau_iia_3"), adaptive(1e-6));

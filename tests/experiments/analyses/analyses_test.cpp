@@ -53,7 +53,7 @@ TEST(Analyses, AStudyAsksByTheirKeys) {
   EXPECT_TRUE(containsAll(misuseOf([] { parse("energie = true\n"); }), {"mine.toml:1", "energie", "'energy'"}));
 }
 
-TEST(Analyses, WriteWhatTheySay) {
+TEST(Analyses, WriteTheFilesThatTheyDeclare) {
   const TemporaryFolder folder;
   const auto [study, runs] = runsOf(std::string("orders = true\ntargets = [1e-2]\nprofile = true\n") + kBlock);
   std::ostringstream quiet;

@@ -39,10 +39,10 @@ TEST(Contractions, AreTheReductionsOfTheResidual) {
   }
 }
 
-// Newton's method solves linear equations at once: what is left is round-off, as a part of the first residual. Start
-// values that follow the solve before leave so little of that, in tiny first steps and in half steps above all, that
-// round-off was 2e-5 of it (where 1e-6 was asked for once). So these solves start from the accelerations at the step's
-// start, which miss those of the stages by far: 6e-14.
+// Newton's method solves linear equations in one iteration; the second residual is round-off. The test bounds its ratio
+// to the first residual. With extrapolated start values the first residual is itself so small, above all in tiny first
+// steps and in half steps, that the ratio was 2e-5. These solves therefore start from the accelerations at the step's
+// start, which are far from those of the stages: the ratio is 6e-14.
 TEST(Contractions, OfALinearSystemAreRoundOff) {
   RunSpec spec = kepler();
   spec.scene = "beam_chain";

@@ -21,7 +21,7 @@ TEST(CostAtError, InterpolatesTheLowerEnvelope) {
 }
 
 // Every series has a row for every error, with a cause if there is no cost.
-TEST(CostAtError, SaysWhyThereIsNone) {
+TEST(CostAtError, NamesTheCauseOfAMissingCost) {
   Table runs;
   runs.columns = {"scene",     "outcome",           "error",     "cpu_s",
                   "residuals", "newton_iterations", "jacobians", "factorizations"};
@@ -45,7 +45,7 @@ TEST(CostAtError, SaysWhyThereIsNone) {
                                                         {"failed", "no success: timeout"}}));
 }
 
-TEST(CostAtError, TellsTheSmallestToleranceOfASeries) {
+TEST(CostAtError, GivesTheSmallestToleranceOfASeries) {
   Table runs;
   runs.columns = {"scene",     "control",           "rtol",      "atol",          "outcome", "error", "cpu_s", "h",
                   "residuals", "newton_iterations", "jacobians", "factorizations"};
@@ -64,8 +64,8 @@ TEST(CostAtError, TellsTheSmallestToleranceOfASeries) {
   EXPECT_TRUE(std::isnan(numberAt(costs, costs.rows[2], "least_tolerance")));
 }
 
-// An error below ten accuracies of a computed reference is known to be at most that: the run reaches every target above
-// it, and nobody knows whether it reaches the others.
+// An error below ten times the accuracy of a computed reference is only known to be below that bound. The run reaches
+// every target above the bound; whether it reaches smaller ones is unknown.
 TEST(CostAtError, CountsAnErrorThatIsNotMeasurableAsItsBound) {
   Table runs;
   runs.columns = {"scene",     "outcome",           "error",     "reference_accuracy", "cpu_s",

@@ -73,7 +73,7 @@ TEST(OrderFit, IsNotFooledByAnErrorThatIsAboutToChangeItsSign) {
   EXPECT_TRUE(!fit.measurable || std::abs(fit.order - 17) < 0.2) << fit.order;
 }
 
-TEST(OrderFit, SaysWhyThereIsNone) {
+TEST(OrderFit, NamesTheReasonWithoutAnOrder) {
   const auto few = fitOrder({{1, 1e-3}, {0.5, 1e-5}});
   EXPECT_FALSE(few.measurable);
   EXPECT_NE(few.reason.find("2 points"), std::string::npos) << few.reason;

@@ -80,8 +80,8 @@ tolerances = 1e-3
   for (const auto& row : table.rows) EXPECT_GT(numberAt(table, row, "covered"), 0.3);
 }
 
-// Forgotten parts and parts that count twice are reported.
-TEST(Phases, WhatIsNotCoveredIsNamed) {
+// Parts that are missing and parts that are counted twice are reported.
+TEST(Phases, UncoveredTimeIsReported) {
   Table table;
   table.columns = {"scene", "settings", "method", "solver", "derivatives", "rtol", "covered"};
   for (const char* covered : {"0.89", "0.91", "1", "1.09", "1.11", "nan"}) {
@@ -94,7 +94,7 @@ TEST(Phases, WhatIsNotCoveredIsNamed) {
   EXPECT_TRUE(containsAll(lines[2], {"nan"}));
 }
 
-// A call of nanoseconds: reading the clock around each call would take half a microsecond.
+// The measured call takes nanoseconds. Reading the clock before and after each call would add half a microsecond.
 TEST(Phases, TheClockDoesNotCount) {
   volatile int calls = 0;
   EXPECT_LT(batchSeconds([&calls] { calls = calls + 1; }), 5e-8);

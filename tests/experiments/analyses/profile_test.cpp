@@ -57,7 +57,7 @@ TEST(Profile, DividesByTheProblemsThatASolverWasGiven) {
   for (const auto& [solver, row] : last) EXPECT_EQ(textAt(profile, row, "problems"), "3") << solver;
 }
 
-// With tolerances down to 1e-8 only, a solver that does not reach 1e-10 has not failed.
+// A solver that was run with tolerances down to 1e-8 only was not asked for an error of 1e-10, and does not fail there.
 TEST(Profile, AnErrorBelowTheSmallestToleranceWasNotAskedFor) {
   Table costs;
   costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause", "least_tolerance"};
@@ -80,8 +80,8 @@ TEST(Profile, AnErrorBelowTheSmallestToleranceWasNotAskedFor) {
                                                        {"all steps", "1"}}));
 }
 
-// hires is of the collection ivp, pendulum of ivp and multibody, "mine" of none. A solver that cannot be applied to a
-// scene has not failed there.
+// hires belongs to the collection ivp, pendulum to ivp and multibody, "mine" to none. A solver that cannot be applied
+// to a scene does not count as failed there.
 TEST(Profile, OfEveryCollectionAndOfAllScenes) {
   Table costs;
   costs.columns = {"scene", "settings", "integrator", "target_error", "cpu_s", "cause"};

@@ -85,7 +85,7 @@ TEST(Ratios, CompareWithTheFirstChoiceOfABlock) {
       << sentence;
 }
 
-TEST(Ratios, NeedTimesForTheirSentence) {
+TEST(Ratios, GiveASentenceOnlyWithTimes) {
   Runs runs;
   runs.add("terms", "crank", "radau_iia_3", "full", "simplified", 2);
   runs.add("terms", "crank", "radau_iia_3", "no_mass", "simplified", 3);

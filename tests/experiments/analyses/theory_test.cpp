@@ -107,7 +107,7 @@ const Expected kTable[] = {
     {"lobatto_iiid", SystemKind::kStiffFixedLambda, 'x', {0, 2, 2, 4}},
 };
 
-TEST(Theory, IsWhatTheTablesSay) {
+TEST(Theory, AgreesWithTheTables) {
   for (const auto& [family, kind, component, orders] : kTable) {
     Index s = 6 - static_cast<Index>(orders.size());
     for (const double order : orders) {
@@ -120,13 +120,13 @@ TEST(Theory, IsWhatTheTablesSay) {
   }
 }
 
-TEST(Theory, ManyStagesAreTheoremsOrSayThatTheyAreNot) {
+TEST(Theory, OrdersOfManyStagesAreMarkedUnlessTheyAreTheorems) {
   EXPECT_EQ(theoreticalOrder("gauss", 20, SystemKind::kOde, 'x')->order, 40);
   EXPECT_EQ(theoreticalOrder("gauss", 20, SystemKind::kOde, 'x')->source, "theorem");
   EXPECT_EQ(theoreticalOrder("gauss", 6, SystemKind::kMechanical3, 'z')->source, "extrapolated");
 }
 
-TEST(Theory, IsSilentWhereNothingIsKnown) {
+TEST(Theory, IsEmptyWhereNothingIsKnown) {
   EXPECT_FALSE(theoreticalOrder("my_method", 3, SystemKind::kOde, 'x'));
   EXPECT_FALSE(theoreticalOrder("lobatto_iiib", 3, SystemKind::kMechanical2, 'u'));
   EXPECT_FALSE(theoreticalOrder("lobatto_iiics", 3, SystemKind::kStiffFixedZ, 'x'));

@@ -168,7 +168,7 @@ TEST_F(SmallAudit, FindsADamagedResult) {
   EXPECT_TRUE(containsAll(text, {"the worst successes that are wrong", "irk solve "}));
 }
 
-TEST_F(SmallAudit, GoesOnWhereItWas) {
+TEST_F(SmallAudit, ResumesWhereItWasInterrupted) {
   const Table again = run();
   EXPECT_EQ(again.rows, runs_->rows) << "nothing is made again: times are the same";
   // A run whose state is missing is made again.

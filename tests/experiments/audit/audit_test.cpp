@@ -32,7 +32,7 @@ Evidence evidence(double error, double tolerance) {
   return {.success = true, .tolerance = tolerance, .error = error, .accuracy = 1e-12, .kappa = 10};
 }
 
-TEST(AuditJudge, DrawsEveryLine) {
+TEST(AuditJudge, DistinguishesAllJudgements) {
   EXPECT_EQ(judge(evidence(1.0000005e-3, 1e-6)), Judgement::kRight);
   EXPECT_EQ(judge(evidence(1.0000015e-3, 1e-6)), Judgement::kWrong) << "1000 tol + 1e-9";
   EXPECT_EQ(judge(evidence(1.05e-9, 1e-13)), Judgement::kRight);

@@ -194,7 +194,7 @@ TEST(Cli, ADamagedTableauFileIsStatusTwo) {
 }
 
 // Alexander's SDIRK method of order 3, and the same with one wrong sign.
-TEST(Cli, ATableauCheckSaysWhatIsTrue) {
+TEST(Cli, ATableauCheckReportsTrueProperties) {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "method.txt";
   const auto check = [&](const std::string& sign) {
@@ -212,7 +212,7 @@ TEST(Cli, ATableauCheckSaysWhatIsTrue) {
   const auto right = check("-");
   EXPECT_EQ(right.status, 0);
   EXPECT_TRUE(containsAll(right.out, {"SDIRK", "degrees (2, 3)", "A-stable: yes, L-stable: yes", "0.0258971 z^4",
-                                      "DEFECTIVE", "keeps what it declares"}));
+                                      "DEFECTIVE", "agrees with its declarations"}));
   const auto wrong = check("+");
   EXPECT_EQ(wrong.status, 1);
   EXPECT_TRUE(containsAll(wrong.out, {"row 3 of A does not sum up", "L-stable: no"}));

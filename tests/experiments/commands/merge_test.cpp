@@ -41,7 +41,7 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
   for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_EQ(a.rows[i].front(), b.rows[i].front());
 }
 
-TEST_F(Verbs, MergePrefersWhatIsTimedAndKnowsItsColumns) {
+TEST_F(Verbs, MergePrefersTimedRowsAndMatchesColumnsByName) {
   ASSERT_EQ(run().status, 0);
   Table timed = runs(), untimed = timed;
   for (auto& row : untimed.rows) {
@@ -66,7 +66,7 @@ TEST_F(Verbs, MergePrefersWhatIsTimedAndKnowsItsColumns) {
   EXPECT_TRUE(containsAll(refused.err, {"columns", "no run of this version"}));
 }
 
-TEST_F(Verbs, MergeSaysWhatIsMissing) {
+TEST_F(Verbs, MergeNamesMissingRuns) {
   ASSERT_EQ(run("parts", {"--shard", "2/3"}).status, 0);
   const std::string shard = results("parts") + "/small/shard_2_of_3";
   std::vector<std::string> arguments{"merge", shard, "--study", study(), "--results", results("merged")};

@@ -104,7 +104,7 @@ TEST_F(SolveOut, HasUnitsAndTheRunInItsHead) {
   EXPECT_TRUE(containsAll(entry("run"), {"scene=slider_crank", "t_end=0.1"}));
 }
 
-TEST_F(SolveOut, AFailedRunLeavesWhatItHasComputed) {
+TEST_F(SolveOut, AFailedRunLeavesTheRowsUpToItsEnd) {
   const std::vector<std::string> run{"solve", "slider_crank", "--method", "gauss_3", "--tol", "1e-4"};
   auto arguments = run;
   arguments.insert(arguments.end(), {"--out", file("run.csv"), "--points", "20", "--json"});
@@ -150,7 +150,7 @@ TEST_F(SolveOut, OtherLibrariesGiveTheirStepsOnly) {
   EXPECT_TRUE(containsAll(run.err, {"--points", "cvode_bdf", "steps only"})) << run.err;
 }
 
-TEST_F(SolveOut, RefusesWhatItCannotDo) {
+TEST_F(SolveOut, RefusesIllegalOptions) {
   std::ofstream(file("kept.csv")) << "mine\n";
   for (const char* name : {"device.csv", "device.svg"}) std::filesystem::create_symlink("/dev/null", file(name));
   struct Bad {

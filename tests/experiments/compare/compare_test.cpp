@@ -76,7 +76,7 @@ TEST(Compare, NothingChangedIsNoDifference) {
   EXPECT_DOUBLE_EQ(same.times.median, 1);
 }
 
-TEST(Compare, RunsAreMatchedByWhatWasAskedForNotByKeysAndDigits) {
+TEST(Compare, RunsAreMatchedBySettingsNotByKeysAndDigits) {
   Made other = someRuns();
   for (auto& row : other.table.rows) row[0] = "another version's key " + row[0];
   set(other, 0, "rtol", "0.001");
@@ -221,7 +221,7 @@ TEST(Compare, TheProcessorOfARowIsThatOfItsEnvironment) {
   EXPECT_EQ(compared(with("X"), with("Y"), {}).times.other_processor, 6u);
 }
 
-TEST(Compare, ColumnsOfOneTableOnlyAreSaid) {
+TEST(Compare, ColumnsOfOneTableOnlyAreReported) {
   Made other = someRuns();
   other.table.columns[other.table.column("residuals")] = "something_else";
   const Comparison comparison = compared(someRuns(), other, {});

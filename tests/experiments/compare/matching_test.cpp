@@ -16,7 +16,7 @@
 namespace irk::compare {
 namespace {
 
-// Some runs are only in one table, some are there twice, and the second table has another order.
+// Some runs are in one table only, some occur twice, and the second table is ordered differently.
 TEST(Matching, GroupsDoNotChangeThePairs) {
   Table first{{}, {"scene", "method", "h", "residuals"}, {}};
   for (int i = 0; i < 9000; ++i) {

@@ -43,7 +43,7 @@ TEST(Ratio, IsTheMedianWithAllOfTheRangeForFewNumbers) {
 
 // For samples of five and five P(U <= 2) = 4/252 and P(U <= 3) = 7/252: at 5 % two ratios are left out at each end,
 // but not three.
-TEST(Ratio, TheIntervalLeavesOutWhatTheTestDoes) {
+TEST(Ratio, TheIntervalAgreesWithTheRankTest) {
   const std::vector<double> a{1, 1, 1, 1, 1}, b{1, 2, 3, 4, 5};  // each ratio five times
   const Ratio wide = ratioOf(a, b, 0.05);
   EXPECT_NEAR(wide.level, 1 - 8 / 252.0, 1e-12);

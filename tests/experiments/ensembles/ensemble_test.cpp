@@ -27,7 +27,7 @@ TEST(Grid, HasAllCombinationsAndTheLastChangesFastest) {
   EXPECT_EQ(grid.at(8)[0], "0.5");
 }
 
-TEST(Grid, RefusesWhatIsNoGrid) {
+TEST(Grid, RefusesTextsThatAreNoGrid) {
   for (const auto* text : {"a", "=1", "a=1,,2", "a=1..2", "a=1..2:1", "a=1..2:x", "a=x..2:3", "a=-1..2:3:log"}) {
     EXPECT_THROW(gridAxis("--set", text), Misuse) << text;
   }

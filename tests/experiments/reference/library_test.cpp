@@ -91,7 +91,7 @@ TEST_F(ReferenceLibraryTest, ADamagedFileIsMadeAgain) {
   }
 }
 
-TEST_F(ReferenceLibraryTest, ThatThereIsNoneIsKeptToo) {
+TEST_F(ReferenceLibraryTest, TheReasonWhyThereIsNoneIsKeptToo) {
   std::vector<std::string> lines;
   ReferenceLibrary::Options options{.tell = [&](const std::string& line) { lines.push_back(line); }};
   options.limits.disagreement = 1e-45;
@@ -216,7 +216,7 @@ TEST_F(ReferenceLibraryTest, OnlyATerminalSeesHowFarItIs) {
       containsAll(seen, {line, "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): 3", " digits, "}));
 }
 
-TEST_F(ReferenceLibraryTest, SolveSaysWhatIsNotMeasurable) {
+TEST_F(ReferenceLibraryTest, SolveReportsErrorsThatAreNotMeasurable) {
   const auto run = program({"solve", "mechanical_dae", "--t-end", "0.02", "--scalar", "mp50", "--method",
                             "radau_iia_16", "--tol", "1e-30", "--reference"});
   ASSERT_EQ(run.status, 0) << run.err;

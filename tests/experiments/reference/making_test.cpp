@@ -28,7 +28,7 @@ const ReferenceValue& valueOf(const ComputedReference& made, const std::string& 
   throw std::out_of_range(component);
 }
 
-// kaps has the solution exp(-2 t), exp(-t), which the four runs know nothing of.
+// kaps has the exact solution exp(-2 t), exp(-t). The four runs do not use it.
 void expectKaps(const ComputedReference& made, double least, double most) {
   ASSERT_TRUE(made.problem.empty()) << made.problem;
   ASSERT_EQ(made.values.size(), 2u);
@@ -143,7 +143,7 @@ TEST(Making, AnInterruptIsNoAnswer) {
   EXPECT_TRUE(made.values.empty());
 }
 
-TEST(Making, SaysWhatIsWrongWithTheScene) {
+TEST(Making, NamesTheMistakeInTheScene) {
   EXPECT_TRUE(containsAll(make({"kaps", {{"epsilon", "1"}}, 1}).problem, {"epsilon"}));
 }
 

@@ -63,7 +63,7 @@ TEST(Ranking, LeavesOutWhatNobodySolves) {
   EXPECT_TRUE(ranking({{"a", {{"hard", kNever}}}}).empty());
 }
 
-TEST(Ranking, SaysHowTheNextCompares) {
+TEST(Ranking, ComparesTheSecondBest) {
   const Ranked best{"best", 4, 4, 1}, next{"next", 4, 4, 2}, partial{"partial", 2, 3, 1};
   EXPECT_EQ(comparison(2, best, next, 4), "2.0 times as fast as `next`");
   EXPECT_EQ(comparison(1.05, best, next, 4), "as fast as `next`");

@@ -1,5 +1,5 @@
-// What stands beside the curves: labels of axes that stay apart, numbers in bars, marks of switches. And the ratios of
-// costs, which are drawn from numbers that no table has.
+// Labels of figures: labels of axes do not overlap, bars have numbers, switches have marks. Also the figure of cost
+// ratios, whose numbers the script computes itself.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <cmath>

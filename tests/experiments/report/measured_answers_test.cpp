@@ -1,4 +1,4 @@
-// Sentences of studies, from tables that decide what they say.
+// The sentences that the page says about studies, made from tables with known results.
 #include "experiments/report/answers/measured_answers.h"
 
 #include <gtest/gtest.h>

@@ -185,7 +185,7 @@ TEST_F(ReportPage, NamesEachEnvironmentOnce) {
   EXPECT_EQ(environments.table().titles.size(), 3u);
 }
 
-TEST_F(ReportPage, OfNothingSaysSo) {
+TEST_F(ReportPage, WithoutResultsSaysSo) {
   std::filesystem::remove_all(results_);
   const std::string html = page();
   expectLinks(html, results_ / "report");

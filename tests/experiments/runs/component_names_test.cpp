@@ -25,7 +25,7 @@ TEST(ComponentNames, OfFormulationsOfFirstOrder) {
   EXPECT_EQ(named("at the start: x[0] = nan", ggl), "at the start: i = nan");
 }
 
-TEST(ComponentNames, WhatTheSceneDoesNotHaveStays) {
+TEST(ComponentNames, UnknownComponentsKeepTheirNames) {
   EXPECT_EQ(named("u[2] x[1] z[7] g[0] index[3]", kScene), "u[2] x[1] z[7] g[0] index[3]");
 }
 

@@ -1,4 +1,4 @@
-// What is said of single components and outputs of a run: absolute tolerances by name, invariants.
+// Settings and results of single components: absolute tolerances by name, invariants.
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run.h"
 #include "experiments/runs/run_table.h"
@@ -10,7 +10,7 @@ namespace {
 
 RunRecord run(const std::string& text) { return execute(resolved(parseSpec(text))); }
 
-// y1' = -y1, y2 is fast and follows it: loose tolerances for both, or for one.
+// y1' = -y1, and y2 follows it fast. Loose tolerances for both components, or for one.
 TEST(AtolOf, ReplacesAtolTimesTheScaleOfOneComponent) {
   const std::string text = "scene=kaps;method=radau_iia_3;rtol=1e-12;atol=1e-2";
   const RunRecord loose = run(text), tight = run(text + ";atol_of=y1=1e-10 y2=1e-10"),
@@ -38,7 +38,7 @@ TEST(AtolOf, MistakesAreNamed) {
   EXPECT_TRUE(containsAll(fixed.err, {"--atol-of", "fixed"}));
 }
 
-TEST(Invariants, TheLargestChangeIsTold) {
+TEST(Invariants, TheLargestChangeIsPrinted) {
   const Ended coarse = program({"solve", "kepler", "--method", "radau_iia_2", "--step", "0.05", "--json"});
   const Ended fine = program({"solve", "kepler", "--method", "gauss_5", "--tol", "1e-11"});
   EXPECT_TRUE(containsAll(coarse.out, {"\"invariants\"", "\"energy\"", "\"angular_momentum\"", "\"change\""}));

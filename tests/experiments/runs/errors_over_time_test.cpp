@@ -78,7 +78,7 @@ TEST(ErrorsOverTime, AskForTheReferenceOfEachTime) {
   Watch watch;
   watch.reference = [&](const RunSpec& run) -> MadeReference {
     asked.push_back(run.t_end);
-    // As far off as the time is late, but for one time in the middle.
+    // All these references are wrong, that in the middle most.
     return {{{run.t_end, "x", std::abs(run.t_end - 0.04) < 1e-9 ? "1e3" : "1", 1e-20, {}}}, {}};
   };
   const RunRecord run = execute(spec, watch);
@@ -92,7 +92,7 @@ TEST(ErrorsOverTime, AskForTheReferenceOfEachTime) {
   for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(runs[k].t_end, asked[k]) << "the runner makes these before";
 }
 
-TEST(LargerErrors, LeaveOutWhatIsNotMeasurable) {
+TEST(LargerErrors, LeaveOutErrorsThatAreNotMeasurable) {
   RunErrors known, small;
   known.all = known.u = 1e-3;
   known.accuracy = 1e-9;

@@ -128,7 +128,7 @@ TEST(FortranCodes, GetTheIndexOfTheirUnknowns) {
   }
 }
 
-TEST(FortranCodes, WhatTheyCannotDoIsRefused) {
+TEST(FortranCodes, UnsupportedRunsAreRefused) {
   const auto refusal = [](const std::string& code, const std::string& rest) {
     return misuseOf([&] { prepare(spec(code, rest)); });
   };
@@ -145,7 +145,7 @@ TEST(FortranCodes, WhatTheyCannotDoIsRefused) {
       containsAll(misuseOf([] { loadMethod("radau@" IRK_SOLVERS "/euler_ode.so"); }), {"euler_ode.so", "radau_"}));
 }
 
-TEST(FortranCodes, TheWatchIsHeard) {
+TEST(FortranCodes, LimitsAndInterruptsEndARun) {
   for (const auto& code : kAll) {
     RunSpec run = spec(code, "scene=kepler;t_end=1");
     std::int64_t heard = 0;
@@ -166,7 +166,7 @@ TEST(FortranCodes, TheWatchIsHeard) {
   }
 }
 
-TEST(FortranCodes, IgnoredSwitchesAreGoneOver) {
+TEST(FortranCodes, StepsPassIgnoredSwitches) {
   const auto scene = heatScene(true);
   for (const auto& code : kAll) {
     PeerIntegrator integrator(*findPeer(loadMethod(at(code))), scene, spec(code, "scene=kepler;discontinuity=ignore"));

@@ -144,7 +144,7 @@ TEST(OwnPeers, ALibraryInCLocatesSwitches) {
   }
 }
 
-TEST(OwnPeers, WhatALibraryCannotDoIsRefused) {
+TEST(OwnPeers, UnsupportedRunsAreRefused) {
   const auto refusal = [](const std::string& method, const std::string& rest) {
     return misuseOf([&] { prepare(ownSpec(solver(method), rest)); });
   };
@@ -154,7 +154,7 @@ TEST(OwnPeers, WhatALibraryCannotDoIsRefused) {
   EXPECT_TRUE(containsAll(refusal("euler_dae", "scene=kepler;scalar=mp50"), {"euler_dae", "mp50"}));
 }
 
-TEST(OwnPeers, TheClockAndTheUserEndALibrarysRun) {
+TEST(OwnPeers, LimitsAndInterruptsEndALibrarysRun) {
   RunSpec run = ownSpec(solver("euler_ode"), "scene=kepler", 1e-9);
   run.options.step.max_steps = 3;
   EXPECT_EQ(execute(run).outcome, "max_steps");

@@ -25,7 +25,7 @@ RunRecord peerSuccess(const RunSpec& run) {
   return record;
 }
 
-// Those that belong to the program; other tests add more.
+// The peers of the program, without those that other tests register.
 std::vector<PeerEntry> builtinPeers() {
   std::vector<PeerEntry> all;
   for (const auto& peer : peerCatalogue()) {
@@ -97,7 +97,7 @@ TEST(Peers, IdaSolvesIndex2) {
   }
 }
 
-TEST(Peers, APreparedRunLeavesNothingBehind) {
+TEST(Peers, RunsDoNotDependOnEarlierRuns) {
   for (const auto& peer : builtinPeers()) {
     const auto run = prepare(peerSpec(peer.id, "scene=pendulum;t_end=1;formulation=index1"));
     const RunRecord first = run->execute({}), second = run->execute({});
@@ -106,7 +106,7 @@ TEST(Peers, APreparedRunLeavesNothingBehind) {
   }
 }
 
-TEST(Peers, TheWatchIsHeard) {
+TEST(Peers, LimitsAndInterruptsEndARun) {
   for (const auto& peer : builtinPeers()) {
     RunSpec run = peerSpec(peer.id, "scene=kepler");
     std::int64_t heard = 0;
@@ -121,7 +121,7 @@ TEST(Peers, TheWatchIsHeard) {
   }
 }
 
-TEST(Peers, WhatCannotWorkIsRefused) {
+TEST(Peers, IllegalCombinationsAreRefused) {
   const auto refusal = [](const std::string& method, const std::string& rest) {
     return misuseOf([&] { prepare(peerSpec(method, rest)); });
   };

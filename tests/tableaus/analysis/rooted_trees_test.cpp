@@ -93,7 +93,7 @@ TEST(TreeConditions, HoldUpToTheLargestTreesForManyStages) {
 }
 
 // b^T A c = 1/2 sum b c^2 is not 1/6: the quadrature has order 3, the method order 2.
-TEST(TreeConditions, SeeWhatQuadratureDoesNot) {
+TEST(TreeConditions, DetectErrorsThatQuadratureDoesNot) {
   Tableau<mp80> tableau{"", "user", Mat<mp80>::Zero(2, 2), Vec<mp80>(2), Vec<mp80>(2), 3, 1};
   tableau.b << mp80(1) / 4, mp80(3) / 4;
   tableau.c << 0, mp80(2) / 3;
@@ -132,7 +132,7 @@ c
 0.788675134594812882254574390251 0.211324865405187117745425609749
 )";
 
-TEST(TreeConditions, UsersMethodsAreJudgedRight) {
+TEST(TreeConditions, UsersMethodsAreJudgedCorrectly) {
   for (const std::string& text : {kSdirk3, kCrouzeix}) {
     const auto report = checkTableau(parseTableau(text, "mine"));
     EXPECT_TRUE(report.ok) << report.text;

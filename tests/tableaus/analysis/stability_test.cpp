@@ -301,7 +301,7 @@ TEST(Structure, KindsOfStages) {
   EXPECT_EQ(propertiesOf(constructFamily(familyOf("gauss"), 2)).kind, StageKind::kFull);
 }
 
-TEST(Properties, TooManyStagesAreRefusedOrSaid) {
+TEST(Properties, TooManyStagesAreRefusedOrReported) {
   EXPECT_TRUE(contains(refusal([] { propertiesOf(constructFamily(familyOf("gauss"), 41)); }),
                        "properties are analysed up to 40"));
   EXPECT_TRUE(contains(checkTableau("gauss_41").text, "analysed up to 40 stages only"));

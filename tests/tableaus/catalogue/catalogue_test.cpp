@@ -92,7 +92,7 @@ TEST(Report, ChecksAnId) {
   const auto report = checkTableau("radau_iia_3");
   EXPECT_TRUE(report.ok);
   EXPECT_TRUE(contains(report.text, "order 5 is proven by B, C, D"));
-  EXPECT_TRUE(contains(report.text, "keeps what it declares"));
+  EXPECT_TRUE(contains(report.text, "agrees with its declarations"));
 }
 
 }  // namespace

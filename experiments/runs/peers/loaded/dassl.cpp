@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-// The codes hand RPAR through to all callbacks; here it is the address of the peer.
+// The codes pass RPAR to all callbacks unchanged; here it is the address of the peer.
 extern "C" {
 using DasslRes = void(double* t, double* y, double* yp, double* delta, int* ires, double* rpar, int* ipar);
 using DaspkRes = void(double* t, double* y, double* yp, double* cj, double* delta, int* ires, double* rpar, int* ipar);
@@ -108,7 +108,7 @@ class DasslPeer final : public Peer {
     atol_ = setup_.atol;
   }
 
-  // TOUT is far beyond the next step, but not farther: the smallest step of the codes is round-off of TOUT.
+  // TOUT lies beyond the next step. It must not be too large, because the codes take no step below round-off of TOUT.
   void call(double& t, double t_end) {
     constexpr double kSteps = 1e6;
     double tout = info_[0] == 0 ? t_end : std::min(t_end, t + kSteps * rwork_[2]);
@@ -160,7 +160,7 @@ class DasslPeer final : public Peer {
   static void daspkRes(double* t, double* y, double* yp, double*, double* delta, int* ires, double* rpar, int*) {
     of(rpar).residual(*t, y, yp, delta, ires);
   }
-  // A band begins below `lower` rows for the pivots.
+  // The first `lower` rows of a band are left free for the pivots.
   static void jac(double* t, double* y, double* yp, double* pd, double* cj, double* rpar, int*) {
     DasslPeer& self = of(rpar);
     std::fill_n(pd, self.leading_ * self.n_, 0);

@@ -13,7 +13,7 @@
 namespace irk {
 namespace {
 
-// The codes hand RPAR through to all callbacks; here it is the address of the peer.
+// The codes pass RPAR to all callbacks unchanged; here it is the address of the peer.
 extern "C" {
 using Fcn = void(int* n, double* x, double* y, double* f, double* rpar, int* ipar);
 using Jac = void(int* n, double* x, double* y, double* dfy, int* ldfy, double* rpar, int* ipar);
@@ -66,7 +66,7 @@ struct Shape {
   bool banded = false;
   Index lower = 0, upper = 0;
 
-  // Calls f(row, column) of the code's array for an entry; false: it is in none.
+  // Calls f(row, column) with the entry's place in the code's array; returns false if the array has no place for it.
   template <class F>
   bool place(Index i, Index j, bool square, F&& f) const {
     if (i < m1) return true;  // the code knows these rows
@@ -233,7 +233,7 @@ class Hairer final : public Peer {
     Hairer& self = of(rpar);
     const Evaluated evaluated = self.problem_.rates(*x, y, f);
     if (evaluated == Evaluated::kDone) return;
-    // A callback cannot end the run. With f = 0 the code soon accepts a step, and `solout` then does.
+    // This callback cannot end the run, but `solout` can. With f = 0 the code soon accepts a step and calls it.
     std::fill_n(f, self.y_.size(), evaluated == Evaluated::kStop ? 0 : std::numeric_limits<double>::quiet_NaN());
   }
 

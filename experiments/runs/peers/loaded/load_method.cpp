@@ -19,7 +19,7 @@
 namespace irk {
 namespace {
 
-// What users gave, by the id of the method; paths are absolute.
+// The files or libraries that users named, by the id of the method, as absolute paths.
 std::map<std::string, std::string>& libraries() {
   static std::map<std::string, std::string> all;
   return all;
@@ -78,7 +78,7 @@ void refuseUnknownMethod(const std::string& method) {
   const std::string stages = number < method.size() ? method.substr(number) : "S";
   std::vector<std::string> known;
   for (const auto& family : familyCatalogue()) {
-    if (method.starts_with(family.id)) return;  // the catalogue of tableaus tells more
+    if (method.starts_with(family.id)) return;  // the catalogue of tableaus has a more precise message
     known.push_back(family.id + "_" + stages);
   }
   for (const auto& peer : peerCatalogue()) known.push_back(peer.id);

@@ -8,8 +8,8 @@ namespace irk {
 
 /// The id of a method that a user names. Loads a solver's shared library, PATH.so (irk/peer_c.h) or CODE@PATH.so (a
 /// Fortran code's calling sequence), or a file PATH.cpp with a solver (irk/peer.h), and registers it under the name of
-/// the file or of the code, once; returns all else as it is given. Throws Misuse for a library that cannot be used, and
-/// for an id that is taken. Not while other threads use the catalogue of peers.
+/// the file or of the code, once; returns any other text unchanged. Throws Misuse for a library that cannot be used,
+/// and for an id that is taken. Not while other threads use the catalogue of peers.
 std::string loadMethod(std::string_view given);
 
 /// Throws Misuse, with the nearest name, for a text without '.' and '/' that is neither the id of a peer nor begins

@@ -1,4 +1,4 @@
-// Puts the matrices D0, D1, D2 of a system together to the Jacobian of the equations that a peer takes.
+// Assembles the Jacobian of the equations that a peer takes from the matrices D0, D1, D2 of a system.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ class Assembly {
   std::shared_ptr<const PeerPattern> pattern_;
 };
 
-/// Whether no pattern is searched for n unknowns.
+/// Whether the Jacobian is treated as full, without a search for its pattern: on request, or for few unknowns.
 inline bool isDense(Storage storage, Index n) {
   return storage == Storage::kDense || (storage == Storage::kAutomatic && n < kSparseFrom);
 }

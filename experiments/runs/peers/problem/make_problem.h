@@ -7,7 +7,7 @@
 
 namespace irk {
 
-/// The problem of a form. `start`: a state of the system.
+/// The system's equations in this form; `start` is any state of the system.
 std::unique_ptr<SceneProblem> makeProblem(PeerForm form, const System<double>& system, const State<double>& start,
                                           const ProblemOptions& options);
 

@@ -5,7 +5,7 @@
 namespace irk {
 namespace {
 
-// The clock is read once in so many evaluations: reading it costs as much as a small residual.
+// Evaluations between two readings of the clock. A reading costs as much as a small residual.
 constexpr std::int64_t kEvaluationsPerStop = 64;
 
 Evaluated evaluated(bool finite) { return finite ? Evaluated::kDone : Evaluated::kNotFinite; }
