@@ -1,10 +1,14 @@
 #include "experiments/report/figure_path.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "core/base/input_file.h"
+#include "experiments/base/failure.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -30,6 +34,9 @@ std::filesystem::path figurePath(std::string_view option, const std::string& pat
   std::error_code none;
   if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
     throw Misuse(fmt::format("{} '{}': there is no folder '{}'", option, path, folder.string()));
+  }
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0) {
+    throw Failure(fmt::format("{} '{}': no file can be written there: {}", option, path, std::strerror(errno)));
   }
   for (const char* its : {".svg", ".png", ".csv"}) requireRegularFile(figure.string() + its);
   return figure;

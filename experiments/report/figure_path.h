@@ -12,7 +12,7 @@ namespace irk {
 void requirePlainPath(std::string_view option, const std::string& path);
 
 /// The figure's path without .svg or .png. Throws Misuse, naming `option`, if it has no file name or its folder does
-/// not exist.
+/// not exist, and Failure if no file can be written there.
 std::filesystem::path figurePath(std::string_view option, const std::string& path);
 
 }  // namespace irk
