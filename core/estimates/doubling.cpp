@@ -150,8 +150,9 @@ class Doubling : public StepAttempt<Real> {
     if (transport_) transport_->accept();
     return StepAttempt<Real>::accepted(result, h, h_next);
   }
-  double carriedError() const override {
-    return transport_ ? transport_->size(norm_) : StepAttempt<Real>::carriedError();
+  CarriedError carriedError() const override {
+    if (!transport_) return {};
+    return {transport_->size(norm_), transport_->amplification(norm_)};
   }
   int order() const override { return order_; }
   Index worstComponent() const override { return worst_; }

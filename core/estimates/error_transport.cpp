@@ -39,12 +39,19 @@ void setZero(State<Real>& s) {
 
 template <class Real>
 ErrorTransport<Real>::ErrorTransport(const Sizes& sizes, Index stages)
-    : sizes_(sizes), error_(sizes), next_(sizes), start_(sizes), end_(sizes), scratch_(sizes.n(), stages) {}
+    : sizes_(sizes),
+      error_(sizes),
+      next_(sizes),
+      start_(sizes),
+      end_(sizes),
+      local_(sizes),
+      scratch_(sizes.n(), stages) {}
 
 template <class Real>
 void ErrorTransport<Real>::begin() {
   setZero(error_);
   lost_ = false;
+  sum_ = 0;
 }
 
 template <class Real>
@@ -70,21 +77,36 @@ void ErrorTransport<Real>::carry(Stepper<Real>& stepper, const State<Real>& from
     next_.x = (end_.x - whole.x) / scale;
     next_.w = (end_.w - whole.w) / scale;
   }
-  addDifference(whole, fine, factor, next_);
+  setZero(local_);
+  addDifference(whole, fine, factor, local_);
+  added_ = sizeOf(local_, norm);
+  next_.u += local_.u;
+  next_.v += local_.v;
+  next_.x += local_.x;
+  next_.w += local_.w;
 }
 
 template <class Real>
 double ErrorTransport<Real>::size(const ErrorNorm<Real>& norm) const {
-  if (lost_) return std::numeric_limits<double>::quiet_NaN();
+  return lost_ ? std::numeric_limits<double>::quiet_NaN() : sizeOf(error_, norm);
+}
+
+template <class Real>
+double ErrorTransport<Real>::amplification(const ErrorNorm<Real>& norm) const {
+  return sum_ > 0 ? size(norm) / sum_ : 0;
+}
+
+template <class Real>
+double ErrorTransport<Real>::sizeOf(const State<Real>& error, const ErrorNorm<Real>& norm) const {
   double largest = 0;
   const auto look = [&](Index offset, const auto& e) {
     for (Index i = 0; i < e.size(); ++i) {
       largest = std::max(largest, std::abs(static_cast<double>(e[i])) / norm.weights()[offset + i]);
     }
   };
-  look(0, error_.u);
-  look(sizes_.nu, error_.v);
-  look(2 * sizes_.nu, error_.x);
+  look(0, error.u);
+  look(sizes_.nu, error.v);
+  look(2 * sizes_.nu, error.x);
   return largest;
 }
 

@@ -31,15 +31,22 @@ class ErrorTransport {
   void accept() {
     error_ = next_;
     lost_ = lost_ || loses_;
+    sum_ += added_;
   }
 
   /// The largest error of a component of (u, v, x) after the accepted steps, in units of the norm's weights, which are
   /// tolerances; NaN if it is unknown.
   double size(const ErrorNorm<Real>& norm) const;
+  /// How often the error is larger than the sum of the errors that the accepted steps have added: the amplification by
+  /// the motion. 0 before the first error.
+  double amplification(const ErrorNorm<Real>& norm) const;
 
  private:
   Sizes sizes_;
-  State<Real> error_, next_, start_, end_;
+  double sizeOf(const State<Real>& error, const ErrorNorm<Real>& norm) const;
+
+  State<Real> error_, next_, start_, end_, local_;
+  double sum_ = 0, added_ = 0;  // of the errors of the accepted steps; of the step of the last `carry`
   StepCorrection<Real> scratch_;
   bool lost_ = false, loses_ = false;  // the error is unknown; it is after the step of the last `carry`
 };

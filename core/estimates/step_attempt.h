@@ -19,6 +19,12 @@ struct NextStep {
   double error;  ///< the error that the accepted step would have had with the next step's order
 };
 
+/// The error of a result, with its amplification by the motion.
+struct CarriedError {
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< in tolerances; NaN: unknown
+  double amplification = 0;                                ///< `size` over the sum of the errors of the steps
+};
+
 /// A solved step inside an attempt.
 template <class Real>
 struct StepPiece {
@@ -51,9 +57,8 @@ class StepAttempt {
     static_cast<void>(h);
     return {h_next, result.error};
   }
-  /// The estimated error after the accepted steps, in tolerances, with the amplification by the motion
-  /// (core/estimates/error_transport.h). NaN if it is unknown.
-  virtual double carriedError() const { return std::numeric_limits<double>::quiet_NaN(); }
+  /// The estimated error after the accepted steps as the motion has carried it (core/estimates/error_transport.h).
+  virtual CarriedError carriedError() const { return {}; }
   /// p of the estimate's leading error h^(p+1) in the next attempt.
   virtual int order() const = 0;
   /// The component of (u, v, x, z) with the largest error of the last solved step; -1 if not known.

@@ -282,15 +282,23 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
 }
 
-// Why the errors of the steps, as the motion has carried them to the end, are too large; empty if they are not.
+// Why the errors of the steps, as the motion has carried them to the end, are too large; empty if they are not. Where
+// the motion itself amplifies any error so much that no tolerance bounds the result, a note says so instead.
 template <class Real>
-std::string Trajectory<Real>::carriedError() const {
+std::string Trajectory<Real>::carriedError() {
+  constexpr double kIllConditioned = 300;
   // Twice what the sum of estimates may be: the amplification by the motion is in it.
-  const double error = attempt_->carriedError();
-  if (!(error > 2 * largestError(options_.tolerances))) return {};
+  const CarriedError error = attempt_->carriedError();
+  if (!(error.size > 2 * largestError(options_.tolerances))) return {};
   std::ostringstream text;
   text.precision(2);
-  text << "the errors of all steps, carried along by the motion, are about " << error << " tolerances at the end";
+  if (error.amplification > kIllConditioned) {
+    text << "the motion multiplies errors by " << error.amplification << ": the result is off by about " << error.size
+         << " tolerances";
+    addNote(text.str());
+    return {};
+  }
+  text << "the errors of all steps, carried along by the motion, are about " << error.size << " tolerances at the end";
   return text.str();
 }
 
