@@ -287,9 +287,9 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
 template <class Real>
 std::string Trajectory<Real>::carriedError() {
   constexpr double kIllConditioned = 300;
-  // Twice what the sum of estimates may be: the amplification by the motion is in it.
+  // Five times what the sum of estimates may be, a success's own bound: the amplification by the motion is in it.
   const CarriedError error = attempt_->carriedError();
-  if (!(error.size > 2 * largestError(options_.tolerances))) return {};
+  if (!(error.size > 5 * largestError(options_.tolerances))) return {};
   std::ostringstream text;
   text.precision(2);
   if (error.amplification > kIllConditioned) {

@@ -110,7 +110,7 @@ TEST_F(SolveOut, AFailedRunLeavesTheRowsUpToItsEnd) {
   arguments.insert(arguments.end(), {"--out", file("run.csv"), "--points", "20", "--json"});
   const Ended ended = program(arguments);
   EXPECT_EQ(ended.status, 1);
-  EXPECT_TRUE(containsAll(ended.err, {"run.csv", "holds the solution up to t = 0.49", "step_too_small"})) << ended.err;
+  EXPECT_TRUE(containsAll(ended.err, {"run.csv", "holds the solution up to t = ", "step_too_small"})) << ended.err;
   const Table rows = readTable(file("run.csv"));
   const double reached = Json::parse(ended.out)["t"].get<double>();
   EXPECT_DOUBLE_EQ(cell(rows, rows.rows.size() - 1, "t"), reached);
