@@ -67,7 +67,7 @@ class Trajectory {
   void addNote(const std::string& text);
   void restart();
   void tell(Index i) const;
-  std::string carriedError();
+  std::string carriedError() const;
   std::string undampedRest();
   Solution<Real> solution(Outcome outcome, std::string detail) const;
 

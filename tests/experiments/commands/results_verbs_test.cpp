@@ -143,7 +143,10 @@ TEST_F(Verbs, AnInterruptKeepsFinishedRuns) {
   const Table kept = runs();
   ASSERT_GE(kept.rows.size(), 2u);
   ASSERT_LT(kept.rows.size(), 20u) << "the machine is too fast for this test";
-  for (const auto& row : kept.rows) EXPECT_EQ(textAt(kept, row, "outcome"), "success");
+  for (const auto& row : kept.rows) {
+    const auto outcome = textAt(kept, row, "outcome");
+    EXPECT_TRUE(outcome == "success" || outcome == "inaccurate") << outcome;  // ended, not stopped
+  }
   std::ofstream(study()) << "title = \"Long\"\n[[block]]\nscene = \"kepler\"\nt_end = 400\n"
                             "methods = [\"radau_iia_2\", \"radau_iia_3\", \"gauss_2\", \"gauss_3\", \"gauss_4\"]\n"
                             "tolerances = [1e-5, 1e-6, 1e-7, 1e-8]\n";

@@ -38,13 +38,13 @@ TEST(SolveSweep, AllCombinationsTheLastListFastest) {
 }
 
 TEST(SolveSweep, EachLineIsThatRun) {
-  const Ended sweep = program({"solve", "kepler", "--set", "e=0.1,0.5", "--method", "radau_iia_3,gauss_3", "--json"});
+  const Ended sweep = program({"solve", "kepler", "--set", "e=0.1,0.3", "--method", "radau_iia_5,gauss_5", "--json"});
   ASSERT_EQ(sweep.status, 0) << sweep.err;
   const auto lines = linesOf(sweep.out);
   ASSERT_EQ(lines.size(), 4u);
   std::size_t i = 0;
-  for (const char* e : {"e=0.1", "e=0.5"}) {
-    for (const char* method : {"radau_iia_3", "gauss_3"}) {
+  for (const char* e : {"e=0.1", "e=0.3"}) {
+    for (const char* method : {"radau_iia_5", "gauss_5"}) {
       const Json expected = Json::parse(program({"solve", "kepler", "--set", e, "--method", method, "--json"}).out);
       const Json line = Json::parse(lines[i++]);
       EXPECT_EQ(line["u"], expected["u"]);
