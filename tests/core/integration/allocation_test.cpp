@@ -23,7 +23,7 @@ bool isKlu(void* caller) {
 }  // namespace
 
 // Eigen's aligned memory, operator new and the containers all call malloc (glibc), which is replaced here.
-extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* __libc_malloc(std::size_t);  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" void* malloc(std::size_t size) {
   if (counting) ++(isKlu(__builtin_return_address(0)) ? allocations_of_klu : allocations);
   return __libc_malloc(size);

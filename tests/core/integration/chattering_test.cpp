@@ -36,7 +36,7 @@ TEST(Chattering, IsNamed) {
   const Result located = run(problem, start, 1, Discontinuity::kLocate, adaptive(1e-6));
   EXPECT_EQ(located.solution.outcome, Outcome::kChattering);
   EXPECT_NEAR(located.solution.state.t, 0.5, 1e-6);
-  EXPECT_NE(located.solution.detail.find("'"), std::string::npos) << located.solution.detail;
+  EXPECT_NE(located.solution.detail.find('\''), std::string::npos) << located.solution.detail;
   EXPECT_EQ(located.solution.counters.chattering, 1);
 
   const Result iterated = run(problem, start, 1, Discontinuity::kIterate, adaptive(1e-6));
