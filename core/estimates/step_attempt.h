@@ -3,10 +3,10 @@
 
 #include <array>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "core/estimates/carried_error.h"
 #include "core/options/catalogue.h"
 #include "core/stages/scheme_list.h"
 #include "core/steps/stepper.h"
@@ -17,12 +17,6 @@ namespace irk {
 struct NextStep {
   double h;
   double error;  ///< the error that the accepted step would have had with the next step's order
-};
-
-/// The error of a result, with its amplification by the motion.
-struct CarriedError {
-  double size = std::numeric_limits<double>::quiet_NaN();  ///< in tolerances; NaN: unknown
-  double amplification = 0;                                ///< `size` over the sum of the errors of the steps
 };
 
 /// A solved step inside an attempt.

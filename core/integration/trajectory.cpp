@@ -282,19 +282,6 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
 }
 
-// Why the errors of the steps, as the motion has carried them to the end, are too large; empty if they are not.
-template <class Real>
-std::string Trajectory<Real>::carriedError() const {
-  // Five times what the sum of estimates may be, a success's own bound: the amplification by the motion is in it.
-  const CarriedError error = attempt_->carriedError();
-  if (!(error.size > 5 * largestError(options_.tolerances))) return {};
-  std::ostringstream text;
-  text.precision(2);
-  text << "the errors of all steps are about " << error.size
-       << " tolerances at the end; the motion has multiplied them by " << error.amplification;
-  return text.str();
-}
-
 // Why the end is too far from the slow motion; empty if it is not, or if the method damps such errors.
 template <class Real>
 std::string Trajectory<Real>::undampedRest() {
@@ -317,7 +304,7 @@ Solution<Real> Trajectory<Real>::success() {
     const std::string violation =
         constraintViolation(system_, state_, norm_.weights(), allowedDrift(options_.tolerances));
     if (!violation.empty()) return solution(Outcome::kDrift, violation);
-    for (const std::string& doubt : {carriedError(), undampedRest()}) {
+    for (const std::string& doubt : {attempt_->carriedError().doubt(options_.tolerances), undampedRest()}) {
       if (!doubt.empty()) return solution(Outcome::kInaccurate, doubt);
     }
   }

@@ -67,7 +67,6 @@ class Trajectory {
   void addNote(const std::string& text);
   void restart();
   void tell(Index i) const;
-  std::string carriedError() const;
   std::string undampedRest();
   Solution<Real> solution(Outcome outcome, std::string detail) const;
 
