@@ -1,4 +1,4 @@
-// Whether a state lies on its position constraints, relative to the magnitudes of its components.
+// Whether a state lies on its position constraints and within its bounds, relative to the magnitudes of its components.
 #pragma once
 
 #include <string>
@@ -17,6 +17,12 @@ namespace irk {
 template <class Real>
 std::string constraintViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
                                 double allowed);
+
+/// Returns an empty text, or which x is negative though it never is on an exact solution (System::nonNegative), by how
+/// much, and the allowed value: `allowed` weights. `weights` as above. Allocates.
+template <class Real>
+std::string negativeComponent(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
+                              double allowed);
 
 /// The allowed violation of constraints, in weights of the error norm: 10, i.e. 10 tolerances, but relative to the
 /// state not less than 1e-11 and not more than 0.1.

@@ -140,11 +140,13 @@ Solution<double> LaneRun::success(State<double> state) {
   const CountingSystem<double> counted(system, counters_);
   Outcome outcome = Outcome::kSuccess;
   std::string note;
-  if (system.sizes().constraints > 0) {
-    ErrorNorm<double> norm(system, options_.tolerances, member_.scale);
-    norm.update(state);
-    note = constraintViolation<double>(counted, state, norm.weights(), allowedDrift(options_.tolerances));
-    if (!note.empty()) outcome = Outcome::kDrift;
+  ErrorNorm<double> norm(system, options_.tolerances, member_.scale);
+  norm.update(state);
+  note = constraintViolation<double>(counted, state, norm.weights(), allowedDrift(options_.tolerances));
+  if (!note.empty()) outcome = Outcome::kDrift;
+  if (outcome == Outcome::kSuccess) {
+    note = negativeComponent<double>(counted, state, norm.weights(), largestError(options_.tolerances));
+    if (!note.empty()) outcome = Outcome::kInaccurate;
   }
   if (outcome == Outcome::kSuccess && options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {
     note = ConsistentStart<double>(counted, options_.derivatives, false, &counters_).applyAtEnd(state);

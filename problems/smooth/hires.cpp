@@ -13,6 +13,7 @@ struct Hires {
   Real c069 = decimal<Real>("0.69"), c181 = decimal<Real>("1.81"), c1745 = decimal<Real>("1.745");
 
   Sizes sizes() const { return {.nu = 0, .nx = 8, .nz = 0, .constraints = 0}; }
+  bool nonNegative(Index) const { return true; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     const auto& y = p.x;

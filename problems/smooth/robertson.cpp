@@ -10,6 +10,7 @@ struct Robertson {
   Real slow = decimal<Real>("0.04");
 
   Sizes sizes() const { return {.nu = 0, .nx = 3, .nz = 0, .constraints = 0}; }
+  bool nonNegative(Index) const { return true; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     const T first = slow * p.x[0];

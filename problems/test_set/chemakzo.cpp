@@ -12,6 +12,7 @@ struct ChemicalAkzo {
   Real inflow = decimal<Real>("0.9") / 737;
 
   Sizes sizes() const { return {.nx = 5, .nz = 1}; }
+  bool nonNegative(Index) const { return true; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::sqrt;

@@ -19,6 +19,7 @@ struct E5 {
   Real C = decimal<Real>("1.13e3");
 
   Sizes sizes() const { return {.nx = 3, .nz = 1}; }
+  bool nonNegative(Index) const { return true; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     const T &y1 = p.x[0], &y3 = p.x[1], &y4 = p.x[2], &y2 = p.z[0];

@@ -11,6 +11,7 @@ struct MedicalAkzo {
   Index N;
 
   Sizes sizes() const { return {.nx = 2 * N, .discrete = 1}; }
+  bool nonNegative(Index) const { return true; }
   std::vector<Real> times() const { return {Real(5)}; }
   template <class T>
   void onTime(Index, const Point<T>&, T* d) const {

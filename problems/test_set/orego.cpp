@@ -10,6 +10,7 @@ struct Oregonator {
   Real s = decimal<Real>("77.27"), w = decimal<Real>("0.161"), q = decimal<Real>("8.375e-6");
 
   Sizes sizes() const { return {.nx = 3}; }
+  bool nonNegative(Index) const { return true; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     const T &y1 = p.x[0], &y2 = p.x[1], &y3 = p.x[2];

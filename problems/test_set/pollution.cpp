@@ -13,6 +13,7 @@ struct Pollution {
                       "1e8",   "4.44e11", "1240",  "2.1",   "5.78",    "0.0474",  "1780",    "3.12"});
 
   Sizes sizes() const { return {.nx = 20}; }
+  bool nonNegative(Index) const { return true; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     const auto y = [&](Index i) -> T { return p.x[i - 1]; };

@@ -50,6 +50,7 @@ class GglSystem final : public System<Real> {
     scene_.onTime(i, scene);
     state.d = scene.d;
   }
+  bool nonNegative(Index i) const override { return scene_.nonNegative(i); }
   std::string switchName(Index i) const override { return scene_.switchName(i); }
   Discontinuity discontinuity() const override { return scene_.discontinuity(); }
   bool secondOrder() const override { return false; }

@@ -101,6 +101,10 @@ class ProblemSystem final : public System<Real> {
       change(state, [&](const Point<Real>& p, Real* d) { problem_.onTime(i, p, d); });
     }
   }
+  bool nonNegative(Index i) const override {
+    if constexpr (requires { problem_.nonNegative(i); }) return problem_.nonNegative(i);
+    return System<Real>::nonNegative(i);
+  }
   std::string switchName(Index i) const override {
     if constexpr (requires { problem_.switchName(i); }) return problem_.switchName(i);
     return System<Real>::switchName(i);

@@ -197,6 +197,11 @@ class System {
     static_cast<void>(i);
     static_cast<void>(state);
   }
+  /// Whether x_i of the scene's unknowns is never negative on an exact solution, as a concentration is.
+  virtual bool nonNegative(Index i) const {
+    static_cast<void>(i);
+    return false;
+  }
   /// The name of switch i in messages, e.g. "contact".
   virtual std::string switchName(Index i) const { return std::to_string(i); }
   /// How evaluations treat the discrete state.

@@ -74,6 +74,19 @@ TEST(LaneIntegrator, EqualsSingleRunsOnAForcedOscillator) {
   expectSingleRuns(brief, "radau_iia_1", lanesAt(1e-3));
 }
 
+TEST(LaneIntegrator, ANegativeResultEndsAsThatOfASingleRun) {
+  const Members<Emptied> members{{0.5, 0.9, 1.5, 2}, 1};
+  const auto lanes = lanesOf(members, "radau_iia_3");
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const EnsembleMember member = members.member(i);
+    Integrator<double> integrator(member.system, makeTableau<double>("radau_iia_3"), lanesAt(kLaneTolerance));
+    const auto single = integrator.integrate(member.start, member.t_end);
+    EXPECT_EQ(lanes[i].outcome, members.parameters[i] > 1 ? Outcome::kInaccurate : Outcome::kSuccess);
+    EXPECT_EQ(lanes[i].outcome, single.outcome);
+    EXPECT_EQ(lanes[i].detail, single.detail);
+  }
+}
+
 TEST(LaneIntegrator, EqualsSingleRunsOnAConstrainedMechanism) {
   for (const Formulation formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3}) {
     expectSingleRuns(Members<LongPendulum>{spread(0.5, 2, 19), 2, formulation}, "radau_iia_3");
