@@ -74,9 +74,13 @@ std::string constraintViolation(const System<Real>& system, const State<Real>& s
 template <class Real>
 std::string negativeComponent(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
                               double allowed) {
+  const Sizes n = system.sceneSizes();
+  Index i = 0;
+  while (i < n.nx && !system.nonNegative(i)) ++i;
+  if (i == n.nx) return {};  // toScene may solve a system
   const State<Real> scene = system.toScene(state);
-  const Index first = 2 * scene.u.size();
-  for (Index i = 0; i < scene.x.size(); ++i) {
+  const Index first = 2 * n.nu;
+  for (; i < n.nx; ++i) {
     const double value = static_cast<double>(scene.x[i]), least = -allowed * weights[first + i];
     if (value >= least || !system.nonNegative(i)) continue;
     std::ostringstream text;

@@ -1,7 +1,6 @@
 #include "core/integration/trajectory.h"
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -70,7 +69,6 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       attempt_(makeStepAttempt<Real>({system, schemes, start, options, jacobian_, norm_, counters})),
       order_(attempt_->order()),
       controller_(makeController(options.step, order_)),
-      looks_further_(catalogue<ErrorEstimate>()[options.step.estimate].looks_further),
       modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
       start_(system, options.derivatives, schemes[start].first > 0, &counters, scale),
       rest_(system, norm_, start_),
@@ -83,7 +81,9 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const Scheme<Real>& scheme = schemes[start];
-  const bool looks = looks_further_ && catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
+  // The paper's estimates and its Newton method make no such checks: their successes are reported as they are.
+  const bool looks = catalogue<ErrorEstimate>()[options.step.estimate].looks_further &&
+                     catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
   if (controller_ && looks && scheme.regular && scheme.first == 0 && !dampsStiffErrors(scheme) && isPlain(system)) {
     stiff_rest_ = std::make_unique<StiffRest<Real>>(system, options, jacobian_, norm_, counters);
   }
@@ -304,9 +304,11 @@ Solution<Real> Trajectory<Real>::success() {
     const std::string violation =
         constraintViolation(system_, state_, norm_.weights(), allowedDrift(options_.tolerances));
     if (!violation.empty()) return solution(Outcome::kDrift, violation);
-    const double most = looks_further_ ? largestError(options_.tolerances) : std::numeric_limits<double>::infinity();
-    for (const std::string& doubt : {attempt_->carriedError().doubt(options_.tolerances), undampedRest(),
-                                     negativeComponent(system_, state_, norm_.weights(), most)}) {
+    const bool looks = catalogue<ErrorEstimate>()[options_.step.estimate].looks_further;
+    const double most = largestError(options_.tolerances);
+    for (const std::string& doubt :
+         {attempt_->carriedError().doubt(options_.tolerances), undampedRest(),
+          looks ? negativeComponent(system_, state_, norm_.weights(), most) : std::string()}) {
       if (!doubt.empty()) return solution(Outcome::kInaccurate, doubt);
     }
   }

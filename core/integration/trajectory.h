@@ -78,9 +78,6 @@ class Trajectory {
   std::unique_ptr<StepAttempt<Real>> attempt_;
   int order_;                                   // order of the attempt that the controller has
   std::unique_ptr<StepController> controller_;  // null: fixed steps
-  /// False for the paper's estimates and Newton's method: they make no further checks, and their successes are reported
-  /// as they are.
-  bool looks_further_;
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;
   RestCheck<Real> rest_;

@@ -51,9 +51,8 @@
 //     template <class T>
 //     void onTime(Index i, const Point<T>& p, T* d) const;
 //
-//     // Whether x_i is never negative on an exact solution, as a concentration is. A result with a negative x_i, by
-//     more
-//     // than errors of the steps explain, ends as `inaccurate`: such equations often run away below zero.
+//     // Whether x_i is never negative on an exact solution, as a concentration is. A result with x_i below zero by
+//     // more than 200 tolerances ends as `inaccurate`: reactions often run away from zero there.
 //     bool nonNegative(Index i) const;
 //
 // A switching function that has no meaning in a mode returns -1 in this mode.

@@ -99,6 +99,7 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   write("start.cpp", replaced("lift.cpp", "void start(State<Real>& s) const", "void start(State<Real>& s)"));
   write("jump.cpp", replaced("lift.cpp", "  void start", "  void jump(Index, T*, T*) const {}\n  void start"));
   write("jump.cpp", replaced("jump.cpp", "  void jump", "  template <class T>\n  void jump"));
+  write("bound.cpp", replaced("lift.cpp", "  void start", "  bool nonNegative() const { return true; }\n  void start"));
   write("empty.cpp", "int unused = 0;\n");
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
       {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp:", ": it does not compile: "}},
@@ -110,6 +111,7 @@ TEST_F(OwnFiles, MistakesAreNamed) {
       {"undeclared.cpp", {"scene lift", "parameter 'q'"}},
       {"start.cpp", {"irk: start.cpp:", "it does not compile", "start(State<Real>& s) const is expected"}},
       {"jump.cpp", {"irk: jump.cpp:", "jump(Index i, const Point<T>& p, T* u, T* v, T* x) const is expected"}},
+      {"bound.cpp", {"irk: bound.cpp:", "bool nonNegative(Index i) const is expected"}},
       {"empty.cpp", {"empty.cpp: it registers nothing"}},
       {"missing.cpp", {"'missing.cpp' cannot be read"}}};
   for (const auto& [file, parts] : cases) {
