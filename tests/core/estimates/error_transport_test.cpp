@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/estimates/accumulation.h"
+#include "core/estimates/carried_error.h"
 #include "core/system/counting.h"
 #include "tests/core/support.h"
 
@@ -119,6 +120,16 @@ TEST(ErrorTransport, LeavesRightRunsAlone) {
       EXPECT_LT(errorIn(solution, 1e-6), 200) << method << ", rate " << rate;
     }
   }
+}
+
+// A success is right to 1000 tolerances and 1e-9; an estimate of half of that is doubted.
+TEST(ErrorTransport, DoubtsFromHalfOfWhatASuccessMayHave) {
+  for (const double tol : {1e-4, 1e-10}) {
+    const double limit = 500 + 0.5e-9 / tol;
+    EXPECT_EQ((CarriedError{0.99 * limit, 2}.doubt({tol, tol})), "") << tol;
+    EXPECT_NE((CarriedError{1.01 * limit, 2}.doubt({tol, tol})), "") << tol;
+  }
+  EXPECT_EQ(CarriedError{}.doubt({1e-4, 1e-4}), "");
 }
 
 TEST(ErrorTransport, IsNotUsedWhereStepsGrowFarInTheLeftHalfPlane) {
