@@ -1,6 +1,8 @@
 // Broyden's "good" rank-one updates of a simplified Newton matrix, from the increments alone.
 #pragma once
 
+#include <array>
+
 #include "irk/scalar.h"
 
 namespace irk {
@@ -14,43 +16,53 @@ namespace irk {
 template <class Real>
 class BroydenUpdates {
  public:
-  BroydenUpdates(Index n, Index stages) : n_(n), increments_(n * stages, kMax), weighted_(n * stages, kMax) {}
+  BroydenUpdates(Index n, Index stages) : n_(n), increments_(n * stages, kMax), weights_(n * stages) {}
 
-  /// Begins a new iteration with the simplified matrix; `on`: whether to update it.
-  void begin(bool on) { count_ = 0, frozen_ = !on; }
+  /// Begins a new iteration with the simplified matrix; `on`: whether to update it. `squares`: n squared weights of the
+  /// inner product.
+  void begin(bool on, const Vec<double>& squares) {
+    count_ = 0, frozen_ = !on;
+    for (Index j = 0; on && j < weights_.size(); j += n_) {
+      for (Index i = 0; i < n_; ++i) weights_[j + i] = Real(squares[i]);
+    }
+  }
 
   /// Replaces v = M^-1 R by the corrected increment, in place (n s numbers).
   void apply(VecView<Real>& v) {
     if (count_ == 0) return;
-    for (Index i = 0; i + 1 < count_; ++i) v += v.dot(weighted_.col(i)) * increments_.col(i + 1);
+    for (Index i = 0; i + 1 < count_; ++i) v += part(v, i) * increments_.col(i + 1);
     if (frozen_) return;
-    const Real alpha = v.dot(weighted_.col(count_ - 1));
+    const Real alpha = part(v, count_ - 1);
     frozen_ = !(alpha < Real(0.5));
     if (!frozen_) v *= Real(1) / (Real(1) - alpha);
   }
-  /// Records that the increment d from `apply` was taken. `squares`: n squared weights of the inner product.
-  void learn(const VecView<Real>& d, const Vec<double>& squares) {
+  /// Records that the increment d from `apply` was taken.
+  void learn(const VecView<Real>& d) {
     if (frozen_) return;
     frozen_ = count_ == kMax;
     if (frozen_) return;
-    auto weighted = weighted_.col(count_);
-    for (Index j = 0; j < d.size(); j += n_) {
-      for (Index i = 0; i < n_; ++i) weighted[j + i] = Real(squares[i]) * d[j + i];
-    }
-    const Real square = d.dot(weighted);
+    const Real square = d.dot(weights_.cwiseProduct(d));
     if (!(square > Real(0))) {
       frozen_ = true;
       return;
     }
-    weighted /= square;
+    squares_[static_cast<std::size_t>(count_)] = square;
     increments_.col(count_++) = d;
   }
 
  private:
   static constexpr Index kMax = 8;
 
+  // <v, d_i> / |d_i|^2. The weighted increments W d_i are not stored: with many unknowns they would be as large as the
+  // increments.
+  Real part(const VecView<Real>& v, Index i) const {
+    return v.dot(weights_.cwiseProduct(increments_.col(i))) / squares_[static_cast<std::size_t>(i)];
+  }
+
   Index n_;
-  Mat<Real> increments_, weighted_;  // d_i and its dual, W d_i / |d_i|^2
+  Mat<Real> increments_;            // d_i
+  Vec<Real> weights_;               // the diagonal of W
+  std::array<Real, kMax> squares_;  // |d_i|^2
   Index count_ = 0;
   bool frozen_ = false;
 };

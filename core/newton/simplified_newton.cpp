@@ -102,7 +102,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
     double previous = 0, before_previous = 0;
-    if (updates_) updates_->begin(theta_ > kWorthUpdates);
+    if (updates_) updates_->begin(theta_ > kWorthUpdates, this->row_weights_);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
       ++c.counters.newton_iterations;
@@ -138,7 +138,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
       }
       before_previous = previous;
       previous = norm;
-      if (updates_) updates_->learn(this->implicit(), this->row_weights_);
+      if (updates_) updates_->learn(this->implicit());
     }
     return fail(result, Outcome::kNewtonFailed);
   }

@@ -34,7 +34,7 @@ TEST(Broyden, AgreesWithTheUpdatedMatrices) {
   const Eigen::PartialPivLU<Mat<double>> simplified(B);
 
   BroydenUpdates<double> updates(kRows, kStages);
-  updates.begin(true);
+  updates.begin(true, squares);
   Vec<double> x = Vec<double>::Zero(kSize), twin = x, f = residual(twin);
   for (int m = 0; m < 7; ++m) {
     Vec<double> d = simplified.solve(residual(x));
@@ -42,7 +42,7 @@ TEST(Broyden, AgreesWithTheUpdatedMatrices) {
     updates.apply(view);
     const Vec<double> step = -B.partialPivLu().solve(f);
     EXPECT_LT((d + step).norm(), 1e-9 * step.norm() + 1e-14) << m;
-    updates.learn(view, squares);
+    updates.learn(view);
     x -= d;
     twin += step;
     const Vec<double> next = residual(twin);
@@ -59,14 +59,14 @@ TEST(Broyden, SkipsUpdatesThatWouldNotBeSafe) {
   const Vec<double> squares = Vec<double>::Ones(2);
   Vec<double> d = (Vec<double>(2) << 1.0, 0.0).finished();
   VecView<double> view(d.data(), 2);
-  updates.begin(true);
+  updates.begin(true, squares);
   updates.apply(view);
-  updates.learn(view, squares);
+  updates.learn(view);
   Vec<double> worse = (Vec<double>(2) << 0.75, 0.5).finished();  // alpha = 3/4
   VecView<double> second(worse.data(), 2);
   updates.apply(second);
   EXPECT_EQ(worse, (Vec<double>(2) << 0.75, 0.5).finished());
-  updates.learn(second, squares);
+  updates.learn(second);
   Vec<double> third = (Vec<double>(2) << 0.1, 0.0).finished();
   VecView<double> again(third.data(), 2);
   updates.apply(again);
