@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/derivatives/consistent_start.h"
-#include "core/derivatives/constraint_check.h"
 #include "core/estimates/embedded.h"
+#include "core/integration/end_check.h"
 #include "core/integration/rest_check.h"
 #include "core/system/counting.h"
 #include "irk/system_check.h"
@@ -138,27 +138,17 @@ double LaneRun::newTime(double t_by_lanes) {
 Solution<double> LaneRun::success(State<double> state) {
   const System<double>& system = *member_.system;
   const CountingSystem<double> counted(system, counters_);
-  Outcome outcome = Outcome::kSuccess;
-  std::string note;
   ErrorNorm<double> norm(system, options_.tolerances, member_.scale);
   norm.update(state);
-  note = constraintViolation<double>(counted, state, norm.weights(), allowedDrift(options_.tolerances));
-  if (!note.empty()) outcome = Outcome::kDrift;
-  if (outcome == Outcome::kSuccess) {
-    note = negativeComponent<double>(counted, state, norm.weights(), largestError(options_.tolerances));
-    if (!note.empty()) outcome = Outcome::kInaccurate;
-  }
-  if (outcome == Outcome::kSuccess && options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {
+  const EndCheck end = checkEnd<double>(counted, state, norm, options_.tolerances, true);
+  if (end.outcome != Outcome::kSuccess) return {end.outcome, end.detail, system.toScene(state), counters_};
+  std::string note;
+  if (options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {
     note = ConsistentStart<double>(counted, options_.derivatives, false, &counters_).applyAtEnd(state);
   }
-  if (outcome == Outcome::kSuccess && round_off_ > 0) {
-    std::ostringstream text;
-    text.precision(2);
-    text << (note.empty() ? "" : "; ") << "Newton's corrections end in round-off of the residual, up to " << round_off_
-         << " tolerances";
-    note += text.str();
-  }
-  return {outcome, note, system.toScene(state), counters_};
+  const std::string remark = roundOffRemark(round_off_);
+  note += (note.empty() || remark.empty() ? "" : "; ") + remark;
+  return {Outcome::kSuccess, note, system.toScene(state), counters_};
 }
 
 Solution<double> LaneRun::failure(Outcome outcome, const State<double>& state) const {

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "core/derivatives/constraint_check.h"
 #include "core/estimates/accumulation.h"
+#include "core/integration/end_check.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -301,25 +301,16 @@ template <class Real>
 Solution<Real> Trajectory<Real>::success() {
   if (controller_) {
     norm_.update(state_);
-    const std::string violation =
-        constraintViolation(system_, state_, norm_.weights(), allowedDrift(options_.tolerances));
-    if (!violation.empty()) return solution(Outcome::kDrift, violation);
     const bool looks = catalogue<ErrorEstimate>()[options_.step.estimate].looks_further;
-    const double most = largestError(options_.tolerances);
-    for (const std::string& doubt :
-         {attempt_->carriedError().doubt(options_.tolerances), undampedRest(),
-          looks ? negativeComponent(system_, state_, norm_.weights(), most) : std::string()}) {
+    const EndCheck end = checkEnd(system_, state_, norm_, options_.tolerances, looks);
+    if (end.outcome != Outcome::kSuccess) return solution(end.outcome, end.detail);
+    for (const std::string& doubt : {attempt_->carriedError().doubt(options_.tolerances), undampedRest()}) {
       if (!doubt.empty()) return solution(Outcome::kInaccurate, doubt);
     }
   }
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
   if (solved_anew) addNote(start_.applyAtEnd(state_));
-  if (round_off_ > 0) {
-    std::ostringstream text;
-    text.precision(2);
-    text << "Newton's corrections end in round-off of the residual, up to " << round_off_ << " tolerances";
-    addNote(text.str());
-  }
+  addNote(roundOffRemark(round_off_));
   return solution(Outcome::kSuccess, note_);
 }
 

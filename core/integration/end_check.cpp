@@ -1,0 +1,36 @@
+#include "core/integration/end_check.h"
+
+#include <sstream>
+
+#include "core/derivatives/constraint_check.h"
+#include "core/estimates/accumulation.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+
+template <class Real>
+EndCheck checkEnd(const System<Real>& system, const State<Real>& state, const ErrorNorm<Real>& norm,
+                  const Tolerances& tolerances, bool bounds) {
+  const std::string violated = constraintViolation(system, state, norm.weights(), allowedDrift(tolerances));
+  if (!violated.empty()) return {Outcome::kDrift, violated};
+  if (!bounds) return {};
+  const std::string negative = negativeComponent(system, state, norm.weights(), largestError(tolerances));
+  return {negative.empty() ? Outcome::kSuccess : Outcome::kInaccurate, negative};
+}
+
+std::string roundOffRemark(double size) {
+  if (!(size > 0)) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "Newton's corrections end in round-off of the residual, up to " << size << " tolerances";
+  return text.str();
+}
+
+#define IRK_CHECK(Real) \
+  template EndCheck checkEnd(const System<Real>&, const State<Real>&, const ErrorNorm<Real>&, const Tolerances&, bool);
+IRK_CHECK(double)
+IRK_CHECK(mp50)
+IRK_CHECK(mp100)
+#undef IRK_CHECK
+
+}  // namespace irk
