@@ -47,11 +47,12 @@ Index worstRow(const Vec<Real>& r) {
 
 template <class Real>
 ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required,
-                                       Counters* counters, const Vec<double>& scale)
+                                       Counters* counters, const Vec<double>& scale,
+                                       std::shared_ptr<DifferentiatorScratch<Real>> scratch)
     : system_(system),
       w_required_(w_required),
       counters_(counters),
-      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic, Matrices::kOnlyD0),
+      differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic, Matrices::kOnlyD0, std::move(scratch)),
       r_(system.sizes().n()),
       dw_(system.sizes().n()),
       given_(system.sizes().n()),

@@ -31,9 +31,9 @@ class ConsistentStart {
   /// Keeps a reference to the system. `w_required`: if (a, k, z) cannot be determined, the given values have to
   /// satisfy the residual. `counters`, if given, count the Jacobians; they must live as long as this object.
   /// `scale`: typical magnitudes > 0 of u, v, x, z (2 nu + nx + nz numbers), relative to which a start is judged;
-  /// empty means 1. Throws Misuse for another length.
+  /// empty means 1. Throws Misuse for another length. `scratch`: see Differentiator.
   ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required, Counters* counters = nullptr,
-                  const Vec<double>& scale = {});
+                  const Vec<double>& scale = {}, std::shared_ptr<DifferentiatorScratch<Real>> scratch = nullptr);
 
   /// Resets all history before a new integration: results are then bitwise those of a new object.
   void forgetPattern() { differentiator_.forgetPattern(); }

@@ -22,18 +22,14 @@ constexpr double kLooser = 10;
 
 template <class Real>
 Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms,
-                                     Storage storage, Matrices matrices)
+                                     Storage storage, Matrices matrices, std::shared_ptr<Scratch> scratch)
     : system_(system),
       source_(source),
       sizes_(system.sizes()),
       terms_(catalogue<JacobianTerms>()[terms]),
       storage_(storage),
-      dual_(sizes_),
-      real_(sizes_),
-      base_(sizes_.n()),
-      zero_a_(Vec<Real>::Zero(sizes_.nu)),
-      expected_(sizes_.n()),
-      magnitude_(sizes_.n()) {
+      scratch_(scratch ? std::move(scratch) : std::make_shared<Scratch>(sizes_)),
+      zero_a_(Vec<Real>::Zero(sizes_.nu)) {
   if (!std::is_same_v<Real, double>) {
     if (storage == Storage::kSparse) {
       throw Misuse("illegal combination: storage 'sparse' in multiprecision: KLU is for double");
@@ -151,14 +147,14 @@ void Differentiator<Real>::evaluateGroup(const Group& group, Level level, const 
   if (group.directions.empty()) return;
   t_ = p.t;
   if (looked_) {
-    expected_.setZero();
-    magnitude_.setZero();
+    scratch_->expected.setZero();
+    scratch_->magnitude.setZero();
   }
   if (source_ == DerivativeSource::kAutomatic) {
-    dual_.copy(p);
+    scratch_->dual.copy(p);
     evaluateDual(group.coloured, level, out);
   } else {
-    real_.copy(p);
+    scratch_->real.copy(p);
     evaluateDifferences(group.coloured, level, out);
   }
 }
@@ -189,14 +185,15 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
     }
     return;
   }
+  Vec<Real>&expected = scratch_->expected, &magnitude = scratch_->magnitude;
   for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
     const auto& entry = group.entries[e];
     const Real& value = change(entry.row);
     values[entry.matrix][entry.slot] = exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
     if (!looked_) continue;
     const Real part = Real(group.weights[entry.direction]) * value;
-    expected_[entry.row] += part;
-    magnitude_[entry.row] += abs(part);
+    expected[entry.row] += part;
+    magnitude[entry.row] += abs(part);
   }
 }
 
@@ -206,28 +203,30 @@ template <class Change>
 void Differentiator<Real>::check(const Change& change, Linearization<Real>& out) {
   using std::abs;
   using std::isfinite;
+  const Vec<Real>&expected = scratch_->expected, &magnitude = scratch_->magnitude;
   for (Index row = 0; row < sizes_.n(); ++row) {
     const Real& all = change(row);
     if (!isfinite(all)) {  // the entry may be outside of the pattern
       out.d0.setConstant(std::numeric_limits<Real>::quiet_NaN());
       return;
     }
-    const Real difference = abs(Real(all - expected_[row]));
-    if (difference > Real(check_tolerance_) * magnitude_[row]) incomplete_ = true;
+    const Real difference = abs(Real(all - expected[row]));
+    if (difference > Real(check_tolerance_) * magnitude[row]) incomplete_ = true;
   }
 }
 
 // The colour after the last one stands for the check.
 template <class Real>
 void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level, Linearization<Real>& out) {
-  const auto at = dual_.at(Dual<Real>(t_));
-  const VecView<Dual<Real>> r = dual_.residual();
+  auto& dual = scratch_->dual;
+  const auto at = dual.at(Dual<Real>(t_));
+  const VecView<Dual<Real>> r = dual.residual();
   const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
   for (std::size_t first = 0; first < colours; first += kChunk) {
     const std::size_t count = std::min(kChunk, colours - first);
     for (std::size_t c = 0; c < count; ++c) {
       for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
-        dual_.component(group.directions[i]).d[c] = Real(group.weight(first + c, i));
+        dual.component(group.directions[i]).d[c] = Real(group.weight(first + c, i));
       }
     }
     system_.evaluate(level, at, r);
@@ -235,7 +234,7 @@ void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level l
       take(
           group, first + c, [&](Index row) -> const Real& { return r[row].d[c]; }, out);
       for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
-        dual_.component(group.directions[i]).d[c] = Real(0);
+        dual.component(group.directions[i]).d[c] = Real(0);
       }
     }
   }
@@ -251,34 +250,36 @@ void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, 
   const bool central = source_ == DerivativeSource::kCentral;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   const Real relative = central ? Real(cbrt(eps)) : Real(sqrt(eps));
-  const auto at = real_.at(t_);
-  const VecView<Real> r = real_.residual();
+  auto& real = scratch_->real;
+  Vec<Real>& base = scratch_->base;
+  const auto at = real.at(t_);
+  const VecView<Real> r = real.residual();
   const auto move = [&](std::size_t colour, double side) {
     for (std::size_t i = group.begin(colour); i < group.end(colour); ++i) {
       const Real& y = y_[static_cast<Index>(i)];
       const Real magnitude = abs(y) > Real(1) ? Real(abs(y)) : Real(1);
-      real_.component(group.directions[i]) = y + Real(side * group.weight(colour, i)) * relative * magnitude;
+      real.component(group.directions[i]) = y + Real(side * group.weight(colour, i)) * relative * magnitude;
     }
   };
   for (std::size_t i = 0; i < group.directions.size(); ++i) {
-    y_[static_cast<Index>(i)] = real_.component(group.directions[i]);
+    y_[static_cast<Index>(i)] = real.component(group.directions[i]);
   }
   if (!central) {
     system_.evaluate(level, at, r);
-    base_ = r;
+    base = r;
   }
   const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
   for (std::size_t colour = 0; colour < colours; ++colour) {
     const bool check = colour == group.colours();
     const auto keep = [&](auto&& f) {
       for (std::size_t i = group.begin(colour); i < group.end(colour) && !check; ++i) {
-        f(delta_[static_cast<Index>(i)], real_.component(group.directions[i]));
+        f(delta_[static_cast<Index>(i)], real.component(group.directions[i]));
       }
     };
     if (central) {
       move(colour, -1);
       system_.evaluate(level, at, r);
-      base_ = r;
+      base = r;
     }
     keep([](Real& delta, const Real& lower) { delta = lower; });
     move(colour, 1);
@@ -286,7 +287,7 @@ void Differentiator<Real>::evaluateDifferences(const ColouredDirections& group, 
     keep([](Real& delta, const Real& upper) { delta = upper - delta; });
     move(colour, 0);
     take(
-        group, colour, [&](Index row) { return Real(r[row] - base_[row]); }, out);
+        group, colour, [&](Index row) { return Real(r[row] - base[row]); }, out);
   }
 }
 

@@ -57,17 +57,33 @@ enum class Matrices { kAll, kOnlyD0 };
 inline constexpr Index kSparseFrom = 16;
 inline constexpr double kSparseFill = 0.5;
 
+/// What an evaluation writes on the way to its result. Differentiators of systems of equal sizes that never evaluate at
+/// the same time may share it: with many unknowns it is larger than the matrices.
+template <class Real>
+struct DifferentiatorScratch {
+  explicit DifferentiatorScratch(const Sizes& n) : dual(n), real(n), base(n.n()), expected(n.n()), magnitude(n.n()) {}
+  PointBuffers<Dual<Real>> dual;
+  PointBuffers<Real> real;
+  Vec<Real> base;
+  Vec<Real> expected, magnitude;  ///< by row, for the check: the sum of its terms, and of their magnitudes
+};
+
 /// Evaluates Linearizations of one system. The first evaluation finds the pattern and colours it; from then on the
 /// number of directions depends on the fullest row, not on n. Every evaluation compares the derivative along one
 /// random combination of all directions with the assembled matrices. If they differ, for example after a switch of
-/// modes, the pattern is searched again and grows. Owns scratch: use one object per thread. Allocates only when the
+/// modes, the pattern is searched again and grows. Use one object, and one scratch, per thread. Allocates only when the
 /// pattern changes.
 template <class Real>
 class Differentiator {
  public:
-  /// Keeps a reference to the system. Throws Misuse for storage `sparse` in multiprecision.
+  using Scratch = DifferentiatorScratch<Real>;
+
+  /// Keeps a reference to the system. Makes its own scratch if none is given. Throws Misuse for storage `sparse` in
+  /// multiprecision.
   Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms = JacobianTerms::kFull,
-                 Storage storage = Storage::kDense, Matrices matrices = Matrices::kAll);
+                 Storage storage = Storage::kDense, Matrices matrices = Matrices::kAll,
+                 std::shared_ptr<Scratch> scratch = nullptr);
+  const std::shared_ptr<Scratch>& scratch() const { return scratch_; }
 
   /// Evaluates the matrices at p. `out` gets the present pattern if it has another one. Derivatives that are not
   /// finite appear as NaN in `out`.
@@ -115,12 +131,9 @@ class Differentiator {
   Vec<Real> kept_stiffness_;  // values of D2
   bool stiffness_known_ = false;
   Real t_{};
-  PointBuffers<Dual<Real>> dual_;
-  PointBuffers<Real> real_;
-  Vec<Real> base_;
+  std::shared_ptr<Scratch> scratch_;
   Vec<Real> zero_a_;
-  Vec<Real> y_, delta_;             // by direction: the component and its increment
-  Vec<Real> expected_, magnitude_;  // by row, for the check: the sum of its terms, and of their magnitudes
+  Vec<Real> y_, delta_;  // by direction: the component and its increment
 };
 
 }  // namespace irk

@@ -71,7 +71,9 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       sizes_(system.sizes()),
       mu_(weight(scheme.tableau)),
       stages_(stages),
-      own_(jacobian, options.solver, filterSetup(system, mu_), counters),
+      make_own_([&system, &jacobian, &counters, kind = options.solver, mu = mu_] {
+        return NewtonMatrix<Real>(jacobian, kind, filterSetup(system, mu), counters);
+      }),
       row_powers_(system.rowPowers()),
       scaled_(std::any_of(row_powers_.begin(), row_powers_.end(), [](int power) { return power != 0; })),
       scales_(sizes_.n()),
@@ -100,6 +102,16 @@ Point<Real> EmbeddedEstimate<Real>::pointAt(const Real& t, const Vec<Real>& u, c
           {w, nu}, {w + nu, nx},   {w + nu + nx, sizes_.nz}, {state.d.data(), sizes_.discrete}};
 }
 
+// e_ = (D0 + h mu D1 + h^2 mu^2 D2)^-1 e_
+template <class Real>
+Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
+  if (stages_.solveReal(h, mu_, e_.data())) return Outcome::kSuccess;
+  if (!own_) own_.emplace(make_own_());
+  const Outcome outcome = own_->prepare(h);
+  if (outcome == Outcome::kSuccess) own_->solve(e_);
+  return outcome;
+}
+
 // Solves for e with the residual at `p`, and sets `error_` to the error of the state that follows from e.
 template <class Real>
 Outcome EmbeddedEstimate<Real>::filter(const Real& h, const Point<Real>& p, EquationsAt at) {
@@ -112,11 +124,8 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h, const Point<Real>& p, Equa
       if (powers[static_cast<std::size_t>(i)] > 0) e_(sizes_.nu + sizes_.nx + i, 0) = Real(0);
     }
   }
-  if (!stages_.solveReal(h, mu_, e_.data())) {
-    const Outcome outcome = own_.prepare(h);
-    if (outcome != Outcome::kSuccess) return outcome;
-    own_.solve(e_);
-  }
+  const Outcome solved = solve(h);
+  if (solved != Outcome::kSuccess) return solved;
   const Real step = h * mu_;
   const Real* const e = e_.data();
   for (Index i = 0; i < sizes_.nu; ++i) {

@@ -1,6 +1,9 @@
 // The embedded error estimate: a method of order s (or s - 1) in the same stages, filtered by one real system.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "core/newton/newton_matrix.h"
 #include "core/stages/error_norm.h"
 #include "core/stages/start_values.h"
@@ -51,8 +54,10 @@ class EmbeddedEstimate {
   /// Whether the last stage is before the step's end.
   static bool endsBefore(const Scheme<Real>& scheme) { return scheme.c.maxCoeff() < Real(1 - 1e-10); }
 
-  /// Allocates what the first evaluation would, where the pattern is known.
-  void reserve() { own_.reserve(); }
+  /// Allocates what the next evaluation would, where the pattern is known.
+  void reserve() {
+    if (own_) own_->reserve();
+  }
   /// The component of (u, v, x, z) with the largest part in the last estimate.
   Index worstComponent() const;
   double mu() const { return static_cast<double>(mu_); }
@@ -74,6 +79,7 @@ class EmbeddedEstimate {
   enum class EquationsAt { kStart, kGap };
   Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
   Outcome filter(const Real& h, const Point<Real>& p, EquationsAt at);
+  Outcome solve(const Real& h);
 
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
@@ -81,7 +87,8 @@ class EmbeddedEstimate {
   Sizes sizes_;
   Real mu_;
   NewtonMatrix<Real>& stages_;
-  NewtonMatrix<Real> own_;
+  std::function<NewtonMatrix<Real>()> make_own_;
+  std::optional<NewtonMatrix<Real>> own_;  // made when `stages_` cannot solve the real system
   std::vector<int> row_powers_;
   bool scaled_;  // whether any row is scaled
   Vec<Real> scales_;

@@ -22,7 +22,7 @@ bool mayRest(double error, double h, double length) { return error < kHardly && 
 
 template <class Real>
 RestCheck<Real>::RestCheck(const System<Real>& system, const ErrorNorm<Real>& norm, ConsistentStart<Real>& start)
-    : norm_(norm), start_(start), still_(system.sizes()), moved_(system.sizes()) {
+    : norm_(norm), start_(start) {
   const Sizes n = system.sizes();
   all_.resize(2 * n.nu + n.nx + n.nz);
   all_ << Vec<double>::Ones(2 * n.nu + n.nx), Vec<double>::Zero(n.nz);

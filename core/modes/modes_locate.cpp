@@ -1,5 +1,6 @@
 // `locate`: the mode is constant, and the first root of a switching function ends the step.
 #include <algorithm>
+#include <optional>
 
 #include "core/modes/event_location.h"
 #include "core/options/fixed_steps.h"
@@ -18,13 +19,14 @@ double locationTolerance(const IntegratorOptions& options) {
 template <class Real>
 class LocatedAfterStep final : public ModesAfterStep<Real> {
  public:
-  LocatedAfterStep(const System<Real>& system, const IntegratorOptions& options)
-      : none_(system.sizes().switches == 0), locator_(system, locationTolerance(options)) {}
+  LocatedAfterStep(const System<Real>& system, const IntegratorOptions& options) {
+    if (system.sizes().switches > 0) locator_.emplace(system, locationTolerance(options));
+  }
 
   CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
                              const Real& h, State<Real>& next) override {
-    if (none_) return {Outcome::kSuccess, solved, h};
-    const Location<Real> at = locator_.locate(attempt, from, h, next);
+    if (!locator_) return {Outcome::kSuccess, solved, h};
+    const Location<Real> at = locator_->locate(attempt, from, h, next);
     CommittedStep<Real> step{at.outcome, solved, h};
     step.index = at.index;
     if (at.outcome != Outcome::kSuccess) return step;
@@ -44,8 +46,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
   }
 
  private:
-  bool none_;  // no switches to look for
-  EventLocator<Real> locator_;
+  std::optional<EventLocator<Real>> locator_;  // none if there are no switches to look for
 };
 
 /// Nothing to do after a solved step: its mode is right up to the switch that ends it.

@@ -24,7 +24,7 @@ struct Chain {
 };
 
 template <class Real>
-Linearization<Real> linearize(const System<Real>& system, DerivativeSource source) {
+void linearize(const System<Real>& system, Differentiator<Real>& differentiator, Linearization<Real>& D) {
   const Sizes n = system.sizes();
   const auto wave = [](Index size, double phase) {
     return Vec<Real>(Vec<double>::NullaryExpr(size, [=](Index i) {
@@ -40,8 +40,14 @@ Linearization<Real> linearize(const System<Real>& system, DerivativeSource sourc
                       {w.data(), n.nu},
                       {w.data() + n.nu, n.nx},
                       {w.data() + n.nu + n.nx, n.nz}};
-  Linearization<Real> D(Pattern::dense(n.n()));
-  Differentiator<Real>(system, source).evaluate(Level::kFormulated, p, D);
+  differentiator.evaluate(Level::kFormulated, p, D);
+}
+
+template <class Real>
+Linearization<Real> linearize(const System<Real>& system, DerivativeSource source) {
+  Linearization<Real> D(Pattern::dense(system.sizes().n()));
+  Differentiator<Real> differentiator(system, source);
+  linearize(system, differentiator, D);
   return D;
 }
 
@@ -50,6 +56,29 @@ void expectNear(const Linearization<double>& a, const Linearization<double>& b, 
   EXPECT_LE((a.d1 - b.d1).lpNorm<Eigen::Infinity>(), tolerance);
   EXPECT_LE((a.d2 - b.d2).lpNorm<Eigen::Infinity>(), tolerance);
   EXPECT_GT(a.d0.norm() + a.d1.norm(), 0.1);
+}
+
+// In turn, as the Jacobian of the steps and that of consistent starts are; D0 alone leaves other directions untouched.
+TEST(Linearization, IsTheSameWithSharedScratch) {
+  const auto system = makeSystem<double>(Chain{16, 4});
+  const State<double> other(system->sizes());
+  for (const auto source : {DerivativeSource::kAutomatic, DerivativeSource::kForward, DerivativeSource::kCentral}) {
+    const auto own = linearize(*system, source);
+    Differentiator<double> all(*system, source, JacobianTerms::kFull, Storage::kDense);
+    Differentiator<double> rates(*system, source, JacobianTerms::kFull, Storage::kDense, Matrices::kOnlyD0,
+                                 all.scratch());
+    EXPECT_EQ(rates.scratch(), all.scratch());
+    Linearization<double> D(Pattern::dense(system->sizes().n())), D0 = D;
+    rates.evaluate(Level::kFormulated, pointOf(other), D0);
+    linearize(*system, all, D);
+    rates.evaluate(Level::kFormulated, pointOf(other), D0);
+    linearize(*system, all, D);
+    EXPECT_EQ(D.d0, own.d0);
+    EXPECT_EQ(D.d1, own.d1);
+    EXPECT_EQ(D.d2, own.d2);
+    linearize(*system, rates, D0);
+    EXPECT_EQ(D0.d0, own.d0);
+  }
 }
 
 TEST(Linearization, SourcesAgreeAtTwoHundredUnknowns) {
