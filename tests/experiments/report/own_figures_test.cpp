@@ -182,7 +182,7 @@ TEST(OwnTableaus, OfOneFamilyAreTwoCurves) {
   const Svg by = drawing.draw("work_by.gp", "variant='method'; costs='residuals'");
   ASSERT_GE(by.marked('a').size(), 3u);
   EXPECT_TRUE(says(by, {">one<", ">two<", "gauss_2"}));
-  // The example: another column than the stages.
+  // Another column than the stages.
   const Svg variant =
       drawing.draw("work_precision.gp", "variant='method'; only='method=two.txt'; costs='residuals'; scene='kepler'");
   expectPoints(variant.marks('a', 1, kLog, kLog), points(0.1), "only two");
