@@ -283,9 +283,11 @@ void requireKnownStep(const RunSpec& spec) {
 }  // namespace
 
 double largestChange(const std::vector<InvariantChange>& invariants) {
+  constexpr double kRoundOff = 1e-9;
   double largest = std::numeric_limits<double>::quiet_NaN();
   for (const auto& one : invariants) {
-    const double change = one.start == 0 ? one.change : one.change / std::abs(one.start);
+    const double start = std::abs(one.start);
+    const double change = start <= kRoundOff * one.change ? one.change : one.change / start;
     if (std::isnan(change)) return change;
     largest = std::fmax(largest, change);
   }

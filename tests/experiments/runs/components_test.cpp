@@ -63,6 +63,9 @@ TEST(Invariants, AreAColumnOfRuns) {
   EXPECT_TRUE(std::isnan(largestChange({})));
   EXPECT_EQ(largestChange({{"energy", "J", -4, 2}, {"momentum", "", 0, 0.25}}), 0.5);
   EXPECT_EQ(largestChange({{"energy", "J", -4, 0.5}, {"momentum", "", 0, 0.25}}), 0.25);
+  EXPECT_EQ(largestChange({{"energy", "J", 4e-29, 1e-4}}), 1e-4);  // a zero with round-off
+  EXPECT_EQ(largestChange({{"energy", "J", 1e-8, 1}}), 1e8);
+  EXPECT_EQ(largestChange({{"energy", "J", 0, 0}}), 0);
   EXPECT_TRUE(std::isnan(largestChange({{"energy", "J", 1, std::nan("")}, {"momentum", "", 1, 2}})));
   const auto cell = [](const char* scene) {
     RunSpec spec = resolved(
