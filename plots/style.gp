@@ -116,7 +116,8 @@ isVague(d) = has_accuracy ? (absent("reference_accuracy") ? 0 : column("referenc
 isAbove(name) = absent(name) ? 0 : column(name) > bar(0)
 isWrong(d) = succeeded(0) && !isFixed(0) && !isVague(0) ? isAbove("error_u") || isAbove("error_v") || isAbove("error_x") : 0
 wrong_point = 6; ring_size = 1.25; ring_width = 0.9; wrong_title = 'wrong success'
-errorTitle(name, times) = (name eq 'error' ? 'error' : name eq 'error_u' ? 'error of the positions' \
+errorTitle(name, times) = name eq 'invariant_change' ? 'largest change of an invariant' \
+  : (name eq 'error' ? 'error' : name eq 'error_u' ? 'error of the positions' \
   : name eq 'error_v' ? 'error of the velocities' : name eq 'error_z' ? 'error of the multipliers' : 'error of the states') \
   .when(times > 1, sprintf(', largest at %d times', times))
 
