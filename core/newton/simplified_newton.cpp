@@ -41,8 +41,10 @@ constexpr double kUnknownFloor = -1;
 // theta before any step has shown one: assumes no contraction.
 constexpr double kUnknownTheta = 1;
 
-// Fixed steps cannot be shortened: Newton's method may use this many times max_iterations.
+// Fixed steps cannot be shortened: Newton's method may use this many times max_iterations, and goes on until increments
+// are this many times the first one.
 constexpr int kFixedStepFactor = 4;
+constexpr double kLost = 10;
 
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
@@ -69,13 +71,14 @@ class SimplifiedNewton : public NewtonBase<Real> {
     this->refresh(c, W);
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     this->begin(c, W);
-    NewtonResult result = iterate(c, W);
+    const Patience patience = adaptive_ ? Patience::kNone : Patience::kToTheLimit;
+    NewtonResult result = iterate(c, W, had_old ? Patience::kNone : patience);
     if (result.outcome != Outcome::kSuccess && had_old) {
       ++c.counters.newton_restarts;
       W = this->W0_;
       shared.evaluate(c.eq, W);
       const int before = result.iterations;
-      result = iterate(c, W);
+      result = iterate(c, W, patience);
       result.iterations += before;
     }
     if (result.outcome != Outcome::kSuccess || result.theta > this->options_.newton.keep_jacobian_below) {
@@ -93,7 +96,12 @@ class SimplifiedNewton : public NewtonBase<Real> {
   std::optional<BroydenUpdates<Real>> updates_;
 
  private:
-  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W) {
+  // What happens when an increment is as large as the one before. One of them does not prove divergence, because the
+  // increments before may have missed the components that the matrix solves worst. A shorter step or a new Jacobian
+  // costs less than to find out. Where there is neither, the iteration goes on.
+  enum class Patience { kNone, kToTheLimit };
+
+  NewtonResult iterate(NewtonContext<Real>& c, Mat<Real>& W, Patience patience) {
     NewtonResult result;
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
@@ -101,7 +109,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double kappa = limit_.after(c.counters.steps_accepted);
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
-    double previous = 0, before_previous = 0;
+    double first = 0, previous = 0, before_previous = 0;
     if (updates_) updates_->begin(theta_ > kWorthUpdates, this->row_weights_);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
@@ -121,7 +129,8 @@ class SimplifiedNewton : public NewtonBase<Real> {
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
         const bool slow =
             adaptive_ && !(eta * norm <= kappa && theta < 1) && power(theta, limit - 1 - m) * eta * norm > kappa;
-        if (!may_stagnate && (theta >= 0.99 || slow)) {
+        const bool stuck = theta >= 0.99 && (patience == Patience::kNone || norm > kLost * first);
+        if (!may_stagnate && (stuck || slow)) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
           return result;
@@ -136,6 +145,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
       }
+      if (m == 0) first = norm;
       before_previous = previous;
       previous = norm;
       if (updates_) updates_->learn(this->implicit());

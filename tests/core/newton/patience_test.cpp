@@ -1,0 +1,50 @@
+// With fixed steps Newton's method goes on after an increment that is larger than the one before.
+#include <gtest/gtest.h>
+
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// y' = 6 t, x' = c y^2 from zero: y = 3 t^2, x = 9 c t^5 / 5. At the start x' does not depend on y. In the first step
+/// with the Jacobian from there, the first increment is that of y' alone, the second one that of x' alone, and the
+/// third is zero.
+struct Hidden {
+  double c;
+  Sizes sizes() const { return {.nx = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = c * (p.x[1] * p.x[1]) - p.k[0];
+    r.x[1] = 6 * p.t - p.k[1];
+  }
+};
+
+constexpr double kStep = 0.1;
+
+Solution<double> follow(double c, const IntegratorOptions& options) {
+  return integrate<double>(Hidden{c}, State<double>(Hidden{c}.sizes()), kStep, makeTableau<double>("gauss_3"), options);
+}
+
+// The second increment is about three times the first one.
+TEST(Patience, OneLargerIncrementEndsNoFixedStep) {
+  const auto solution = follow(2000, fixedSteps(kStep));
+  ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  EXPECT_NEAR(solution.state.x[0], 9 * 2000 * 1e-5 / 5, 1e-13);
+  EXPECT_NEAR(solution.state.x[1], 0.03, 1e-15);
+  EXPECT_EQ(solution.counters.newton_iterations, 3);
+}
+
+// A hundred times the first one counts as divergence.
+TEST(Patience, EndsWhenIncrementsGrow) { EXPECT_EQ(follow(1e5, fixedSteps(kStep)).outcome, Outcome::kNewtonFailed); }
+
+// A shorter step costs less than to go on.
+TEST(Patience, IsNotForStepsThatCanBeShortened) {
+  IntegratorOptions options = adaptive(1e-3);
+  options.step.h = kStep;
+  const auto solution = follow(2000, options);
+  EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  EXPECT_GT(solution.counters.steps_rejected_newton, 0);
+}
+
+}  // namespace
+}  // namespace irk::test
