@@ -1,6 +1,6 @@
 # Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error, the
 # largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at the tolerance
-# that was requested. A ring marks a success that is wrong by the bar of the audit.
+# that was requested; with fixed steps, at the left. A ring marks a success that is wrong by the bar of the audit.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
 #   variant (columns; each combination of their values is a curve), variants (the values to show, in this order),
@@ -29,7 +29,8 @@ curveOf(d) = valueFrom(1)
 shown(d) = words(variants) == 0 || position(variants, curveOf(0))
 chosen(case) = inCase(case) && shown(0)
 error(d) = errorOf(quantity)
-asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
+# Where a failed run is drawn if it has a tolerance.
+asked(d) = isFixed(0) ? NaN : absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
 
 panels = words(cases) > 1 ? words(cases) : words(costs)
 caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
@@ -57,8 +58,10 @@ do for [i = 1 : panels] {
   if (exists("N_sum") && N_sum > 0) {
     failures = failures + N_sum
     stats file using (chosen(caseOf(i)) && !succeeded(0) ? asked(0) : NaN) name "F" nooutput
-    finest = F_min < finest ? F_min : finest
-    coarsest = F_max > coarsest ? F_max : coarsest
+    if (exists("F_min")) {
+      finest = F_min < finest ? F_min : finest
+      coarsest = F_max > coarsest ? F_max : coarsest
+    }
   }
 }
 if (tried == 0) { eval absence(cases." in ".file) }
@@ -118,7 +121,7 @@ do for [format in formats] {
       set ylabel when(words(costs) > 1 || i % columns == 1 || columns == 1, cost_title(c)) offset 1,0 noenhanced
       plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
              with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
-           for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? asked(0) : outside):(level(k)) \
+           for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? (isFixed(0) ? 1.5 * coarsest : asked(0)) : outside):(level(k)) \
              with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
            for [k = 1 : wrong] file using (chosen(case) && position(variants, curveOf(0)) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
              with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour notitle
