@@ -29,8 +29,7 @@ curveOf(d) = valueFrom(1)
 shown(d) = words(variants) == 0 || position(variants, curveOf(0))
 chosen(case) = inCase(case) && shown(0)
 error(d) = errorOf(quantity)
-# Where a failed run is drawn if it has a tolerance.
-asked(d) = isFixed(0) ? NaN : absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
+asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
 
 panels = words(cases) > 1 ? words(cases) : words(costs)
 caseOf(i) = words(cases) > 1 ? word(cases, i) : word(cases, 1)
@@ -57,8 +56,9 @@ do for [i = 1 : panels] {
   stats file using (chosen(caseOf(i)) && !succeeded(0) ? 1 : 0) name "N" nooutput
   if (exists("N_sum") && N_sum > 0) {
     failures = failures + N_sum
-    stats file using (chosen(caseOf(i)) && !succeeded(0) ? asked(0) : NaN) name "F" nooutput
-    if (exists("F_min")) {
+    stats file using (chosen(caseOf(i)) && !succeeded(0) && !isFixed(0) ? 1 : 0) name "N" nooutput
+    if (N_sum > 0) {
+      stats file using (chosen(caseOf(i)) && !succeeded(0) && !isFixed(0) ? asked(0) : NaN) name "F" nooutput
       finest = F_min < finest ? F_min : finest
       coarsest = F_max > coarsest ? F_max : coarsest
     }

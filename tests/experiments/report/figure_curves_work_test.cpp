@@ -106,6 +106,34 @@ TEST(FigureCurves, WorkBy) {
   expectPoints(costs.marks('c', 1, kLog, kLog), runPoints("error_v", "drift", 3, 6), "drift");
 }
 
+// A failed run stands at its tolerance; with fixed steps, which have none, left of all errors.
+TEST(FigureCurves, WorkByPlacesFailures) {
+  auto columns = kRunColumns;
+  columns.emplace_back("control");
+  for (const char* control : {"predictive", "fixed"}) {
+    Drawing drawing;
+    std::vector<Cells> rows;
+    const Cells common = {{"scene", "pendulum"}, {"newton", "full"}, {"control", control}, {"rtol", "1e-30"}};
+    for (int i = 1; i < 4; ++i) rows.push_back(run(i, common));
+    Cells failure = common;
+    failure["outcome"] = "newton_failed";
+    failure["rtol"] = "1e-4";
+    rows.push_back(run(4, failure));
+    drawing.put("runs.csv", columns, rows);
+    const Svg svg = drawing.draw("work_by.gp", "variant='newton'; cases='pendulum'; costs='residuals'");
+    const auto failed = svg.marks('a', 2, kLog, kLog);
+    ASSERT_EQ(failed.size(), 1u) << control;
+    const auto errors = svg.marks('a', 1, kLog, kLog);
+    double largest = 0;
+    for (const auto& at : errors) largest = std::max(largest, at.x);
+    if (control == std::string("fixed")) {
+      EXPECT_GT(failed[0].x, 1.3 * largest);
+    } else {
+      EXPECT_NEAR(failed[0].x, 1e-4, 2e-6);
+    }
+  }
+}
+
 // Runs that differ in either of two columns are not joined by one line.
 TEST(FigureCurves, WorkByCombinationsOfColumns) {
   Drawing drawing;
