@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "core/base/small_size.h"
 
@@ -40,7 +41,7 @@ template <Index N, class Real, class RightHand, class Start>
 [[gnu::always_inline]] inline void productRows(const Real* A, Index stride, const RightHand& B, Real* out,
                                                Index out_stride, Index row, const Start& start) {
   // Small products are unrolled: the control of their loops would cost more than their arithmetic.
-  constexpr Index kMaxInner = N <= 3 && std::is_same_v<Real, double> ? 9 : 0;
+  constexpr Index kMaxInner = N <= 3 ? unrolledSizes<Real>(9) : 0;
   const auto columns = [&](auto inner, auto count) {
     for (Index j = 0; j < count; ++j) {
       Real sum[static_cast<std::size_t>(N)];
@@ -74,24 +75,20 @@ template <Index N, class Real, class RightHand, class Start>
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride,
                   const Start& start) {
-  constexpr Index kBlock = 8;
   Index i = 0;
-  for (; i + kBlock <= rows; i += kBlock) {
-    detail::productRows<kBlock>(A + i, stride, B, out + i, out_stride, i, start);
+  const auto blocks = [&](auto size) {
+    constexpr Index kSize = decltype(size)::value;
+    for (; i + kSize <= rows; i += kSize) {
+      detail::productRows<kSize>(A + i, stride, B, out + i, out_stride, i, start);
+    }
+  };
+  if constexpr (std::is_same_v<Real, double>) {
+    blocks(std::integral_constant<Index, 8>());
+    blocks(std::integral_constant<Index, 4>());
+    if (rows - i == 3) return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
+    if (rows - i == 2) return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
   }
-  for (; i + 4 <= rows; i += 4) {
-    detail::productRows<4>(A + i, stride, B, out + i, out_stride, i, start);
-  }
-  switch (rows - i) {
-    case 3:
-      return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
-    case 2:
-      return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
-    case 1:
-      return detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
-    default:
-      return;
-  }
+  blocks(std::integral_constant<Index, 1>());
 }
 
 /// The same with start = 0.
@@ -113,21 +110,23 @@ template <class Real, class RightHand, class Start>
                                                   Real* out, Index out_stride, const Start& start) {
   constexpr bool kColumn = RightHand::ColsAtCompileTime == 1;
   const bool few = rows <= detail::kInlinedRows && B.rows() <= detail::kUnrolledColumns;
-  if (!std::is_same_v<Real, double> || !few || (!kColumn && B.cols() != B.rows())) {
-    return smallProduct(A, stride, rows, B, out, out_stride, start);
-  }
-  withSize<detail::kInlinedRows>(rows, [&](auto n) {
-    using Rows = decltype(n);
-    if constexpr (!std::is_same_v<Rows, Index>) {  // else there are no rows
-      withSize<detail::kUnrolledColumns>(B.rows(), [&](auto k) {
-        using Inner = decltype(k);
-        if constexpr (!std::is_same_v<Inner, Index>) {
-          constexpr Index C = kColumn ? 1 : Inner::value;
-          detail::unrolledProduct<Rows::value, Inner::value, C>(A, stride, B.data(), out, out_stride, 0, start);
+  if constexpr (std::is_same_v<Real, double>) {
+    if (few && (kColumn || B.cols() == B.rows())) {
+      return withSize<detail::kInlinedRows>(rows, [&](auto n) {
+        using Rows = decltype(n);
+        if constexpr (!std::is_same_v<Rows, Index>) {  // else there are no rows
+          withSize<detail::kUnrolledColumns>(B.rows(), [&](auto k) {
+            using Inner = decltype(k);
+            if constexpr (!std::is_same_v<Inner, Index>) {
+              constexpr Index C = kColumn ? 1 : Inner::value;
+              detail::unrolledProduct<Rows::value, Inner::value, C>(A, stride, B.data(), out, out_stride, 0, start);
+            }
+          });
         }
       });
     }
-  });
+  }
+  smallProduct(A, stride, rows, B, out, out_stride, start);
 }
 
 /// The same with start = 0.

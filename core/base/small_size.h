@@ -8,12 +8,20 @@
 
 namespace irk {
 
+/// How many sizes to unroll loops over numbers of type Real for: `most`, but none in multiprecision, where an operation
+/// is a call and unrolled loops only take time to compile.
+template <class Real>
+constexpr Index unrolledSizes(Index most) {
+  return std::is_same_v<Real, double> ? most : 0;
+}
+
 /// Calls f(n). If n <= Most (at most 9), f gets n as a compile-time constant, so that the compiler unrolls the
 /// loops in f; otherwise f gets n as a plain number. f is written once for both cases. Always inlined: what f captures
 /// would else be stored and loaded again, which takes longer than a few entries.
 template <Index Most, class F>
 [[gnu::always_inline]] inline decltype(auto) withSize(Index n, const F& f) {
   static_assert(Most <= 9);
+  if constexpr (Most == 0) return f(n);
   const auto at = [&](auto size) -> decltype(auto) {
     if constexpr (decltype(size)::value <= Most) {
       return f(size);
@@ -48,7 +56,7 @@ template <Index Most, class F>
 /// Copies n numbers that are few as a rule: up to nine without a call.
 template <class Real>
 [[gnu::always_inline]] inline void copyFew(const Real* from, Index n, Real* to) {
-  withSize<9>(n, [&](auto size) { std::copy_n(from, Index(size), to); });
+  withSize<unrolledSizes<Real>(9)>(n, [&](auto size) { std::copy_n(from, Index(size), to); });
 }
 
 }  // namespace irk

@@ -93,7 +93,7 @@ class NewtonBase : public Newton<Real> {
     if (updates) updates->apply(increment);
     Real* const __restrict w = W.col(first_).data();
     const Real* const __restrict d = increment.data();
-    withSize<9>(increment.size(), [&](auto n) {
+    withSize<unrolledSizes<Real>(9)>(increment.size(), [&](auto n) {
       for (Index i = 0; i < n; ++i) w[i] -= d[i];
     });
     return c.norm.increment(R_, first_, row_weights_);

@@ -29,6 +29,7 @@ class Decoupled final : public StageSolver<Real> {
  private:
   using Complex = std::complex<Real>;
   static constexpr bool kSparse = std::is_same_v<Lu<Real>, SparseLu<Real>>;
+  static constexpr bool kCanInvert = !kSparse && std::is_same_v<Real, double>;  // blocks, if they are small
   void makeFactors();
   bool factorizeTogether();
   Outcome factorizeBlock(std::size_t index);
@@ -38,8 +39,8 @@ class Decoupled final : public StageSolver<Real> {
   template <class Size>
   [[gnu::noinline]] void multiply(Index column, Size n);
   void solveBlock(std::size_t index);
-  void solveSmall(Real* rhs, Index stride);
-  Outcome invertBlock(std::size_t index);
+  void solveSmall(Real* rhs, Index stride) requires(kCanInvert);
+  Outcome invertBlock(std::size_t index) requires(kCanInvert);
 
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;

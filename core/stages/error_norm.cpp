@@ -137,7 +137,7 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
 
 template <class Real>
 double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const {
-  const double sum = withSize<8>(dW.rows(), [&](auto n) {
+  const double sum = withSize<unrolledSizes<Real>(8)>(dW.rows(), [&](auto n) {
     const Real* const columns = dW.data() + first * n;
     const double* const weight = squares.data();
     const auto squared = [=](auto count) {

@@ -21,7 +21,7 @@ template <class Real>
 void addCompensated(const Vec<Real>& from, const Real* __restrict carry0, Vec<Real>& to, Real* __restrict carry1) {
   const Real* const __restrict y0 = from.data();
   Real* const __restrict y1 = to.data();
-  withSize<kFewEntries>(from.size(), [&](auto n) {
+  withSize<unrolledSizes<Real>(kFewEntries)>(from.size(), [&](auto n) {
     for (Index i = 0; i < n; ++i) {
       const Real a = y0[i], b = y1[i] + carry0[i];
       const Real sum = a + b;
@@ -36,8 +36,8 @@ void addCompensated(const Vec<Real>& from, const Real* __restrict carry0, Vec<Re
 // written.
 template <class Real>
 bool areFinite(const Mat<Real>& R) {
-  return withSize<9>(R.size(), [&](auto n) {
-    if constexpr (std::is_same_v<decltype(n), Index> || !std::is_same_v<Real, double>) {
+  return withSize<unrolledSizes<Real>(9)>(R.size(), [&](auto n) {
+    if constexpr (std::is_same_v<decltype(n), Index>) {
       return (R.array() * Real(0)).sum() == Real(0);
     } else {
       Real sum(0);
@@ -52,7 +52,7 @@ template <class Real>
 void scaled(const Real& f, const Mat<Real>& A, Mat<Real>& to) {
   const Real* const __restrict a = A.data();
   Real* const __restrict out = to.data();
-  withSize<9>(A.size(), [&](auto n) {
+  withSize<unrolledSizes<Real>(9)>(A.size(), [&](auto n) {
     for (Index i = 0; i < n; ++i) out[i] = f * a[i];
   });
 }
