@@ -9,8 +9,8 @@ namespace irk {
 std::vector<int> colour(const RowSets& sets, Index rows) {
   // The colours in use at each row, stored one row after the other, with room for one colour of each set there.
   std::vector<std::size_t> begin(static_cast<std::size_t>(rows) + 1, 0);
-  for (const auto& set : sets) {
-    for (const int row : set) ++begin[static_cast<std::size_t>(row) + 1];
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const int row : sets[i]) ++begin[static_cast<std::size_t>(row) + 1];
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<std::size_t> end(begin.begin(), begin.end() - 1);

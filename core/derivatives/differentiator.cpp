@@ -94,7 +94,7 @@ void Differentiator<Real>::setPattern() {
     RowSets rows;
     for (const Group* group : {&at_a_, &at_zero_, &stiffness_}) {
       all.insert(all.end(), group->directions.begin(), group->directions.end());
-      rows.insert(rows.end(), group->rows.begin(), group->rows.end());
+      rows.append(group->rows);
     }
     pattern_ = unionPattern(all, rows, n);
     const double fill = static_cast<double>(pattern_->nonzeros()) / (static_cast<double>(n) * static_cast<double>(n));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace irk {
 
@@ -29,21 +30,30 @@ Directions allDirections(const Sizes& n, int matrices) {
   return all;
 }
 
+void RowSets::append(const RowSets& others) {
+  const std::size_t before = rows_.size();
+  rows_.insert(rows_.end(), others.rows_.begin(), others.rows_.end());
+  for (std::size_t i = 1; i < others.start_.size(); ++i) start_.push_back(before + others.start_[i]);
+}
+
 RowSets fullRows(std::size_t directions, Index n) {
   std::vector<int> all(static_cast<std::size_t>(n));
   std::iota(all.begin(), all.end(), 0);
-  return RowSets(directions, all);
+  RowSets sets;
+  for (std::size_t i = 0; i < directions; ++i) sets.append(all);
+  return sets;
 }
 
 bool unite(const RowSets& more, RowSets& into) {
-  bool grown = false;
+  RowSets united;
   std::vector<int> both;
   for (std::size_t i = 0; i < into.size(); ++i) {
     both.clear();
     std::set_union(into[i].begin(), into[i].end(), more[i].begin(), more[i].end(), std::back_inserter(both));
-    grown = grown || both.size() > into[i].size();
-    into[i] = both;
+    united.append(both);
   }
+  const bool grown = united.entries() > into.entries();
+  into = std::move(united);
   return grown;
 }
 

@@ -1,7 +1,9 @@
 // The sparsity pattern of D0, D1 and D2, and the directions along which they are differentiated.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "irk/system.h"
@@ -58,8 +60,32 @@ using Directions = std::vector<Direction>;
 /// All directions of the first `matrices` of D0, D1, D2, which have n, nu + nx and nu directions.
 Directions allDirections(const Sizes& n, int matrices = 3);
 
-/// For each direction the rows where its derivative may differ from zero, ascending.
-using RowSets = std::vector<std::vector<int>>;
+/// For each direction the rows where its derivative may differ from zero, ascending. The sets lie in memory one after
+/// the other: a system of 1e5 unknowns has 2e5 of them, with a few rows each.
+class RowSets {
+ public:
+  RowSets() = default;
+  /// So many empty sets.
+  explicit RowSets(std::size_t sets) : start_(sets + 1, 0) {}
+
+  std::size_t size() const { return start_.size() - 1; }
+  /// The number of rows of all sets together.
+  std::size_t entries() const { return rows_.size(); }
+  std::span<const int> operator[](std::size_t i) const {
+    return std::span(rows_).subspan(start_[i], start_[i + 1] - start_[i]);
+  }
+  /// Adds one set after the last.
+  void append(std::span<const int> set) {
+    rows_.insert(rows_.end(), set.begin(), set.end());
+    start_.push_back(rows_.size());
+  }
+  /// Adds all sets of another object after the last.
+  void append(const RowSets& others);
+
+ private:
+  std::vector<std::size_t> start_{0};  // of each set in rows_; size() + 1 numbers
+  std::vector<int> rows_;
+};
 
 /// All n rows for each of the directions.
 RowSets fullRows(std::size_t directions, Index n);

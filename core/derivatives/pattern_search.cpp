@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <span>
 
 #include "core/derivatives/colouring.h"
 #include "core/derivatives/point_buffers.h"
@@ -31,11 +33,7 @@ class RowSearch {
                        [](const Interval& i) { return i.end - i.begin > 1; })) {
       partition = split(partition, random);
     }
-    RowSets rows(directions_.size());
-    for (std::size_t i = 0; i < partition.rows.size(); ++i) {
-      rows[partition.intervals[i].begin] = std::move(partition.rows[i]);
-    }
-    return rows;
+    return inOrder(partition);
   }
 
  private:
@@ -58,6 +56,16 @@ class RowSearch {
     }
     all.rows = fullRows(all.intervals.size(), system_.sizes().n());
     return all;
+  }
+
+  // The rows by direction, of a partition whose intervals hold one direction each.
+  RowSets inOrder(const Partition& partition) const {
+    constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> place(directions_.size(), kNowhere);
+    for (std::size_t i = 0; i < partition.intervals.size(); ++i) place[partition.intervals[i].begin] = i;
+    RowSets rows;
+    for (const std::size_t i : place) rows.append(i == kNowhere ? std::span<const int>() : partition.rows[i]);
+    return rows;
   }
 
   // Splits every interval into kChunk parts. Intervals that share no row are evaluated together.
@@ -95,7 +103,7 @@ class RowSearch {
     }
   }
 
-  void appendChildren(const Interval& parent, const std::vector<int>& rows, Partition& children) {
+  void appendChildren(const Interval& parent, std::span<const int> rows, Partition& children) {
     using std::isfinite;
     for (std::size_t c = 0; c < kChunk; ++c) {
       const Interval child{part(parent, c), part(parent, c + 1)};
@@ -107,7 +115,7 @@ class RowSearch {
       }
       if (reached_.empty()) continue;
       children.intervals.push_back(child);
-      children.rows.push_back(reached_);
+      children.rows.append(reached_);
     }
   }
 
@@ -140,17 +148,19 @@ RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p
   PointBuffers<Real> near(system.sizes());
   double distance = kDistance;
   RowSets rows;
-  for (int closer = 0; closer < kCloser && rows.empty(); ++closer, distance /= 10) {
+  bool searched = false;
+  for (int closer = 0; closer < kCloser && !searched; ++closer, distance /= 10) {
     Real t = p.t;
     near.copy(p);
     moveNearby(distance, random, near, t);
     system.evaluate(level, near.at(t), near.residual());
-    if (near.r.allFinite()) rows = search.search(near, t, random);
+    searched = near.r.allFinite();
+    if (searched) rows = search.search(near, t, random);
   }
-  if (!at_p && !rows.empty()) return rows;
+  if (searched && !at_p) return rows;
   near.copy(p);
   const RowSets here = search.search(near, p.t, random);
-  if (rows.empty()) return here;
+  if (!searched) return here;
   unite(here, rows);
   return rows;
 }

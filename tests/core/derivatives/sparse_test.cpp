@@ -104,11 +104,11 @@ TEST(Sparse, TheNumberOfDirectionsDoesNotGrowWithN) {
 TEST(Sparse, ColoursOfOneRowDiffer) {
   std::minstd_rand random(5);
   std::uniform_int_distribution<int> row(0, 39);
-  RowSets sets(60);
-  for (auto& set : sets) {
+  RowSets sets;
+  for (int i = 0; i < 60; ++i) {
     std::set<int> rows;
-    for (int i = 0; i < 3; ++i) rows.insert(row(random));
-    set.assign(rows.begin(), rows.end());
+    for (int k = 0; k < 3; ++k) rows.insert(row(random));
+    sets.append(std::vector<int>(rows.begin(), rows.end()));
   }
   const std::vector<int> colours = colour(sets, 40);
   std::set<std::pair<int, int>> taken;
@@ -116,6 +116,29 @@ TEST(Sparse, ColoursOfOneRowDiffer) {
     for (const int r : sets[i]) EXPECT_TRUE(taken.insert({r, colours[i]}).second);
   }
   EXPECT_LT(*std::max_element(colours.begin(), colours.end()), 20);
+}
+
+TEST(Sparse, RowSetsKeepTheirOrder) {
+  RowSets sets(2);  // two empty ones
+  sets.append(std::vector{3, 5});
+  RowSets more;
+  more.append(std::vector{1});
+  more.append(std::vector<int>());
+  sets.append(more);
+  ASSERT_EQ(sets.size(), 5u);
+  EXPECT_EQ(sets.entries(), 3u);
+  const auto rows = [&](std::size_t i) { return std::vector<int>(sets[i].begin(), sets[i].end()); };
+  EXPECT_EQ(rows(1), std::vector<int>());
+  EXPECT_EQ(rows(2), (std::vector{3, 5}));
+  EXPECT_EQ(rows(3), std::vector{1});
+  EXPECT_EQ(rows(4), std::vector<int>());
+
+  RowSets other(4);
+  other.append(std::vector{2});
+  EXPECT_TRUE(unite(other, sets));
+  EXPECT_EQ(rows(2), (std::vector{3, 5}));
+  EXPECT_EQ(rows(4), std::vector{2});
+  EXPECT_FALSE(unite(other, sets));
 }
 
 // Springs between neighbours; in mode 1 the last mass also pulls at the first one.
