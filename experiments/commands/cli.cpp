@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
+#include "experiments/base/freed_memory.h"
 #include "experiments/commands/arguments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/list_scenes.h"
@@ -327,6 +328,7 @@ int runProgram(const std::vector<std::string>& arguments, Streams streams) {
   int status = 0;
   const own::ReportTo report(streams.err);
   const own::ExitGuard guard;
+  keepFreedMemory();
   try {
     runRegistrations("");
     status = Program().run(arguments, streams);
