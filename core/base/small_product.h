@@ -75,20 +75,28 @@ template <Index N, class Real, class RightHand, class Start>
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride,
                   const Start& start) {
-  Index i = 0;
-  const auto blocks = [&](auto size) {
-    constexpr Index kSize = decltype(size)::value;
-    for (; i + kSize <= rows; i += kSize) {
-      detail::productRows<kSize>(A + i, stride, B, out + i, out_stride, i, start);
+  constexpr Index kBlock = 8;
+  if constexpr (!std::is_same_v<Real, double>) {
+    for (Index i = 0; i < rows; ++i) detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
+  } else {
+    Index i = 0;
+    for (; i + kBlock <= rows; i += kBlock) {
+      detail::productRows<kBlock>(A + i, stride, B, out + i, out_stride, i, start);
     }
-  };
-  if constexpr (std::is_same_v<Real, double>) {
-    blocks(std::integral_constant<Index, 8>());
-    blocks(std::integral_constant<Index, 4>());
-    if (rows - i == 3) return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
-    if (rows - i == 2) return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
+    for (; i + 4 <= rows; i += 4) {
+      detail::productRows<4>(A + i, stride, B, out + i, out_stride, i, start);
+    }
+    switch (rows - i) {
+      case 3:
+        return detail::productRows<3>(A + i, stride, B, out + i, out_stride, i, start);
+      case 2:
+        return detail::productRows<2>(A + i, stride, B, out + i, out_stride, i, start);
+      case 1:
+        return detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
+      default:
+        return;
+    }
   }
-  blocks(std::integral_constant<Index, 1>());
 }
 
 /// The same with start = 0.
