@@ -66,4 +66,24 @@ ColouredDirections::ColouredDirections(const Directions& group, const RowSets& r
   }
 }
 
+ColouredDirections ColouredDirections::dense(const Directions& group, Index n) {
+  ColouredDirections all;
+  all.directions = group;
+  all.weights.reserve(group.size());
+  all.entries.reserve(group.size() * static_cast<std::size_t>(n));
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> around_one(0.5, 1.5);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    all.first_direction.push_back(i);
+    all.first_entry.push_back(all.entries.size());
+    all.weights.push_back(around_one(random));
+    for (Index row = 0; row < n; ++row) {
+      all.entries.push_back({static_cast<int>(row), group[i].matrix, group[i].column * n + row, i});
+    }
+  }
+  all.first_direction.push_back(group.size());
+  all.first_entry.push_back(all.entries.size());
+  return all;
+}
+
 }  // namespace irk

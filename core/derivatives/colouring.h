@@ -27,6 +27,8 @@ struct ColouredDirections {
 
   ColouredDirections() = default;
   ColouredDirections(const Directions& group, const RowSets& rows, const Pattern& pattern);
+  /// What the constructor gives if each direction reaches all n rows: a colour for each direction.
+  static ColouredDirections dense(const Directions& group, Index n);
   std::size_t colours() const { return first_direction.empty() ? 0 : first_direction.size() - 1; }
   /// The range of directions of a colour; for colour = colours() all directions.
   std::size_t begin(std::size_t colour) const { return colour == colours() ? 0 : first_direction[colour]; }

@@ -60,9 +60,7 @@ void Differentiator<Real>::forgetPattern() {
   forget();
   looked_ = false;
   check_tolerance_ = source_ == DerivativeSource::kAutomatic ? kDualCheck : kDifferenceCheck;
-  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
-    group->rows = detects() ? RowSets(group->directions.size()) : fullRows(group->directions.size(), sizes_.n());
-  }
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) group->rows = RowSets(group->directions.size());
   const bool dense = storage_ == Storage::kDense || (storage_ == Storage::kAutomatic && sizes_.n() < kSparseFrom);
   if (!dense) {
     pattern_ = nullptr;
@@ -102,7 +100,8 @@ void Differentiator<Real>::setPattern() {
   }
   std::size_t most = 0;
   for (Group* group : {&at_a_, &at_zero_, &stiffness_}) {
-    group->coloured = ColouredDirections(group->directions, group->rows, *pattern_);
+    group->coloured = detects() ? ColouredDirections(group->directions, group->rows, *pattern_)
+                                : ColouredDirections::dense(group->directions, n);
     most = std::max(most, group->directions.size());
   }
   y_.resize(static_cast<Index>(most));

@@ -10,6 +10,8 @@ namespace irk {
 std::shared_ptr<const Pattern> Pattern::dense(Index n) {
   auto p = std::make_shared<Pattern>();
   p->n = n;
+  p->column_start.reserve(static_cast<std::size_t>(n + 1));
+  p->row.reserve(static_cast<std::size_t>(n * n));
   for (Index j = 0; j <= n; ++j) p->column_start.push_back(static_cast<int>(j * n));
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i) p->row.push_back(static_cast<int>(i));

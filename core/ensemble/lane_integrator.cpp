@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -172,7 +173,7 @@ class LaneIntegrator::Run {
   IntegratorOptions options_;
   Scheme<double> scheme_;
   double mu_ = 0;
-  std::vector<LaneRun> runs_;
+  std::deque<LaneRun> runs_;  // kLanes
   const Ensemble* ensemble_ = nullptr;
   const Next* next_ = nullptr;
   const Done* done_ = nullptr;

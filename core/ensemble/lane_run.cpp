@@ -21,6 +21,17 @@ constexpr int kMaxAccumulating = 4;
 
 }  // namespace
 
+struct LaneRun::Tools {
+  CountingSystem<double> system;
+  ConsistentStart<double> consistent;
+  ErrorNorm<double> norm;
+
+  Tools(const EnsembleMember& member, const IntegratorOptions& options, Counters& counters)
+      : system(*member.system, counters),
+        consistent(system, options.derivatives, false, &counters, member.scale),
+        norm(*member.system, options.tolerances, member.scale) {}
+};
+
 EstimateUse::EstimateUse(const Scheme<double>& scheme)
     : order(EmbeddedEstimate<double>::order(scheme.tableau)),
       accumulates(scheme.tableau.order <= std::min(order + 1, kMaxAccumulating) || !dampsStiffErrors(scheme)),
@@ -34,6 +45,8 @@ LaneRun::LaneRun(const EstimateUse& use, const IntegratorOptions& options)
       accumulation_(use.caution, options.tolerances),
       error_sum_(options.tolerances) {}
 
+LaneRun::~LaneRun() = default;
+
 Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
   index_ = index;
   member_ = std::move(member);
@@ -46,9 +59,8 @@ Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
     detail_ = "at the start: " + not_finite;
     return Outcome::kNotFinite;
   }
-  const CountingSystem<double> counted(*member_.system, counters_);
-  ConsistentStart<double> consistent(counted, options_.derivatives, false, &counters_, member_.scale);
-  const StartReport report = consistent.apply(start_);
+  tools_ = std::make_unique<Tools>(member_, options_, counters_);
+  const StartReport report = tools_->consistent.apply(start_);
   detail_ = report.detail;
   if (report.outcome != Outcome::kSuccess) return report.outcome;
   length_ = member_.t_end - start_.t;
@@ -98,11 +110,8 @@ void LaneRun::failed(Outcome outcome) {
 }
 
 double LaneRun::asleep(const State<double>& from, const State<double>& to) {
-  const CountingSystem<double> counted(*member_.system, counters_);
-  ConsistentStart<double> consistent(counted, options_.derivatives, false, &counters_);
-  ErrorNorm<double> norm(*member_.system, options_.tolerances, member_.scale);
-  norm.update(from);
-  return RestCheck<double>(counted, norm, consistent).error(from, to, size_);
+  tools_->norm.update(from);
+  return RestCheck<double>(tools_->system, tools_->norm, tools_->consistent).error(from, to, size_);
 }
 
 bool LaneRun::decide(double estimate, double t, double round_off, const StateOf& from, const StateOf& to) {
@@ -137,14 +146,12 @@ double LaneRun::newTime(double t_by_lanes) {
 
 Solution<double> LaneRun::success(State<double> state) {
   const System<double>& system = *member_.system;
-  const CountingSystem<double> counted(system, counters_);
-  ErrorNorm<double> norm(system, options_.tolerances, member_.scale);
-  norm.update(state);
-  const EndCheck end = checkEnd<double>(counted, state, norm, options_.tolerances, true);
+  tools_->norm.update(state);
+  const EndCheck end = checkEnd<double>(tools_->system, state, tools_->norm, options_.tolerances, true);
   if (end.outcome != Outcome::kSuccess) return {end.outcome, end.detail, system.toScene(state), counters_};
   std::string note;
   if (options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {
-    note = ConsistentStart<double>(counted, options_.derivatives, false, &counters_).applyAtEnd(state);
+    note = tools_->consistent.applyAtEnd(state);
   }
   const std::string remark = roundOffRemark(round_off_);
   note += (note.empty() || remark.empty() ? "" : "; ") + remark;

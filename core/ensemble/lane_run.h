@@ -26,6 +26,9 @@ struct EstimateUse {
 class LaneRun {
  public:
   LaneRun(const EstimateUse& use, const IntegratorOptions& options);
+  LaneRun(const LaneRun&) = delete;  // its tools refer to its counters
+  LaneRun& operator=(const LaneRun&) = delete;
+  ~LaneRun();
 
   /// Begins a new run from a consistent state. Returns kSuccess, or why it ends before its first step.
   Outcome begin(std::size_t index, EnsembleMember member);
@@ -58,6 +61,7 @@ class LaneRun {
   Counters& counters() { return counters_; }
 
  private:
+  struct Tools;  // what needs the member's system
   double firstStep() const;
   double smallest(double t) const;
   double asleep(const State<double>& from, const State<double>& to);
@@ -69,6 +73,7 @@ class LaneRun {
   State<double> start_;
   std::string detail_;  // why the start is not consistent
   Counters counters_;
+  std::unique_ptr<Tools> tools_;
   std::unique_ptr<StepController> controller_;
   Accumulation accumulation_;
   ErrorSum error_sum_;

@@ -1,9 +1,7 @@
 // Sparse systems: the pattern, its colours, sparse solvers against their dense twins, threads.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
-#include <set>
 
 #include "core/derivatives/pattern_search.h"
 #include "core/stage_solvers/stage_solver.h"
@@ -99,46 +97,6 @@ TEST(Sparse, TheNumberOfDirectionsDoesNotGrowWithN) {
   EXPECT_GE(small, 18u);
   EXPECT_LE(small, 24u);
   EXPECT_EQ(directions(sceneOf("ancf_pendulum", "elements", 1000)), small);
-}
-
-TEST(Sparse, ColoursOfOneRowDiffer) {
-  std::minstd_rand random(5);
-  std::uniform_int_distribution<int> row(0, 39);
-  RowSets sets;
-  for (int i = 0; i < 60; ++i) {
-    std::set<int> rows;
-    for (int k = 0; k < 3; ++k) rows.insert(row(random));
-    sets.append(std::vector<int>(rows.begin(), rows.end()));
-  }
-  const std::vector<int> colours = colour(sets, 40);
-  std::set<std::pair<int, int>> taken;
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    for (const int r : sets[i]) EXPECT_TRUE(taken.insert({r, colours[i]}).second);
-  }
-  EXPECT_LT(*std::max_element(colours.begin(), colours.end()), 20);
-}
-
-TEST(Sparse, RowSetsKeepTheirOrder) {
-  RowSets sets(2);  // two empty ones
-  sets.append(std::vector{3, 5});
-  RowSets more;
-  more.append(std::vector{1});
-  more.append(std::vector<int>());
-  sets.append(more);
-  ASSERT_EQ(sets.size(), 5u);
-  EXPECT_EQ(sets.entries(), 3u);
-  const auto rows = [&](std::size_t i) { return std::vector<int>(sets[i].begin(), sets[i].end()); };
-  EXPECT_EQ(rows(1), std::vector<int>());
-  EXPECT_EQ(rows(2), (std::vector{3, 5}));
-  EXPECT_EQ(rows(3), std::vector{1});
-  EXPECT_EQ(rows(4), std::vector<int>());
-
-  RowSets other(4);
-  other.append(std::vector{2});
-  EXPECT_TRUE(unite(other, sets));
-  EXPECT_EQ(rows(2), (std::vector{3, 5}));
-  EXPECT_EQ(rows(4), std::vector{2});
-  EXPECT_FALSE(unite(other, sets));
 }
 
 // Springs between neighbours; in mode 1 the last mass also pulls at the first one.

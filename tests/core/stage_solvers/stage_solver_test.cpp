@@ -10,19 +10,19 @@
 namespace irk::test {
 namespace {
 
-struct Case {
+struct StageProblem {
   const char* name;
   std::shared_ptr<const System<double>> system;
   State<double> start;
 };
 
-std::vector<Case> cases() {
+std::vector<StageProblem> cases() {
   return {{"ODE", makeSystem<double>(Riccati{}), riccatiStart<double>()},
           {"second order", makeSystem<double>(Oscillators{}), oscillatorsStart<double>()},
           {"index 2", makeSystem<double>(CartesianPendulum{}), pendulumStart<double>()}};
 }
 
-void expectSame(const Case& c, const std::string& method, StageSolverKind kind) {
+void expectSame(const StageProblem& c, const std::string& method, StageSolverKind kind) {
   const auto run = [&](StageSolverKind solver) {
     IntegratorOptions o = fixedSteps(0.05);
     o.solver = solver;
@@ -48,7 +48,7 @@ void expectSame(const Case& c, const std::string& method, StageSolverKind kind) 
 }
 
 TEST(StageSolver, DecoupledEqualsCoupled) {
-  for (const Case& c : cases()) {
+  for (const StageProblem& c : cases()) {
     for (const int s : {1, 2, 3, 5, 7, 10}) {
       const std::string method = "radau_iia_" + std::to_string(s);
       expectSame(c, method, StageSolverKind::kSchur);

@@ -1,0 +1,80 @@
+// Sets of rows, their colours, and the directions of a full pattern.
+#include "core/derivatives/pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/derivatives/colouring.h"
+
+namespace irk {
+namespace {
+
+TEST(Pattern, ColoursOfOneRowDiffer) {
+  std::minstd_rand random(5);
+  std::uniform_int_distribution<int> row(0, 39);
+  RowSets sets;
+  for (int i = 0; i < 60; ++i) {
+    std::set<int> rows;
+    for (int k = 0; k < 3; ++k) rows.insert(row(random));
+    sets.append(std::vector<int>(rows.begin(), rows.end()));
+  }
+  const std::vector<int> colours = colour(sets, 40);
+  std::set<std::pair<int, int>> taken;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const int r : sets[i]) EXPECT_TRUE(taken.insert({r, colours[i]}).second);
+  }
+  EXPECT_LT(*std::max_element(colours.begin(), colours.end()), 20);
+}
+
+TEST(Pattern, DenseDirectionsAreThoseOfAFullPattern) {
+  const Sizes n{.nu = 3, .nx = 2, .nz = 1};
+  const Directions group = allDirections(n);
+  const ColouredDirections fast = ColouredDirections::dense(group, n.n());
+  const ColouredDirections slow(group, fullRows(group.size(), n.n()), *Pattern::dense(n.n()));
+  EXPECT_EQ(fast.weights, slow.weights);
+  EXPECT_EQ(fast.first_direction, slow.first_direction);
+  EXPECT_EQ(fast.first_entry, slow.first_entry);
+  ASSERT_EQ(fast.directions.size(), slow.directions.size());
+  for (std::size_t i = 0; i < slow.directions.size(); ++i) {
+    EXPECT_EQ(fast.directions[i].matrix, slow.directions[i].matrix);
+    EXPECT_EQ(fast.directions[i].column, slow.directions[i].column);
+  }
+  ASSERT_EQ(fast.entries.size(), slow.entries.size());
+  for (std::size_t e = 0; e < slow.entries.size(); ++e) {
+    EXPECT_EQ(fast.entries[e].row, slow.entries[e].row);
+    EXPECT_EQ(fast.entries[e].matrix, slow.entries[e].matrix);
+    EXPECT_EQ(fast.entries[e].slot, slow.entries[e].slot);
+    EXPECT_EQ(fast.entries[e].direction, slow.entries[e].direction);
+  }
+}
+
+TEST(Pattern, RowSetsKeepTheirOrder) {
+  RowSets sets(2);  // two empty ones
+  sets.append(std::vector{3, 5});
+  RowSets more;
+  more.append(std::vector{1});
+  more.append(std::vector<int>());
+  sets.append(more);
+  ASSERT_EQ(sets.size(), 5u);
+  EXPECT_EQ(sets.entries(), 3u);
+  const auto rows = [&](std::size_t i) { return std::vector<int>(sets[i].begin(), sets[i].end()); };
+  EXPECT_EQ(rows(1), std::vector<int>());
+  EXPECT_EQ(rows(2), (std::vector{3, 5}));
+  EXPECT_EQ(rows(3), std::vector{1});
+  EXPECT_EQ(rows(4), std::vector<int>());
+
+  RowSets other(4);
+  other.append(std::vector{2});
+  EXPECT_TRUE(unite(other, sets));
+  EXPECT_EQ(rows(2), (std::vector{3, 5}));
+  EXPECT_EQ(rows(4), std::vector{2});
+  EXPECT_FALSE(unite(other, sets));
+}
+
+}  // namespace
+}  // namespace irk
