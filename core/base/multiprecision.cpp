@@ -51,8 +51,10 @@ template <int D>
 BigFloat<D>::BigFloat(const BigFloat& other) noexcept {
   BigFloatValue::make(*this, in(other));
 }
+// Boost's assignment allows that both are the same number.
 template <int D>
-BigFloat<D>& BigFloat<D>::operator=(const BigFloat& other) noexcept {
+BigFloat<D>& BigFloat<D>::operator=(  // NOLINT(bugprone-unhandled-self-assignment)
+    const BigFloat& other) noexcept {
   BigFloatValue::in(*this) = in(other);
   return *this;
 }

@@ -98,7 +98,7 @@ BlockForm<Real> makeSchurForm(const Mat<Real>& A) {
 template <class Real>
 BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
   const Eigen::EigenSolver<Mat<Real>> solver(A);
-  const auto values = solver.eigenvalues();
+  const auto& values = solver.eigenvalues();
   const auto vectors = solver.eigenvectors();
   const Index s = A.rows();
   BlockForm<Real> form;

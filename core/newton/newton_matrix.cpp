@@ -82,8 +82,8 @@ NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind k
 }
 
 template <class Real>
-void NewtonMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
-  setup_.pattern = std::move(pattern);
+void NewtonMatrix<Real>::adopt(const std::shared_ptr<const Pattern>& pattern) {
+  setup_.pattern = pattern;
   setup_.analysis = shared_.analysis(setup_.pattern);
   solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
 }
@@ -127,8 +127,8 @@ void StagewiseMatrix<Real>::reserve() {
 }
 
 template <class Real>
-void StagewiseMatrix<Real>::adopt(std::shared_ptr<const Pattern> pattern) {
-  setup_.pattern = std::move(pattern);
+void StagewiseMatrix<Real>::adopt(const std::shared_ptr<const Pattern>& pattern) {
+  setup_.pattern = pattern;
   const StageSolverKind kind = setup_.pattern->full ? StageSolverKind::kCoupledDense : StageSolverKind::kCoupledSparse;
   solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind, setup_), counters_);
 }

@@ -77,7 +77,7 @@ class NewtonMatrix {
   }
 
  private:
-  void adopt(std::shared_ptr<const Pattern> pattern);
+  void adopt(const std::shared_ptr<const Pattern>& pattern);
 
   SharedJacobian<Real>& shared_;
   StageSolverKind kind_;
@@ -103,7 +103,7 @@ class StagewiseMatrix {
   void solve(Eigen::Ref<Mat<Real>> rhs) { solver_->solve(rhs); }
 
  private:
-  void adopt(std::shared_ptr<const Pattern> pattern);
+  void adopt(const std::shared_ptr<const Pattern>& pattern);
 
   SharedJacobian<Real>& shared_;
   StageSolverSetup<Real> setup_;

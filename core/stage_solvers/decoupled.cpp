@@ -26,7 +26,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
       to_basis_(form_.Q_inverse.transpose()),
       from_basis_(form_.Q.transpose()),
       outcomes_(form_.blocks.size()),
-      small_(kCanInvert && setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
+      small_(kInverts<Real, Lu> && setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, form_.diagonal ? 0 : setup.A.rows()),
@@ -148,7 +148,7 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
       return lu.factorize();
     }
   };
-  if constexpr (kCanInvert) {
+  if constexpr (kInverts<Real, Lu>) {
     if (small_) return invertBlock(index);
   }
   return block.size == 1 ? factorized(real_lu_[lu_index_[index]], re)
@@ -159,7 +159,7 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
 // M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
 // [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
 template <class Real, template <class> class Lu>
-Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) requires(kCanInvert) {
+Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) requires kInverts<Real, Lu> {
   const auto& block = form_.blocks[index];
   Real* const inverse = inverses_[index].data();
   const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
@@ -261,7 +261,7 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
 
 // Multiplies by the inverses of the blocks. One decision on n serves for all loops.
 template <class Real, template <class> class Lu>
-void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride) requires(kCanInvert) {
+void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride) requires kInverts<Real, Lu> {
   withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
     inlinedProduct(rhs, stride, n, to_basis_, Y_.data(), n);
     for (std::size_t k = form_.blocks.size(); k-- > 0;) {
@@ -290,7 +290,7 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
   for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
     const auto& block = form_.blocks[k];
     if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
-    if constexpr (kCanInvert) {
+    if constexpr (kInverts<Real, Lu>) {
       if (small_) {
         withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[k].data(), x, n); });
         return true;
@@ -309,7 +309,7 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
 
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
-  if constexpr (kCanInvert) {
+  if constexpr (kInverts<Real, Lu>) {
     if (small_) return solveSmall(rhs.data(), rhs.outerStride());
   }
   smallProduct<Real>(rhs, to_basis_, Y_);

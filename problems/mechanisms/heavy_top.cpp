@@ -44,7 +44,7 @@ std::array<T, 4> product(const E& e, Index i, const Vector<T>& w) {
 /// The body's y-axis in space, of the length |e|^2: homogeneous of degree 2 in e.
 template <class E>
 auto axisOf(const E& e, Index i) {
-  const auto e0 = e[i], e1 = e[i + 1], e2 = e[i + 2], e3 = e[i + 3];
+  const auto &e0 = e[i], &e1 = e[i + 1], &e2 = e[i + 2], &e3 = e[i + 3];
   using T = std::decay_t<decltype(e0)>;
   return Vector<T>{2 * (e1 * e2 - e0 * e3), e0 * e0 - e1 * e1 + e2 * e2 - e3 * e3, 2 * (e2 * e3 + e0 * e1)};
 }
@@ -105,7 +105,7 @@ struct FixedPoint {
   Sizes sizes() const { return {.nu = 4, .nz = 1, .constraints = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
-    const auto rows = inertia<T, Real>(p, kFirst, d.Jt(), d.J3);
+    const auto rows = inertia<T, Real>(p, kFirst, d.transverseInertia(), d.J3);
     const auto weight = axisForce<T>(p.u, kFirst, {T(0.0), T(0.0), T(-d.m * d.g * d.l)});
     for (Index i = 0; i < 4; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -128,7 +128,7 @@ Vector<Real> omegaOf(const P&, const State<Real>& s) {
 /// The vertical in the body's axes.
 template <class Real>
 Vector<Real> verticalOf(const Vec<Real>& u, Index i) {
-  const Real e0 = u[i], e1 = u[i + 1], e2 = u[i + 2], e3 = u[i + 3];
+  const Real &e0 = u[i], &e1 = u[i + 1], &e2 = u[i + 2], &e3 = u[i + 3];
   return {2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), e0 * e0 - e1 * e1 - e2 * e2 + e3 * e3};
 }
 
@@ -149,7 +149,7 @@ void setAttitude(const Data<Real>& d, const Motion<Real>& motion, Index first, S
   const Real rise = now.rate / sine, turn = motion.precession(c) / sine, psi = now.half_sum - now.half_difference;
   const Vector<Real> w{rise * cos(psi) - turn * sin(psi), d.spin, rise * sin(psi) + turn * cos(psi)};
   const Vector<Real> up = verticalOf<Real>(s.u, first);
-  const Real Jt = d.Jt(), weight = d.m * d.g * d.l;  // Euler's equations about the fixed point
+  const Real Jt = d.transverseInertia(), weight = d.m * d.g * d.l;  // Euler's equations about the fixed point
   const Vector<Real> w_rate{(-weight * up.z - (Jt - d.J3) * w.y * w.z) / Jt, Real(0),
                             (weight * up.x + (Jt - d.J3) * w.x * w.y) / Jt};
   const auto e_rate = product<Real>(s.u, first, w);
@@ -169,7 +169,8 @@ State<Real> exactOf(const FixedPoint<Real>& problem, const Motion<Real>& motion,
   s.t = t;
   setAttitude(d, motion, 0, s);
   const auto w = omegaOf(problem, s);
-  s.w[4] = 2 * (d.Jt() * (w.x * w.x + w.z * w.z) + d.J3 * w.y * w.y) - 2 * d.m * d.g * d.l * axisOf(s.u, 0).z;
+  s.w[4] =
+      2 * (d.transverseInertia() * (w.x * w.x + w.z * w.z) + d.J3 * w.y * w.y) - 2 * d.m * d.g * d.l * axisOf(s.u, 0).z;
   return s;
 }
 
@@ -220,7 +221,7 @@ Real energyOf(const Absolute<Real>& problem, const State<Real>& s) {
 template <class Real>
 Real energyOf(const FixedPoint<Real>& problem, const State<Real>& s) {
   const Data<Real>& d = problem.d;
-  return d.m * d.g * d.l * axisOf(s.u, 0).z + rotationEnergy(omegaOf(problem, s), d.Jt(), d.J3);
+  return d.m * d.g * d.l * axisOf(s.u, 0).z + rotationEnergy(omegaOf(problem, s), d.transverseInertia(), d.J3);
 }
 template <class Real>
 Real momentumOf(const Absolute<Real>& problem, const State<Real>& s) {
@@ -230,7 +231,7 @@ Real momentumOf(const Absolute<Real>& problem, const State<Real>& s) {
 }
 template <class Real>
 Real momentumOf(const FixedPoint<Real>& problem, const State<Real>& s) {
-  return verticalMomentum(verticalOf<Real>(s.u, 0), omegaOf(problem, s), problem.d.Jt(), problem.d.J3);
+  return verticalMomentum(verticalOf<Real>(s.u, 0), omegaOf(problem, s), problem.d.transverseInertia(), problem.d.J3);
 }
 
 template <class Real>

@@ -22,7 +22,7 @@ struct Data {
   Real m, l, J1, J3, g;   // kg, m, kg m^2 (about the centre of mass), m/s^2
   Real spin, precession;  // rad/s, at the start
 
-  Real Jt() const { return J1 + m * l * l; }
+  Real transverseInertia() const { return J1 + m * l * l; }
 };
 
 /// Of the axis: sin and cos of theta / 2, and c'; and (phi + psi) / 2, (phi - psi) / 2.
@@ -34,7 +34,8 @@ struct Attitude {
 template <class Real>
 class Motion {
  public:
-  explicit Motion(const Data<Real>& d) : a_(d.J3 * d.spin / d.Jt()), b_(2 * d.m * d.g * d.l / d.Jt()), d_(d) {
+  explicit Motion(const Data<Real>& d)
+      : a_(d.J3 * d.spin / d.transverseInertia()), b_(2 * d.m * d.g * d.l / d.transverseInertia()), d_(d) {
     using std::sqrt;
     const Real p = d.precession, square = p * p + a_ * a_, product = 2 * a_ * p - b_;
     c3_ = (square + sqrt(square * square - 4 * b_ * product)) / (2 * b_);

@@ -125,10 +125,10 @@ struct Absolute : SwitchedTorque<Real> {
     const T sin2 = d.L2 / 2 * sin(p.u[5]), cos2 = d.L2 / 2 * cos(p.u[5]);
     r.u[0] = -d.m1 * p.a[0] - z[0] - z[2];
     r.u[1] = -d.m1 * p.a[1] - z[1] - z[3];
-    r.u[2] = this->torqueAt(p) - d.J1() * p.a[2] - sin1 * (z[0] - z[2]) + cos1 * (z[1] - z[3]);
+    r.u[2] = this->torqueAt(p) - d.crankInertia() * p.a[2] - sin1 * (z[0] - z[2]) + cos1 * (z[1] - z[3]);
     r.u[3] = -d.m2 * p.a[3] + z[2] - z[4];
     r.u[4] = -d.m2 * p.a[4] + z[3] - z[5];
-    r.u[5] = -d.J2() * p.a[5] + sin2 * (z[2] + z[4]) - cos2 * (z[3] + z[5]);
+    r.u[5] = -d.rodInertia() * p.a[5] + sin2 * (z[2] + z[4]) - cos2 * (z[3] + z[5]);
     r.u[6] = -d.m3 * p.a[6] + z[4];
     r.u[7] = -d.m3 * p.a[7] + z[5] - z[6];
   }

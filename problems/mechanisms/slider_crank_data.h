@@ -14,8 +14,8 @@ struct Data {
   Real L1, L2;      // m
   Real m1, m2, m3;  // kg
 
-  Real J1() const { return m1 * L1 * L1 / 12; }
-  Real J2() const { return m2 * L2 * L2 / 12; }
+  Real crankInertia() const { return m1 * L1 * L1 / 12; }
+  Real rodInertia() const { return m2 * L2 * L2 / 12; }
 };
 
 /// The scene parameters for Data, with the same names as its members.
@@ -61,8 +61,8 @@ TreeRows<T> treeRows(const Data<Real>& d, const Angles<T>& q, const T& theta_rat
   }
   const T cos_diff = q.cos_theta * q.cos_phi + q.sin_theta * q.sin_phi;
   const T slider = d.m3 * (alpha - s1 * theta_acc - s2 * phi_acc);
-  const Real M11 = d.J1() + d.L1 * d.L1 * (d.m1 / 4 + d.m2);
-  const Real M22 = d.J2() + d.L2 * d.L2 * d.m2 / 4;
+  const Real M11 = d.crankInertia() + d.L1 * d.L1 * (d.m1 / 4 + d.m2);
+  const Real M22 = d.rodInertia() + d.L2 * d.L2 * d.m2 / 4;
   return {s1 * slider - half * (sin_diff * phi_rate2 + cos_diff * phi_acc) - M11 * theta_acc,
           s2 * slider + half * (sin_diff * theta_rate2 - cos_diff * theta_acc) - M22 * phi_acc};
 }

@@ -57,7 +57,7 @@ double smallestGap(const std::vector<Eigenvalue>& values) {
 // is a real matrix of the same condition, because it differs by a unitary factor.
 Mat<mp80> realUnitEigenvectors(const Eigen::EigenSolver<Mat<mp80>>& eigen) {
   Mat<mp80> V = eigen.pseudoEigenvectors();
-  const auto D = eigen.eigenvalues();
+  const auto& D = eigen.eigenvalues();
   for (Index k = 0; k < V.cols(); ++k) {
     if (D[k].imag() == 0) {
       V.col(k).normalize();

@@ -36,10 +36,10 @@ class BigFloat {
  public:
   BigFloat() noexcept;  ///< 0
   BigFloat(const BigFloat& other) noexcept;
-  BigFloat& operator=(const BigFloat& other) noexcept;
-  BigFloat(double value) noexcept;              // NOLINT(google-explicit-constructor)
-  BigFloat(long long value) noexcept;           // NOLINT(google-explicit-constructor)
-  BigFloat(unsigned long long value) noexcept;  // NOLINT(google-explicit-constructor)
+  BigFloat& operator=(const BigFloat& other) noexcept;  // NOLINT(bugprone-unhandled-self-assignment)
+  BigFloat(double value) noexcept;                      // NOLINT(google-explicit-constructor)
+  BigFloat(long long value) noexcept;                   // NOLINT(google-explicit-constructor)
+  BigFloat(unsigned long long value) noexcept;          // NOLINT(google-explicit-constructor)
   template <std::signed_integral I>
   BigFloat(I value) noexcept  // NOLINT(google-explicit-constructor)
       : BigFloat(static_cast<long long>(value)) {}

@@ -83,8 +83,10 @@ TYPED_TEST(BigFloatTest, FunctionsAreThoseOfBoost) {
   const auto ours = samples<Ours>();
   const auto boosts = samples<Boosts>();
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    const Ours a = ours[i], p = abs(a), q = p / (1 + p);
-    const Boosts b = boosts[i], r = abs(b), s = r / (1 + r);
+    const Ours& a = ours[i];
+    const Ours p = abs(a), q = p / (1 + p);
+    const Boosts& b = boosts[i];
+    const Boosts r = abs(b), s = r / (1 + r);
     const auto same = [&](const Ours& x, const Boosts& y, const char* name) {
       EXPECT_EQ(allDigits(x), allDigits(y)) << name << " of " << allDigits(a);
     };

@@ -171,7 +171,10 @@ struct Example {
   const char *file, *axis, *id;
   const char* with = "";  // options that it needs
 };
-void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
+// The name is GoogleTest's.
+void PrintTo(const Example& example, std::ostream* out) {  // NOLINT(readability-identifier-naming)
+  *out << example.file;
+}
 
 class OwnStrategy : public OwnFiles, public testing::WithParamInterface<Example> {};
 

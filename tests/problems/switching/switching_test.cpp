@@ -17,7 +17,7 @@ struct SwitchingTimes {
 
 constexpr double kThird = 1.0 / 3;
 
-const std::vector<SwitchingTimes>& switchingTimes() {
+const std::vector<SwitchingTimes>& switchingTimes() {  // NOLINT(readability-function-size): data
   static const std::vector<SwitchingTimes> all = {
       {{"stick_slip", {{"Fd", "1"}, {"Fs", "1"}, {"k", "100"}, {"v0", "0"}, {"vb", "0"}, {"x0", "0.105"}}},
        2,
