@@ -26,7 +26,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Re
       to_basis_(form_.Q_inverse.transpose()),
       from_basis_(form_.Q.transpose()),
       outcomes_(form_.blocks.size()),
-      small_(kInverts<Real, Lu> && setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
+      small_(kInverts && setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, form_.diagonal ? 0 : setup.A.rows()),
@@ -148,8 +148,10 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
       return lu.factorize();
     }
   };
-  if constexpr (kInverts<Real, Lu>) {
-    if (small_) return invertBlock(index);
+  if constexpr (kInverts) {
+    if (small_) {
+      return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) { return invertBlock(index, n); });
+    }
   }
   return block.size == 1 ? factorized(real_lu_[lu_index_[index]], re)
                          : factorized(complex_lu_[lu_index_[index]], entry);
@@ -159,39 +161,38 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
 // M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
 // [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
 template <class Real, template <class> class Lu>
-Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index) requires kInverts<Real, Lu> {
+template <class Size>
+Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index, Size n) {
   const auto& block = form_.blocks[index];
   Real* const inverse = inverses_[index].data();
   const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
   const Complex m1 = h_ * block.mu;
   const Complex m2 = detail::product(m1, m1);
-  return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) {
-    std::array<Real, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse)> split;
-    Real *const re = split.data(), *const im = re + n * n;
-    for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
-    for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
-    for (Index i = 0; i < n; ++i) {
-      if (setup_.row_powers[static_cast<std::size_t>(i)] == 0) continue;
-      for (Index k = i; k < 2 * n * n; k += n) re[k] *= scales_[i];
-    }
-    if (block.size == 1) {
-      const Outcome outcome = invert<1>(re, n);
-      std::copy_n(re, n * n, inverse);
-      return outcome;
-    }
-    const Outcome outcome = invert<2>(re, n);
-    const Real divided = Real(1) / block.sigma;
-    for (Index j = 0; j < n; ++j) {
-      const Real *const P = split.data() + j * n, *const Q = P + n * n;
-      Real *const left = inverse + j * 2 * n, *const right = left + 2 * n * n;
-      for (Index i = 0; i < n; ++i) {
-        left[i] = right[n + i] = P[i];
-        left[n + i] = divided * Q[i];
-        right[i] = -block.sigma * Q[i];
-      }
-    }
+  std::array<Real, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse)> split;
+  Real *const re = split.data(), *const im = re + n * n;
+  for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
+  for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
+  for (Index i = 0; i < n; ++i) {
+    if (setup_.row_powers[static_cast<std::size_t>(i)] == 0) continue;
+    for (Index k = i; k < 2 * n * n; k += n) re[k] *= scales_[i];
+  }
+  if (block.size == 1) {
+    const Outcome outcome = invert<1>(re, n);
+    std::copy_n(re, n * n, inverse);
     return outcome;
-  });
+  }
+  const Outcome outcome = invert<2>(re, n);
+  const Real divided = Real(1) / block.sigma;
+  for (Index j = 0; j < n; ++j) {
+    const Real *const P = split.data() + j * n, *const Q = P + n * n;
+    Real *const left = inverse + j * 2 * n, *const right = left + 2 * n * n;
+    for (Index i = 0; i < n; ++i) {
+      left[i] = right[n + i] = P[i];
+      left[n + i] = divided * Q[i];
+      right[i] = -block.sigma * Q[i];
+    }
+  }
+  return outcome;
 }
 
 // Subtracts the contributions of the blocks to the right of this one, which are solved already, from its rows.
@@ -261,26 +262,25 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
 
 // Multiplies by the inverses of the blocks. One decision on n serves for all loops.
 template <class Real, template <class> class Lu>
-void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride) requires kInverts<Real, Lu> {
-  withSize<kSmallInverse>(Y_.rows(), [&](auto n) {
-    inlinedProduct(rhs, stride, n, to_basis_, Y_.data(), n);
-    for (std::size_t k = form_.blocks.size(); k-- > 0;) {
-      const auto& block = form_.blocks[k];
-      if (!form_.diagonal) coupleRows(block, n);
-      Real* const y = Y_.data() + block.start * n;
-      const Real* const inverse = inverses_[k].data();
-      if (block.size == 1) {
-        multiplySmall(inverse, y, n);
-      } else if constexpr (std::is_same_v<decltype(n), Index>) {
-        multiplySmall(inverse, y, 2 * n);
-      } else {
-        multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
-      }
-      if (form_.diagonal || k == 0) continue;
-      for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, n);
+template <class Size>
+void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride, Size n) {
+  inlinedProduct(rhs, stride, n, to_basis_, Y_.data(), n);
+  for (std::size_t k = form_.blocks.size(); k-- > 0;) {
+    const auto& block = form_.blocks[k];
+    if (!form_.diagonal) coupleRows(block, n);
+    Real* const y = Y_.data() + block.start * n;
+    const Real* const inverse = inverses_[k].data();
+    if (block.size == 1) {
+      multiplySmall(inverse, y, n);
+    } else if constexpr (std::is_same_v<decltype(n), Index>) {
+      multiplySmall(inverse, y, 2 * n);
+    } else {
+      multiplySmall(inverse, y, std::integral_constant<Index, 2 * decltype(n)::value>());
     }
-    inlinedProduct(Y_.data(), n, n, from_basis_, rhs, stride);
-  });
+    if (form_.diagonal || k == 0) continue;
+    for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, n);
+  }
+  inlinedProduct(Y_.data(), n, n, from_basis_, rhs, stride);
 }
 
 template <class Real, template <class> class Lu>
@@ -290,7 +290,7 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
   for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
     const auto& block = form_.blocks[k];
     if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
-    if constexpr (kInverts<Real, Lu>) {
+    if constexpr (kInverts) {
       if (small_) {
         withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[k].data(), x, n); });
         return true;
@@ -309,8 +309,10 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
 
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
-  if constexpr (kInverts<Real, Lu>) {
-    if (small_) return solveSmall(rhs.data(), rhs.outerStride());
+  if constexpr (kInverts) {
+    if (small_) {
+      return withSize<kSmallInverse>(Y_.rows(), [&](auto n) { solveSmall(rhs.data(), rhs.outerStride(), n); });
+    }
   }
   smallProduct<Real>(rhs, to_basis_, Y_);
   if (gathered_) together_->solve(lanes_);

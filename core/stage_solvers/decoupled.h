@@ -16,10 +16,6 @@
 
 namespace irk {
 
-/// Whether small blocks are inverted instead of factorized: dense ones, in double.
-template <class Real, template <class> class Lu>
-inline constexpr bool kInverts = std::is_same_v<Real, double> && !std::is_same_v<Lu<Real>, SparseLu<Real>>;
-
 /// Lu is DenseLu or SparseLu; one sparse analysis serves for all blocks and step sizes. Contracts: StageSolver.
 template <class Real, template <class> class Lu>
 class Decoupled final : public StageSolver<Real> {
@@ -33,6 +29,7 @@ class Decoupled final : public StageSolver<Real> {
  private:
   using Complex = std::complex<Real>;
   static constexpr bool kSparse = std::is_same_v<Lu<Real>, SparseLu<Real>>;
+  static constexpr bool kInverts = !kSparse && std::is_same_v<Real, double>;  // blocks, if they are small
   void makeFactors();
   bool factorizeTogether();
   Outcome factorizeBlock(std::size_t index);
@@ -42,8 +39,10 @@ class Decoupled final : public StageSolver<Real> {
   template <class Size>
   [[gnu::noinline]] void multiply(Index column, Size n);
   void solveBlock(std::size_t index);
-  void solveSmall(Real* rhs, Index stride) requires kInverts<Real, Lu>;
-  Outcome invertBlock(std::size_t index) requires kInverts<Real, Lu>;
+  template <class Size>
+  void solveSmall(Real* rhs, Index stride, Size n);
+  template <class Size>
+  Outcome invertBlock(std::size_t index, Size n);
 
   StageSolverSetup<Real> setup_;
   BlockForm<Real> form_;
