@@ -49,6 +49,7 @@ LaneRun::~LaneRun() = default;
 
 Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
   index_ = index;
+  tools_.reset();  // they refer to the system of the member before
   member_ = std::move(member);
   counters_ = {};
   detail_.clear();

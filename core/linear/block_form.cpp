@@ -138,48 +138,49 @@ BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
   return form;
 }
 
-// In 50 digits a form is that in 100 digits, rounded: the eigenvalue solver need not be compiled for both.
-BlockForm<mp50> rounded(const BlockForm<mp100>& form) {
-  BlockForm<mp50> result;
-  result.Q = form.Q.cast<mp50>();
-  result.Q_inverse = form.Q_inverse.cast<mp50>();
-  result.T = form.T.cast<mp50>();
+// In multiprecision a form is made in 100 digits and then rounded: the eigenvalue solver is compiled for one of them
+// only.
+template <class Real>
+BlockForm<Real> rounded(const BlockForm<mp100>& form) {
+  BlockForm<Real> result;
+  result.Q = form.Q.template cast<Real>();
+  result.Q_inverse = form.Q_inverse.template cast<Real>();
+  result.T = form.T.template cast<Real>();
   result.diagonal = form.diagonal;
   for (const auto& block : form.blocks) {
     result.blocks.push_back(
-        {block.start, block.size, {mp50(block.mu.real()), mp50(block.mu.imag())}, mp50(block.sigma)});
+        {block.start, block.size, {Real(block.mu.real()), Real(block.mu.imag())}, Real(block.sigma)});
   }
   return result;
 }
 
 }  // namespace
 
-template <>
-BlockForm<double> schurForm(const Mat<double>& A) {
-  static KeptForms kept;
-  return kept.of(A, makeSchurForm<double>);
-}
-template <>
-BlockForm<mp100> schurForm(const Mat<mp100>& A) {
-  return makeSchurForm(A);
-}
-template <>
-BlockForm<mp50> schurForm(const Mat<mp50>& A) {
-  return rounded(makeSchurForm<mp100>(A.cast<mp100>()));
+template <class Real>
+BlockForm<Real> schurForm(const Mat<Real>& A) {
+  if constexpr (std::is_same_v<Real, double>) {
+    static KeptForms kept;
+    return kept.of(A, makeSchurForm<double>);
+  } else {
+    return rounded<Real>(makeSchurForm<mp100>(A.template cast<mp100>()));
+  }
 }
 
-template <>
-BlockForm<double> eigenForm(const Mat<double>& A) {
-  static KeptForms kept;
-  return kept.of(A, makeEigenForm<double>);
+template <class Real>
+BlockForm<Real> eigenForm(const Mat<Real>& A) {
+  if constexpr (std::is_same_v<Real, double>) {
+    static KeptForms kept;
+    return kept.of(A, makeEigenForm<double>);
+  } else {
+    return rounded<Real>(makeEigenForm<mp100>(A.template cast<mp100>()));
+  }
 }
-template <>
-BlockForm<mp100> eigenForm(const Mat<mp100>& A) {
-  return makeEigenForm(A);
-}
-template <>
-BlockForm<mp50> eigenForm(const Mat<mp50>& A) {
-  return rounded(makeEigenForm<mp100>(A.cast<mp100>()));
-}
+
+template BlockForm<double> schurForm(const Mat<double>&);
+template BlockForm<mp50> schurForm(const Mat<mp50>&);
+template BlockForm<mp100> schurForm(const Mat<mp100>&);
+template BlockForm<double> eigenForm(const Mat<double>&);
+template BlockForm<mp50> eigenForm(const Mat<mp50>&);
+template BlockForm<mp100> eigenForm(const Mat<mp100>&);
 
 }  // namespace irk
