@@ -8,8 +8,8 @@
 
 namespace irk {
 
-/// How many sizes to unroll loops over numbers of type Real for: `most`, but none in multiprecision, where an operation
-/// is a call and unrolled loops only take time to compile.
+/// The most entries for which a loop over numbers of type Real is unrolled: `most` in double, 0 in multiprecision,
+/// where each operation is a call, so that unrolled loops gain nothing and take time to compile.
 template <class Real>
 constexpr Index unrolledSizes(Index most) {
   return std::is_same_v<Real, double> ? most : 0;
