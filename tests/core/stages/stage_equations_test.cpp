@@ -109,7 +109,7 @@ TEST(StageEquations, EndsOfEverySizeWithBothSummations) {
 }
 
 TEST(ErrorNorm, IncrementsOfEverySize) {
-  for (Index n = 1; n <= 10; ++n) {
+  for (Index n = 1; n <= 20; ++n) {
     const auto system = makeSystem<double>(Uncoupled{0, n});
     const ErrorNorm<double> norm(*system, {.rtol = 1e-3, .atol = 1e-3}, {});
     for (Index s = 1; s <= 5; ++s) {
@@ -122,6 +122,23 @@ TEST(ErrorNorm, IncrementsOfEverySize) {
         EXPECT_NEAR(norm.increment(dW, first, squares), expected, 1e-15 * expected * 20) << n << " " << s;
       }
     }
+  }
+}
+
+TEST(ErrorNorm, ErrorsOfEverySize) {
+  for (Index n = 1; n <= 20; ++n) {
+    const auto system = makeSystem<double>(Uncoupled{n, 2 * n + 1});
+    ErrorNorm<double> norm(*system, {.rtol = 1e-3, .atol = 1e-4}, {});
+    State<double> y(system->sizes()), e(system->sizes());
+    y.u.setRandom(), y.v.setRandom(), y.x.setRandom();
+    e.u.setRandom(), e.v.setRandom(), e.x.setRandom();
+    norm.update(y);
+    Vec<double> all(4 * n + 1), weights(4 * n + 1);
+    all << e.u, e.v, e.x;
+    weights << y.u, y.v, y.x;
+    weights = 1e-4 + 1e-3 * weights.array().abs();
+    const double expected = std::sqrt(all.cwiseQuotient(weights).squaredNorm() / static_cast<double>(all.size()));
+    EXPECT_NEAR(norm.magnitude(e, 0.1), expected, 1e-14 * expected) << n;
   }
 }
 
