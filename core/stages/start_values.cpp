@@ -21,78 +21,134 @@ constexpr double kAmplificationLimit = 1e4;
 // Past steps of up to this many stages, as variable order has them, need no allocation.
 constexpr Index kReservedStages = 13;
 
-/// The collocation polynomial of the step before.
+/// The collocation polynomial of the step before: W V^-T P, with the Legendre polynomials P at the new stages. W V^-T,
+/// the polynomial's coefficients, comes first where it is cheaper: with few unknowns and many stages. Otherwise V^-T P
+/// does, which also serves for the next steps of the same size.
 template <class Real>
 class Extrapolated : public StagePredictor<Real> {
  public:
   explicit Extrapolated(const Scheme<Real>& scheme);
-  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) override {
-    const MatView<Real> matrix = weights(*past.scheme, Real((from.t - past.t) / past.h), Real(h / past.h));
-    inlinedProduct(past.W.data(), past.W.rows(), past.W.rows(), matrix, W.data(), W.rows());
-  }
+  void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) override;
 
  private:
-  // Column i, applied to W_past, gives the start values of stage i. Two sets are kept, because doubling alternates
+  // What the two schemes and the ratio of the step sizes determine. Two sets are kept, because doubling alternates
   // between the two halves of a step.
   struct Weights {
     const Scheme<Real>* past = nullptr;
     Real offset{-1}, ratio{-1};
-    Buffer<Real> matrix;  // s of the past x s
+    Buffer<Real> basis;   // P: degrees x s; column i belongs to stage i of the new step
+    Buffer<Real> matrix;  // V^-T P: s of the past x s; unused where coefficients come first
   };
-  MatView<Real> weights(const Scheme<Real>& past, const Real& offset, const Real& ratio);
+  Weights& weights(const StagePolynomial<Real>& past, const Real& offset, const Real& ratio);
   void compute(Weights& weights);
+  void computeWithCoefficientsFirst(Weights& weights);
+  MatView<Real> evaluateBasis(Weights& weights, Index degrees) const;
+  MatView<Real> multiply(Weights& weights) const;
+  Index degreesWithinLimit(Weights& weights);
+  static bool coefficientsFirst(const StagePolynomial<Real>& past) { return 2 * past.W.rows() <= past.W.cols(); }
 
   const Scheme<Real>& scheme_;
   Weights weights_[2];
   int newest_ = 0;
   Index farthest_ = 0;  // stage
-  Buffer<Real> basis_;  // s of the past x s; column i: P_0, P_1, ... at stage i of the new step
+  Buffer<Real> row_;    // of V^-T P, at the farthest stage
+  Buffer<Real> coefficients_;
 };
+
+// The leading columns of a square matrix, which have no gaps.
+template <class Real>
+Eigen::Map<const Mat<Real>> leading(const Mat<Real>& matrix, Index columns) {
+  return {matrix.data(), matrix.rows(), columns};
+}
+
+template <class Row>
+double amplification(const Row& row) {
+  return static_cast<double>(row.cwiseAbs().sum());
+}
 
 template <class Real>
 Extrapolated<Real>::Extrapolated(const Scheme<Real>& scheme) : scheme_(scheme) {
   scheme.c.maxCoeff(&farthest_);
   const Index most = std::max(scheme.s, kReservedStages);
-  basis_.resize(most, scheme.s);
-  for (Weights& w : weights_) w.matrix.resize(most, scheme.s);
+  row_.resize(most, 1);
+  coefficients_.resize(most / 2, most);  // coefficientsFirst bounds n
+  for (Weights& w : weights_) {
+    w.basis.resize(most, scheme.s);
+    w.matrix.resize(most, scheme.s);
+  }
 }
 
 template <class Real>
-MatView<Real> Extrapolated<Real>::weights(const Scheme<Real>& past, const Real& offset, const Real& ratio) {
+void Extrapolated<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) {
+  const Index n = past.W.rows();
+  Weights& w = weights(past, Real((from.t - past.t) / past.h), Real(h / past.h));
+  if (!coefficientsFirst(past)) return inlinedProduct(past.W.data(), n, n, w.matrix.view(), W.data(), n);
+  const MatView<Real> basis = w.basis.view();
+  MatView<Real> coefficients = coefficients_.resize(n, basis.rows());
+  smallProduct(past.W.data(), n, n, leading(past.scheme->legendre_inverse_transposed, basis.rows()),
+               coefficients.data(), n);
+  smallProduct(coefficients.data(), n, n, basis, W.data(), n);
+}
+
+template <class Real>
+auto Extrapolated<Real>::weights(const StagePolynomial<Real>& past, const Real& offset, const Real& ratio) -> Weights& {
   for (Weights& w : weights_) {
-    if (w.past == &past && w.offset == offset && w.ratio == ratio) return w.matrix.view();
+    if (w.past == past.scheme && w.offset == offset && w.ratio == ratio) return w;
   }
   newest_ = 1 - newest_;
   Weights& w = weights_[newest_];
-  w.past = &past;
+  w.past = past.scheme;
   w.offset = offset;
   w.ratio = ratio;
-  compute(w);
-  return w.matrix.view();
+  coefficientsFirst(past) ? computeWithCoefficientsFirst(w) : compute(w);
+  return w;
 }
 
-// w(t_past + tau h_past) = sum_k P_k(tau) (V^-1 W^T)_k at tau_i = offset + ratio c_i, truncated after
-// the largest degree whose amplification stays below the limit.
+// w(t_past + tau h_past) = sum_k P_k(tau) (V^-1 W^T)_k at tau_i = offset + ratio c_i.
+template <class Real>
+MatView<Real> Extrapolated<Real>::evaluateBasis(Weights& w, Index degrees) const {
+  MatView<Real> basis = w.basis.resize(degrees, scheme_.s);
+  for (Index i = 0; i < scheme_.s; ++i) legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis.col(i));
+  return basis;
+}
+
+template <class Real>
+MatView<Real> Extrapolated<Real>::multiply(Weights& w) const {
+  const Index stages = w.past->s;
+  const MatView<Real> basis = w.basis.view();
+  MatView<Real> matrix = w.matrix.resize(stages, scheme_.s);
+  inlinedProduct(w.past->legendre_inverse_transposed.data(), stages, stages, basis, matrix.data(), stages);
+  return matrix;
+}
+
 template <class Real>
 void Extrapolated<Real>::compute(Weights& w) {
-  const Index s = scheme_.s, degrees = w.past->s;
-  MatView<Real> basis = basis_.resize(degrees, s);
-  MatView<Real> matrix = w.matrix.resize(degrees, s);
-  for (Index i = 0; i < s; ++i) {
-    legendre<Real>(Real(w.offset + w.ratio * scheme_.c[i]), basis.col(i));
+  evaluateBasis(w, w.past->s);
+  if (amplification(multiply(w).col(farthest_)) <= kAmplificationLimit) return;
+  evaluateBasis(w, degreesWithinLimit(w));
+  multiply(w);
+}
+
+template <class Real>
+void Extrapolated<Real>::computeWithCoefficientsFirst(Weights& w) {
+  const Index stages = w.past->s;
+  const VecView<Real> farthest(evaluateBasis(w, stages).col(farthest_).data(), stages);
+  MatView<Real> row = row_.resize(stages, 1);
+  smallProduct(w.past->legendre_inverse_transposed.data(), stages, stages, farthest, row.data(), stages);
+  if (amplification(row) > kAmplificationLimit) evaluateBasis(w, degreesWithinLimit(w));
+}
+
+// The largest number of degrees whose amplification stays below the limit, at least 1.
+template <class Real>
+Index Extrapolated<Real>::degreesWithinLimit(Weights& w) {
+  const MatView<Real> basis = w.basis.view();
+  MatView<Real> row = row_.resize(w.past->s, 1);
+  row.setZero();
+  for (Index k = 0; k < basis.rows(); ++k) {
+    row += basis(k, farthest_) * w.past->legendre_inverse_transposed.col(k);
+    if (k > 0 && amplification(row) > kAmplificationLimit) return k;
   }
-  const auto amplification = [&] { return static_cast<double>(Real(matrix.col(farthest_).cwiseAbs().sum())); };
-  const Mat<Real>& to_stages = w.past->legendre_inverse_transposed;
-  inlinedProduct(to_stages.data(), degrees, degrees, basis, matrix.data(), degrees);
-  if (amplification() <= kAmplificationLimit) return;
-  matrix.setZero();
-  for (Index k = 0; k < degrees; ++k) {
-    for (Index i = 0; i < s; ++i) matrix.col(i) += basis(k, i) * to_stages.col(k);
-    if (amplification() > kAmplificationLimit && k > 0) {
-      for (Index i = 0; i < s; ++i) matrix.col(i) -= basis(k, i) * to_stages.col(k);
-      return;
-    }
-  }
+  return basis.rows();
 }
 
 /// The stages of the step before; if their number differs, their polynomial.
