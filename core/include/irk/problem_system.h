@@ -74,7 +74,7 @@ class ProblemSystem final : public System<Real> {
     evaluateAt(level, p, r.data());
   }
   void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
-    for (Index i = first; i < last; ++i) formulated(at[i], r + i * sizes_.n());
+    for (Index i = first; i < last; ++i) atStage(at, i, r + i * sizes_.n());
   }
   void switching(const Point<Real>& p, VecView<Real> g) const override {
     if constexpr (kHasSwitching) problem_.switching(p, g.data());
@@ -205,6 +205,9 @@ class ProblemSystem final : public System<Real> {
   // Not inlined: elsewhere the compiler would contract other products and sums, and the bits would depend on the number
   // of stages per call.
   [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const { evaluateAt(Level::kFormulated, p, r); }
+  [[gnu::noinline]] void atStage(const StagePoints<Real>& at, Index i, Real* r) const {
+    evaluateAt(Level::kFormulated, at[i], r);
+  }
   bool smooth() const { return options_.discontinuity.sees == ModeSeen::kRegularised; }
 
   /// The index of algebraic unknowns other than multipliers: P::kAlgebraicIndex, or 1 if P has none.
