@@ -85,7 +85,7 @@ template <class Real>
 void NewtonMatrix<Real>::adopt(const std::shared_ptr<const Pattern>& pattern) {
   setup_.pattern = pattern;
   setup_.analysis = shared_.analysis(setup_.pattern);
-  solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
+  solver_ = std::make_unique<CountedStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
 }
 
 template <class Real>
@@ -130,7 +130,7 @@ template <class Real>
 void StagewiseMatrix<Real>::adopt(const std::shared_ptr<const Pattern>& pattern) {
   setup_.pattern = pattern;
   const StageSolverKind kind = setup_.pattern->full ? StageSolverKind::kCoupledDense : StageSolverKind::kCoupledSparse;
-  solver_ = std::make_unique<CountingStageSolver<Real>>(makeStageSolver(kind, setup_), counters_);
+  solver_ = std::make_unique<CountedStageSolver<Real>>(makeStageSolver(kind, setup_), counters_);
 }
 
 template <class Real>

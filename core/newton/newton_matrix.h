@@ -83,7 +83,7 @@ class NewtonMatrix {
   StageSolverKind kind_;
   StageSolverSetup<Real> setup_;
   Counters& counters_;
-  std::unique_ptr<StageSolver<Real>> solver_;
+  std::unique_ptr<CountedStageSolver<Real>> solver_;
   int version_ = 0;
   Real h_{};
 };
@@ -110,7 +110,7 @@ class StagewiseMatrix {
   bool used_;
   Counters& counters_;
   std::vector<Linearization<Real>> at_;
-  std::unique_ptr<StageSolver<Real>> solver_;
+  std::unique_ptr<CountedStageSolver<Real>> solver_;
 };
 
 }  // namespace irk

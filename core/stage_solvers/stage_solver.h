@@ -88,29 +88,28 @@ std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const
 /// What the solver of the options stores: the coupled ones have a storage of their own.
 Storage storageOf(const IntegratorOptions& options);
 
-/// Counts factorizations and solves of another solver.
+/// Counts the factorizations and solves of a solver; see StageSolver.
 template <class Real>
-class CountingStageSolver final : public StageSolver<Real> {
+class CountedStageSolver {
  public:
-  CountingStageSolver(std::unique_ptr<StageSolver<Real>> inner, Counters& counters)
-      : inner_(std::move(inner)), counters_(counters) {}
-  Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override {
+  CountedStageSolver(std::unique_ptr<StageSolver<Real>> solver, Counters& counters)
+      : solver_(std::move(solver)), counters_(counters) {}
+  [[nodiscard]] Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) {
     ++counters_.factorizations;
-    return inner_->factorize(at, h);
+    return solver_->factorize(at, h);
   }
-  void solve(Eigen::Ref<Mat<Real>> rhs) override {
+  void solve(Eigen::Ref<Mat<Real>> rhs) {
     ++counters_.solves;
-    inner_->solve(rhs);
+    solver_->solve(rhs);
   }
-  bool stagewise() const override { return inner_->stagewise(); }
-  bool solveReal(const Real& mu, Real* x) override {
-    const bool solved = inner_->solveReal(mu, x);
+  [[nodiscard]] bool solveReal(const Real& mu, Real* x) {
+    const bool solved = solver_->solveReal(mu, x);
     counters_.solves += solved;
     return solved;
   }
 
  private:
-  std::unique_ptr<StageSolver<Real>> inner_;
+  std::unique_ptr<StageSolver<Real>> solver_;
   Counters& counters_;
 };
 

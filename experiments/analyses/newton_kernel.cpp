@@ -97,7 +97,7 @@ void NewtonKernel::makeSolver() {
     setup_.analysis = std::make_shared<const SparseAnalysis>(pattern->column_start, pattern->row);
   }
   setup_.pattern = pattern;
-  solver_ = std::make_unique<CountingStageSolver<double>>(makeStageSolver<double>(kind_, setup_), counters_);
+  solver_ = std::make_unique<CountedStageSolver<double>>(makeStageSolver<double>(kind_, setup_), counters_);
   rhs_ = ones_ = Mat<double>::Ones(system_->sizes().n(), scheme_.implicitStages());
 }
 

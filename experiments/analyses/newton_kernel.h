@@ -77,7 +77,7 @@ class NewtonKernel {
   StageEquations<double> equations_, free_equations_;
   StageSolverKind kind_;
   StageSolverSetup<double> setup_;
-  std::unique_ptr<StageSolver<double>> solver_;
+  std::unique_ptr<CountedStageSolver<double>> solver_;
   ErrorNorm<double> norm_;
   std::unique_ptr<StepController> controller_;
   bool doubles_;  // whether the estimate is by step doubling
