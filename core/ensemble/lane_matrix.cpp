@@ -37,7 +37,8 @@ LaneMatrix::LaneMatrix(const Sizes& sizes, const std::vector<int>& row_powers, c
       own_filter_(true),
       y_(count(n_ * s_)),
       eta_(count(n_)) {
-  const BlockForm<double> form = eigenForm(A);
+  const auto kept = eigenForm(A);
+  const BlockForm<double>& form = *kept;
   to_basis_ = form.Q_inverse.transpose();
   from_basis_ = form.Q.transpose();
   filter_ = 0;

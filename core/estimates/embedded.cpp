@@ -54,7 +54,8 @@ template <class Real>
 Real EmbeddedEstimate<Real>::weight(const Tableau<Real>& tableau) {
   using std::pow;
   Real determinant(1);
-  for (const auto& block : schurForm(tableau.A).blocks) {
+  const auto form = schurForm(tableau.A);
+  for (const auto& block : form->blocks) {
     if (block.size == 1 && block.mu.real() > Real(0)) return block.mu.real();
     determinant *= block.mu.real() * block.mu.real() + block.mu.imag() * block.mu.imag();
   }

@@ -173,7 +173,8 @@ constexpr Rule kSystemsAndMethods[] = {
 
 template <class Real>
 void describe(const Tableau<Real>& tableau, Facts& facts) {
-  const Structure<Real> structure(tableau);
+  const auto kept = structureOf(tableau);
+  const Structure<Real>& structure = *kept;
   facts.method = tableau.id;
   facts.determines_algebraic = structure.allowsAlgebraic();
   facts.invertible = structure.regular && structure.first == 0;

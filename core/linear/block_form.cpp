@@ -1,14 +1,13 @@
 #include "core/linear/block_form.h"
 
 #include <cmath>
-#include <mutex>
 #include <string>
 #include <type_traits>
-#include <unordered_map>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "core/base/kept.h"
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
 
@@ -40,29 +39,13 @@ void appendBlocks(BlockForm<Real>& form) {
   }
 }
 
-// Forms of matrices in double, by their numbers: integrators of the same methods are made again and again, and a form
-// costs more than many a step. Shared by threads.
-class KeptForms {
- public:
-  BlockForm<double> of(const Mat<double>& A, BlockForm<double> (*make)(const Mat<double>&)) {
-    const std::string key(reinterpret_cast<const char*>(A.data()), static_cast<std::size_t>(A.size()) * sizeof(double));
-    {
-      const std::lock_guard lock(mutex_);
-      const auto found = forms_.find(key);
-      if (found != forms_.end()) return found->second;
-    }
-    BlockForm<double> form = make(A);
-    const std::lock_guard lock(mutex_);
-    if (forms_.size() >= kMost) forms_.clear();
-    forms_.try_emplace(key, form);
-    return form;
-  }
+using KeptForms = Kept<BlockForm<double>>;
 
- private:
-  static constexpr std::size_t kMost = 500;  // a few megabytes
-  std::mutex mutex_;
-  std::unordered_map<std::string, BlockForm<double>> forms_;
-};
+std::string keyOf(const Mat<double>& A) {
+  std::string key;
+  appendKey(A, key);
+  return key;
+}
 
 template <class Real>
 BlockForm<Real> makeSchurForm(const Mat<Real>& A) {
@@ -157,30 +140,30 @@ BlockForm<Real> rounded(const BlockForm<mp100>& form) {
 }  // namespace
 
 template <class Real>
-BlockForm<Real> schurForm(const Mat<Real>& A) {
+std::shared_ptr<const BlockForm<Real>> schurForm(const Mat<Real>& A) {
   if constexpr (std::is_same_v<Real, double>) {
     static KeptForms kept;
-    return kept.of(A, makeSchurForm<double>);
+    return kept.of(keyOf(A), [&] { return makeSchurForm(A); });
   } else {
-    return rounded<Real>(makeSchurForm<mp100>(A.template cast<mp100>()));
+    return std::make_shared<const BlockForm<Real>>(rounded<Real>(makeSchurForm<mp100>(A.template cast<mp100>())));
   }
 }
 
 template <class Real>
-BlockForm<Real> eigenForm(const Mat<Real>& A) {
+std::shared_ptr<const BlockForm<Real>> eigenForm(const Mat<Real>& A) {
   if constexpr (std::is_same_v<Real, double>) {
     static KeptForms kept;
-    return kept.of(A, makeEigenForm<double>);
+    return kept.of(keyOf(A), [&] { return makeEigenForm(A); });
   } else {
-    return rounded<Real>(makeEigenForm<mp100>(A.template cast<mp100>()));
+    return std::make_shared<const BlockForm<Real>>(rounded<Real>(makeEigenForm<mp100>(A.template cast<mp100>())));
   }
 }
 
-template BlockForm<double> schurForm(const Mat<double>&);
-template BlockForm<mp50> schurForm(const Mat<mp50>&);
-template BlockForm<mp100> schurForm(const Mat<mp100>&);
-template BlockForm<double> eigenForm(const Mat<double>&);
-template BlockForm<mp50> eigenForm(const Mat<mp50>&);
-template BlockForm<mp100> eigenForm(const Mat<mp100>&);
+template std::shared_ptr<const BlockForm<double>> schurForm(const Mat<double>&);
+template std::shared_ptr<const BlockForm<mp50>> schurForm(const Mat<mp50>&);
+template std::shared_ptr<const BlockForm<mp100>> schurForm(const Mat<mp100>&);
+template std::shared_ptr<const BlockForm<double>> eigenForm(const Mat<double>&);
+template std::shared_ptr<const BlockForm<mp50>> eigenForm(const Mat<mp50>&);
+template std::shared_ptr<const BlockForm<mp100>> eigenForm(const Mat<mp100>&);
 
 }  // namespace irk

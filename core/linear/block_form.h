@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <memory>
 #include <vector>
 
 #include "irk/scalar.h"
@@ -25,9 +26,9 @@ struct BlockForm {
 /// The real Schur form: Q is orthogonal. Defined for every A. In double the process keeps forms by their A, as those of
 /// eigenForm.
 template <class Real>
-BlockForm<Real> schurForm(const Mat<Real>& A);
+std::shared_ptr<const BlockForm<Real>> schurForm(const Mat<Real>& A);
 /// The real eigenbasis, with columns Re v, Im v for a complex eigenvector v. Throws Misuse for a defective A.
 template <class Real>
-BlockForm<Real> eigenForm(const Mat<Real>& A);
+std::shared_ptr<const BlockForm<Real>> eigenForm(const Mat<Real>& A);
 
 }  // namespace irk

@@ -12,9 +12,9 @@ namespace {
 template <class Real>
 std::unique_ptr<StageSolver<Real>> decoupled(const StageSolverSetup<Real>& setup) {
   if constexpr (std::is_same_v<Real, double>) {
-    if (!setup.pattern->full) return std::make_unique<Decoupled<Real, SparseLu>>(setup, *setup.form);
+    if (!setup.pattern->full) return std::make_unique<Decoupled<Real, SparseLu>>(setup);
   }
-  return std::make_unique<Decoupled<Real, DenseLu>>(setup, *setup.form);
+  return std::make_unique<Decoupled<Real, DenseLu>>(setup);
 }
 
 template <class Real>

@@ -19,9 +19,9 @@ constexpr int kApart = 10;
 }  // namespace
 
 template <class Real, template <class> class Lu>
-Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form)
+Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
     : setup_(setup),
-      form_(std::move(form)),
+      form_(*setup_.form),
       T2_(form_.T * form_.T),
       to_basis_(form_.Q_inverse.transpose()),
       from_basis_(form_.Q.transpose()),

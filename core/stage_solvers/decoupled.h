@@ -20,7 +20,7 @@ namespace irk {
 template <class Real, template <class> class Lu>
 class Decoupled final : public StageSolver<Real> {
  public:
-  Decoupled(const StageSolverSetup<Real>& setup, BlockForm<Real> form);
+  explicit Decoupled(const StageSolverSetup<Real>& setup);  ///< with a form
   Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
   void solve(Eigen::Ref<Mat<Real>> rhs) override;
   bool stagewise() const override { return false; }
@@ -45,7 +45,7 @@ class Decoupled final : public StageSolver<Real> {
   Outcome invertBlock(std::size_t index, Size n);
 
   StageSolverSetup<Real> setup_;
-  BlockForm<Real> form_;
+  const BlockForm<Real>& form_;  // of setup_
   Mat<Real> T2_;
   Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
   // Factors of the real blocks and of the complex pairs, in their order. None where blocks are inverted, and none for

@@ -14,7 +14,7 @@ Storage storageOf(const IntegratorOptions& options) {
 template <class Real>
 std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const Mat<Real>& A) {
   const auto& form = catalogue<StageSolverKind>()[kind].form.template of<Real>();
-  return form ? std::make_shared<const BlockForm<Real>>(form(A)) : nullptr;
+  return form ? form(A) : nullptr;
 }
 
 template <class Real>

@@ -57,7 +57,7 @@ class StageSolver {
 };
 
 template <class Real>
-using BlockFormMaker = std::function<BlockForm<Real>(const Mat<Real>& A)>;
+using BlockFormMaker = std::function<std::shared_ptr<const BlockForm<Real>>(const Mat<Real>& A)>;
 template <class Real>
 using StageSolverMaker = std::function<std::unique_ptr<StageSolver<Real>>(const StageSolverSetup<Real>&)>;
 

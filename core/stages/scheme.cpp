@@ -1,7 +1,11 @@
 #include "core/stages/scheme.h"
 
+#include <string>
+#include <type_traits>
+
 #include <Eigen/LU>
 
+#include "core/base/kept.h"
 #include "core/base/legendre.h"
 #include "irk/multiprecision.h"
 
@@ -52,6 +56,44 @@ Scheme<Real>::Scheme(Tableau<Real> t)
   }
 }
 
+namespace {
+
+template <class Value, class Real>
+std::shared_ptr<const Value> kept(const Tableau<Real>& tableau, const std::string& names) {
+  if constexpr (std::is_same_v<Real, double>) {
+    if (tableau.stages() <= kMostKeptStages) {
+      static Kept<Value> all;
+      std::string key = names;
+      appendKey(tableau.A, key);
+      appendKey(tableau.b, key);
+      appendKey(tableau.c, key);
+      return all.of(key, [&] { return Value(tableau); });
+    }
+  }
+  return std::make_shared<const Value>(tableau);
+}
+
+}  // namespace
+
+template <class Real>
+std::shared_ptr<const Structure<Real>> structureOf(const Tableau<Real>& tableau) {
+  return kept<Structure<Real>>(tableau, {});
+}
+
+template <class Real>
+std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau) {
+  const auto orders = {tableau.order, tableau.stage_order};
+  std::string names = tableau.id + '\n' + tableau.family;
+  for (const int order : orders) names += '\n' + std::to_string(order);
+  return kept<Scheme<Real>>(tableau, names + '\n');
+}
+
+template std::shared_ptr<const Structure<double>> structureOf(const Tableau<double>&);
+template std::shared_ptr<const Structure<mp50>> structureOf(const Tableau<mp50>&);
+template std::shared_ptr<const Structure<mp100>> structureOf(const Tableau<mp100>&);
+template std::shared_ptr<const Scheme<double>> schemeOf(const Tableau<double>&);
+template std::shared_ptr<const Scheme<mp50>> schemeOf(const Tableau<mp50>&);
+template std::shared_ptr<const Scheme<mp100>> schemeOf(const Tableau<mp100>&);
 template struct Structure<double>;
 template struct Structure<mp50>;
 template struct Structure<mp100>;

@@ -1,6 +1,8 @@
 // A scheme: a tableau prepared for the stage equations, with A^2, end weights and properties of its structure.
 #pragma once
 
+#include <memory>
+
 #include "irk/tableau.h"
 
 namespace irk {
@@ -55,5 +57,15 @@ struct Scheme : Structure<Real> {
   /// A without the explicit first stage. Its square is the same block of A^2.
   Mat<Real> implicitA() const { return A.bottomRightCorner(s - first, s - first); }
 };
+
+/// The process keeps schemes and structures in double with up to this many stages.
+inline constexpr Index kMostKeptStages = 30;
+
+/// The scheme of a tableau. Threads may share it.
+template <class Real>
+std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau);
+/// The structure alone, which costs less.
+template <class Real>
+std::shared_ptr<const Structure<Real>> structureOf(const Tableau<Real>& tableau);
 
 }  // namespace irk

@@ -20,13 +20,13 @@ class SchemeList {
   const Tableau<Real>& tableau(std::size_t i) const { return tableaus_[i]; }
   /// The scheme of member i, made in the first call; lives as long as the list.
   const Scheme<Real>& operator[](std::size_t i) const {
-    if (!made_[i]) made_[i] = std::make_unique<const Scheme<Real>>(tableaus_[i]);
+    if (!made_[i]) made_[i] = schemeOf(tableaus_[i]);
     return *made_[i];
   }
 
  private:
   std::vector<Tableau<Real>> tableaus_;
-  mutable std::vector<std::unique_ptr<const Scheme<Real>>> made_;
+  mutable std::vector<std::shared_ptr<const Scheme<Real>>> made_;
 };
 
 }  // namespace irk
