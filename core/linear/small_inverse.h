@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "core/linear/dense_lu.h"
@@ -17,102 +20,176 @@ namespace irk {
 /// substitutions.
 inline constexpr Index kSmallInverse = 8;
 
-/// A view of a real (Parts = 1) or complex (Parts = 2) n x n matrix, by columns; all real parts come before all
-/// imaginary parts, so that loops over rows become vector instructions.
-template <class Real, int Parts>
-class SplitMatrix {
- public:
-  using Value = std::conditional_t<Parts == 1, Real, std::complex<Real>>;
+/// Scratch of `invert`: a real (Parts = 1) or complex (Parts = 2) n x n matrix by columns, without gaps; all real parts
+/// come before all imaginary parts. The room behind it is read and written, too.
+using SmallMatrix = std::array<double, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse + kSmallInverse)>;
 
-  SplitMatrix(Real* data, Index n) : data_(data), imaginary_(n * n) {}
-  Value get(Index at) const {
-    if constexpr (Parts == 1) {
-      return data_[at];
-    } else {
-      return {data_[at], data_[imaginary_ + at]};
+namespace detail {
+
+/// A vector register with a column of at least Rows numbers, and one with integers.
+template <Index Width>
+struct RegisterOf;
+template <>
+struct RegisterOf<2> {
+  using Numbers = double __attribute__((vector_size(16)));
+  using Integers = std::int64_t __attribute__((vector_size(16)));
+};
+template <>
+struct RegisterOf<4> {
+  using Numbers = double __attribute__((vector_size(32)));
+  using Integers = std::int64_t __attribute__((vector_size(32)));
+};
+template <>
+struct RegisterOf<8> {
+  using Numbers = double __attribute__((vector_size(64)));
+  using Integers = std::int64_t __attribute__((vector_size(64)));
+};
+
+/// The columns of a small matrix in vector registers. A scalar loop would write single numbers of a column and then
+/// read all of it, and the processor waits for such numbers.
+template <int Parts, Index N>
+class InRegisters {
+  static constexpr Index kWidth = N <= 2 ? 2 : N <= 4 ? 4 : 8;
+  using Numbers = typename RegisterOf<kWidth>::Numbers;
+  using Integers = typename RegisterOf<kWidth>::Integers;
+
+ public:
+  /// Gauss-Jordan with partial pivoting; see irk::invert.
+  [[gnu::always_inline]] static inline Outcome invert(double* data) {
+    InRegisters a(data);
+    bool swapped = false;
+    std::array<Index, static_cast<std::size_t>(N)> pivots;
+#pragma GCC unroll 8
+    for (Index k = 0; k < N; ++k) {
+      const Index pivot = a.pivotOf(k);
+      if (pivot < 0) return a.isFinite() ? Outcome::kSingular : Outcome::kNotFinite;
+      pivots[static_cast<std::size_t>(k)] = pivot;
+      if (pivot != k) a.swapRows(k, pivot), swapped = true;
+      a.eliminate(k);
     }
-  }
-  void set(Index at, const Value& x) {
-    if constexpr (Parts == 1) {
-      data_[at] = x;
-    } else {
-      data_[at] = x.real();
-      data_[imaginary_ + at] = x.imag();
+    if (!a.isFinite()) return Outcome::kNotFinite;
+    a.store(data);
+    for (Index k = N; swapped && k-- > 0;) {
+      const Index pivot = pivots[static_cast<std::size_t>(k)];
+      for (Index i = 0; i < N && pivot != k; ++i) {
+        std::swap(data[k * N + i], data[pivot * N + i]);
+        if constexpr (Parts == 2) std::swap(data[(N + k) * N + i], data[(N + pivot) * N + i]);
+      }
     }
-  }
-  void swap(Index a, Index b) {
-    std::swap(data_[a], data_[b]);
-    if constexpr (Parts == 2) std::swap(data_[imaginary_ + a], data_[imaginary_ + b]);
-  }
-  /// A copy of one column, so that the numbers read and the numbers written cannot overlap.
-  struct Column {
-    alignas(64) std::array<Real, static_cast<std::size_t>(kSmallInverse)> re, im;
-  };
-  template <class Size>
-  void copy(Index from, Size n, Column& x) const {
-    std::copy_n(data_ + from, n, x.re.data());
-    if constexpr (Parts == 2) std::copy_n(data_ + imaginary_ + from, n, x.im.data());
-  }
-  /// n entries from `y` on -= f x.
-  template <class Size>
-  void subtract(Index y, const Column& x, const Value& f, Size n) {
-    Real* const re = data_ + y;
-    const Real* const from_re = x.re.data();
-    if constexpr (Parts == 1) {
-      for (Index i = 0; i < n; ++i) re[i] -= f * from_re[i];
-    } else {
-      Real* const im = re + imaginary_;
-      const Real* const from_im = x.im.data();
-      const Real fr = f.real(), fi = f.imag();
-      for (Index i = 0; i < n; ++i) re[i] -= fr * from_re[i] - fi * from_im[i];
-      for (Index i = 0; i < n; ++i) im[i] -= fr * from_im[i] + fi * from_re[i];
-    }
+    return Outcome::kSuccess;
   }
 
  private:
-  Real* data_;
-  Index imaginary_;
+  [[gnu::always_inline]] explicit InRegisters(const double* data) {
+    for (Index i = 0; i < kWidth; ++i) row_[i] = i;
+#pragma GCC unroll 8
+    for (Index j = 0; j < N; ++j) {
+      re_[j] = load(data + j * N);
+      if constexpr (Parts == 2) im_[j] = load(data + (N + j) * N);
+    }
+  }
+  [[gnu::always_inline]] void store(double* data) const {  // a column writes into the next, which comes later
+#pragma GCC unroll 8
+    for (Index j = 0; j < N; ++j) std::memcpy(data + j * N, &re_[j], sizeof(Numbers));
+    if constexpr (Parts == 2) {
+#pragma GCC unroll 8
+      for (Index j = 0; j < N; ++j) std::memcpy(data + (N + j) * N, &im_[j], sizeof(Numbers));
+    }
+  }
+  [[gnu::always_inline]] Numbers load(const double* column) const {
+    Numbers x;
+    std::memcpy(&x, column, sizeof(Numbers));
+    return row_ < N ? x : Numbers{};
+  }
+  [[gnu::always_inline]] static Numbers all(double x) { return x - Numbers{}; }
+  [[gnu::always_inline]] static Numbers magnitude(const Numbers& x) { return x < Numbers{} ? -x : x; }
+
+  // The row of the largest number in column k, from row k on; -1 if that number is not above 0. As a rule it is row k,
+  // and the processor goes on before it knows.
+  [[gnu::always_inline]] Index pivotOf(Index k) {
+    Numbers size = magnitude(re_[k]);
+    if constexpr (Parts == 2) size += magnitude(im_[k]);
+    not_finite_ += size * 0.0;
+    size = row_ < k ? all(-1) : size;
+    std::array<double, static_cast<std::size_t>(kWidth)> sizes, largest;
+    std::memcpy(sizes.data(), &size, sizeof size);
+    largest = sizes;
+    for (std::size_t width = kWidth / 2; width > 0; width /= 2) {
+      for (std::size_t i = 0; i < width; ++i) largest[i] = std::max(largest[i], largest[i + width]);
+    }
+    if (!(largest[0] > 0)) return -1;
+    for (Index i = k; i < N; ++i) {
+      if (sizes[static_cast<std::size_t>(i)] == largest[0]) return i;
+    }
+    return -1;
+  }
+  [[gnu::always_inline]] void swapRows(Index i, Index j) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const auto swap = [=](Numbers& x) {
+      const double first = x[a];
+      x[a] = x[b];
+      x[b] = first;
+    };
+#pragma GCC unroll 8
+    for (Index c = 0; c < N; ++c) {
+      swap(re_[c]);
+      if constexpr (Parts == 2) swap(im_[c]);
+    }
+  }
+  [[gnu::always_inline]] void eliminate(Index k) {
+    const Integers here = row_ == k;
+    if constexpr (Parts == 1) {
+      const double inverse = 1 / re_[k][k];
+      const Numbers rest = here ? Numbers{} : re_[k];
+#pragma GCC unroll 8
+      for (Index j = 0; j < N; ++j) {
+        const Numbers f = all(re_[j][k] * inverse);
+        if (j != k) re_[j] = here ? f : re_[j] - f * rest;
+      }
+      re_[k] = here ? all(inverse) : -inverse * rest;
+    } else {
+      const auto [a, b] = inverseOf(re_[k][k], im_[k][k]);
+      const Numbers re = here ? Numbers{} : re_[k], im = here ? Numbers{} : im_[k];
+#pragma GCC unroll 8
+      for (Index j = 0; j < N; ++j) {
+        const double x = re_[j][k], y = im_[j][k];
+        const Numbers f = all(x * a - y * b), g = all(x * b + y * a);
+        if (j == k) continue;
+        re_[j] = here ? f : re_[j] - (f * re - g * im);
+        im_[j] = here ? g : im_[j] - (f * im + g * re);
+      }
+      re_[k] = here ? all(a) : b * im - a * re;
+      im_[k] = here ? all(b) : -(a * im + b * re);
+    }
+  }
+  // Smith's division without a branch; detail::inverse would be a call that saves and restores all columns.
+  [[gnu::always_inline]] static std::array<double, 2> inverseOf(double re, double im) {
+    const bool wide = std::abs(re) >= std::abs(im);
+    const double larger = wide ? re : im, ratio = (wide ? im : re) / larger;
+    const double scale = 1 / (larger + ratio * (wide ? im : re));
+    return wide ? std::array{scale, -ratio * scale} : std::array{ratio * scale, -scale};
+  }
+  // Whether all numbers were finite when they were in the column of a pivot.
+  [[gnu::always_inline]] bool isFinite() const {
+    bool finite = true;
+    for (Index i = 0; i < N; ++i) finite = finite && not_finite_[i] == 0;
+    return finite;
+  }
+
+  static constexpr auto kColumns = static_cast<std::size_t>(N);
+  Numbers re_[kColumns], im_[kColumns];
+  Numbers not_finite_{};
+  Integers row_{};
 };
 
-/// Replaces the n x n matrix at `data` (n <= kSmallInverse) by its inverse: Gauss-Jordan with partial pivoting.
-/// Returns kSuccess, kSingular or kNotFinite; after a failure the entries are unspecified.
-template <int Parts, class Real, class Size>
-[[nodiscard]] Outcome invert(Real* data, Size n) {
-  using std::isfinite;
-  SplitMatrix<Real, Parts> a(data, n);
-  using Value = typename SplitMatrix<Real, Parts>::Value;
-  typename SplitMatrix<Real, Parts>::Column rest;
-  std::array<Index, static_cast<std::size_t>(kSmallInverse)> pivots;
-  for (Index k = 0; k < n; ++k) {
-    const Index column = k * n;
-    Index pivot = k;
-    Real largest(0), sum(0);
-    for (Index i = 0; i < n; ++i) {
-      const Real size = detail::magnitude(a.get(column + i));
-      sum += size;
-      if (i >= k && size > largest) largest = size, pivot = i;
-    }
-    if (!isfinite(sum)) return Outcome::kNotFinite;
-    if (largest == Real(0)) return Outcome::kSingular;
-    pivots[static_cast<std::size_t>(k)] = pivot;
-    for (Index j = 0; j < n && pivot != k; ++j) a.swap(j * n + k, j * n + pivot);
-    const Value inverse = detail::inverse(a.get(column + k));
-    a.set(column + k, Value(0));
-    a.copy(column, n, rest);
-    for (Index j = 0; j < n; ++j) {
-      if (j == k) continue;
-      const Value f = detail::product(a.get(j * n + k), inverse);
-      a.subtract(j * n, rest, f, n);  // rest[k] = 0
-      a.set(j * n + k, f);            // set last: the vector operation does not wait for this number
-    }
-    for (Index i = 0; i < n; ++i) a.set(column + i, detail::product(-a.get(column + i), inverse));
-    a.set(column + k, inverse);
-  }
-  for (Index k = n; k-- > 0;) {
-    const Index pivot = pivots[static_cast<std::size_t>(k)];
-    for (Index i = 0; i < n && pivot != k; ++i) a.swap(k * n + i, pivot * n + i);
-  }
-  return Outcome::kSuccess;
+}  // namespace detail
+
+/// Replaces the n x n matrix at the beginning of `data` by its inverse. Returns kSuccess, kSingular or kNotFinite;
+/// after a failure the entries are unspecified.
+template <int Parts, Index N>
+[[nodiscard]] Outcome invert(SmallMatrix& data, std::integral_constant<Index, N>) {
+  static_assert(N <= kSmallInverse);
+  return detail::InRegisters<Parts, N>::invert(data.data());
 }
 
 /// y := A y, A m x m by columns, m <= 2 kSmallInverse.

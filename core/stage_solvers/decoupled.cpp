@@ -150,7 +150,13 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
   };
   if constexpr (kInverts) {
     if (small_) {
-      return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) { return invertBlock(index, n); });
+      return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) {
+        if constexpr (std::is_same_v<decltype(n), Index>) {
+          return Outcome::kSuccess;  // no unknowns
+        } else {
+          return invertBlock(index, n);
+        }
+      });
     }
   }
   return block.size == 1 ? factorized(real_lu_[lu_index_[index]], re)
@@ -168,7 +174,7 @@ Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index, Size n) {
   const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
   const Complex m1 = h_ * block.mu;
   const Complex m2 = detail::product(m1, m1);
-  std::array<Real, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse)> split;
+  SmallMatrix split;
   Real *const re = split.data(), *const im = re + n * n;
   for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
   for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
@@ -177,11 +183,11 @@ Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index, Size n) {
     for (Index k = i; k < 2 * n * n; k += n) re[k] *= scales_[i];
   }
   if (block.size == 1) {
-    const Outcome outcome = invert<1>(re, n);
+    const Outcome outcome = invert<1>(split, n);
     std::copy_n(re, n * n, inverse);
     return outcome;
   }
-  const Outcome outcome = invert<2>(re, n);
+  const Outcome outcome = invert<2>(split, n);
   const Real divided = Real(1) / block.sigma;
   for (Index j = 0; j < n; ++j) {
     const Real *const P = split.data() + j * n, *const Q = P + n * n;

@@ -72,39 +72,69 @@ TEST(SmallSize, CopiesOfEverySize) {
   }
 }
 
-// Covers the unrolled and the general loops; the rows are ordered so that pivoting is needed.
-TEST(SmallInverse, RealAndComplexAgainstEigen) {
+// Calls f(n) with n = 1 .. kSmallInverse as constants.
+template <class F>
+void forEachSmallSize(const F& f) {
   for (Index n = 1; n <= kSmallInverse; ++n) {
-    Mat<double> re = Mat<double>::Random(n, n), im = Mat<double>::Random(n, n);
-    re(0, 0) = im(0, 0) = 0;
-    if (n == 1) re(0, 0) = -3;
-    Mat<std::complex<double>> both(n, n);
-    both.real() = re;
-    both.imag() = im;
-    for (const bool unrolled : {false, true}) {
+    withSize<kSmallInverse>(n, [&](auto size) {
+      if constexpr (!std::is_same_v<decltype(size), Index>) f(size);
+    });
+  }
+}
+
+template <int Parts, Index N>
+Outcome invertIn(Mat<double>& numbers, std::integral_constant<Index, N> n) {
+  SmallMatrix data;
+  data.fill(std::numeric_limits<double>::quiet_NaN());  // behind the matrix
+  std::copy_n(numbers.data(), numbers.size(), data.data());
+  const Outcome outcome = invert<Parts>(data, n);
+  std::copy_n(data.data(), numbers.size(), numbers.data());
+  return outcome;
+}
+
+// The rows are ordered so that pivoting is needed.
+TEST(SmallInverse, RealAndComplexAgainstEigen) {
+  forEachSmallSize([](auto size) {
+    constexpr Index n = decltype(size)::value;
+    for (int round = 0; round < 20; ++round) {
+      Mat<double> re = Mat<double>::Random(n, n), im = Mat<double>::Random(n, n);
+      if (n > 1 && round % 2 == 0) re(0, 0) = im(0, 0) = 0;
+      if (round == 3) im.setZero();  // both branches of the complex division
+      if (round == 5) im *= 1e-3;
+      Mat<std::complex<double>> both(n, n);
+      both.real() = re;
+      both.imag() = im;
       Mat<double> real = re, split(n, 2 * n);
       split << re, im;
-      const auto invertBoth = [&](auto size) {
-        EXPECT_EQ(invert<1>(real.data(), size), Outcome::kSuccess) << n;
-        EXPECT_EQ(invert<2>(split.data(), size), Outcome::kSuccess) << n;
-      };
-      unrolled ? withSize<8>(n, invertBoth) : invertBoth(n);
+      EXPECT_EQ(invertIn<1>(real, size), Outcome::kSuccess) << n;
+      EXPECT_EQ(invertIn<2>(split, size), Outcome::kSuccess) << n;
       const Mat<std::complex<double>> inverse = both.inverse();
       EXPECT_LT((real - re.inverse()).norm(), 1e-11 * re.inverse().norm()) << n;
       EXPECT_LT((split.leftCols(n) - inverse.real()).norm(), 1e-11 * inverse.norm()) << n;
       EXPECT_LT((split.rightCols(n) - inverse.imag()).norm(), 1e-11 * inverse.norm()) << n;
     }
-  }
+  });
 }
 
 TEST(SmallInverse, ReportsSingularMatrices) {
-  Mat<double> singular = Mat<double>::Ones(3, 3);
-  EXPECT_EQ(invert<1>(singular.data(), Index(3)), Outcome::kSingular);
-  for (Index at = 0; at < 9; ++at) {
-    Mat<double> bad = Mat<double>::Random(3, 3);
-    bad.data()[at] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(invert<1>(bad.data(), Index(3)), Outcome::kNotFinite) << at;
-  }
+  forEachSmallSize([](auto size) {
+    constexpr Index n = decltype(size)::value;
+    Mat<double> singular = n == 1 ? Mat<double>::Zero(n, n) : Mat<double>::Ones(n, n);
+    Mat<double> split(n, 2 * n);
+    split << singular, 2 * singular;
+    EXPECT_EQ(invertIn<1>(singular, size), Outcome::kSingular) << n;
+    EXPECT_EQ(invertIn<2>(split, size), Outcome::kSingular) << n;
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      for (Index at = 0; at < 2 * n * n; ++at) {
+        Mat<double> bad = Mat<double>::Random(n, 2 * n);
+        bad.data()[at] = value;
+        Mat<double> real = bad.leftCols(n);
+        const bool in_real = at < n * n;
+        EXPECT_EQ(invertIn<1>(real, size) == Outcome::kNotFinite, in_real) << n << " " << at;
+        EXPECT_EQ(invertIn<2>(bad, size), Outcome::kNotFinite) << n << " " << at;
+      }
+    }
+  });
 }
 
 TEST(SmallInverse, ProductsOfEverySize) {
