@@ -70,6 +70,8 @@ ColouredDirections ColouredDirections::dense(const Directions& group, Index n) {
   ColouredDirections all;
   all.directions = group;
   all.weights.reserve(group.size());
+  all.first_direction.reserve(group.size() + 1);
+  all.first_entry.reserve(group.size() + 1);
   all.entries.reserve(group.size() * static_cast<std::size_t>(n));
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> around_one(0.5, 1.5);

@@ -60,14 +60,18 @@ void Differentiator<Real>::forgetPattern() {
   forget();
   looked_ = false;
   check_tolerance_ = source_ == DerivativeSource::kAutomatic ? kDualCheck : kDifferenceCheck;
-  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) group->rows = RowSets(group->directions.size());
-  const bool dense = storage_ == Storage::kDense || (storage_ == Storage::kAutomatic && sizes_.n() < kSparseFrom);
+  const bool dense = storage_ == Storage::kDense || !detects();
+  const bool first = !pattern_;
   if (!dense) {
     pattern_ = nullptr;
-  } else if (!pattern_) {
+  } else if (first) {
     pattern_ = Pattern::dense(sizes_.n());
   }
-  if (!detects()) setPattern();
+  if (!detects()) {
+    if (first) setPattern();  // which never changes
+    return;
+  }
+  for (Group* group : {&at_a_, &at_zero_, &stiffness_}) group->rows = RowSets(group->directions.size());
 }
 
 /// Searches the pattern near p, and at p itself if it has been searched before. Returns whether it has grown.
