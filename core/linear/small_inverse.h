@@ -84,8 +84,8 @@ class InRegisters {
     for (Index i = 0; i < kWidth; ++i) row_[i] = i;
 #pragma GCC unroll 8
     for (Index j = 0; j < N; ++j) {
-      re_[j] = load(data + j * N);
-      if constexpr (Parts == 2) im_[j] = load(data + (N + j) * N);
+      load(data + j * N, re_[j]);
+      if constexpr (Parts == 2) load(data + (N + j) * N, im_[j]);
     }
   }
   [[gnu::always_inline]] void store(double* data) const {  // a column writes into the next, which comes later
@@ -96,21 +96,20 @@ class InRegisters {
       for (Index j = 0; j < N; ++j) std::memcpy(data + (N + j) * N, &im_[j], sizeof(Numbers));
     }
   }
-  [[gnu::always_inline]] Numbers load(const double* column) const {
-    Numbers x;
-    std::memcpy(&x, column, sizeof(Numbers));
-    return row_ < N ? x : Numbers{};
+  [[gnu::always_inline]] void load(const double* column, Numbers& to) const {
+    std::memcpy(&to, column, sizeof(Numbers));
+    to = row_ < N ? to : Numbers{};
   }
-  [[gnu::always_inline]] static Numbers all(double x) { return x - Numbers{}; }
-  [[gnu::always_inline]] static Numbers magnitude(const Numbers& x) { return x < Numbers{} ? -x : x; }
+  [[gnu::always_inline]] static void addMagnitude(const Numbers& x, Numbers& sum) { sum += x < Numbers{} ? -x : x; }
 
   // The row of the largest number in column k, from row k on; -1 if that number is not above 0. As a rule it is row k,
   // and the processor goes on before it knows.
   [[gnu::always_inline]] Index pivotOf(Index k) {
-    Numbers size = magnitude(re_[k]);
-    if constexpr (Parts == 2) size += magnitude(im_[k]);
+    Numbers size{};
+    addMagnitude(re_[k], size);
+    if constexpr (Parts == 2) addMagnitude(im_[k], size);
     not_finite_ += size * 0.0;
-    size = row_ < k ? all(-1) : size;
+    size = row_ < k ? Numbers{} - 1 : size;
     std::array<double, static_cast<std::size_t>(kWidth)> sizes, largest;
     std::memcpy(sizes.data(), &size, sizeof size);
     largest = sizes;
@@ -138,28 +137,29 @@ class InRegisters {
   }
   [[gnu::always_inline]] void eliminate(Index k) {
     const Integers here = row_ == k;
+    const Numbers zero{};  // x - zero: x in all rows
     if constexpr (Parts == 1) {
       const double inverse = 1 / re_[k][k];
-      const Numbers rest = here ? Numbers{} : re_[k];
+      const Numbers rest = here ? zero : re_[k];
 #pragma GCC unroll 8
       for (Index j = 0; j < N; ++j) {
-        const Numbers f = all(re_[j][k] * inverse);
+        const Numbers f = re_[j][k] * inverse - zero;
         if (j != k) re_[j] = here ? f : re_[j] - f * rest;
       }
-      re_[k] = here ? all(inverse) : -inverse * rest;
+      re_[k] = here ? inverse - zero : -inverse * rest;
     } else {
       const auto [a, b] = inverseOf(re_[k][k], im_[k][k]);
-      const Numbers re = here ? Numbers{} : re_[k], im = here ? Numbers{} : im_[k];
+      const Numbers re = here ? zero : re_[k], im = here ? zero : im_[k];
 #pragma GCC unroll 8
       for (Index j = 0; j < N; ++j) {
         const double x = re_[j][k], y = im_[j][k];
-        const Numbers f = all(x * a - y * b), g = all(x * b + y * a);
+        const Numbers f = (x * a - y * b) - zero, g = (x * b + y * a) - zero;
         if (j == k) continue;
         re_[j] = here ? f : re_[j] - (f * re - g * im);
         im_[j] = here ? g : im_[j] - (f * im + g * re);
       }
-      re_[k] = here ? all(a) : b * im - a * re;
-      im_[k] = here ? all(b) : -(a * im + b * re);
+      re_[k] = here ? a - zero : b * im - a * re;
+      im_[k] = here ? b - zero : -(a * im + b * re);
     }
   }
   // Smith's division without a branch; detail::inverse would be a call that saves and restores all columns.
