@@ -1,4 +1,4 @@
-// Values that a process makes once and keeps.
+// Values that a process keeps once they are made.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,13 @@
 
 namespace irk {
 
-/// Values by the numbers that they are made from: integrators of the same methods are made again and again, and what
-/// they compute from the coefficients costs more than many a step. Threads may share one.
+/// A cache of values by a key, such as the coefficients that they are computed from: integrators of the same methods
+/// are made again and again, and their schemes cost more than many steps. Threads may share it.
 template <class Value>
 class Kept {
  public:
-  /// The value of `key`; make() makes it in the first call. What make() throws is passed on, and nothing is kept.
+  /// Returns the value of `key`, made by make() if it is not there. Threads that ask at the same time may each call
+  /// make(); the first result is kept. An exception of make() is passed on, and nothing is kept.
   template <class Make>
   std::shared_ptr<const Value> of(const std::string& key, const Make& make) {
     {
@@ -31,13 +32,14 @@ class Kept {
   }
 
  private:
-  static constexpr std::size_t kMost = 500;  // a few megabytes
+  static constexpr std::size_t kMost = 500;  // then the cache is emptied; values in use live on
   std::mutex mutex_;
   std::unordered_map<std::string, std::shared_ptr<const Value>> values_;
 };
 
 /// Appends the bytes of a matrix or vector to a key.
-inline void appendKey(const Eigen::Ref<const Mat<double>>& numbers, std::string& key) {
+template <int Columns>
+void appendKey(const Eigen::Matrix<double, Eigen::Dynamic, Columns>& numbers, std::string& key) {
   key.append(reinterpret_cast<const char*>(numbers.data()), static_cast<std::size_t>(numbers.size()) * sizeof(double));
 }
 

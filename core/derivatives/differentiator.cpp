@@ -42,7 +42,9 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
   // Where no derivative of M a is kept, those along a are taken at a = 0 as well: they are M whatever a is, and one
   // group needs fewer evaluations than two.
   const bool all_at_zero = terms_.mass_without_vxz && terms_.mass_without_u;
-  for (const Direction& d : allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1)) {
+  const Directions all = allDirections(sizes_, matrices == Matrices::kAll ? 3 : 1);
+  (all_at_zero ? at_zero_ : at_a_).directions.reserve(all.size());
+  for (const Direction& d : all) {
     const bool vxz = d.matrix == 1 || (d.matrix == 0 && d.column >= rates);
     const bool at_zero = all_at_zero || (terms_.mass_without_vxz && vxz) || (terms_.mass_without_u && d.matrix == 2);
     (at_zero ? at_zero_ : once && d.matrix == 2 ? stiffness_ : at_a_).directions.push_back(d);
@@ -68,7 +70,7 @@ void Differentiator<Real>::forgetPattern() {
     pattern_ = Pattern::dense(sizes_.n());
   }
   if (!detects()) {
-    if (first) setPattern();  // which never changes
+    if (first) setPattern();  // the pattern stays dense
     return;
   }
   for (Group* group : {&at_a_, &at_zero_, &stiffness_}) group->rows = RowSets(group->directions.size());

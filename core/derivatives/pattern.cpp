@@ -26,6 +26,7 @@ bool sameShape(const std::shared_ptr<const Pattern>& a, const std::shared_ptr<co
 Directions allDirections(const Sizes& n, int matrices) {
   const Index columns[] = {n.n(), n.nu + n.nx, n.nu};
   Directions all;
+  all.reserve(static_cast<std::size_t>(std::accumulate(columns, columns + matrices, Index(0))));
   for (int matrix = 0; matrix < matrices; ++matrix) {
     for (Index j = 0; j < columns[matrix]; ++j) all.push_back({matrix, j});
   }

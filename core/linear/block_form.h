@@ -24,7 +24,7 @@ struct BlockForm {
 };
 
 /// The real Schur form: Q is orthogonal. Defined for every A. In double the process keeps forms by their A, as those of
-/// eigenForm.
+/// eigenForm: 0.3 MB each with 100 stages, some kB with 13.
 template <class Real>
 std::shared_ptr<const BlockForm<Real>> schurForm(const Mat<Real>& A);
 /// The real eigenbasis, with columns Re v, Im v for a complex eigenvector v. Throws Misuse for a defective A.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -16,17 +15,17 @@
 namespace irk {
 
 /// Blocks of the Newton matrix with up to this many unknowns are inverted. Measured for complex n = 8: the inverse
-/// takes as long as the factors (its loops become vector instructions), a product a sixth of the time of the
+/// takes no longer than the factors, since its loops are vector instructions, and a product a sixth of the time of the
 /// substitutions.
 inline constexpr Index kSmallInverse = 8;
 
 /// Scratch of `invert`: a real (Parts = 1) or complex (Parts = 2) n x n matrix by columns, without gaps; all real parts
-/// come before all imaginary parts. The room behind it is read and written, too.
+/// come before all imaginary parts. `invert` also reads and overwrites numbers behind it, whose values do not matter.
 using SmallMatrix = std::array<double, static_cast<std::size_t>(2 * kSmallInverse * kSmallInverse + kSmallInverse)>;
 
 namespace detail {
 
-/// A vector register with a column of at least Rows numbers, and one with integers.
+/// Vector registers of Width doubles and of Width integers.
 template <Index Width>
 struct RegisterOf;
 template <>
@@ -45,8 +44,8 @@ struct RegisterOf<8> {
   using Integers = std::int64_t __attribute__((vector_size(64)));
 };
 
-/// The columns of a small matrix in vector registers. A scalar loop would write single numbers of a column and then
-/// read all of it, and the processor waits for such numbers.
+/// The columns of a small matrix in vector registers. In memory, a vector load of a column that scalar instructions
+/// have just written would have to wait until they are complete.
 template <int Parts, Index N>
 class InRegisters {
   static constexpr Index kWidth = N <= 2 ? 2 : N <= 4 ? 4 : 8;
@@ -56,6 +55,7 @@ class InRegisters {
  public:
   /// Gauss-Jordan with partial pivoting; see irk::invert.
   [[gnu::always_inline]] static inline Outcome invert(double* data) {
+    static_assert((Parts * N - 1) * N + kWidth <= static_cast<Index>(std::tuple_size_v<SmallMatrix>));
     InRegisters a(data);
     bool swapped = false;
     std::array<Index, static_cast<std::size_t>(N)> pivots;
@@ -88,7 +88,7 @@ class InRegisters {
       if constexpr (Parts == 2) load(data + (N + j) * N, im_[j]);
     }
   }
-  [[gnu::always_inline]] void store(double* data) const {  // a column writes into the next, which comes later
+  [[gnu::always_inline]] void store(double* data) const {  // a store reaches into the next column, which follows
 #pragma GCC unroll 8
     for (Index j = 0; j < N; ++j) std::memcpy(data + j * N, &re_[j], sizeof(Numbers));
     if constexpr (Parts == 2) {
@@ -102,8 +102,8 @@ class InRegisters {
   }
   [[gnu::always_inline]] static void addMagnitude(const Numbers& x, Numbers& sum) { sum += x < Numbers{} ? -x : x; }
 
-  // The row of the largest number in column k, from row k on; -1 if that number is not above 0. As a rule it is row k,
-  // and the processor goes on before it knows.
+  // The row of the largest number in column k, from row k on; -1 if that number is not above 0. Usually it is row k,
+  // which the processor's branch prediction learns.
   [[gnu::always_inline]] Index pivotOf(Index k) {
     Numbers size{};
     addMagnitude(re_[k], size);
@@ -137,7 +137,7 @@ class InRegisters {
   }
   [[gnu::always_inline]] void eliminate(Index k) {
     const Integers here = row_ == k;
-    const Numbers zero{};  // x - zero: x in all rows
+    const Numbers zero{};  // x - zero copies x to all rows; a sum would lose -0
     if constexpr (Parts == 1) {
       const double inverse = 1 / re_[k][k];
       const Numbers rest = here ? zero : re_[k];

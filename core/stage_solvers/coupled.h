@@ -14,7 +14,6 @@ class Coupled final : public StageSolver<Real> {
   explicit Coupled(const StageSolverSetup<Real>& setup);
   Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
   void solve(Eigen::Ref<Mat<Real>> rhs) override;
-  bool stagewise() const override { return true; }
 
  private:
   StageSolverSetup<Real> setup_;

@@ -20,10 +20,9 @@ namespace irk {
 template <class Real, template <class> class Lu>
 class Decoupled final : public StageSolver<Real> {
  public:
-  explicit Decoupled(const StageSolverSetup<Real>& setup);  ///< with a form
+  explicit Decoupled(const StageSolverSetup<Real>& setup);  ///< setup.form must exist
   Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;
   void solve(Eigen::Ref<Mat<Real>> rhs) override;
-  bool stagewise() const override { return false; }
   bool solveReal(const Real& mu, Real* x) override;
 
  private:

@@ -44,9 +44,6 @@ class StageSolver {
   /// In place: right-hand side (scaled rows) to solution, n x s, column j = stage j.
   virtual void solve(Eigen::Ref<Mat<Real>> rhs) = 0;
 
-  /// Whether `factorize` takes one linearization per stage.
-  virtual bool stagewise() const = 0;
-
   /// Solves with D0 + h mu D1 + h^2 mu^2 D2, x of n entries in place, where that system of a real mu is
   /// one of those it has factorized; else false, and x as it was.
   [[nodiscard]] virtual bool solveReal(const Real& mu, Real* x) {

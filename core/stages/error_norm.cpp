@@ -37,8 +37,8 @@ template <class F>
   return sum;
 }
 
-// sum of weight_i d_ij^2 over n rows, which the compiler knows, and `count` columns. Rows have sums of their own for
-// the same reason.
+// sum of weight_i d_ij^2 over N rows and `count` columns. Each row has its own sum, so that additions do not wait for
+// each other.
 template <class Real, Index N>
 [[gnu::always_inline]] inline double sumOfRows(const Real* d, const double* weight, std::integral_constant<Index, N>,
                                                Index count) {

@@ -83,9 +83,9 @@ std::shared_ptr<const Structure<Real>> structureOf(const Tableau<Real>& tableau)
 template <class Real>
 std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau) {
   const auto orders = {tableau.order, tableau.stage_order};
-  std::string names = tableau.id + '\n' + tableau.family;
-  for (const int order : orders) names += '\n' + std::to_string(order);
-  return kept<Scheme<Real>>(tableau, names + '\n');
+  std::string names = std::to_string(tableau.id.size()) + ' ' + tableau.id + tableau.family + '\n';
+  for (const int order : orders) names += std::to_string(order) + '\n';
+  return kept<Scheme<Real>>(tableau, names);
 }
 
 template std::shared_ptr<const Structure<double>> structureOf(const Tableau<double>&);

@@ -58,7 +58,7 @@ struct Scheme : Structure<Real> {
   Mat<Real> implicitA() const { return A.bottomRightCorner(s - first, s - first); }
 };
 
-/// The process keeps schemes and structures in double with up to this many stages.
+/// The process keeps schemes and structures in double with up to this many stages (60 kB each).
 inline constexpr Index kMostKeptStages = 30;
 
 /// The scheme of a tableau. Threads may share it.

@@ -21,9 +21,9 @@ constexpr double kAmplificationLimit = 1e4;
 // Past steps of up to this many stages, as variable order has them, need no allocation.
 constexpr Index kReservedStages = 13;
 
-/// The collocation polynomial of the step before: W V^-T P, with the Legendre polynomials P at the new stages. W V^-T,
-/// the polynomial's coefficients, comes first where it is cheaper: with few unknowns and many stages. Otherwise V^-T P
-/// does, which also serves for the next steps of the same size.
+/// The collocation polynomial of the step before: W V^-T P, with the Legendre polynomials P at the new stages. With s
+/// stages before and after, V^-T P costs s^3 products where the step size has changed, and W times it n s^2. Where n is
+/// at most s / 2, the polynomial's coefficients W V^-T are computed first: 2 n s^2 in all.
 template <class Real>
 class Extrapolated : public StagePredictor<Real> {
  public:

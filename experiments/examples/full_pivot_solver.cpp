@@ -34,8 +34,6 @@ class FullPivotSolver final : public irk::StageSolver<double> {
     rhs.reshaped() = lu_.solve(flat);
   }
 
-  bool stagewise() const override { return true; }
-
  private:
   irk::StageSolverSetup<double> setup_;
   irk::Vec<double> scales_;

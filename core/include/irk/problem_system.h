@@ -202,8 +202,8 @@ class ProblemSystem final : public System<Real> {
   template <class T>
   using FewOrMany = boost::container::small_vector<T, kFew>;
 
-  // Not inlined: elsewhere the compiler would contract other products and sums, and the bits would depend on the number
-  // of stages per call.
+  // Neither is inlined: the compiler would contract other products and sums at each place, and the bits would depend on
+  // the number of stages per call.
   [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const { evaluateAt(Level::kFormulated, p, r); }
   [[gnu::noinline]] void atStage(const StagePoints<Real>& at, Index i, Real* r) const {
     evaluateAt(Level::kFormulated, at[i], r);

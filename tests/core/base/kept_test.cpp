@@ -1,10 +1,11 @@
-// What a process makes once and keeps.
+// Values that a process keeps.
 #include "core/base/kept.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "core/linear/block_form.h"
 #include "core/stages/scheme.h"
 #include "tests/core/support.h"
 
@@ -26,6 +27,7 @@ TEST(Kept, ValuesOutliveTheirPlace) {
   const auto first = kept.of("first", [] { return std::string("value"); });
   for (int i = 0; i < 1200; ++i) static_cast<void>(kept.of(std::to_string(i), [] { return std::string("other"); }));
   EXPECT_EQ(*first, "value");
+  EXPECT_EQ(*kept.of("first", [] { return std::string("made anew"); }), "made anew");
 }
 
 TEST(Kept, KeepsNothingAfterAnException) {
@@ -64,9 +66,25 @@ TEST(Kept, SchemesDifferWhereAnythingInTheTableauDiffers) {
 
 TEST(Kept, StructuresFollowTheCoefficients) {
   Tableau<double> tableau = makeTableau<double>("gauss_2");
-  EXPECT_TRUE(structureOf(tableau)->regular);
+  const auto structure = structureOf(tableau);
+  EXPECT_TRUE(structure->regular);
+  EXPECT_EQ(structureOf(tableau), structure);
   tableau.A.row(1) = tableau.A.row(0);
   EXPECT_FALSE(structureOf(tableau)->regular);
+}
+
+TEST(Kept, FormsAreShared) {
+  const Mat<double> A = makeTableau<double>("radau_iia_4").A;
+  EXPECT_EQ(schurForm(A), schurForm(A));
+  EXPECT_EQ(eigenForm(A), eigenForm(A));
+}
+
+TEST(Kept, SchemesOfManyStagesAreNotKept) {
+  const Tableau<double> most = makeTableau<double>("gauss_30"), more = makeTableau<double>("gauss_31");
+  ASSERT_EQ(most.stages(), kMostKeptStages);
+  EXPECT_EQ(schemeOf(most), schemeOf(most));
+  EXPECT_NE(schemeOf(more), schemeOf(more));
+  EXPECT_EQ(schemeOf(more)->A, more.A);
 }
 
 }  // namespace
