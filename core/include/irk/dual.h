@@ -57,6 +57,12 @@ struct DualNumber {
   template <class S>
   requires(detail::ConstantFor<S, T> && !std::is_same_v<S, T>) DualNumber(const S& s)
       : value(detail::constant(s)), d{} {}  // NOLINT
+  DualNumber(const DualNumber& b) : DualNumber(b, std::make_index_sequence<N>()) {}
+  DualNumber& operator=(const DualNumber& b) {
+    value = b.value;
+    copyDirections(b, std::make_index_sequence<N>());
+    return *this;
+  }
   DualNumber(T v, T rate) requires(N == 1) : value(std::move(v)), d{std::move(rate)} {}
 
   /// The chain rule: f(x) for this number x, with value f and slope = f'(x).
@@ -72,8 +78,16 @@ struct DualNumber {
     return r;
   }
 
-  DualNumber& operator+=(const DualNumber& b) { return *this = *this + b; }
-  DualNumber& operator-=(const DualNumber& b) { return *this = *this - b; }
+  DualNumber& operator+=(const DualNumber& b) {
+    value += b.value;
+    for (std::size_t i = 0; i < N; ++i) d[i] += b.d[i];
+    return *this;
+  }
+  DualNumber& operator-=(const DualNumber& b) {
+    value -= b.value;
+    for (std::size_t i = 0; i < N; ++i) d[i] -= b.d[i];
+    return *this;
+  }
   DualNumber& operator*=(const DualNumber& b) { return *this = *this * b; }
   DualNumber& operator/=(const DualNumber& b) { return *this = *this / b; }
 
@@ -242,6 +256,15 @@ struct DualNumber {
     DualNumber r(y);
     for (std::size_t i = 0; i < N; ++i) r.d[i] = (a.value * a.d[i] + b.value * b.d[i]) / y;
     return r;
+  }
+
+ private:
+  // Copies number by number: compilers copy the whole by a call, which takes longer and keeps it in memory.
+  template <std::size_t... I>
+  DualNumber(const DualNumber& from, std::index_sequence<I...>) : value(from.value), d{from.d[I]...} {}
+  template <std::size_t... I>
+  void copyDirections(const DualNumber& from, std::index_sequence<I...>) {
+    ((d[I] = from.d[I]), ...);
   }
 };
 
