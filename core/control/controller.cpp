@@ -1,6 +1,7 @@
 #include "core/control/controller.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace irk {
@@ -102,6 +103,13 @@ class PaperWithoutGamma final : public PaperController {
   PaperWithoutGamma(const StepOptions& o, int order) : PaperController(o, order, {.gamma = false}) {}
 };
 
+// x^(1/degree), x >= 0. Square roots are faster than a power.
+double root(double x, int degree) {
+  if (!std::has_single_bit(static_cast<unsigned>(degree))) return std::pow(x, 1.0 / degree);
+  for (; degree > 1; degree /= 2) x = std::sqrt(x);
+  return x;
+}
+
 /// Gustafsson's predictive controller (1994), HW II (IV.8.25). It assumes a constant ratio of successive errors:
 ///   h_new = 0.9 h eps^(-1/(p+1)) min(1, (h_i / h_{i-1}) (eps_{i-1} / eps_i)^(1/(p+1))).
 /// The size is kept if it would grow by less than a fifth, because new factors cost more than that gains; with
@@ -109,23 +117,23 @@ class PaperWithoutGamma final : public PaperController {
 class PredictiveController final : public StepController {
  public:
   PredictiveController(const StepOptions& options, int order)
-      : h_min_(options.h_min), exponent_(1.0 / (order + 1)), least_root_(std::pow(kErrorFloor, exponent_)) {}
+      : h_min_(options.h_min), degree_(order + 1), least_root_(root(kErrorFloor, degree_)) {}
 
   StepDecision decide(double error, double h) override {
     const double eps = std::max(error, kTinyError);
-    const double root = std::pow(eps, exponent_);
-    double factor = kSafety / root;
+    const double now = root(eps, degree_);
+    double factor = kSafety / now;
     if (error > 1) {
       rejected_ = true;
       return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
     }
-    if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / root);
+    if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / now);
     // If smaller steps did not reduce the error, the next one will not either. Without this rule an error of round-off,
     // or of the step's start, would shrink the steps without end.
-    futile_ = last_h_ > h && root >= kFutile * last_root_ ? futile_ + 1 : 0;
+    futile_ = last_h_ > h && now >= kFutile * last_root_ ? futile_ + 1 : 0;
     if (futile_ >= kFutileSteps) factor = std::max(factor, 1.0);
     last_h_ = h;
-    last_root_ = std::max(root, least_root_);
+    last_root_ = std::max(now, least_root_);
     factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
     rejected_ = false;
     const double grown = factor < 1 || factor > keep_up_to_ ? h * factor : h;
@@ -153,9 +161,9 @@ class PredictiveController final : public StepController {
     keep_up_to_ = std::clamp(kKeepUpTo + kKeepPerStep * (steps - 1), kKeepUpTo, kKeepAtMost);
   }
   void changeOrder(int order, double error, double h) override {
-    exponent_ = 1.0 / (order + 1);
-    least_root_ = std::pow(kErrorFloor, exponent_);
-    last_root_ = std::max(std::pow(std::max(error, 0.0), exponent_), least_root_);
+    degree_ = order + 1;
+    least_root_ = root(kErrorFloor, degree_);
+    last_root_ = std::max(root(std::max(error, 0.0), degree_), least_root_);
     last_h_ = h;
   }
 
@@ -169,14 +177,15 @@ class PredictiveController final : public StepController {
   static constexpr double kKeepPerStep = 0.4;                // added per step that factors cost above one
   // Factor after the second failure before any step is accepted: a first guess may be off by orders of magnitude.
   static constexpr double kFarOff = 0.1;
-  static constexpr double kFutile = 0.98;  // of error^exponent of the step before
+  static constexpr double kFutile = 0.98;  // of the error's root of the step before
   static constexpr int kFutileSteps = 40;  // in a row
   static constexpr int kBarredSteps = 10;
 
   double h_min_;
   double keep_up_to_ = kKeepUpTo;
-  double exponent_, least_root_;       // 1 / (p + 1), kErrorFloor^exponent_
-  double last_root_ = 0, last_h_ = 0;  // of the last step: error^exponent, size
+  int degree_;                         // p + 1, of the roots
+  double least_root_;                  // of kErrorFloor
+  double last_root_ = 0, last_h_ = 0;  // of the last step: the root of its error, size
   double failed_h_ = 0;
   int first_failures_ = 0;
   int barred_ = 0;
