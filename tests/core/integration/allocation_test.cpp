@@ -77,9 +77,10 @@ TEST(Allocation, StepsAllocateNothing) {
         IntegratorOptions o = adaptive(1e-5);
         o.solver = solver.value;
         o.newton.kind = newton.value;
-        o.newton.residual_tolerance = 1e-3;  // `paper_rule` fails below what round-off allows
+        o.newton.residual_tolerance = 3e-3;  // `paper_rule` fails at 1e-3: round-off with 20 stages
         const std::string what = std::string(solver.id) + " " + std::string(newton.id) + " " + method;
-        EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), tableau, o), 0) << what;
+        SCOPED_TRACE(what);
+        EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), tableau, o), 0);
       }
     }
   }
