@@ -182,6 +182,31 @@ class InRegisters {
   Integers row_{};
 };
 
+/// The inverse of a 2 x 2 matrix (a, c; b, d by columns) is (d, -c; -b, a) / det, which is as accurate as elimination.
+/// Returns false where det or its square may not be represented; the matrix is then unchanged.
+template <int Parts>
+[[gnu::always_inline]] inline bool invertTwo(double* data) {
+  constexpr double kLeast = 1e-140, kMost = 1e140;
+  const double a = data[0], c = data[1], b = data[2], d = data[3];
+  if constexpr (Parts == 1) {
+    const double det = a * d - b * c;
+    if (!(std::abs(det) > kLeast && std::abs(det) < kMost)) return false;
+    const double f = 1 / det;
+    data[0] = d * f, data[1] = -c * f, data[2] = -b * f, data[3] = a * f;
+  } else {
+    double* const imag = data + 4;
+    const double ai = imag[0], ci = imag[1], bi = imag[2], di = imag[3];
+    const double re = (a * d - ai * di) - (b * c - bi * ci), im = (a * di + ai * d) - (b * ci + bi * c);
+    const double size = std::abs(re) + std::abs(im);
+    if (!(size > kLeast && size < kMost)) return false;
+    const double square = 1 / (re * re + im * im);
+    const double f = re * square, g = -im * square;
+    data[0] = d * f - di * g, data[1] = ci * g - c * f, data[2] = bi * g - b * f, data[3] = a * f - ai * g;
+    imag[0] = d * g + di * f, imag[1] = -(c * g + ci * f), imag[2] = -(b * g + bi * f), imag[3] = a * g + ai * f;
+  }
+  return true;
+}
+
 }  // namespace detail
 
 /// Replaces the n x n matrix at the beginning of `data` by its inverse. Returns kSuccess, kSingular or kNotFinite;
@@ -189,6 +214,9 @@ class InRegisters {
 template <int Parts, Index N>
 [[nodiscard]] Outcome invert(SmallMatrix& data, std::integral_constant<Index, N>) {
   static_assert(N <= kSmallInverse);
+  if constexpr (N == 2) {
+    if (detail::invertTwo<Parts>(data.data())) return Outcome::kSuccess;
+  }
   return detail::InRegisters<Parts, N>::invert(data.data());
 }
 

@@ -116,6 +116,26 @@ TEST(SmallInverse, RealAndComplexAgainstEigen) {
   });
 }
 
+// A determinant may be far outside of the numbers of the matrix, or not be representable.
+TEST(SmallInverse, IsRightForAnyScale) {
+  forEachSmallSize([](auto size) {
+    constexpr Index n = decltype(size)::value;
+    Mat<double> split = Mat<double>::Random(n, 2 * n);
+    for (Index i = 0; i < n; ++i) split(i, i) += 3;
+    Mat<double> real = split.leftCols(n);
+    Mat<double> inverse = real, split_inverse = split;
+    ASSERT_EQ(invertIn<1>(inverse, size), Outcome::kSuccess);
+    ASSERT_EQ(invertIn<2>(split_inverse, size), Outcome::kSuccess);
+    for (const double scale : {1e-250, 1e-150, 1e-80, 1e-20, 1e20, 1e80, 1e150, 1e250}) {
+      Mat<double> scaled = scale * real, split_scaled = scale * split;
+      EXPECT_EQ(invertIn<1>(scaled, size), Outcome::kSuccess) << n << " " << scale;
+      EXPECT_EQ(invertIn<2>(split_scaled, size), Outcome::kSuccess) << n << " " << scale;
+      EXPECT_LT((scale * scaled - inverse).norm(), 1e-13 * inverse.norm()) << n << " " << scale;
+      EXPECT_LT((scale * split_scaled - split_inverse).norm(), 1e-13 * split_inverse.norm()) << n << " " << scale;
+    }
+  });
+}
+
 TEST(SmallInverse, ReportsSingularMatrices) {
   forEachSmallSize([](auto size) {
     constexpr Index n = decltype(size)::value;
