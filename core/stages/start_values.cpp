@@ -81,7 +81,10 @@ Extrapolated<Real>::Extrapolated(const Scheme<Real>& scheme) : scheme_(scheme) {
 template <class Real>
 void Extrapolated<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) {
   const Index n = past.W.rows();
-  Weights& w = weights(past, Real((from.t - past.t) / past.h), Real(h / past.h));
+  // The difference of two times is not exactly h, and weights are kept for equal offsets.
+  const bool follows = from.t == past.t + past.h;
+  const Real offset = follows ? Real(1) : Real((from.t - past.t) / past.h);
+  Weights& w = weights(past, offset, Real(h / past.h));
   if (!coefficientsFirst(past)) return inlinedProduct(past.W.data(), n, n, w.matrix.view(), W.data(), n);
   const MatView<Real> basis = w.basis.view();
   MatView<Real> coefficients = coefficients_.resize(n, basis.rows());
