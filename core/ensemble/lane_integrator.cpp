@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <deque>
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,7 +21,7 @@ class LaneIntegrator::Run {
     requireLaneMethod(scheme_);
     mu_ = EmbeddedEstimate<double>::weight(tableau);
     const EstimateUse use(scheme_);
-    for (std::size_t i = 0; i < kLanes; ++i) runs_.emplace_back(use, options_);
+    for (auto& run : runs_) run = std::make_unique<LaneRun>(use, options_);
   }
 
   void integrate(const Ensemble& ensemble, const Next& next, const Done& done, const std::function<Outcome()>& stop) {
@@ -66,7 +67,7 @@ class LaneIntegrator::Run {
     active_.set(i, false);
     past_.set(i, false);
     while (const std::optional<std::size_t> index = (*next_)()) {
-      LaneRun& run = runs_[i];
+      LaneRun& run = *runs_[i];
       EnsembleMember member = ensemble_->member(*index);
       requireLaneSystem(*member.system, vectors_ ? &vectors_->sizes : nullptr);
       if (!vectors_) vectors_.emplace(scheme_, *member.system, options_, mu_);
@@ -81,7 +82,7 @@ class LaneIntegrator::Run {
     }
   }
   void begin(std::size_t i) {
-    const LaneRun& run = runs_[i];
+    const LaneRun& run = *runs_[i];
     active_.set(i, true);
     changed_ = true;
     at_[i] = run.index();
@@ -104,7 +105,7 @@ class LaneIntegrator::Run {
   }
 
   void end(std::size_t i, Outcome outcome) {
-    LaneRun& run = runs_[i];
+    LaneRun& run = *runs_[i];
     counters_.moveTo(i, run.counters());
     const std::size_t index = run.index();
     active_.set(i, false);
@@ -115,7 +116,7 @@ class LaneIntegrator::Run {
   void plan() {
     forEachLane(active_, [this](std::size_t i) {
       while (active_[i]) {
-        const Outcome outcome = runs_[i].plan(vectors_->from.t[i]);
+        const Outcome outcome = runs_[i]->plan(vectors_->from.t[i]);
         if (outcome == Outcome::kSuccess) break;
         end(i, outcome);
         load(i);
@@ -126,28 +127,28 @@ class LaneIntegrator::Run {
 
   void attempt() {
     auto& [sizes, powers, from, to, norm, stages, newton, W] = *vectors_;
-    const Lanes h = Lanes::each([this](std::size_t i) { return active_[i] ? runs_[i].h() : 1.0; });
+    const Lanes h = Lanes::each([this](std::size_t i) { return active_[i] ? runs_[i]->h() : 1.0; });
     norm.update(from, h);
     stages.begin(from, h);
     stages.predict(past_, W);
-    const Lanes kappa = Lanes::each([&, &n = newton](std::size_t i) { return n.kappa(runs_[i].stepsAccepted()); });
+    const Lanes kappa = Lanes::each([&, &n = newton](std::size_t i) { return n.kappa(runs_[i]->stepsAccepted()); });
     const LaneSolved solved = newton.solve(stages, norm, from, h, active_, kappa, W, counters_);
     stages.finish(W, to);
     stages.keep(solved.solved, W);
     past_ = solved.solved;
     constexpr double kNever = std::numeric_limits<double>::infinity();
-    const Lanes again = Lanes::each([&](std::size_t i) { return runs_[i].filtersAgain() ? 1.0 : kNever; });
+    const Lanes again = Lanes::each([&](std::size_t i) { return runs_[i]->filtersAgain() ? 1.0 : kNever; });
     const Lanes error =
         stages.estimate(W, norm, newton.filterMatrix(solved.solved, counters_), again, solved.solved, counters_);
     LaneMask accepted;
     forEachLane(active_, [&](std::size_t i) {
-      const bool known = solved.solved[i] && std::isfinite(error[i]);
-      if (known) {
-        const auto before = [&] { return vectors_->from.get(i, vectors_->sizes); };
-        const auto after = [&] { return vectors_->to.get(i, vectors_->sizes); };
-        if (runs_[i].decide(error[i], vectors_->from.t[i], solved.round_off[i], before, after)) accepted.set(i, true);
+      LaneRun& run = *runs_[i];
+      if (solved.solved[i] && std::isfinite(error[i])) {
+        double judged = run.judge(error[i], vectors_->from.t[i]);
+        if (run.mayBeAtRest(judged)) judged = run.judgeRest(judged, state(i), vectors_->to.get(i, vectors_->sizes));
+        accepted.set(i, run.decide(error[i], judged, solved.round_off[i]));
       } else {
-        runs_[i].failed(solved.solved[i] ? Outcome::kNotFinite : solved.outcome[i]);
+        run.failed(solved.solved[i] ? Outcome::kNotFinite : solved.outcome[i]);
         past_.set(i, false);
       }
     });
@@ -162,9 +163,10 @@ class LaneIntegrator::Run {
     assign(accepted, to.w.data(), from.w.data(), from.w.size());
     assign(accepted, to.carry.data(), from.carry.data(), from.carry.size());
     forEachLane(accepted, [&](std::size_t i) {
-      from.t.set(i, runs_[i].newTime(from.t[i]));
-      const Outcome outcome = runs_[i].afterStep();
-      if (outcome == Outcome::kSuccess && !runs_[i].isOver(from.t[i])) return;
+      LaneRun& run = *runs_[i];
+      from.t.set(i, run.newTime(from.t[i]));
+      const Outcome outcome = run.afterStep();
+      if (outcome == Outcome::kSuccess && !run.isOver(from.t[i])) return;
       end(i, outcome);
       load(i);
     });
@@ -173,7 +175,7 @@ class LaneIntegrator::Run {
   IntegratorOptions options_;
   Scheme<double> scheme_;
   double mu_ = 0;
-  std::deque<LaneRun> runs_;  // kLanes
+  std::array<std::unique_ptr<LaneRun>, kLanes> runs_;
   const Ensemble* ensemble_ = nullptr;
   const Next* next_ = nullptr;
   const Done* done_ = nullptr;

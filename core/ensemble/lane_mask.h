@@ -2,6 +2,9 @@
 // them.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "irk/lanes.h"
 
 #ifdef __AVX512DQ__
@@ -41,7 +44,10 @@ inline LaneMask equal(const Lanes& a, const Lanes& b) { return {a.v == b.v}; }
 inline LaneMask finite(const Lanes& a) { return {a.v * 0.0 == Lanes::Vector{}}; }
 
 inline Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no) { return Lanes(mask.v ? yes.v : no.v); }
-inline Lanes abs(const Lanes& a) { return Lanes(a.v < 0 ? -a.v : a.v); }
+inline Lanes abs(const Lanes& a) {
+  constexpr std::int64_t kAllButSign = std::numeric_limits<std::int64_t>::max();
+  return Lanes(reinterpret_cast<Lanes::Vector>(reinterpret_cast<LaneMask::Vector>(a.v) & kAllButSign));
+}
 inline Lanes largest(const Lanes& a, const Lanes& b) { return Lanes(a.v < b.v ? b.v : a.v); }
 inline Lanes smallest(const Lanes& a, const Lanes& b) { return Lanes(b.v < a.v ? b.v : a.v); }
 

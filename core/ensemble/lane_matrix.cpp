@@ -1,5 +1,6 @@
 #include "core/ensemble/lane_matrix.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/small_size.h"
@@ -15,28 +16,16 @@ constexpr double kSameEigenvalue = 1e-12;
 LaneJacobian::LaneJacobian(const Sizes& n)
     : sizes(n), d0(count(n.n() * n.n())), d1(count(n.n() * n.n())), d2(count(n.n() * n.n())) {}
 
-void laneProduct(const Lanes* in, Index rows, Index leading, const Mat<double>& C, Lanes* out) {
-  const Index columns = C.cols();
-  withSize<5>(C.rows(), [&](auto s) {
-    for (Index j = 0; j < columns; ++j) {
-      const double* const c = C.data() + j * s;
-      for (Index i = 0; i < rows; ++i) {
-        Lanes sum = c[0] * in[i];
-        for (Index m = 1; m < s; ++m) sum += c[m] * in[i + m * leading];
-        out[i + j * rows] = sum;
-      }
-    }
-  });
-}
-
 LaneMatrix::LaneMatrix(const Sizes& sizes, const std::vector<int>& row_powers, const Mat<double>& A, double filter)
     : n_(sizes.n()),
       s_(A.rows()),
       row_powers_(row_powers),
+      scaled_(std::any_of(row_powers.begin(), row_powers.end(), [](int power) { return power > 0; })),
+      scales_(count(n_), 1.0),
       filter_mu_(filter),
       own_filter_(true),
-      y_(count(n_ * s_)),
-      eta_(count(n_)) {
+      columns_(count(s_)),
+      y_(count(n_ * s_)) {
   const auto kept = eigenForm(A);
   const BlockForm<double>& form = *kept;
   to_basis_ = form.Q_inverse.transpose();
@@ -45,7 +34,10 @@ LaneMatrix::LaneMatrix(const Sizes& sizes, const std::vector<int>& row_powers, c
   for (const auto& block : form.blocks) {
     const bool pair = block.size == 2;
     blocks_.push_back({block.start, block.mu, pair ? complex_.size() : real_.size(), pair});
+    const Index first = block.start * n_;
+    columns_[count(block.start)] = {first, pair ? 2 : 1};
     if (pair) {
+      columns_[count(block.start + 1)] = {first + 1, 2};
       complex_.emplace_back(n_);
       // y1 + i sigma y2 diagonalizes the block: sigma moves into the basis.
       to_basis_.col(block.start + 1) *= block.sigma;
@@ -60,67 +52,61 @@ LaneMatrix::LaneMatrix(const Sizes& sizes, const std::vector<int>& row_powers, c
   real_.emplace_back(n_);
 }
 
-// Calls set(i, j, re, im) for the entries of D0 + m D1 + m^2 D2, m = h mu.
-template <class Set>
-void LaneMatrix::fill(const LaneJacobian& D, const Lanes& h, const std::complex<double>& mu, const Set& set) const {
+// Factorizes D0 + m D1 + m^2 D2 with scaled rows, m = h mu. D2 is 0 unless `has_u`.
+template <class Value, class SecondOrder>
+LaneFactors LaneMatrix::factorize(LaneLu<Value>& lu, const LaneJacobian& D, const Lanes& h,
+                                  const std::complex<double>& mu, const LaneMask& which, SecondOrder has_u) const {
   const Lanes re = h * mu.real(), im = h * mu.imag();
   const Lanes re2 = re * re - im * im, im2 = 2.0 * (re * im);
-  const Index rates = D.sizes.nu + D.sizes.nx;
-  const Lanes once = 1.0 / h;
-  for (Index j = 0; j < n_; ++j) {
-    for (Index i = 0; i < n_; ++i) {
-      const auto k = count(i + j * n_);
-      Lanes x = D.d0[k], y = 0.0;
-      if (j < rates) x += re * D.d1[k], y += im * D.d1[k];
-      if (j < D.sizes.nu) x += re2 * D.d2[k], y += im2 * D.d2[k];
-      const int power = row_powers_[count(i)];
-      if (power > 0) {
-        const Lanes scale = powerOf(once, power);
-        x *= scale;
-        y *= scale;
-      }
-      set(i, j, x, y);
+  return lu.factorize(which, [&, n = n_, scaled = scaled_](Index i, Index j) -> Value {
+    const auto k = count(i + j * n);
+    if constexpr (std::is_same_v<Value, Lanes>) {
+      Lanes x = D.d0[k] + re * D.d1[k];
+      if constexpr (has_u) x += re2 * D.d2[k];
+      return scaled ? scales_[count(i)] * x : x;
+    } else {
+      ComplexLanes x{D.d0[k] + re * D.d1[k], im * D.d1[k]};
+      if constexpr (has_u) x.re += re2 * D.d2[k], x.im += im2 * D.d2[k];
+      if (scaled) x.re *= scales_[count(i)], x.im *= scales_[count(i)];
+      return x;
     }
-  }
+  });
 }
 
 LaneFactors LaneMatrix::factorize(const LaneJacobian& D, const Lanes& h, const LaneMask& which) {
+  const Lanes once = 1.0 / h;
+  for (std::size_t i = 0; scaled_ && i < scales_.size(); ++i) scales_[i] = powerOf(once, row_powers_[i]);
   LaneFactors all;
-  const auto add = [&](auto& lu) {
-    const LaneFactors one = lu.factorize(which);
+  const auto add = [&](auto& lu, const std::complex<double>& mu) {
+    const LaneFactors one = D.sizes.nu > 0 ? factorize(lu, D, h, mu, which, std::true_type())
+                                           : factorize(lu, D, h, mu, which, std::false_type());
     all.singular = all.singular | one.singular;
     all.not_finite = all.not_finite | one.not_finite;
   };
-  const auto real = [&](LaneLu<Lanes>& lu, double mu) {
-    fill(D, h, mu, [&](Index i, Index j, const Lanes& x, const Lanes&) { lu.at(i, j) = x; });
-    add(lu);
-  };
   for (const Block& block : blocks_) {
-    if (!block.pair) {
-      real(real_[block.lu], block.mu.real());
-      continue;
+    if (block.pair) {
+      add(complex_[block.lu], block.mu);
+    } else {
+      add(real_[block.lu], block.mu.real());
     }
-    auto& lu = complex_[block.lu];
-    fill(D, h, block.mu, [&](Index i, Index j, const Lanes& x, const Lanes& y) { lu.at(i, j) = {x, y}; });
-    add(lu);
   }
-  if (own_filter_) real(real_[filter_], filter_mu_);
+  if (own_filter_) add(real_[filter_], filter_mu_);
   return all;
 }
 
 void LaneMatrix::solve(Lanes* r) {
-  laneProduct(r, n_, n_, to_basis_, y_.data());
+  laneProduct(n_, to_basis_, entriesOf(r, n_), [this](Index i, Index j, const Lanes& y) { y_[place(i, j)] = y; });
   for (const Block& block : blocks_) {
     Lanes* const y = y_.data() + block.start * n_;
-    if (!block.pair) {
+    if (block.pair) {
+      complex_[block.lu].solve(y);
+    } else {
       real_[block.lu].solve(y);
-      continue;
     }
-    for (Index i = 0; i < n_; ++i) eta_[count(i)] = {y[i], y[n_ + i]};
-    complex_[block.lu].solve(eta_.data());
-    for (Index i = 0; i < n_; ++i) y[i] = eta_[count(i)].re, y[n_ + i] = eta_[count(i)].im;
   }
-  laneProduct(y_.data(), n_, n_, from_basis_, r);
+  laneProduct(
+      n_, from_basis_, [this](Index i, Index m) { return y_[place(i, m)]; },
+      [r, n = n_](Index i, Index j, const Lanes& x) { r[i + j * n] = x; });
 }
 
 }  // namespace irk

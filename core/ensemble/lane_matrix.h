@@ -1,6 +1,9 @@
 // The Newton matrices of eight systems in the eigenbasis of A, and the real one of the error estimate.
 #pragma once
 
+#include <array>
+#include <complex>
+#include <type_traits>
 #include <vector>
 
 #include "core/ensemble/lane_lu.h"
@@ -10,7 +13,7 @@
 namespace irk {
 
 /// Sizes index vectors of lanes.
-inline std::size_t count(Index n) { return static_cast<std::size_t>(n); }
+constexpr std::size_t count(Index n) { return static_cast<std::size_t>(n); }
 
 /// (D0, D1, D2) of eight systems, n x n each, by columns. D1 has the columns of (v, x), D2 those of u; others are 0.
 struct LaneJacobian {
@@ -32,7 +35,7 @@ class LaneMatrix {
   /// In place: scaled residuals of all stages to increments, column j (n entries) = stage j.
   void solve(Lanes* r);
   /// In place, n entries: with the matrix of the error estimate.
-  void solveFilter(Lanes* r) const { real_[filter_].solve(r); }
+  void solveFilter(Lanes* r) { real_[filter_].solve(r); }
   /// Whether A has no such eigenvalue.
   bool hasOwnFilter() const { return own_filter_; }
 
@@ -43,11 +46,16 @@ class LaneMatrix {
     std::size_t lu;  // its place in real_ or complex_
     bool pair;
   };
-  template <class Set>
-  void fill(const LaneJacobian& jacobian, const Lanes& h, const std::complex<double>& mu, const Set& set) const;
+  template <class Value, class SecondOrder>
+  LaneFactors factorize(LaneLu<Value>& lu, const LaneJacobian& jacobian, const Lanes& h, const std::complex<double>& mu,
+                        const LaneMask& which, SecondOrder has_u) const;
+  // Where entry (i, j) in the basis is in y_.
+  std::size_t place(Index i, Index j) const { return count(columns_[count(j)].first + i * columns_[count(j)].stride); }
 
   Index n_, s_;
   std::vector<int> row_powers_;
+  bool scaled_;                        // whether any row is scaled
+  std::vector<Lanes> scales_;          // h^-power of the rows
   Mat<double> to_basis_, from_basis_;  // row j: what each column adds to column j
   std::vector<Block> blocks_;
   std::vector<LaneLu<Lanes>> real_;
@@ -55,8 +63,11 @@ class LaneMatrix {
   std::size_t filter_;
   double filter_mu_;
   bool own_filter_;
+  struct Column {
+    Index first, stride;
+  };
+  std::vector<Column> columns_;  // in y_: two real columns of a pair of eigenvalues are one complex column
   std::vector<Lanes> y_;
-  std::vector<ComplexLanes> eta_;
 };
 
 /// h^power in each lane, power >= 0.
@@ -66,8 +77,35 @@ inline Lanes powerOf(const Lanes& h, int power) {
   return f;
 }
 
-/// out := in C for n x s `in` and `out` (not aliased) by columns: column j of `out` is the sum of C(m, j) times column
-/// m.
-void laneProduct(const Lanes* in, Index rows, Index leading, const Mat<double>& C, Lanes* out);
+/// Reads entries (i, m) of a matrix by columns of n numbers.
+inline auto entriesOf(const Lanes* matrix, Index n) {
+  return [matrix, n](Index i, Index m) -> const Lanes& { return matrix[i + m * n]; };
+}
+
+/// Calls write(i, j, x) with x = sum_m read(i, m) C(m, j) for i < rows and all columns j of C.
+template <class Read, class Write>
+[[gnu::always_inline]] inline void laneProduct(Index rows, const Mat<double>& C, const Read& read, const Write& write) {
+  withSize<5>(C.rows(), [&](auto s) {
+    const double* const entries = C.data();
+    const Index columns = C.cols();
+    for (Index i = 0; i < rows; ++i) {
+      const auto row = [&](const auto& in) {
+        for (Index j = 0; j < columns; ++j) {
+          const double* const c = entries + j * s;
+          Lanes sum = c[0] * in(0);
+          for (Index m = 1; m < s; ++m) sum += c[m] * in(m);
+          write(i, j, sum);
+        }
+      };
+      if constexpr (std::is_same_v<decltype(s), Index>) {
+        row([&](Index m) { return read(i, m); });
+      } else {
+        std::array<Lanes, count(decltype(s)::value)> in_registers;
+        for (Index m = 0; m < s; ++m) in_registers[count(m)] = read(i, m);
+        row([&](Index m) { return in_registers[count(m)]; });
+      }
+    }
+  });
+}
 
 }  // namespace irk

@@ -86,7 +86,7 @@ LaneMask LaneNewton::prepare(Context& c, const LaneMask& which) {
   return which & ~factors.failed();
 }
 
-const LaneMatrix& LaneNewton::filterMatrix(const LaneMask& which, LaneCounters& counters) {
+LaneMatrix& LaneNewton::filterMatrix(const LaneMask& which, LaneCounters& counters) {
   if (matrix_.hasOwnFilter()) counters.factorizations.add(which & new_filter_);
   new_filter_ = new_filter_ & ~which;
   return matrix_;
@@ -129,7 +129,7 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
       const Lanes eta = largest(eta_, roundOff<double>());
       const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / c.kappa, 5), 1.0);
       done = (done | small) & running;
-      forEachLane(done, [&](std::size_t i) { eta_.set(i, std::pow(eta[i], 0.8)); });
+      if (done.any()) eta_ = select(done, pow(eta, 0.8), eta_);
     } else {
       const Lanes theta = select(less(0.0, previous), norm / previous, 0.0);
       theta_ = select(running, theta, theta_);
@@ -179,7 +179,7 @@ LaneSolved LaneNewton::solve(LaneStages& stages, const LaneNorm& norm, const Lan
   Context c{stages, norm, from, h, kappa, W, counters, result};
   differentiate(c, which & (stale_ | ~differentiated_));
   const LaneMask had_old = ~equal(jacobian_t_, from.t);
-  W0_ = W;
+  if ((which & had_old).any()) W0_ = W;
   theta_ = select(which, 0.0, theta_);
   iterate(c, which);
   const LaneMask again = which & had_old & ~result.solved;

@@ -39,7 +39,7 @@ class LaneNewton {
 
   /// The matrix of the error estimate in the lanes of `which`. If it has its own factors and these are new, they count
   /// as one more factorization, as in a single run.
-  const LaneMatrix& filterMatrix(const LaneMask& which, LaneCounters& counters);
+  LaneMatrix& filterMatrix(const LaneMask& which, LaneCounters& counters);
 
  private:
   struct Context {

@@ -44,10 +44,13 @@ Lanes LaneNorm::magnitude(const Lanes* y, const Lanes* z) const {
 }
 
 Lanes LaneNorm::increment(const Lanes* dw, Index s) const {
+  // The stages' squares are summed first: in a single sum each addition would wait for the one before.
+  const std::size_t n = squares_.size();
   Lanes sum;
-  for (Index j = 0; j < s; ++j) {
-    for (std::size_t i = 0; i < squares_.size(); ++i) sum += squares_[i] * (dw[i] * dw[i]);
-    dw += squares_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    Lanes square = dw[i] * dw[i];
+    for (std::size_t j = 1; j < count(s); ++j) square += dw[i + j * n] * dw[i + j * n];
+    sum += squares_[i] * square;
   }
   return sqrt(sum * (1.0 / static_cast<double>(sizes_.components() * s)));
 }

@@ -110,17 +110,20 @@ void LaneRun::failed(Outcome outcome) {
   h_ = controller_->afterFailure(size_);
 }
 
-double LaneRun::asleep(const State<double>& from, const State<double>& to) {
-  tools_->norm.update(from);
-  return RestCheck<double>(tools_->system, tools_->norm, tools_->consistent).error(from, to, size_);
+double LaneRun::judge(double estimate, double t) {
+  const double factor = accumulation_.factor(use_.accumulates ? steps_ : 0, sum_);
+  return accumulation_.asked(estimate, factor, t, size_);
 }
 
-bool LaneRun::decide(double estimate, double t, double round_off, const StateOf& from, const StateOf& to) {
-  const double factor = accumulation_.factor(use_.accumulates ? steps_ : 0, sum_);
-  double error = accumulation_.asked(estimate, factor, t, size_);
-  if (mayRest(error, size_, length_)) {
-    if (const double at_rest = asleep(from(), to()); at_rest > 1) error = at_rest;
-  }
+bool LaneRun::mayBeAtRest(double error) const { return mayRest(error, size_, length_); }
+
+double LaneRun::judgeRest(double error, const State<double>& from, const State<double>& to) {
+  tools_->norm.update(from);
+  const double at_rest = RestCheck<double>(tools_->system, tools_->norm, tools_->consistent).error(from, to, size_);
+  return at_rest > 1 ? at_rest : error;
+}
+
+bool LaneRun::decide(double estimate, double error, double round_off) {
   again_ = !(error <= 1);
   const StepDecision decision = controller_->decide(error, size_);
   // A last step that was cut short does not reduce the size of the next one.

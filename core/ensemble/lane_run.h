@@ -1,7 +1,6 @@
 // The decisions of one lane of an ensemble: step sizes, the end of its run, its result.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -43,10 +42,15 @@ class LaneRun {
 
   /// Records that the attempt failed: in Newton's method or its matrix.
   void failed(Outcome outcome);
-  /// Records the attempt's estimate. Returns whether the step is accepted; then `newTime` is the time at its end.
-  /// `from` and `to` return the states before and after it, and are called if the system may be at rest.
-  using StateOf = std::function<State<double>()>;
-  bool decide(double estimate, double t, double round_off, const StateOf& from, const StateOf& to);
+  /// The error of a solved attempt from t: its estimate times the factor for errors that add up.
+  double judge(double estimate, double t);
+  /// Whether an attempt with this error needs `judgeRest`: the system may be at rest.
+  bool mayBeAtRest(double error) const;
+  /// The error of an attempt between these states, where a step without a change may miss an input.
+  double judgeRest(double error, const State<double>& from, const State<double>& to);
+  /// Records the attempt's estimate and its error. Returns whether the step is accepted; then `newTime` is the time at
+  /// its end.
+  bool decide(double estimate, double error, double round_off);
   double newTime(double t_by_lanes);
   /// Why an accepted step ends the run. kSuccess: the run goes on, or has ended if t is the end.
   Outcome afterStep() const { return error_sum_.aboveBar() ? Outcome::kInaccurate : Outcome::kSuccess; }
@@ -64,7 +68,6 @@ class LaneRun {
   struct Tools;  // what needs the member's system
   double firstStep() const;
   double smallest(double t) const;
-  double asleep(const State<double>& from, const State<double>& to);
 
   EstimateUse use_;
   const IntegratorOptions& options_;

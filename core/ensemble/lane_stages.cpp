@@ -32,7 +32,7 @@ void addCompensated(const Lanes& y0, const Lanes& carry0, Lanes& y1, Lanes& carr
 }
 
 // P_0, P_1, ... at x, orthonormal on [0, 1]: core/base/legendre.h.
-void legendreLanes(const Lanes& x, Index s, Lanes* p) {
+[[gnu::always_inline]] inline void legendreLanes(const Lanes& x, Index s, Lanes* p) {
   const Lanes X = 2.0 * x - 1.0;
   Lanes now = 1.0, before = 0.0;
   for (Index k = 0; k < s; ++k) {
@@ -67,6 +67,7 @@ LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const s
       U_(nu_ * t_.size()),
       V_(U_.size()),
       X_(nx_ * t_.size()),
+      scaled_(std::any_of(row_powers.begin(), row_powers.end(), [](int power) { return power > 0; })),
       scales_(count(n_), 1.0),
       past_W_(count(n_ * s_)),
       basis_(count(s_ * s_)),
@@ -95,29 +96,35 @@ void LaneStages::scaleRows(Lanes* r) const {
 
 // As StartValues: the weights of the past stages in stage i are column i.
 void LaneStages::predict(const LaneMask& past, std::vector<Lanes>& W) {
-  const Lanes offset = (from_->t - past_t_) / past_h_, ratio = h_ / past_h_;
+  const LaneMask follows = equal(from_->t, past_t_ + past_h_);
+  const Lanes offset = select(follows, 1.0, (from_->t - past_t_) / past_h_), ratio = h_ / past_h_;
   const Mat<double>& to_stages = scheme_.legendre_inverse_transposed;
-  Lanes amplification;
-  for (Index i = 0; i < s_; ++i) {
-    Lanes* const basis = basis_.data() + i * s_;
-    legendreLanes(offset + ratio * scheme_.c[i], s_, basis);
-    for (Index m = 0; m < s_; ++m) {
-      Lanes sum = to_stages(m, 0) * basis[0];
-      for (Index k = 1; k < s_; ++k) sum += to_stages(m, k) * basis[k];
-      weights_[count(i * s_ + m)] = sum;
-      if (i == s_ - 1) amplification += abs(sum);
+  withSize<5>(s_, [&](auto s) {
+    for (Index i = 0; i < s; ++i) {
+      Lanes* const basis = basis_.data() + i * s;
+      legendreLanes(offset + ratio * scheme_.c[i], s, basis);
+      for (Index m = 0; m < s; ++m) {
+        Lanes sum = to_stages(m, 0) * basis[0];
+        for (Index k = 1; k < s; ++k) sum += to_stages(m, k) * basis[k];
+        weights_[count(i * s + m)] = sum;
+      }
     }
-  }
+  });
+  Lanes amplification;
+  for (std::size_t m = weights_.size() - count(s_); m < weights_.size(); ++m) amplification += abs(weights_[m]);
   const LaneMask too_large = ~lessOrEqual(amplification, kAmplificationLimit) & past;
   if (too_large.any()) shortenPolynomial(too_large, basis_, weights_);
-  for (Index i = 0; i < s_; ++i) {
-    const Lanes* const c = weights_.data() + i * s_;
+  withSize<5>(s_, [&](auto s) {
     for (Index r = 0; r < n_; ++r) {
-      Lanes sum = c[0] * past_W_[count(r)];
-      for (Index m = 1; m < s_; ++m) sum += c[m] * past_W_[count(r + m * n_)];
-      W[count(r + i * n_)] = select(past, sum, from_->w[count(r)]);
+      const Lanes start = from_->w[count(r)];
+      for (Index i = 0; i < s; ++i) {
+        const Lanes* const c = weights_.data() + i * s;
+        Lanes sum = c[0] * past_W_[count(r)];
+        for (Index m = 1; m < s; ++m) sum += c[m] * past_W_[count(r + m * n_)];
+        W[count(r + i * n_)] = select(past, sum, start);
+      }
     }
-  }
+  });
 }
 
 // Leaves out the polynomial's highest coefficients, from the first one whose amplification exceeds the limit.
@@ -150,33 +157,32 @@ void LaneStages::keep(const LaneMask& which, const std::vector<Lanes>& W) {
 // V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a, X = x0 + h A k.
 void LaneStages::place(const std::vector<Lanes>& W) {
   const Lanes *const u = from_->y.data(), *const v = u + nu_, *const x = v + nu_;
+  const auto stages = entriesOf(W.data(), n_);
   if (nu_ > 0) {
-    laneProduct(W.data(), sizes_.nu, n_, scheme_.A_transposed, V_.data());
-    laneProduct(W.data(), sizes_.nu, n_, scheme_.A2_transposed, U_.data());
+    laneProduct(sizes_.nu, scheme_.A_transposed, stages,
+                [&](Index i, Index j, const Lanes& sum) { V_[count(i) + count(j) * nu_] = h_ * sum + v[i]; });
     const Lanes hh = h_ * h_;
-    for (std::size_t j = 0; j < t_.size(); ++j) {
-      const Lanes h1 = h_ * scheme_.A1[static_cast<Index>(j)];
-      for (std::size_t i = 0; i < nu_; ++i) {
-        U_[j * nu_ + i] = hh * U_[j * nu_ + i] + (u[i] + h1 * v[i]);
-        V_[j * nu_ + i] = h_ * V_[j * nu_ + i] + v[i];
-      }
-    }
+    laneProduct(sizes_.nu, scheme_.A2_transposed, stages, [&](Index i, Index j, const Lanes& sum) {
+      U_[count(i) + count(j) * nu_] = hh * sum + (u[i] + h_ * scheme_.A1[j] * v[i]);
+    });
   }
-  if (nx_ == 0) return;
-  laneProduct(W.data() + nu_, sizes_.nx, n_, scheme_.A_transposed, X_.data());
-  for (std::size_t j = 0; j < t_.size(); ++j) {
-    for (std::size_t i = 0; i < nx_; ++i) X_[j * nx_ + i] = h_ * X_[j * nx_ + i] + x[i];
-  }
+  laneProduct(sizes_.nx, scheme_.A_transposed, entriesOf(W.data() + nu_, n_),
+              [&](Index i, Index j, const Lanes& sum) { X_[count(i) + count(j) * nx_] = h_ * sum + x[i]; });
 }
 
 LaneMask LaneStages::residual(const std::vector<Lanes>& W, std::vector<Lanes>& R) {
   place(W);
   const StagePoints<Lanes> at{sizes_, t_.data(), U_.data(), V_.data(), X_.data(), W.data(), nullptr};
   system_->evaluateStages(at, 0, s_, R.data());
-  Lanes sum;
-  for (Index j = 0; j < s_; ++j) scaleRows(R.data() + j * n_);
-  for (const Lanes& r : R) sum += r * 0.0;
-  return equal(sum, 0.0);
+  for (Index j = 0; scaled_ && j < s_; ++j) scaleRows(R.data() + j * n_);
+  // One sum per place in a stage: in a single sum each addition would wait for the one before.
+  Lanes all;
+  for (Index i = 0; i < n_; ++i) {
+    Lanes sum;
+    for (Index j = 0; j < s_; ++j) sum += R[count(i + j * n_)] * 0.0;
+    all += sum;
+  }
+  return equal(all, 0.0);
 }
 
 Index LaneStages::dualEvaluations() const {
@@ -228,16 +234,17 @@ void LaneStages::lastDigits(const std::vector<Lanes>& W, std::vector<Lanes>& cha
 void LaneStages::finish(const std::vector<Lanes>& W, LaneState& to) const {
   const Lanes *const u = from_->y.data(), *const v = u + nu_;
   to.t = from_->t + h_;
-  laneProduct(W.data(), sizes_.nu, n_, bA_, to.y.data());
-  laneProduct(W.data(), sizes_.nu + sizes_.nx, n_, b_, to.y.data() + nu_);
-  for (std::size_t i = 0; i < nu_; ++i) to.y[i] = (h_ * h_) * to.y[i] + h_ * v[i];
-  for (std::size_t i = nu_; i < to.y.size(); ++i) to.y[i] *= h_;
+  const auto stages = entriesOf(W.data(), n_);
+  laneProduct(sizes_.nu, bA_, stages,
+              [&](Index i, Index, const Lanes& sum) { to.y[count(i)] = (h_ * h_) * sum + h_ * v[i]; });
+  laneProduct(sizes_.nu + sizes_.nx, b_, stages,
+              [&](Index i, Index, const Lanes& sum) { to.y[nu_ + count(i)] = h_ * sum; });
   for (std::size_t i = 0; i < to.y.size(); ++i) addCompensated(from_->y[i], from_->carry[i], to.y[i], to.carry[i]);
   std::copy_n(W.end() - n_, n_, to.w.begin());
 }
 
 // HW II (IV.8.19-20), see EmbeddedEstimate.
-Lanes LaneStages::filter(const LaneNorm& norm, const LaneMatrix& matrix) {
+Lanes LaneStages::filter(const LaneNorm& norm, LaneMatrix& matrix) {
   const Point<Lanes> at{from_->t,
                         {at_.data(), sizes_.nu},
                         {at_.data() + nu_, sizes_.nu},
@@ -258,11 +265,12 @@ Lanes LaneStages::filter(const LaneNorm& norm, const LaneMatrix& matrix) {
   return norm.magnitude(error_.data(), error_.data() + at_.size());
 }
 
-Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, const LaneMatrix& matrix,
+Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,
                            const Lanes& again_above, const LaneMask& which, LaneCounters& counters) {
-  laneProduct(W.data(), n_, n_, start_, defect_.data());
-  laneProduct(W.data(), sizes_.nu, n_, integrals_, slip_.data());
-  for (Lanes& slip : slip_) slip *= -mu_ * (h_ * h_);
+  const auto stages = entriesOf(W.data(), n_);
+  laneProduct(n_, start_, stages, [&](Index i, Index, const Lanes& sum) { defect_[count(i)] = sum; });
+  const Lanes factor = -mu_ * (h_ * h_);
+  laneProduct(sizes_.nu, integrals_, stages, [&](Index i, Index, const Lanes& sum) { slip_[count(i)] = factor * sum; });
   for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = i < nu_ ? from_->y[i] + slip_[i] : from_->y[i];
   const Lanes error = filter(norm, matrix);
   counters.residuals.add(which);

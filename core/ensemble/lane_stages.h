@@ -40,13 +40,13 @@ class LaneStages {
   /// Computes the states at the step's end.
   void finish(const std::vector<Lanes>& W, LaneState& to) const;
   /// The embedded estimate of the step that W solves; filtered twice in lanes where it exceeds `again_above`.
-  Lanes estimate(const std::vector<Lanes>& W, const LaneNorm& norm, const LaneMatrix& matrix, const Lanes& again_above,
+  Lanes estimate(const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix, const Lanes& again_above,
                  const LaneMask& which, LaneCounters& counters);
 
  private:
   void place(const std::vector<Lanes>& W);
   void scaleRows(Lanes* r) const;
-  Lanes filter(const LaneNorm& norm, const LaneMatrix& matrix);
+  Lanes filter(const LaneNorm& norm, LaneMatrix& matrix);
   void shortenPolynomial(const LaneMask& where, const std::vector<Lanes>& basis, std::vector<Lanes>& weights) const;
 
   const Scheme<double>& scheme_;
@@ -60,6 +60,7 @@ class LaneStages {
   const LaneState* from_ = nullptr;
   Lanes h_;
   std::vector<Lanes> t_, U_, V_, X_;  // of the stages
+  bool scaled_;                       // whether any row is scaled
   std::vector<Lanes> scales_;         // h^-power of the rows
   Lanes past_t_, past_h_;             // of the last solved step
   std::vector<Lanes> past_W_, basis_, weights_;

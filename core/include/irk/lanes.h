@@ -2,7 +2,8 @@
 //
 // A problem over Lanes is eight problems with eight sets of parameters; one instruction evaluates all of them
 // (irk/ensemble.h). Lanes have no comparisons, because a branch on eight values at once has no meaning: the compiler
-// refuses a residual that branches. Functions other than arithmetic and sqrt are computed lane by lane.
+// refuses a residual that branches. Functions other than arithmetic and sqrt are those of the C library for eight
+// numbers where it has them, and are else computed lane by lane.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +16,39 @@
 
 #ifdef __AVX512F__
 #include <immintrin.h>
+#endif
+
+// IRK_VECTOR_MATH: the C library has functions of eight numbers at once (glibc's libmvec, errors below 4 units in the
+// last place). Their names are those of the x86 vector function ABI.
+#if defined(__AVX512F__) && defined(IRK_VECTOR_MATH)
+// NOLINTBEGIN(readability-identifier-naming,bugprone-reserved-identifier)
+extern "C" {
+#define IRK_VECTOR_FUNCTION(f) __m512d _ZGVeN8v_##f(__m512d);
+IRK_VECTOR_FUNCTION(cbrt)
+IRK_VECTOR_FUNCTION(exp)
+IRK_VECTOR_FUNCTION(expm1)
+IRK_VECTOR_FUNCTION(log)
+IRK_VECTOR_FUNCTION(log1p)
+IRK_VECTOR_FUNCTION(sin)
+IRK_VECTOR_FUNCTION(cos)
+IRK_VECTOR_FUNCTION(tan)
+IRK_VECTOR_FUNCTION(asin)
+IRK_VECTOR_FUNCTION(acos)
+IRK_VECTOR_FUNCTION(atan)
+IRK_VECTOR_FUNCTION(sinh)
+IRK_VECTOR_FUNCTION(cosh)
+IRK_VECTOR_FUNCTION(tanh)
+#undef IRK_VECTOR_FUNCTION
+__m512d _ZGVeN8vv_pow(__m512d, __m512d);
+__m512d _ZGVeN8vv_atan2(__m512d, __m512d);
+__m512d _ZGVeN8vv_hypot(__m512d, __m512d);
+}
+// NOLINTEND(readability-identifier-naming,bugprone-reserved-identifier)
+#define IRK_LANES_APPLY(f, a) Lanes(Vector(_ZGVeN8v_##f((a).v)))
+#define IRK_LANES_APPLY_TWO(f, a, b) Lanes(Vector(_ZGVeN8vv_##f((a).v, (b).v)))
+#else
+#define IRK_LANES_APPLY(f, a) each([&a](std::size_t i) { return std::f(a.v[i]); })
+#define IRK_LANES_APPLY_TWO(f, a, b) each([&](std::size_t i) { return std::f(a.v[i], b.v[i]); })
 #endif
 
 namespace irk {
@@ -58,10 +92,8 @@ struct Lanes {
     return each([&a](std::size_t i) { return std::sqrt(a.v[i]); });
 #endif
   }
-#define IRK_LANES_FUNCTION(f)                                    \
-  friend Lanes f(const Lanes& a) {                               \
-    return each([&a](std::size_t i) { return std::f(a.v[i]); }); \
-  }
+#define IRK_LANES_FUNCTION(f) \
+  friend Lanes f(const Lanes& a) { return IRK_LANES_APPLY(f, a); }
   IRK_LANES_FUNCTION(cbrt)
   IRK_LANES_FUNCTION(exp)
   IRK_LANES_FUNCTION(expm1)
@@ -77,15 +109,11 @@ struct Lanes {
   IRK_LANES_FUNCTION(cosh)
   IRK_LANES_FUNCTION(tanh)
 #undef IRK_LANES_FUNCTION
-  friend Lanes pow(const Lanes& a, const Lanes& b) {
-    return each([&](std::size_t i) { return std::pow(a.v[i], b.v[i]); });
-  }
-  friend Lanes atan2(const Lanes& y, const Lanes& x) {
-    return each([&](std::size_t i) { return std::atan2(y.v[i], x.v[i]); });
-  }
-  friend Lanes hypot(const Lanes& a, const Lanes& b) {
-    return each([&](std::size_t i) { return std::hypot(a.v[i], b.v[i]); });
-  }
+  friend Lanes pow(const Lanes& a, const Lanes& b) { return IRK_LANES_APPLY_TWO(pow, a, b); }
+  friend Lanes atan2(const Lanes& y, const Lanes& x) { return IRK_LANES_APPLY_TWO(atan2, y, x); }
+  friend Lanes hypot(const Lanes& a, const Lanes& b) { return IRK_LANES_APPLY_TWO(hypot, a, b); }
+#undef IRK_LANES_APPLY
+#undef IRK_LANES_APPLY_TWO
 };
 // NOLINTEND(google-explicit-constructor)
 

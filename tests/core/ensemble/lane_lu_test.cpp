@@ -18,15 +18,16 @@ void setLane(ComplexLanes& to, std::size_t lane, const std::complex<double>& x) 
   to.re.set(lane, x.real());
   to.im.set(lane, x.imag());
 }
-std::complex<double> lane(const Lanes& x, std::size_t i) { return x[i]; }
-std::complex<double> lane(const ComplexLanes& x, std::size_t i) { return {x.re[i], x.im[i]}; }
 
 // Random matrices whose first entry is zero, so that each lane needs its own exchange of rows.
 template <class Value>
 void expectSolutions(Index n) {
   LaneLu<Value> lu(n);
   std::vector<ComplexMatrix> matrices;
-  std::vector<Value> y(static_cast<std::size_t>(n));
+  const bool is_complex = std::is_same_v<Value, ComplexLanes>;
+  const auto place = [&](Index i) { return static_cast<std::size_t>(is_complex ? 2 * i : i); };  // of entry i
+  std::vector<Lanes> y(place(n));
+  std::vector<Value> entries(static_cast<std::size_t>(n * n));
   ComplexMatrix x = ComplexMatrix::Random(n, kLanes);
   if constexpr (std::is_same_v<Value, Lanes>) x = x.real().cast<std::complex<double>>().eval();
   for (std::size_t k = 0; k < kLanes; ++k) {
@@ -37,27 +38,29 @@ void expectSolutions(Index n) {
     if (k == 6) A(n - 1, 0) = std::numeric_limits<double>::quiet_NaN();
     const Eigen::VectorXcd b = A * x.col(static_cast<Index>(k));
     for (Index i = 0; i < n; ++i) {
-      setLane(y[static_cast<std::size_t>(i)], k, b[i]);
-      for (Index j = 0; j < n; ++j) setLane(lu.at(i, j), k, A(i, j));
+      y[place(i)].set(k, b[i].real());
+      if (is_complex) y[place(i) + 1].set(k, b[i].imag());
+      for (Index j = 0; j < n; ++j) setLane(entries[static_cast<std::size_t>(i + j * n)], k, A(i, j));
     }
   }
   LaneMask all;
   for (std::size_t k = 0; k < kLanes; ++k) all.set(k, true);
-  const LaneFactors factors = lu.factorize(all);
+  const LaneFactors factors =
+      lu.factorize(all, [&](Index i, Index j) { return entries[static_cast<std::size_t>(i + j * n)]; });
   EXPECT_EQ(factors.singular.bits() & ~(1U << 6), 1U << 5) << n;
   EXPECT_EQ(factors.not_finite.bits(), 1U << 6) << n;
   lu.solve(y.data());
   for (std::size_t k = 0; k < kLanes; ++k) {
     if (k == 5 || k == 6) continue;
     for (Index i = 0; i < n; ++i) {
-      EXPECT_NEAR(std::abs(lane(y[static_cast<std::size_t>(i)], k) - x(i, static_cast<Index>(k))), 0, 1e-9)
-          << n << ' ' << k;
+      const std::complex<double> computed(y[place(i)][k], is_complex ? y[place(i) + 1][k] : 0.0);
+      EXPECT_NEAR(std::abs(computed - x(i, static_cast<Index>(k))), 0, 1e-9) << n << ' ' << k;
     }
   }
 }
 
 TEST(LaneLu, SolvesWithPivotsOfEachLane) {
-  for (const Index n : {1, 2, 3, 8, 11}) {
+  for (const Index n : {1, 2, 3, 4, 5, 6, 7, 8, 9, 11}) {
     expectSolutions<Lanes>(n);
     expectSolutions<ComplexLanes>(n);
   }
@@ -66,8 +69,7 @@ TEST(LaneLu, SolvesWithPivotsOfEachLane) {
 TEST(LaneLu, ReplacesFactorsOfSomeLanesOnly) {
   LaneLu<Lanes> lu(1);
   const auto factorize = [&lu](double a, const LaneMask& which) {
-    lu.at(0, 0) = a;
-    static_cast<void>(lu.factorize(which));
+    static_cast<void>(lu.factorize(which, [a](Index, Index) { return Lanes(a); }));
   };
   LaneMask all, third;
   for (std::size_t k = 0; k < kLanes; ++k) all.set(k, true);
@@ -94,6 +96,57 @@ TEST(Lanes, HaveTheFunctionsOfNumbers) {
     EXPECT_NEAR(y.d[2][i], expected.d[2], 1e-13) << i;
     EXPECT_EQ(y.d[3][i], 0) << i;
   }
+}
+
+// Each function over its domain, in every lane, with errors of a few units in the last place.
+TEST(Lanes, FunctionsEqualThoseOfTheStandardLibrary) {
+  const auto expectEqual = [](const char* name, double from, double to, const auto& of_lanes, const auto& of_numbers) {
+    constexpr int kPoints = 1000;
+    for (int k = 0; k + 8 <= kPoints; k += 8) {
+      const Lanes x =
+          Lanes::each([&](std::size_t i) { return from + (to - from) * (k + static_cast<double>(i) + 0.5) / kPoints; });
+      const Lanes y = of_lanes(x);
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double expected = of_numbers(x[i]);
+        EXPECT_NEAR(y[i], expected, 1e-15 * std::abs(expected)) << name << "(" << x[i] << ")";
+      }
+    }
+  };
+#define IRK_EXPECT_EQUAL(f, from, to) \
+  expectEqual(                        \
+      #f, from, to, [](const Lanes& x) { return f(x); }, [](double x) { return std::f(x); })
+  IRK_EXPECT_EQUAL(sqrt, 0, 1e6);
+  IRK_EXPECT_EQUAL(cbrt, -20, 20);
+  IRK_EXPECT_EQUAL(exp, -700, 700);
+  IRK_EXPECT_EQUAL(expm1, -5, 5);
+  IRK_EXPECT_EQUAL(log, 1e-3, 50);
+  IRK_EXPECT_EQUAL(log1p, -0.99, 5);
+  IRK_EXPECT_EQUAL(sin, -100, 100);
+  IRK_EXPECT_EQUAL(cos, -100, 100);
+  IRK_EXPECT_EQUAL(tan, -100, 100);
+  IRK_EXPECT_EQUAL(asin, -1, 1);
+  IRK_EXPECT_EQUAL(acos, -1, 1);
+  IRK_EXPECT_EQUAL(atan, -20, 20);
+  IRK_EXPECT_EQUAL(sinh, -20, 20);
+  IRK_EXPECT_EQUAL(cosh, -20, 20);
+  IRK_EXPECT_EQUAL(tanh, -20, 20);
+#undef IRK_EXPECT_EQUAL
+  for (const double other : {-1.5, 0.25, 3.0}) {
+    const auto expectTwo = [&](const char* name, double from, const auto& f) {
+      expectEqual(
+          name, from, 9, [&](const Lanes& x) { return f(x, Lanes(other)); }, [&](double x) { return f(x, other); });
+    };
+    using std::atan2, std::hypot, std::pow;
+    expectTwo("pow", 1e-3, [](const auto& a, const auto& b) { return pow(a, b); });
+    expectTwo("atan2", -9, [](const auto& a, const auto& b) { return atan2(a, b); });
+    expectTwo("hypot", -9, [](const auto& a, const auto& b) { return hypot(a, b); });
+  }
+  // Outside of their domain, and in one lane only.
+  const Lanes x = Lanes::each([](std::size_t i) { return i == 3 ? -1.0 : 2.0; });
+  EXPECT_TRUE(std::isnan(log(x)[3]) && std::isnan(sqrt(x)[3]) && std::isnan(pow(x, Lanes(0.5))[3]));
+  EXPECT_NEAR(log(x)[2], std::log(2), 1e-15);
+  EXPECT_EQ(exp(1000 * x)[2], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(exp(1000 * x)[3], 0);
 }
 
 template <class T>
