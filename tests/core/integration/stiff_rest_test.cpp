@@ -102,14 +102,15 @@ struct E5 {
   }
 };
 
-// y4 is 0 at the end. What Gauss leaves of it may be thousands of tolerances, though all steps keep theirs.
+// y4 is 0 at the end. What Gauss leaves of it may be thousands of tolerances, though all steps keep theirs. Runs may
+// fail for other reasons, too: the motion multiplies errors of steps by 40.
 TEST(StiffRest, MakesARunInaccurate) {
   constexpr double kScale = 1.7e-24;
   State<double> start(E5{}.sizes());
   start.x[0] = 1.76e-3;
   int inaccurate = 0, right = 0;
   for (const char* method : {"gauss_2", "gauss_4"}) {
-    for (const double tol : {1e-8, 2e-9, 1e-10, 1e-11, 5e-12, 2e-12}) {
+    for (const double tol : {1e-8, 2e-9, 1e-10, 1e-11, 5e-12, 2e-12, 1e-12}) {
       Integrator<double> integrator(makeSystem<double>(E5{}, {}), makeTableau<double>(method), adaptive(tol),
                                     Vec<double>::Constant(4, kScale));
       const auto s = integrator.integrate(start, 1e13);
@@ -117,10 +118,10 @@ TEST(StiffRest, MakesARunInaccurate) {
       if (s.outcome == Outcome::kSuccess) {
         ++right;
         EXPECT_LT(error, 1000 * tol + 1e-9) << method << " " << tol;
-      } else if (s.outcome == Outcome::kInaccurate && s.state.t == 1e13) {
+      } else if (s.outcome == Outcome::kInaccurate && s.detail.find("largest in x[2]") != std::string::npos) {
         ++inaccurate;
+        EXPECT_EQ(s.state.t, 1e13);
         EXPECT_GT(error, 200 * tol) << method << " " << tol;
-        EXPECT_NE(s.detail.find("largest in x[2]"), std::string::npos) << s.detail;
       }
     }
   }
