@@ -139,7 +139,8 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
       const LaneMask hopeless = running & ~ends & (lessOrEqual(0.99, theta) | slow);
       if (stop_.by_round_off) eta = etaOf(largest(theta, slowest_));
       if (m > 1) slowest_ = select(running & ~ends & ~hopeless, theta, slowest_);
-      done = (done | lessOrEqual(eta * norm, c.kappa)) & running & ~ends & ~hopeless;
+      const LaneMask small = lessOrEqual(eta * norm, c.kappa) & lessOrEqual(norm, kTrustedIncrement);
+      done = (done | small) & running & ~ends & ~hopeless;
       eta_ = select(done, eta, eta_);
       if (hopeless.any()) {
         const LaneMask rounded = isRoundOff(c, hopeless, norm);
