@@ -30,6 +30,7 @@ class LaneIntegrator::Run {
     done_ = &done;
     vectors_.reset();
     active_ = {};
+    counters_ = {};
     for (std::size_t i = 0; i < kLanes; ++i) load(i);
     while (active_.any()) {
       const Outcome stopped = stop ? stop() : Outcome::kSuccess;

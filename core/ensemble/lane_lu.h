@@ -57,7 +57,9 @@ struct LaneFactors {
 template <class Value>
 class LaneLu {
  public:
-  explicit LaneLu(Index n) : n_(n), lu_(size(n * n)), column_(size(n)), pivots_(size(n)), swaps_(size(n)) {}
+  explicit LaneLu(Index n) : n_(n), lu_(size(n * n)), column_(size(n)), pivots_(size(n)), swaps_(size(n)) {
+    for (Index k = 0; k < n; ++k) pivots_[size(k)] = static_cast<double>(k);
+  }
 
   /// Factorizes the matrices with entries entry(i, j); only lanes of `which` get new factors.
   ///

@@ -52,21 +52,21 @@ LaneMatrix::LaneMatrix(const Sizes& sizes, const std::vector<int>& row_powers, c
   real_.emplace_back(n_);
 }
 
-// Factorizes D0 + m D1 + m^2 D2 with scaled rows, m = h mu. D2 is 0 unless `has_u`.
+// Factorizes D0 + m D1 + m^2 D2 with scaled rows, m = h mu. D2 is 0 unless SecondOrder is true.
 template <class Value, class SecondOrder>
 LaneFactors LaneMatrix::factorize(LaneLu<Value>& lu, const LaneJacobian& D, const Lanes& h,
-                                  const std::complex<double>& mu, const LaneMask& which, SecondOrder has_u) const {
+                                  const std::complex<double>& mu, const LaneMask& which, SecondOrder) const {
   const Lanes re = h * mu.real(), im = h * mu.imag();
   const Lanes re2 = re * re - im * im, im2 = 2.0 * (re * im);
   return lu.factorize(which, [&, n = n_, scaled = scaled_](Index i, Index j) -> Value {
     const auto k = count(i + j * n);
     if constexpr (std::is_same_v<Value, Lanes>) {
       Lanes x = D.d0[k] + re * D.d1[k];
-      if constexpr (has_u) x += re2 * D.d2[k];
+      if constexpr (SecondOrder::value) x += re2 * D.d2[k];
       return scaled ? scales_[count(i)] * x : x;
     } else {
       ComplexLanes x{D.d0[k] + re * D.d1[k], im * D.d1[k]};
-      if constexpr (has_u) x.re += re2 * D.d2[k], x.im += im2 * D.d2[k];
+      if constexpr (SecondOrder::value) x.re += re2 * D.d2[k], x.im += im2 * D.d2[k];
       if (scaled) x.re *= scales_[count(i)], x.im *= scales_[count(i)];
       return x;
     }

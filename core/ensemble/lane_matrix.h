@@ -48,7 +48,7 @@ class LaneMatrix {
   };
   template <class Value, class SecondOrder>
   LaneFactors factorize(LaneLu<Value>& lu, const LaneJacobian& jacobian, const Lanes& h, const std::complex<double>& mu,
-                        const LaneMask& which, SecondOrder has_u) const;
+                        const LaneMask& which, SecondOrder) const;
   // Where entry (i, j) in the basis is in y_.
   std::size_t place(Index i, Index j) const { return count(columns_[count(j)].first + i * columns_[count(j)].stride); }
 
@@ -56,7 +56,7 @@ class LaneMatrix {
   std::vector<int> row_powers_;
   bool scaled_;                        // whether any row is scaled
   std::vector<Lanes> scales_;          // h^-power of the rows
-  Mat<double> to_basis_, from_basis_;  // row j: what each column adds to column j
+  Mat<double> to_basis_, from_basis_;  // column j: the weights of all columns in column j
   std::vector<Block> blocks_;
   std::vector<LaneLu<Lanes>> real_;
   std::vector<LaneLu<ComplexLanes>> complex_;

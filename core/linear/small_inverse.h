@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -183,14 +184,16 @@ class InRegisters {
 };
 
 /// The inverse of a 2 x 2 matrix (a, c; b, d by columns) is (d, -c; -b, a) / det, which is as accurate as elimination.
-/// Returns false where det or its square may not be represented; the matrix is then unchanged.
+/// Returns false where det is round-off of its products, or where it or its square may not be represented; the matrix
+/// is then unchanged.
 template <int Parts>
 [[gnu::always_inline]] inline bool invertTwo(double* data) {
-  constexpr double kLeast = 1e-140, kMost = 1e140;
+  constexpr double kLeast = 1e-140, kMost = 1e140, kRoundOff = 8 * std::numeric_limits<double>::epsilon();
   const double a = data[0], c = data[1], b = data[2], d = data[3];
   if constexpr (Parts == 1) {
     const double det = a * d - b * c;
-    if (!(std::abs(det) > kLeast && std::abs(det) < kMost)) return false;
+    const double products = std::abs(a * d) + std::abs(b * c);
+    if (!(std::abs(det) > std::max(kLeast, kRoundOff * products) && std::abs(det) < kMost)) return false;
     const double f = 1 / det;
     data[0] = d * f, data[1] = -c * f, data[2] = -b * f, data[3] = a * f;
   } else {
@@ -198,7 +201,9 @@ template <int Parts>
     const double ai = imag[0], ci = imag[1], bi = imag[2], di = imag[3];
     const double re = (a * d - ai * di) - (b * c - bi * ci), im = (a * di + ai * d) - (b * ci + bi * c);
     const double size = std::abs(re) + std::abs(im);
-    if (!(size > kLeast && size < kMost)) return false;
+    const double products = (std::abs(a) + std::abs(ai)) * (std::abs(d) + std::abs(di)) +
+                            (std::abs(b) + std::abs(bi)) * (std::abs(c) + std::abs(ci));
+    if (!(size > std::max(kLeast, kRoundOff * products) && size < kMost)) return false;
     const double square = 1 / (re * re + im * im);
     const double f = re * square, g = -im * square;
     data[0] = d * f - di * g, data[1] = ci * g - c * f, data[2] = bi * g - b * f, data[3] = a * f - ai * g;

@@ -18,8 +18,8 @@ double roundOff() {
 
 // Increments below this many units of round-off cannot be reduced further.
 inline constexpr double kRoundOffUnits = 10;
-// A contraction counts only after an increment of at most this many tolerances. A first increment that is larger by
-// decades may have corrected something else: start values of 20 stages that are far off (transamp, radau_ia_20, 1e-2:
+// After the first iteration an increment counts as converged only if it is itself at most this many tolerances. A first
+// increment that is larger by decades may have corrected something else: start values of 20 stages that are far off (transamp, radau_ia_20, 1e-2:
 // increments of 3e5 and 28 tolerances; the solution was as far away as before).
 inline constexpr double kTrustedIncrement = 10;
 // Increments that stop contracting below this many units of round-off are round-off of the residual.

@@ -259,7 +259,8 @@ struct DualNumber {
   }
 
  private:
-  // Copies number by number: compilers copy the whole by a call, which takes longer and keeps it in memory.
+  // Compilers copy the whole struct by a call; its numbers then stay in memory instead of registers, which takes
+  // longer.
   template <std::size_t... I>
   DualNumber(const DualNumber& from, std::index_sequence<I...>) : value(from.value), d{from.d[I]...} {}
   template <std::size_t... I>

@@ -142,8 +142,11 @@ TEST(SmallInverse, ReportsSingularMatrices) {
     Mat<double> singular = n == 1 ? Mat<double>::Zero(n, n) : Mat<double>::Ones(n, n);
     Mat<double> split(n, 2 * n);
     split << singular, 2 * singular;
+    // 0.3 * 0.3 has round-off, which a fused multiplication and subtraction would show as a determinant.
+    Mat<double> rounded = 0.3 * singular;
     EXPECT_EQ(invertIn<1>(singular, size), Outcome::kSingular) << n;
     EXPECT_EQ(invertIn<2>(split, size), Outcome::kSingular) << n;
+    EXPECT_EQ(invertIn<1>(rounded, size), Outcome::kSingular) << n;
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       for (Index at = 0; at < 2 * n * n; ++at) {
         Mat<double> bad = Mat<double>::Random(n, 2 * n);

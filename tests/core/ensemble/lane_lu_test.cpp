@@ -66,19 +66,58 @@ TEST(LaneLu, SolvesWithPivotsOfEachLane) {
   }
 }
 
-TEST(LaneLu, ReplacesFactorsOfSomeLanesOnly) {
-  LaneLu<Lanes> lu(1);
-  const auto factorize = [&lu](double a, const LaneMask& which) {
-    static_cast<void>(lu.factorize(which, [a](Index, Index) { return Lanes(a); }));
+LaneMask maskOf(std::initializer_list<std::size_t> lanes) {
+  LaneMask mask;
+  for (const std::size_t k : lanes) mask.set(k, true);
+  return mask;
+}
+
+// New factors of some lanes, with exchanges of rows of their own or with NaN, leave the bits of the others.
+template <class Value>
+void expectOthersStay(Index n) {
+  const auto size = static_cast<std::size_t>(n);
+  constexpr int kParts = static_cast<int>(sizeof(Value) / sizeof(Lanes));
+  LaneLu<Value> lu(n);
+  const auto factorize = [&](const LaneMask& which, double middle) {
+    std::vector<Value> entries(size * size);
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < kLanes; ++k) {
+          const std::complex<double> random(Vec<double>::Random(1)[0], Vec<double>::Random(1)[0]);
+          setLane(entries[static_cast<std::size_t>(i + j * n)], k, i == j ? random + middle : random);
+        }
+      }
+    }
+    static_cast<void>(
+        lu.factorize(which, [&](Index i, Index j) { return entries[static_cast<std::size_t>(i + j * n)]; }));
   };
-  LaneMask all, third;
-  for (std::size_t k = 0; k < kLanes; ++k) all.set(k, true);
-  third.set(3, true);
-  factorize(2, all);
-  factorize(4, third);
-  Lanes y = 8;
-  lu.solve(&y);
-  for (std::size_t k = 0; k < kLanes; ++k) EXPECT_EQ(y[k], k == 3 ? 2 : 4) << k;
+  const auto solution = [&] {
+    std::vector<Lanes> y(size * kParts);
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = std::cos(static_cast<double>(i));
+    lu.solve(y.data());
+    return y;
+  };
+  const auto expectChanges = [&](const LaneMask& which, double middle) {
+    const auto before = solution();
+    factorize(which, middle);
+    const auto after = solution();
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      bool same = true;
+      for (std::size_t i = 0; i < before.size(); ++i) same = same && before[i][k] == after[i][k];
+      EXPECT_NE(same, which[k]) << n << " " << k;
+    }
+  };
+  factorize(maskOf({0, 1, 2, 3, 4, 5, 6, 7}), 0);
+  expectChanges(maskOf({1, 3}), 0);
+  expectChanges(maskOf({2}), 10);  // without exchanges
+  expectChanges(maskOf({5}), std::numeric_limits<double>::quiet_NaN());
+}
+
+TEST(LaneLu, ReplacesFactorsOfSomeLanesOnly) {
+  for (const Index n : {1, 2, 3, 8, 9}) {
+    expectOthersStay<Lanes>(n);
+    expectOthersStay<ComplexLanes>(n);
+  }
 }
 
 TEST(Lanes, HaveTheFunctionsOfNumbers) {
@@ -141,12 +180,61 @@ TEST(Lanes, FunctionsEqualThoseOfTheStandardLibrary) {
     expectTwo("atan2", -9, [](const auto& a, const auto& b) { return atan2(a, b); });
     expectTwo("hypot", -9, [](const auto& a, const auto& b) { return hypot(a, b); });
   }
+  EXPECT_NEAR(pow(Lanes(-1.5), Lanes(3))[0], -3.375, 1e-15);
+  EXPECT_NEAR(hypot(Lanes(3e200), Lanes(4e200))[0], 5e200, 5e185);
+  for (const double tiny : {1e-300, -1e-20, 1e-9}) {
+    EXPECT_NEAR(expm1(Lanes(tiny))[0], tiny, std::abs(tiny) * 1e-8);
+    EXPECT_NEAR(log1p(Lanes(tiny))[0], tiny, std::abs(tiny) * 1e-8);
+    EXPECT_NEAR(sinh(Lanes(tiny))[0], tiny, std::abs(tiny) * 1e-8);
+  }
   // Outside of their domain, and in one lane only.
   const Lanes x = Lanes::each([](std::size_t i) { return i == 3 ? -1.0 : 2.0; });
   EXPECT_TRUE(std::isnan(log(x)[3]) && std::isnan(sqrt(x)[3]) && std::isnan(pow(x, Lanes(0.5))[3]));
   EXPECT_NEAR(log(x)[2], std::log(2), 1e-15);
   EXPECT_EQ(exp(1000 * x)[2], std::numeric_limits<double>::infinity());
   EXPECT_EQ(exp(1000 * x)[3], 0);
+}
+
+// A number that needs another way of computing leaves the bits of its neighbours.
+TEST(Lanes, FunctionsOfALaneDoNotDependOnOthers) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto expectSame = [&](const char* name, const auto& f) {
+    for (const double x : {0.3, 0.7}) {
+      const Lanes alone = f(Lanes(x));
+      for (const double other : {kNan, kInfinity, -kInfinity, 1e300, -1e300, 5e-324, 1e5, -1.0, 0.0}) {
+        for (std::size_t at = 0; at < kLanes; ++at) {
+          Lanes mixed(x);
+          mixed.set(at, other);
+          const Lanes y = f(mixed);
+          for (std::size_t i = 0; i < kLanes; ++i) {
+            if (i == at) continue;
+            EXPECT_EQ(y[i], alone[i]) << name << " " << x << " beside " << other;
+          }
+        }
+      }
+    }
+  };
+#define IRK_EXPECT_SAME(f) expectSame(#f, [](const Lanes& x) { return f(x); })
+  IRK_EXPECT_SAME(sqrt);
+  IRK_EXPECT_SAME(cbrt);
+  IRK_EXPECT_SAME(exp);
+  IRK_EXPECT_SAME(expm1);
+  IRK_EXPECT_SAME(log);
+  IRK_EXPECT_SAME(log1p);
+  IRK_EXPECT_SAME(sin);
+  IRK_EXPECT_SAME(cos);
+  IRK_EXPECT_SAME(tan);
+  IRK_EXPECT_SAME(asin);
+  IRK_EXPECT_SAME(acos);
+  IRK_EXPECT_SAME(atan);
+  IRK_EXPECT_SAME(sinh);
+  IRK_EXPECT_SAME(cosh);
+  IRK_EXPECT_SAME(tanh);
+#undef IRK_EXPECT_SAME
+  expectSame("pow", [](const Lanes& x) { return pow(x, Lanes(0.8)); });
+  expectSame("pow of 0.8", [](const Lanes& x) { return pow(Lanes(0.8), x); });
+  expectSame("atan2", [](const Lanes& x) { return atan2(x, Lanes(0.8)); });
+  expectSame("hypot", [](const Lanes& x) { return hypot(x, Lanes(0.8)); });
 }
 
 template <class T>
