@@ -1,7 +1,6 @@
 // LU factors of eight small dense matrices side by side, real or complex, with pivots of their own.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <vector>
@@ -98,7 +97,7 @@ class LaneLu {
   }
 
  private:
-  static constexpr Index kUnrolled = 8;  // sizes up to this one have loops of their own, N > 0
+  static constexpr Index kUnrolled = 8;  // sizes N up to this one have loops of their own; N = 0: any size
 
   static constexpr std::size_t size(Index n) { return static_cast<std::size_t>(n); }
   template <Index N>
@@ -200,7 +199,7 @@ class LaneLu {
   }
 
   Index n_;
-  std::vector<Value> lu_;      // by columns; on the diagonal the inverse pivots; row k of L has the exchanges up to k
+  std::vector<Value> lu_;      // by columns; on the diagonal the inverse pivots; column k of L: rows after exchange k
   std::vector<Value> column_;  // scratch
   std::vector<Lanes> pivots_;  // rows
   std::vector<char> swaps_;    // whether a lane changes row k

@@ -18,9 +18,9 @@ double roundOff() {
 
 // Increments below this many units of round-off cannot be reduced further.
 inline constexpr double kRoundOffUnits = 10;
-// After the first iteration an increment counts as converged only if it is itself at most this many tolerances. A first
-// increment that is larger by decades may have corrected something else: start values of 20 stages that are far off (transamp, radau_ia_20, 1e-2:
-// increments of 3e5 and 28 tolerances; the solution was as far away as before).
+// After the first iteration an increment counts as converged only if it is itself at most this many tolerances. Start
+// values may be far off: then a much smaller second increment does not show that the solution is near (transamp,
+// radau_ia_20, 1e-2: increments of 3e5 and 28 tolerances, and an error of 5e4).
 inline constexpr double kTrustedIncrement = 10;
 // Increments that stop contracting below this many units of round-off are round-off of the residual.
 inline constexpr double kStagnationUnits = 1e4;

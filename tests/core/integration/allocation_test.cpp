@@ -77,7 +77,8 @@ TEST(Allocation, StepsAllocateNothing) {
         IntegratorOptions o = adaptive(1e-5);
         o.solver = solver.value;
         o.newton.kind = newton.value;
-        o.newton.residual_tolerance = 3e-3;  // with 20 stages round-off keeps `paper_rule` above 1e-3
+        // `paper_rule` fails below what round-off allows, which with 20 stages is about 1e-3.
+        o.newton.residual_tolerance = tableau.stages() == 20 ? 3e-3 : 1e-3;
         const std::string what = std::string(solver.id) + " " + std::string(newton.id) + " " + method;
         SCOPED_TRACE(what);
         EXPECT_EQ(allocationsOf(makeSystem<double>(Oscillators{}), oscillatorsStart<double>(), tableau, o), 0);
