@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <random>
 
 namespace irk {
 
@@ -35,57 +34,59 @@ std::vector<int> colour(const RowSets& sets, Index rows) {
 
 ColouredDirections::ColouredDirections(const Directions& group, const RowSets& rows, const Pattern& pattern) {
   const std::vector<int> colours = colour(rows, pattern.n);
-  std::vector<std::size_t> order(group.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return colours[a] < colours[b]; });
-  std::minstd_rand random(1);
-  std::uniform_real_distribution<double> around_one(0.5, 1.5);
+  std::vector<std::uint32_t> order(group.size());
+  std::iota(order.begin(), order.end(), std::uint32_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return colours[a] < colours[b]; });
+  directions.reserve(group.size());
+  first_entry.reserve(group.size() + 1);
+  entries.reserve(rows.entries());
   int last = -1;
   for (const std::size_t i : order) {
     if (rows[i].empty()) continue;
     if (colours[i] != last) {
       first_direction.push_back(directions.size());
-      first_entry.push_back(entries.size());
       last = colours[i];
     }
     directions.push_back(group[i]);
-    weights.push_back(around_one(random));
+    first_entry.push_back(static_cast<std::uint32_t>(entries.size()));
     const auto column = static_cast<std::size_t>(group[i].column);
     auto at = pattern.row.begin() + pattern.column_start[column];
     for (const int row : rows[i]) {
       at = std::lower_bound(at, pattern.row.begin() + pattern.column_start[column + 1], row);
-      entries.push_back({row, group[i].matrix, at - pattern.row.begin(), weights.size() - 1});
+      entries.push_back({row, static_cast<std::uint32_t>(at - pattern.row.begin())});
     }
   }
   first_direction.push_back(directions.size());
-  first_entry.push_back(entries.size());
+  first_entry.push_back(static_cast<std::uint32_t>(entries.size()));
   for (const std::size_t i : order) {  // directions that reach no row take part in the check only
-    if (!rows[i].empty()) continue;
-    directions.push_back(group[i]);
-    weights.push_back(around_one(random));
+    if (rows[i].empty()) directions.push_back(group[i]);
   }
 }
 
 ColouredDirections ColouredDirections::dense(const Directions& group, Index n) {
   ColouredDirections all;
   all.directions = group;
-  all.weights.reserve(group.size());
   all.first_direction.reserve(group.size() + 1);
   all.first_entry.reserve(group.size() + 1);
   all.entries.reserve(group.size() * static_cast<std::size_t>(n));
-  std::minstd_rand random(1);
-  std::uniform_real_distribution<double> around_one(0.5, 1.5);
   for (std::size_t i = 0; i < group.size(); ++i) {
     all.first_direction.push_back(i);
-    all.first_entry.push_back(all.entries.size());
-    all.weights.push_back(around_one(random));
+    all.first_entry.push_back(static_cast<std::uint32_t>(all.entries.size()));
     for (Index row = 0; row < n; ++row) {
-      all.entries.push_back({static_cast<int>(row), group[i].matrix, group[i].column * n + row, i});
+      all.entries.push_back({static_cast<int>(row), static_cast<std::uint32_t>(group[i].column * n + row)});
     }
   }
   all.first_direction.push_back(group.size());
-  all.first_entry.push_back(all.entries.size());
+  all.first_entry.push_back(static_cast<std::uint32_t>(all.entries.size()));
   return all;
+}
+
+double ColouredDirections::weightOf(std::size_t direction) {
+  std::uint64_t z = (direction + 1) * 0x9E3779B97F4A7C15U;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+  z ^= z >> 31U;
+  return 0.5 + static_cast<double>(z >> 11U) * 0x1p-53;
 }
 
 }  // namespace irk

@@ -1,6 +1,8 @@
 // Colouring: columns of a Jacobian that share no row are differentiated together, in few evaluations.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/derivatives/pattern.h"
@@ -12,17 +14,16 @@ namespace irk {
 std::vector<int> colour(const RowSets& sets, Index rows);
 
 /// Directions sorted by colour; those of one colour share no row and are differentiated together. The number
-/// colours() stands for one more colour, the check: all directions at a time, each with its weight.
+/// colours() stands for one more colour, the check: all directions at a time, each with its weight. The entries of a
+/// direction follow one another; large systems have several per unknown, so each takes 8 bytes.
 struct ColouredDirections {
   struct Entry {
-    int row;                ///< row in the derivative along the colour
-    int matrix;             ///< the matrix that it belongs to: D0, D1 or D2
-    Index slot;             ///< its place in the pattern
-    std::size_t direction;  ///< index of its direction
+    int row;             ///< row in the derivative along the direction
+    std::uint32_t slot;  ///< its place in the pattern
   };
   Directions directions;
-  std::vector<double> weights;                            ///< of the directions in the check, random around 1
-  std::vector<std::size_t> first_direction, first_entry;  ///< by colour; colours + 1 numbers
+  std::vector<std::size_t> first_direction;  ///< by colour; colours + 1 numbers
+  std::vector<std::uint32_t> first_entry;    ///< by direction that reaches a row, and one number more
   std::vector<Entry> entries;
 
   ColouredDirections() = default;
@@ -35,9 +36,15 @@ struct ColouredDirections {
   std::size_t end(std::size_t colour) const {
     return colour == colours() ? directions.size() : first_direction[colour + 1];
   }
-  double weight(std::size_t colour, std::size_t direction) const {
-    return colour == colours() ? weights[direction] : 1;
+  std::span<const Entry> entriesOf(std::size_t direction) const {
+    return std::span(entries).subspan(first_entry[direction], first_entry[direction + 1] - first_entry[direction]);
   }
+  double weight(std::size_t colour, std::size_t direction) const {
+    return colour == colours() ? weightOf(direction) : 1;
+  }
+  /// The weight of a direction in the check, between 0.5 and 1.5: its number, hashed (Steele, Lea & Flood, OOPSLA 2014,
+  /// SplitMix64).
+  static double weightOf(std::size_t direction);
 };
 
 }  // namespace irk

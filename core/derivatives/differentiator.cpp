@@ -28,8 +28,9 @@ Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSourc
       sizes_(system.sizes()),
       terms_(catalogue<JacobianTerms>()[terms]),
       storage_(storage),
-      scratch_(scratch ? std::move(scratch) : std::make_shared<Scratch>(sizes_)),
+      scratch_(scratch ? std::move(scratch) : std::make_shared<Scratch>(sizes_, source)),
       zero_a_(Vec<Real>::Zero(sizes_.nu)) {
+  if (scratch_->source != source) throw Misuse("a scratch for derivatives of another source");
   if (!std::is_same_v<Real, double>) {
     if (storage == Storage::kSparse) {
       throw Misuse("illegal combination: storage 'sparse' in multiprecision: KLU is for double");
@@ -110,8 +111,10 @@ void Differentiator<Real>::setPattern() {
                                 : ColouredDirections::dense(group->directions, n);
     most = std::max(most, group->directions.size());
   }
-  y_.resize(static_cast<Index>(most));
-  delta_.resize(static_cast<Index>(most));
+  if (source_ != DerivativeSource::kAutomatic) {
+    y_.resize(static_cast<Index>(most));
+    delta_.resize(static_cast<Index>(most));
+  }
   stiffness_known_ = false;
 }
 
@@ -182,23 +185,23 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
   using std::abs;
   if (colour == group.colours()) return check(change, out);
   const bool exact = source_ == DerivativeSource::kAutomatic;
-  Real* const values[] = {out.d0.data(), out.d1.data(), out.d2.data()};
-  if (exact && !looked_) {
-    for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
-      const auto& entry = group.entries[e];
-      values[entry.matrix][entry.slot] = change(entry.row);
-    }
-    return;
-  }
+  Real* const matrices[] = {out.d0.data(), out.d1.data(), out.d2.data()};
   Vec<Real>&expected = scratch_->expected, &magnitude = scratch_->magnitude;
-  for (std::size_t e = group.first_entry[colour]; e < group.first_entry[colour + 1]; ++e) {
-    const auto& entry = group.entries[e];
-    const Real& value = change(entry.row);
-    values[entry.matrix][entry.slot] = exact ? value : Real(value / delta_[static_cast<Index>(entry.direction)]);
-    if (!looked_) continue;
-    const Real part = Real(group.weights[entry.direction]) * value;
-    expected[entry.row] += part;
-    magnitude[entry.row] += abs(part);
+  for (std::size_t i = group.begin(colour); i < group.end(colour); ++i) {
+    Real* const values = matrices[group.directions[i].matrix];
+    if (exact && !looked_) {
+      for (const auto& entry : group.entriesOf(i)) values[entry.slot] = change(entry.row);
+      continue;
+    }
+    const Real weight = looked_ ? Real(ColouredDirections::weightOf(i)) : Real(0);
+    for (const auto& entry : group.entriesOf(i)) {
+      const Real& value = change(entry.row);
+      values[entry.slot] = exact ? value : Real(value / delta_[static_cast<Index>(i)]);
+      if (!looked_) continue;
+      const Real part = weight * value;
+      expected[entry.row] += part;
+      magnitude[entry.row] += abs(part);
+    }
   }
 }
 

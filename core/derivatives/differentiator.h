@@ -61,7 +61,14 @@ inline constexpr double kSparseFill = 0.5;
 /// the same time may share it: with many unknowns it is larger than the matrices.
 template <class Real>
 struct DifferentiatorScratch {
-  explicit DifferentiatorScratch(const Sizes& n) : dual(n), real(n), base(n.n()), expected(n.n()), magnitude(n.n()) {}
+  DifferentiatorScratch(const Sizes& n, DerivativeSource of)
+      : source(of),
+        dual(of == DerivativeSource::kAutomatic ? n : Sizes{}),
+        real(of == DerivativeSource::kAutomatic ? Sizes{} : n),
+        base(real.r.size()),
+        expected(n.n()),
+        magnitude(n.n()) {}
+  DerivativeSource source;
   PointBuffers<Dual<Real>> dual;
   PointBuffers<Real> real;
   Vec<Real> base;
@@ -79,7 +86,7 @@ class Differentiator {
   using Scratch = DifferentiatorScratch<Real>;
 
   /// Keeps a reference to the system. Makes its own scratch if none is given. Throws Misuse for storage `sparse` in
-  /// multiprecision.
+  /// multiprecision, and for a scratch of another source.
   Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms = JacobianTerms::kFull,
                  Storage storage = Storage::kDense, Matrices matrices = Matrices::kAll,
                  std::shared_ptr<Scratch> scratch = nullptr);

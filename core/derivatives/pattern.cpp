@@ -28,7 +28,7 @@ Directions allDirections(const Sizes& n, int matrices) {
   Directions all;
   all.reserve(static_cast<std::size_t>(std::accumulate(columns, columns + matrices, Index(0))));
   for (int matrix = 0; matrix < matrices; ++matrix) {
-    for (Index j = 0; j < columns[matrix]; ++j) all.push_back({matrix, j});
+    for (Index j = 0; j < columns[matrix]; ++j) all.push_back({matrix, static_cast<int>(j)});
   }
   return all;
 }
@@ -48,14 +48,20 @@ RowSets fullRows(std::size_t directions, Index n) {
 }
 
 bool unite(const RowSets& more, RowSets& into) {
+  const std::size_t before = into.entries();
+  if (before == 0) {
+    into = more;
+    return into.entries() > 0;
+  }
   RowSets united;
+  united.reserve(into.size(), std::max(before, more.entries()));
   std::vector<int> both;
   for (std::size_t i = 0; i < into.size(); ++i) {
     both.clear();
     std::set_union(into[i].begin(), into[i].end(), more[i].begin(), more[i].end(), std::back_inserter(both));
     united.append(both);
   }
-  const bool grown = united.entries() > into.entries();
+  const bool grown = united.entries() > before;
   into = std::move(united);
   return grown;
 }

@@ -52,8 +52,8 @@ bool sameShape(const std::shared_ptr<const Pattern>& a, const std::shared_ptr<co
 
 /// A column of D0, D1 or D2, i.e. the derivative along one component of the point.
 struct Direction {
-  int matrix;    ///< 0: D0, components of w = (a, k, z); 1: D1, of (v, x); 2: D2, of u
-  Index column;  ///< in 0..n-1
+  int matrix;  ///< 0: D0, components of w = (a, k, z); 1: D1, of (v, x); 2: D2, of u
+  int column;  ///< in 0..n-1
 };
 using Directions = std::vector<Direction>;
 
@@ -81,6 +81,11 @@ class RowSets {
   }
   /// Adds all sets of another object after the last.
   void append(const RowSets& others);
+  /// Makes room for so many sets and rows of all sets together.
+  void reserve(std::size_t sets, std::size_t entries) {
+    start_.reserve(sets + 1);
+    rows_.reserve(entries);
+  }
 
  private:
   std::vector<std::size_t> start_{0};  // of each set in rows_; size() + 1 numbers

@@ -199,8 +199,8 @@ void LaneStages::differentiate(const std::vector<Lanes>& W, const LaneMask& whic
   for (Index i = 0; i < n_; ++i) dual_.w[i].value = W[count(i + inner_ * n_)];
   const Index rates = sizes_.nu + sizes_.nx, directions = n_ + rates + sizes_.nu;
   const auto along = [&](Index i) -> Direction {
-    if (i < n_) return {0, i};
-    return i < n_ + rates ? Direction{1, i - n_} : Direction{2, i - n_ - rates};
+    if (i < n_) return {0, static_cast<int>(i)};
+    return i < n_ + rates ? Direction{1, static_cast<int>(i - n_)} : Direction{2, static_cast<int>(i - n_ - rates)};
   };
   constexpr auto kChunkSize = static_cast<Index>(kChunk);
   for (Index first = 0; first < directions; first += kChunkSize) {

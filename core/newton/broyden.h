@@ -16,7 +16,8 @@ namespace irk {
 template <class Real>
 class BroydenUpdates {
  public:
-  BroydenUpdates(Index n, Index stages) : n_(n), increments_(n * stages, kMax), weights_(n * stages) {}
+  BroydenUpdates(Index n, Index stages)
+      : n_(n), increments_(n * stages, kMax), weights_(n < kRepeatedBelow ? n * stages : n) {}
 
   /// Begins a new iteration with the simplified matrix; `on`: whether to update it. `squares`: n squared weights of the
   /// inner product.
@@ -41,7 +42,7 @@ class BroydenUpdates {
     if (frozen_) return;
     frozen_ = count_ == kMax;
     if (frozen_) return;
-    const Real square = d.dot(weights_.cwiseProduct(d));
+    const Real square = product(d, d);
     if (!(square > Real(0))) {
       frozen_ = true;
       return;
@@ -56,12 +57,25 @@ class BroydenUpdates {
   // <v, d_i> / |d_i|^2. The weighted increments W d_i are not stored: with many unknowns they would be as large as the
   // increments.
   Real part(const VecView<Real>& v, Index i) const {
-    return v.dot(weights_.cwiseProduct(increments_.col(i))) / squares_[static_cast<std::size_t>(i)];
+    return product(v, increments_.col(i)) / squares_[static_cast<std::size_t>(i)];
   }
+  // <a, b>
+  template <class A, class B>
+  Real product(const A& a, const B& b) const {
+    const Index length = weights_.size();
+    Real sum(0);
+    for (Index at = 0; at < a.size(); at += length) {
+      sum += a.segment(at, length).dot(weights_.cwiseProduct(b.segment(at, length)));
+    }
+    return sum;
+  }
+
+  // With fewer unknowns one long sum is faster than one for each stage.
+  static constexpr Index kRepeatedBelow = 64;
 
   Index n_;
   Mat<Real> increments_;            // d_i
-  Vec<Real> weights_;               // the diagonal of W
+  Vec<Real> weights_;               // the diagonal of W, of all stages or, where it is long, of one
   std::array<Real, kMax> squares_;  // |d_i|^2
   Index count_ = 0;
   bool frozen_ = false;

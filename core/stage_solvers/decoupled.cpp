@@ -30,8 +30,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, form_.diagonal ? 0 : setup.A.rows()),
-      D2Y_(setup.pattern->n, D1Y_.cols()),
-      eta_(setup.pattern->n) {
+      D2Y_(setup.pattern->n, D1Y_.cols()) {
   for (const auto& block : form_.blocks) {
     const Index size = small_ ? block.size * setup.pattern->n : 0;
     inverses_.emplace_back(size * size);
@@ -61,6 +60,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
 
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::makeFactors() {
+  eta_.resize(setup_.pattern->n);
   const auto add = [&](const auto& shape) {
     for (const auto& block : form_.blocks) {
       lu_index_.push_back(block.size == 1 ? real_lu_.size() : complex_lu_.size());

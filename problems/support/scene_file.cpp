@@ -195,6 +195,10 @@ void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const st
   scene.names.clear();
   scene.units.clear();
   std::vector<double> scale;
+  const std::size_t components = 2 * u.size() + x.size() + z.size();
+  scene.names.reserve(components);
+  scene.units.reserve(components);
+  scale.reserve(components);
   const auto append = [&](std::string name, std::string unit, double size) {
     scene.names.push_back(std::move(name));
     scene.units.push_back(std::move(unit));
