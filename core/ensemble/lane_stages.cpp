@@ -79,6 +79,12 @@ LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const s
       error_(at_.size() + nz_),
       e_(count(n_)) {}
 
+void LaneStages::use(const System<Lanes>& system) {
+  system_ = &system;
+  uses_velocity_ = system.usesVelocity();
+  if (!uses_velocity_) std::fill(V_.begin(), V_.end(), Lanes(std::numeric_limits<double>::quiet_NaN()));
+}
+
 void LaneStages::begin(const LaneState& from, const Lanes& h) {
   from_ = &from;
   h_ = h;
@@ -159,8 +165,10 @@ void LaneStages::place(const std::vector<Lanes>& W) {
   const Lanes *const u = from_->y.data(), *const v = u + nu_, *const x = v + nu_;
   const auto stages = entriesOf(W.data(), n_);
   if (nu_ > 0) {
-    laneProduct(sizes_.nu, scheme_.A_transposed, stages,
-                [&](Index i, Index j, const Lanes& sum) { V_[count(i) + count(j) * nu_] = h_ * sum + v[i]; });
+    if (uses_velocity_) {
+      laneProduct(sizes_.nu, scheme_.A_transposed, stages,
+                  [&](Index i, Index j, const Lanes& sum) { V_[count(i) + count(j) * nu_] = h_ * sum + v[i]; });
+    }
     const Lanes hh = h_ * h_;
     laneProduct(sizes_.nu, scheme_.A2_transposed, stages, [&](Index i, Index j, const Lanes& sum) {
       U_[count(i) + count(j) * nu_] = hh * sum + (u[i] + h_ * scheme_.A1[j] * v[i]);
@@ -194,7 +202,8 @@ void LaneStages::differentiate(const std::vector<Lanes>& W, const LaneMask& whic
   place(W);
   const auto inner = count(inner_);
   for (std::size_t i = 0; i < nu_; ++i) dual_.u[static_cast<Index>(i)].value = U_[inner * nu_ + i];
-  for (std::size_t i = 0; i < nu_; ++i) dual_.v[static_cast<Index>(i)].value = V_[inner * nu_ + i];
+  const Lanes* const v = uses_velocity_ ? V_.data() + inner * nu_ : from_->y.data() + nu_;
+  for (std::size_t i = 0; i < nu_; ++i) dual_.v[static_cast<Index>(i)].value = v[i];
   for (std::size_t i = 0; i < nx_; ++i) dual_.x[static_cast<Index>(i)].value = X_[inner * nx_ + i];
   for (Index i = 0; i < n_; ++i) dual_.w[i].value = W[count(i + inner_ * n_)];
   const Index rates = sizes_.nu + sizes_.nx, directions = n_ + rates + sizes_.nu;

@@ -18,7 +18,7 @@ class LaneStages {
   LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers, double mu);
 
   /// Selects the systems whose equations are evaluated from now on.
-  void use(const System<Lanes>& system) { system_ = &system; }
+  void use(const System<Lanes>& system);
 
   /// Begins a step of each lane from `from`, which must live as long as the step.
   void begin(const LaneState& from, const Lanes& h);
@@ -57,6 +57,7 @@ class LaneStages {
   double mu_;
   Mat<double> start_, integrals_, b_, bA_;  // s x 1
   const System<Lanes>* system_ = nullptr;
+  bool uses_velocity_ = true;
   const LaneState* from_ = nullptr;
   Lanes h_;
   std::vector<Lanes> t_, U_, V_, X_;  // of the stages

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/small_product.h"
 #include "core/stage_solvers/stage_solver.h"
@@ -68,6 +69,7 @@ StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Re
       sizes_(system.sizes()),
       threads_(threads),
       inner_(scheme.first),
+      uses_velocity_(system.usesVelocity()),
       U_(sizes_.nu, scheme.s),
       V_(sizes_.nu, scheme.s),
       X_(sizes_.nx, scheme.s),
@@ -77,6 +79,7 @@ StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Re
       t_(scheme.s),
       scales_(sizes_.n()),
       middle_(sizes_) {
+  if (!uses_velocity_) V_.setConstant(std::numeric_limits<Real>::quiet_NaN());
   const auto& powers = system.rowPowers();
   scaled_ = std::any_of(powers.begin(), powers.end(), [](int p) { return p != 0; });
   const auto away = [&](Index i) { return std::abs(static_cast<double>(scheme.c[i]) - kInner); };
@@ -99,13 +102,15 @@ void StageEquations<Real>::begin(const State<Real>& from, const Real& h) {
 }
 
 // Paper (2.5), (2.6): V = v0 + h A a, U = u0 + h A 1 v0 + h^2 A^2 a, X = x0 + h A k. (A 1 = c, except for methods of
-// stage order 0 such as Radau IA with one stage.)
+// stage order 0 such as Radau IA with one stage.) Without V, U is all that Nystroem's form of the method needs.
 template <class Real>
 void StageEquations<Real>::place(const Mat<Real>& W) {
   const Index nu = sizes_.nu, nx = sizes_.nx;
   const Real *const u = from_->u.data(), *const v = from_->v.data(), *const x = from_->x.data();
   if (nu > 0) {
-    inlinedProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, [&](Index i, Index) { return v[i]; });
+    if (uses_velocity_) {
+      inlinedProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, [&](Index i, Index) { return v[i]; });
+    }
     inlinedProduct(W.data(), W.rows(), nu, hhA2_, U_.data(), nu,
                    [&](Index i, Index j) { return Real(u[i] + hA1_[j] * v[i]); });
   }
@@ -137,7 +142,9 @@ StagePoints<Real> StageEquations<Real>::points(const Mat<Real>& W) const {
 
 template <class Real>
 Point<Real> StageEquations<Real>::stage(const Mat<Real>& W, Index i) const {
-  return points(W)[i];
+  const Point<Real> p = points(W)[i];
+  if (uses_velocity_) return p;
+  return {p.t, p.u, {from_->v.data(), sizes_.nu}, p.x, p.a, p.k, p.z, p.d};
 }
 
 template <class Real>

@@ -24,7 +24,8 @@ class StageEquations {
 
   /// Computes u, v, x of the stages W, without the residual.
   void place(const Mat<Real>& W);
-  /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives.
+  /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives. Where the residual
+  /// does not depend on v, this is the v of the start.
   Point<Real> stage(const Mat<Real>& W, Index i) const;
   /// Points for derivatives: the step's start, and its middle (u, v, x by Taylor's formula from the start).
   Point<Real> start() const;
@@ -51,6 +52,7 @@ class StageEquations {
   int threads_;
   Index inner_;  // the stage of `predicted`
   bool scaled_;
+  bool uses_velocity_;
   const State<Real>* from_ = nullptr;
   Real h_{};
   Mat<Real> U_, V_, X_;

@@ -38,6 +38,7 @@ class CountingSystem final : public System<Real> {
   std::vector<Real> times() const override { return inner_.times(); }
   void onTime(Index i, State<Real>& state) const override { inner_.onTime(i, state); }
   bool nonNegative(Index i) const override { return inner_.nonNegative(i); }
+  bool usesVelocity() const override { return inner_.usesVelocity(); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }
   Discontinuity discontinuity() const override { return inner_.discontinuity(); }
   bool projectsVelocity() const override { return inner_.projectsVelocity(); }

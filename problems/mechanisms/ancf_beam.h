@@ -76,6 +76,8 @@ class AncfBeam {
     }
   }
 
+  bool usesVelocity() const { return false; }
+
   /// The sum of kinetic, elastic and potential energy, in J. The semi-discrete system conserves it.
   Real energy(const Vec<Real>& u, const Vec<Real>& v) const {
     Real sum = d_.tip_load * u[tipY()];

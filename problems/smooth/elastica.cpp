@@ -31,6 +31,7 @@ struct Elastica {
     r.x[0] = cos(p.u[0]) - p.k[0];
     r.x[1] = sin(p.u[0]) - p.k[1];
   }
+  bool usesVelocity() const { return false; }
   static Scene<Real> make(const Settings& values) {
     const Elastica<Real> problem{number<Real>(values, "L"), number<Real>(values, "load")};
     const ExactElastica<Real> exact(problem);

@@ -19,6 +19,8 @@ struct Kepler {
     r.u[1] = -p.u[1] * inverse_cube - p.a[1];
   }
 
+  bool usesVelocity() const { return false; }
+
   // Solves Kepler's equation M = E - e sin E with M = t by Newton's method from E = M + e sign(sin M). For M in
   // (0, pi) the function is convex between the root and pi, where the iteration is monotone.
   Real eccentricAnomaly(const Real& t) const {

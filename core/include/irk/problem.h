@@ -55,6 +55,10 @@
 //     // more than 200 tolerances ends as `inaccurate`: reactions often run away from zero there.
 //     bool nonNegative(Index i) const;
 //
+//     // Whether the residual reads p.v; of undamped motions it does not, and their v is then computed at the ends of
+//     // steps only (true if the function is missing). A residual that reads p.v all the same gets NaN.
+//     bool usesVelocity() const;
+//
 // A switching function that has no meaning in a mode returns -1 in this mode.
 //
 // Algebraic unknowns other than multipliers have index 1, unless the struct declares `static constexpr int

@@ -105,6 +105,14 @@ class ProblemSystem final : public System<Real> {
     if constexpr (requires { problem_.nonNegative(i); }) return problem_.nonNegative(i);
     return System<Real>::nonNegative(i);
   }
+  bool usesVelocity() const override {
+    // Constraints at velocity and acceleration level read v, and switching functions may.
+    const bool constrained = sizes_.constraints > 0 && constraintIndex() != 3;
+    if constexpr (requires { problem_.usesVelocity(); }) {
+      return problem_.usesVelocity() || constrained || sizes_.switches > 0;
+    }
+    return true;
+  }
   std::string switchName(Index i) const override {
     if constexpr (requires { problem_.switchName(i); }) return problem_.switchName(i);
     return System<Real>::switchName(i);
