@@ -142,8 +142,8 @@ StagePoints<Real> StageEquations<Real>::points(const Mat<Real>& W) const {
 
 template <class Real>
 Point<Real> StageEquations<Real>::stage(const Mat<Real>& W, Index i) const {
+  if (uses_velocity_) return points(W)[i];
   const Point<Real> p = points(W)[i];
-  if (uses_velocity_) return p;
   return {p.t, p.u, {from_->v.data(), sizes_.nu}, p.x, p.a, p.k, p.z, p.d};
 }
 
