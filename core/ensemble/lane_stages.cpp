@@ -202,8 +202,7 @@ void LaneStages::differentiate(const std::vector<Lanes>& W, const LaneMask& whic
   place(W);
   const auto inner = count(inner_);
   for (std::size_t i = 0; i < nu_; ++i) dual_.u[static_cast<Index>(i)].value = U_[inner * nu_ + i];
-  const Lanes* const v = uses_velocity_ ? V_.data() + inner * nu_ : from_->y.data() + nu_;
-  for (std::size_t i = 0; i < nu_; ++i) dual_.v[static_cast<Index>(i)].value = v[i];
+  for (std::size_t i = 0; i < nu_; ++i) dual_.v[static_cast<Index>(i)].value = V_[inner * nu_ + i];
   for (std::size_t i = 0; i < nx_; ++i) dual_.x[static_cast<Index>(i)].value = X_[inner * nx_ + i];
   for (Index i = 0; i < n_; ++i) dual_.w[i].value = W[count(i + inner_ * n_)];
   const Index rates = sizes_.nu + sizes_.nx, directions = n_ + rates + sizes_.nu;

@@ -4,41 +4,45 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "tests/core/support.h"
 
 namespace irk::test {
 namespace {
 
-// F(x) = 0 in six unknowns, mildly nonlinear, with the root (1, ..., 6)/6.
+// F(x) = 0 in n unknowns, mildly nonlinear, with the root (1, ..., n)/n.
 Vec<double> residual(const Vec<double>& x) {
   const Index n = x.size();
   Vec<double> f(n);
   for (Index i = 0; i < n; ++i) {
-    const double root = static_cast<double>(i + 1) / 6, e = x[i] - root;
+    const auto size = static_cast<double>(n);
+    const double root = static_cast<double>(i + 1) / size, e = x[i] - root;
     f[i] = 2 * e + 0.4 * e * e;
     for (Index j = 0; j < n; ++j) {
-      f[i] += 0.1 * static_cast<double>(1 + (i * j) % 3) * (x[j] - static_cast<double>(j + 1) / 6);
+      f[i] += 0.6 / size * static_cast<double>(1 + (i * j) % 3) * (x[j] - static_cast<double>(j + 1) / size);
     }
   }
   return f;
 }
 
 // The update, written out: B := B + (F_new - F_old - B s) s^T W / (s^T W s).
-TEST(Broyden, AgreesWithTheUpdatedMatrices) {
-  constexpr Index kRows = 3, kStages = 2, kSize = kRows * kStages;
-  const Vec<double> squares = (Vec<double>(kRows) << 1.0, 4.0, 0.25).finished();
-  Vec<double> weights(kSize);
-  for (Index j = 0; j < kStages; ++j) weights.segment(j * kRows, kRows) = squares;
-  Mat<double> B = 2.5 * Mat<double>::Identity(kSize, kSize);
+void compareWithUpdatedMatrices(Index rows) {
+  constexpr Index kStages = 2;
+  const Index size = rows * kStages;
+  Vec<double> squares(rows);
+  for (Index i = 0; i < rows; ++i) squares[i] = std::pow(4.0, i % 3 - 1);
+  Vec<double> weights(size);
+  for (Index j = 0; j < kStages; ++j) weights.segment(j * rows, rows) = squares;
+  Mat<double> B = 2.5 * Mat<double>::Identity(size, size);
   const Eigen::PartialPivLU<Mat<double>> simplified(B);
 
-  BroydenUpdates<double> updates(kRows, kStages);
+  BroydenUpdates<double> updates(rows, kStages);
   updates.begin(true, squares);
-  Vec<double> x = Vec<double>::Zero(kSize), twin = x, f = residual(twin);
+  Vec<double> x = Vec<double>::Zero(size), twin = x, f = residual(twin);
   for (int m = 0; m < 7; ++m) {
     Vec<double> d = simplified.solve(residual(x));
-    VecView<double> view(d.data(), kSize);
+    VecView<double> view(d.data(), size);
     updates.apply(view);
     const Vec<double> step = -B.partialPivLu().solve(f);
     EXPECT_LT((d + step).norm(), 1e-9 * step.norm() + 1e-14) << m;
@@ -52,6 +56,11 @@ TEST(Broyden, AgreesWithTheUpdatedMatrices) {
   }
   // Convergence is superlinear; the simplified iteration contracts by 0.4.
   EXPECT_LT(residual(x).norm(), 1e-5);
+}
+
+TEST(Broyden, AgreesWithTheUpdatedMatrices) {
+  compareWithUpdatedMatrices(3);
+  compareWithUpdatedMatrices(70);  // weights of one stage are kept
 }
 
 TEST(Broyden, SkipsUpdatesThatWouldNotBeSafe) {
