@@ -92,7 +92,8 @@ class NewtonBase : public Newton<Real> {
   /// Solves for the increment, applies it, and returns its norm; NaN if not finite. Not inlined: iterations of small
   /// systems are 1 to 7 % faster.
   template <class Matrix>
-  [[gnu::noinline]] double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W, BroydenUpdates<Real>* updates = nullptr) {
+  [[gnu::noinline]] double update(NewtonContext<Real>& c, Matrix& matrix, Mat<Real>& W,
+                                  BroydenUpdates<Real>* updates = nullptr) {
     matrix.solve(R_.rightCols(R_.cols() - first_));
     VecView<Real> increment = implicit();
     if (updates) updates->apply(increment);

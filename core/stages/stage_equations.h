@@ -24,8 +24,8 @@ class StageEquations {
 
   /// Computes u, v, x of the stages W, without the residual.
   void place(const Mat<Real>& W);
-  /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives. Where the residual
-  /// does not depend on v, this is the v of the start.
+  /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives. Where the
+  /// residual does not depend on v, this is the v of the start.
   Point<Real> stage(const Mat<Real>& W, Index i) const;
   /// Points for derivatives: the step's start, and its middle (u, v, x by Taylor's formula from the start).
   Point<Real> start() const;
