@@ -1,6 +1,7 @@
 #include "irk/system_check.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "irk/misuse.h"
@@ -25,6 +26,21 @@ std::string text(const Real& x) {
   std::ostringstream out;
   out << static_cast<double>(x);
   return out.str();
+}
+
+// The v of stages are NaN where the residual does not depend on v.
+template <class Real>
+void requireNoVelocity(const System<Real>& system, const State<Real>& start) {
+  State<Real> state = system.fromScene(start);
+  const Index n = system.sizes().n();
+  Vec<Real> with(n), without(n);
+  system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(with.data(), n));
+  state.v.setConstant(std::numeric_limits<Real>::quiet_NaN());
+  system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(without.data(), n));
+  for (Index i = 0; i < n; ++i) {
+    if (isFinite(without[i]) || !isFinite(with[i])) continue;
+    throw Misuse("usesVelocity() is false, but row " + std::to_string(i) + " of the residual (from 0 on) reads v");
+  }
 }
 
 }  // namespace
@@ -88,8 +104,10 @@ void requireStart(const System<Real>& system, const State<Real>& start, const Re
   requireCount("start: carry", start.carry.size(), 2 * n.nu + n.nx);
   if (!isFinite(start.t)) throw Misuse("start: t = " + text(start.t) + ": a finite number is expected");
   if (!isFinite(t_end)) throw Misuse("t_end = " + text(t_end) + ": a finite number is expected");
-  if (start.t <= t_end) return;
-  throw Misuse("t_end = " + text(t_end) + " lies before the start, t = " + text(start.t));
+  if (start.t > t_end) {
+    throw Misuse("t_end = " + text(t_end) + " lies before the start, t = " + text(start.t));
+  }
+  if (!system.usesVelocity()) requireNoVelocity(system, start);
 }
 
 template <class Real>

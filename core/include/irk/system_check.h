@@ -23,7 +23,8 @@ template <class Real>
 void requireSystem(const System<Real>* system, const Vec<double>& scale);
 
 /// Throws Misuse for a start whose sizes differ from the scene's, for a start or end time that is not finite, and for
-/// an end before the start. Other numbers of the start may be infinite or NaN: see notFinite.
+/// an end before the start, and for a residual that reads v there though System::usesVelocity is false. Other numbers
+/// of the start may be infinite or NaN: see notFinite.
 template <class Real>
 void requireStart(const System<Real>& system, const State<Real>& start, const Real& t_end);
 

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "irk/integrator.h"
+#include "irk/misuse.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
 #include "irk/vanishes.h"
@@ -19,6 +21,7 @@ struct Undamped {
   Real length;
   bool declared = true;
   Real damping = Real(0.0);
+  double damped_from = 0;
   Sizes sizes() const { return {.nu = 2, .nx = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -27,7 +30,9 @@ struct Undamped {
     r.u[0] = (-1 / length) * sin(p.u[0]) + p.u[1] * p.x[0] + cos(p.t) - p.a[0];
     r.u[1] = -p.u[1] * p.u[1] * p.u[1] - p.u[1] + p.u[0] - (1 + p.u[0] * p.u[0]) * p.a[1];
     r.x[0] = p.u[1] - p.x[0] - p.k[0];
-    if (!vanishes(damping)) r.u[0] -= damping * p.v[0];
+    if constexpr (!std::is_same_v<Real, Lanes>) {
+      if (!vanishes(damping) && p.t >= damped_from) r.u[0] -= damping * p.v[0];
+    }
   }
   bool usesVelocity() const { return !declared; }
   static void start(State<double>& s, double) {
@@ -81,10 +86,21 @@ TEST(VelocityFree, OtherFormulationsAndFullNewtonEqualTheTwin) {
 }
 
 // If the declaration is wrong, nothing computes with a wrong v.
-TEST(VelocityFree, AResidualThatReadsVAllTheSameFails) {
-  const auto solution = solved({1.3, true, 0.1}, {});
-  EXPECT_EQ(solution.outcome, Outcome::kNotFinite) << solution.detail;
+TEST(VelocityFree, AResidualThatReadsVAllTheSameIsRefused) {
   EXPECT_EQ(solved({1.3, false, 0.1}, {}).outcome, Outcome::kSuccess);
+  try {
+    solved({1.3, true, 0.1}, {});
+    FAIL();
+  } catch (const Misuse& error) {
+    EXPECT_STREQ(error.what(), "usesVelocity() is false, but row 0 of the residual (from 0 on) reads v");
+  }
+}
+
+// A residual that begins to read v later is not finite from there on.
+TEST(VelocityFree, AResidualThatReadsVLaterFails) {
+  const auto solution = solved({1.3, true, 0.1, 1}, {});
+  EXPECT_EQ(solution.outcome, Outcome::kNotFinite) << solution.detail;
+  EXPECT_LE(solution.state.t, 1);
 }
 
 TEST(VelocityFree, LanesEqualSingleRuns) {
