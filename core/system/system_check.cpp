@@ -28,18 +28,21 @@ std::string text(const Real& x) {
   return out.str();
 }
 
-// The v of stages are NaN where the residual does not depend on v.
+// Where the residual does not depend on v, the v of stages are NaN. Comparisons with NaN are false and leave a residual
+// finite, so that it is also evaluated with v of both signs.
 template <class Real>
 void requireNoVelocity(const System<Real>& system, const State<Real>& start) {
   State<Real> state = system.fromScene(start);
   const Index n = system.sizes().n();
-  Vec<Real> with(n), without(n);
-  system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(with.data(), n));
-  state.v.setConstant(std::numeric_limits<Real>::quiet_NaN());
-  system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(without.data(), n));
-  for (Index i = 0; i < n; ++i) {
-    if (isFinite(without[i]) || !isFinite(with[i])) continue;
-    throw Misuse("usesVelocity() is false, but row " + std::to_string(i) + " of the residual (from 0 on) reads v");
+  Vec<Real> given(n), other(n);
+  system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(given.data(), n));
+  for (const double v : {std::numeric_limits<double>::quiet_NaN(), 1.0, -1.0}) {
+    state.v.setConstant(Real(v));
+    system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(other.data(), n));
+    for (Index i = 0; i < n; ++i) {
+      if (other[i] == given[i] || !isFinite(given[i])) continue;
+      throw Misuse("usesVelocity() is false, but row " + std::to_string(i) + " of the residual (from 0 on) reads v");
+    }
   }
 }
 

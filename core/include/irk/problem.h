@@ -55,8 +55,9 @@
 //     // more than 200 tolerances ends as `inaccurate`: reactions often run away from zero there.
 //     bool nonNegative(Index i) const;
 //
-//     // Whether the residual reads p.v; of undamped motions it does not, and their v is then computed at the ends of
-//     // steps only (true if the function is missing). A residual that reads p.v all the same gets NaN.
+//     // Whether the residual reads p.v (true if the function is missing). That of an undamped motion does not; v is
+//     // then computed at the ends of steps only. A residual that reads p.v all the same is refused at the start, and
+//     // gets NaN later: comparisons with it are false.
 //     bool usesVelocity() const;
 //
 // A switching function that has no meaning in a mode returns -1 in this mode.

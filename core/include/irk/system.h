@@ -202,8 +202,8 @@ class System {
     static_cast<void>(i);
     return false;
   }
-  /// Whether the formulated residual depends on v. If not, the v of stages are NaN: a residual that reads them all the
-  /// same is not finite.
+  /// Whether the formulated residual depends on v. If not, the v of stages are NaN: a residual that computes with them
+  /// all the same is not finite. (Comparisons with NaN are false; requireStart looks for them at the start only.)
   virtual bool usesVelocity() const { return true; }
   /// The name of switch i in messages, e.g. "contact".
   virtual std::string switchName(Index i) const { return std::to_string(i); }

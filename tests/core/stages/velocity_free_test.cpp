@@ -96,6 +96,28 @@ TEST(VelocityFree, AResidualThatReadsVAllTheSameIsRefused) {
   }
 }
 
+/// Friction as a branch: with v = NaN it is finite, and wrong.
+struct Braked {
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = (p.v[0] > T(0.0) ? T(-0.5) : T(0.5)) - p.a[0];
+  }
+  bool usesVelocity() const { return false; }
+};
+
+TEST(VelocityFree, ABranchOnVIsRefusedAtEveryStart) {
+  const auto system = makeSystem<double>(Braked{});
+  for (const double v : {-2.0, 0.0, 2.0}) {
+    State<double> start(system->sizes());
+    start.v << v;
+    EXPECT_THROW(
+        static_cast<void>(Integrator<double>(system, makeTableau<double>("radau_iia_3"), {}).integrate(start, 1)),
+        Misuse)
+        << v;
+  }
+}
+
 // A residual that begins to read v later is not finite from there on.
 TEST(VelocityFree, AResidualThatReadsVLaterFails) {
   const auto solution = solved({1.3, true, 0.1, 1}, {});
