@@ -2,11 +2,45 @@
 #pragma once
 
 #include <array>
+#include <cstring>
 #include <type_traits>
 
 #include "core/base/small_size.h"
+#include "irk/lanes.h"
 
 namespace irk {
+namespace detail {
+
+/// y_0 to y_7.
+inline Lanes eightFrom(const double* y) {
+  Lanes all;
+  std::memcpy(&all.v, y, sizeof all.v);
+  return all;
+}
+
+}  // namespace detail
+
+/// The sums of a product begin with 0, ...
+template <class Real>
+struct FromZero {
+  Real operator()(Index, Index) const { return Real(0); }
+  Lanes eight(Index, Index) const { return {}; }
+};
+/// ... with y_i in each column, ...
+template <class Real>
+struct FromColumn {
+  const Real* y;
+  Real operator()(Index i, Index) const { return y[i]; }
+  Lanes eight(Index i, Index) const { return detail::eightFrom(y + i); }
+};
+/// ... with y_i + factor_j slope_i.
+template <class Real>
+struct FromLine {
+  const Real *y, *slope, *factors;
+  Real operator()(Index i, Index j) const { return y[i] + factors[j] * slope[i]; }
+  Lanes eight(Index i, Index j) const { return detail::eightFrom(y + i) + factors[j] * detail::eightFrom(slope + i); }
+};
+
 namespace detail {
 
 /// Square matrices of this size at most are unrolled by columns, too.
@@ -66,6 +100,18 @@ template <Index N, class Real, class RightHand, class Start>
   });
 }
 
+/// The same for eight rows. Their sums are vectors, whatever vectors the compiler chooses for loops.
+template <class RightHand, class Start>
+[[gnu::always_inline]] inline void productOfEightRows(const double* A, Index stride, const RightHand& B, double* out,
+                                                      Index out_stride, Index row, const Start& start) {
+  for (Index j = 0; j < B.cols(); ++j) {
+    Lanes sum = start.eight(row, j);
+    const double* const b = B.data() + j * B.rows();
+    for (Index k = 0; k < B.rows(); ++k) sum += b[k] * eightFrom(A + k * stride);
+    std::memcpy(out + j * out_stride, &sum.v, sizeof sum.v);
+  }
+}
+
 }  // namespace detail
 
 /// out(i, j) = start(i, j) + sum_k A(i, k) B(k, j) for i < rows. The columns of A and out are `stride` and
@@ -75,13 +121,13 @@ template <Index N, class Real, class RightHand, class Start>
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride,
                   const Start& start) {
-  constexpr Index kBlock = 8;
+  constexpr auto kBlock = static_cast<Index>(kLanes);
   if constexpr (!std::is_same_v<Real, double>) {
     for (Index i = 0; i < rows; ++i) detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
   } else {
     Index i = 0;
     for (; i + kBlock <= rows; i += kBlock) {
-      detail::productRows<kBlock>(A + i, stride, B, out + i, out_stride, i, start);
+      detail::productOfEightRows(A + i, stride, B, out + i, out_stride, i, start);
     }
     for (; i + 4 <= rows; i += 4) {
       detail::productRows<4>(A + i, stride, B, out + i, out_stride, i, start);
@@ -102,7 +148,7 @@ void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, R
 /// The same with start = 0.
 template <class Real, class RightHand>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride) {
-  smallProduct(A, stride, rows, B, out, out_stride, [](Index, Index) { return Real(0); });
+  smallProduct(A, stride, rows, B, out, out_stride, FromZero<Real>());
 }
 
 /// out = A B for matrices or vectors; B has no gaps. `out` has the right size and does not overlap A or B.
@@ -141,7 +187,7 @@ template <class Real, class RightHand, class Start>
 template <class Real, class RightHand>
 [[gnu::always_inline]] inline void inlinedProduct(const Real* A, Index stride, Index rows, const RightHand& B,
                                                   Real* out, Index out_stride) {
-  inlinedProduct(A, stride, rows, B, out, out_stride, [](Index, Index) { return Real(0); });
+  inlinedProduct(A, stride, rows, B, out, out_stride, FromZero<Real>());
 }
 
 }  // namespace irk

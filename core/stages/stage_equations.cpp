@@ -109,13 +109,12 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
   const Real *const u = from_->u.data(), *const v = from_->v.data(), *const x = from_->x.data();
   if (nu > 0) {
     if (uses_velocity_) {
-      inlinedProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, [&](Index i, Index) { return v[i]; });
+      inlinedProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, FromColumn<Real>{v});
     }
-    inlinedProduct(W.data(), W.rows(), nu, hhA2_, U_.data(), nu,
-                   [&](Index i, Index j) { return Real(u[i] + hA1_[j] * v[i]); });
+    inlinedProduct(W.data(), W.rows(), nu, hhA2_, U_.data(), nu, FromLine<Real>{u, v, hA1_.data()});
   }
   if (nx > 0) {
-    inlinedProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx, [&](Index i, Index) { return x[i]; });
+    inlinedProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx, FromColumn<Real>{x});
   }
 }
 

@@ -39,11 +39,24 @@ TEST(SmallSize, ProductsOfEverySize) {
   }
 }
 
+TEST(SmallSize, ProductsBeginWithTheirStarts) {
+  for (Index rows = 1; rows <= 21; ++rows) {
+    const Mat<double> A = Mat<double>::Random(rows, 3), B = Mat<double>::Random(3, 2), product = A * B;
+    const Vec<double> y = Vec<double>::Random(rows), slope = Vec<double>::Random(rows),
+                      factors = Vec<double>::Random(2);
+    Mat<double> out = Mat<double>::Constant(rows, 2, 7.0);
+    smallProduct(A.data(), rows, rows, B, out.data(), rows, FromColumn<double>{y.data()});
+    EXPECT_LT((out - (product.colwise() + y)).norm(), 1e-14) << rows;
+    smallProduct(A.data(), rows, rows, B, out.data(), rows, FromLine<double>{y.data(), slope.data(), factors.data()});
+    EXPECT_LT((out - ((product + slope * factors.transpose()).colwise() + y)).norm(), 1e-14) << rows;
+  }
+}
+
 // Every size that is made in place and some that are not; the rows lie between others, which stay as they are. The
 // compiler is free to contract other products and sums in each.
 TEST(SmallSize, InlinedProductsAreTheGeneralOne) {
-  const Mat<double> first = Mat<double>::Random(6, 5);
-  const auto start = [&](Index i, Index j) { return first(i, j); };
+  const Vec<double> y = Vec<double>::Random(6), slope = Vec<double>::Random(6), factors = Vec<double>::Random(5);
+  const FromLine<double> start{y.data(), slope.data(), factors.data()};
   for (Index rows = 0; rows <= 6; ++rows) {
     for (Index inner = 1; inner <= 5; ++inner) {
       for (const Index columns : {Index(1), Index(2), inner}) {
