@@ -115,9 +115,9 @@ template <class RightHand, class Start>
 }  // namespace detail
 
 /// out(i, j) = start(i, j) + sum_k A(i, k) B(k, j) for i < rows. The columns of A and out are `stride` and
-/// `out_stride` numbers apart; A and out must not overlap. B is a matrix or vector without gaps. The product is
-/// computed by blocks of rows whose sums stay in registers. For two rows it takes a tenth of the time of a
-/// general product, and for hundreds of rows not more than that product, since B is small.
+/// `out_stride` numbers apart; A and out must not overlap. B is a matrix or vector without gaps. Start is one of the
+/// three above. The product is computed by blocks of rows whose sums stay in registers. For two rows it takes a tenth
+/// of the time of a general product, and for hundreds of rows not more than that product, since B is small.
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride,
                   const Start& start) {
