@@ -38,13 +38,13 @@ caseTitle(i) = words(titles) >= i ? word(titles, i) : nameOf(caseOf(i))
 
 # Ranges: for the errors over all panels, for the costs per panel.
 tried = 0; rows = 0; failures = 0; coarsest = 1e-300; finest = 1e300; top = 1
-array Least[panels]; array Most[panels]
+array Least[panels]; array Most[panels]; array Marks[panels]
 do for [i = 1 : panels] {
   undefine N_*; undefine E_*; undefine C_*; undefine F_*
   stats file using (chosen(caseOf(i)) ? (collect(curveOf(0)), 1) : 0) name "N" nooutput
   tried = tried + (exists("N_sum") ? N_sum : 0)
   stats file using (chosen(caseOf(i)) && error(0) > 0 ? 1 : 0) name "N" nooutput
-  Least[i] = 1; Most[i] = 10
+  Least[i] = 1; Most[i] = 10; Marks[i] = exists("N_sum") ? N_sum : 0
   if (exists("N_sum") && N_sum > 0) {
     rows = rows + N_sum
     stats file using (chosen(caseOf(i)) ? error(0) : NaN) name "E" nooutput
@@ -55,7 +55,7 @@ do for [i = 1 : panels] {
   }
   stats file using (chosen(caseOf(i)) && !succeeded(0) ? 1 : 0) name "N" nooutput
   if (exists("N_sum") && N_sum > 0) {
-    failures = failures + N_sum
+    failures = failures + N_sum; Marks[i] = Marks[i] + N_sum
     stats file using (chosen(caseOf(i)) && !succeeded(0) && !isFixed(0) ? 1 : 0) name "N" nooutput
     if (N_sum > 0) {
       stats file using (chosen(caseOf(i)) && !succeeded(0) && !isFixed(0) ? asked(0) : NaN) name "F" nooutput
@@ -119,12 +119,18 @@ do for [format in formats] {
       set title when(words(cases) > 1 || words(titles) > 0, caseTitle(i)) offset 0,-0.5 noenhanced
       set xlabel when(i > panels - columns, errorTitle(quantity, times))
       set ylabel when(words(costs) > 1 || i % columns == 1 || columns == 1, cost_title(c)) offset 1,0 noenhanced
-      plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
-             with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
-           for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? (isFixed(0) ? 1.5 * coarsest : asked(0)) : outside):(level(k)) \
-             with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
-           for [k = 1 : wrong] file using (chosen(case) && position(variants, curveOf(0)) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
-             with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour notitle
+      if (Marks[i] == 0) {
+        unset ytics; set label 1 'no runs in this table' at graph 0.5, graph 0.5 center textcolor rgb ink
+        plot 2 * level(count + 1) notitle   # outside
+      } else {
+        plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
+               with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
+             for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? (isFixed(0) ? 1.5 * coarsest : asked(0)) : outside):(level(k)) \
+               with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
+             for [k = 1 : wrong] file using (chosen(case) && position(variants, curveOf(0)) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
+               with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour notitle
+      }
+      unset label 1
     }
     eval legend(legend_height)
     set key noenhanced maxrows (count > 8 ? 3 : count > 5 ? 2 : 1)

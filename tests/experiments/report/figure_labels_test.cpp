@@ -53,6 +53,19 @@ TEST(FigureLabels, OfTimesStayApartInThreePanels) {
   }
 }
 
+// Quick studies leave some of a figure's cases out; empty axes would look like a failure.
+TEST(FigureLabels, NameAPanelWithoutRuns) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  for (int i = 1; i < 4; ++i) rows.push_back(run(i, {{"scene", "pendulum"}, {"newton", "full"}}));
+  drawing.put("runs.csv", kRunColumns, rows);
+  for (const auto& [cases, empty] : {std::pair{"pendulum kepler", 1}, {"pendulum pendulum", 0}}) {
+    const Svg svg = drawing.draw("work_by.gp", fmt::format("variant='newton'; cases='{}'; costs='residuals'", cases));
+    EXPECT_EQ(svg.occurrences("no runs in this table"), empty) << cases;
+    EXPECT_EQ(svg.marks('a', 1, kLog, kLog).size(), 3u) << cases;
+  }
+}
+
 // Curve 1 is the line of the first choice.
 TEST(FigureCurves, CostRatio) {
   Drawing drawing;
