@@ -5,13 +5,13 @@
 
 namespace irk {
 
-/// True for `max_steps` and `timeout`: harder runs would end in the same way.
+/// True for `max_steps` and `timeout`. After two such runs in a row harder ones would end in the same way.
 bool ranTooLong(std::string_view outcome);
 
 /// Removes counters and details of a run that timed out, because they depend on the speed of the machine.
 RunRecord withoutMachine(RunRecord record);
 
-/// The record of a run that is skipped because an easier one took too long.
+/// The record of a run that is skipped because easier ones took too long, `easier` the last of them.
 RunRecord notMade(const RunSpec& spec, const TableRow& easier, const Table& table);
 
 }  // namespace irk

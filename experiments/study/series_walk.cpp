@@ -26,7 +26,9 @@ std::optional<std::size_t> SeriesWalk::next() {
 void SeriesWalk::record(std::size_t run, const RunFacts& facts) {
   const std::string_view outcome = facts.outcome;
   if (!planner_) {
-    if (series_.end == SeriesEnd::kTooLong && ranTooLong(outcome)) too_long_ = run;
+    const bool too_long = series_.end == SeriesEnd::kTooLong && ranTooLong(outcome);
+    if (too_long && last_too_long_) too_long_ = run;
+    last_too_long_ = too_long;
     return;
   }
   if (outcome == name(Outcome::kSuccess)) {
