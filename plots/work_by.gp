@@ -38,11 +38,11 @@ caseTitle(i) = words(titles) >= i ? word(titles, i) : nameOf(caseOf(i))
 
 # Ranges: for the errors over all panels, for the costs per panel.
 tried = 0; rows = 0; failures = 0; coarsest = 1e-300; finest = 1e300; top = 1
-array Least[panels]; array Most[panels]; array Marks[panels]
+array Least[panels]; array Most[panels]; array Marks[panels]; array Runs[panels]
 do for [i = 1 : panels] {
   undefine N_*; undefine E_*; undefine C_*; undefine F_*
   stats file using (chosen(caseOf(i)) ? (collect(curveOf(0)), 1) : 0) name "N" nooutput
-  tried = tried + (exists("N_sum") ? N_sum : 0)
+  Runs[i] = exists("N_sum") ? N_sum : 0; tried = tried + Runs[i]
   stats file using (chosen(caseOf(i)) && error(0) > 0 ? 1 : 0) name "N" nooutput
   Least[i] = 1; Most[i] = 10; Marks[i] = exists("N_sum") ? N_sum : 0
   if (exists("N_sum") && N_sum > 0) {
@@ -120,7 +120,7 @@ do for [format in formats] {
       set xlabel when(i > panels - columns, errorTitle(quantity, times))
       set ylabel when(words(costs) > 1 || i % columns == 1 || columns == 1, cost_title(c)) offset 1,0 noenhanced
       if (Marks[i] == 0) {
-        unset ytics; set label 1 'no runs in this table' at graph 0.5, graph 0.5 center textcolor rgb ink
+        unset ytics; set label 1 (Runs[i] == 0 ? 'no runs in this table' : 'no run with a known error') at graph 0.5, graph 0.5 center textcolor rgb ink
         plot 2 * level(count + 1) notitle   # outside
       } else {
         plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \

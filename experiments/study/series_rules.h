@@ -5,7 +5,7 @@
 
 namespace irk {
 
-/// True for `max_steps` and `timeout`. After two such runs in a row harder ones would end in the same way.
+/// True for `max_steps` and `timeout`. After two such runs in a row harder ones are not made.
 bool ranTooLong(std::string_view outcome);
 
 /// Removes counters and details of a run that timed out, because they depend on the speed of the machine.

@@ -27,7 +27,7 @@ void SeriesWalk::record(std::size_t run, const RunFacts& facts) {
   const std::string_view outcome = facts.outcome;
   if (!planner_) {
     const bool too_long = series_.end == SeriesEnd::kTooLong && ranTooLong(outcome);
-    if (too_long && last_too_long_) too_long_ = run;
+    if (too_long && last_too_long_ && !too_long_) too_long_ = run;
     last_too_long_ = too_long;
     return;
   }

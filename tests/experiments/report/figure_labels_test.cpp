@@ -64,6 +64,11 @@ TEST(FigureLabels, NameAPanelWithoutRuns) {
     EXPECT_EQ(svg.occurrences("no runs in this table"), empty) << cases;
     EXPECT_EQ(svg.marks('a', 1, kLog, kLog).size(), 3u) << cases;
   }
+  rows.push_back(run(4, {{"scene", "kepler"}, {"newton", "full"}, {"error", "nan"}}));
+  drawing.put("runs.csv", kRunColumns, rows);
+  const Svg svg = drawing.draw("work_by.gp", "variant='newton'; cases='pendulum kepler'; costs='residuals'");
+  EXPECT_EQ(svg.occurrences("no runs in this table"), 0);
+  EXPECT_EQ(svg.occurrences("no run with a known error"), 1);
 }
 
 // Curve 1 is the line of the first choice.
