@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "experiments/audit/judge.h"
+#include "experiments/base/clock.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
@@ -53,17 +54,27 @@ void applyTolerance(const SolveOptions& options, RunSpec& spec) {
 
 void printComponents(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   std::size_t i = 0;
-  const auto print = [&](const char* group, const Vec<double>& y) {
-    for (const double value : y) {
-      const auto text = record.digits.empty() ? fmt::format("{:.15g}", value) : record.digits[i];
-      fmt::print(out, "  {}  {:<12} {}\n", group, i < names.size() ? names[i] : "", text);
-      ++i;
+  const auto print = [&](const char* group, const Vec<double>& y, const Vec<double>& bars) {
+    for (Index k = 0; k < y.size(); ++k, ++i) {
+      const auto text = record.digits.empty() ? fmt::format("{:.15g}", y[k]) : record.digits[i];
+      const bool known = k < bars.size() && !std::isnan(bars[k]);
+      fmt::print(out, "  {}  {:<12} {}{}\n", group, i < names.size() ? names[i] : "", text,
+                 known ? fmt::format(" +- {:.1e}", bars[k]) : "");
     }
   };
-  print("u", record.u);
-  print("v", record.v);
-  print("x", record.x);
-  print("z", record.z);
+  const RunErrorBar& bar = record.error_bar;
+  print("u", record.u, bar.u);
+  print("v", record.v, bar.v);
+  print("x", record.x, bar.x);
+  print("z", record.z, bar.z);
+}
+
+void printErrorBar(std::ostream& out, const RunErrorBar& bar) {
+  if (!bar.problem.empty()) {
+    fmt::print(out, "error bar unknown: {}\n", bar.problem);
+  } else if (!std::isnan(bar.tolerances)) {
+    fmt::print(out, "error bar {:.2g} tolerances, largest in {}\n", bar.tolerances, bar.component);
+  }
 }
 
 // Prints the digits as the IVP test set counts them. One is unknown without tolerances, or if all references are 0.
@@ -77,6 +88,7 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method, idOf(spec.formulation));
   fmt::print(out, "{}{}{}, t = {:.15g}\n", record.outcome, record.detail.empty() ? "" : ": ", record.detail, record.t);
   printComponents(out, record, names);
+  printErrorBar(out, record.error_bar);
   if (!std::isnan(record.errors.all)) {
     fmt::print(out, "error {:.3e}\n", record.errors.all);
     if (spec.reference_times > 1 && !std::isnan(record.errors_over_time.all)) {
@@ -183,6 +195,25 @@ RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::strin
   return record;
 }
 
+/// The progress of a second integration that takes long, on a terminal.
+class MeasuringStatus {
+ public:
+  explicit MeasuringStatus(std::ostream& err) : status_(err) {}
+  void show(double part) {
+    const double now = wallSeconds();
+    if (std::isnan(began_)) began_ = shown_ = now;
+    if (now - shown_ < kInterval || part <= 0) return;
+    shown_ = now;
+    status_.show(fmt::format("measuring the error bar: {:.0f} %, {} left", 100 * part,
+                             durationText((now - began_) * (1 - part) / part)));
+  }
+
+ private:
+  static constexpr double kInterval = 1;  // s
+  StatusLine status_;
+  double began_ = std::numeric_limits<double>::quiet_NaN(), shown_ = 0;
+};
+
 std::vector<std::string> givenFields(const SolveOptions& options) {
   std::vector<std::string> given;
   for (const auto& [field, value] : options.fields) given.push_back(field);
@@ -217,6 +248,7 @@ RunSpec solveSpec(const SolveOptions& options) {
   set(true);  // first: other fields override it
   set(false);
   applyStep(options, spec);
+  if (!isGiven(options, "error_bar")) spec.error_bar = ErrorBarUse::kMeasured;
   refuseUnknownMethod(spec.method);
   spec = resolved(spec);
   refuseUnused(spec, givenFields(options));
@@ -257,6 +289,8 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   SolveReferences references(streams.err);
   Watch watch{&interruptFlag(), {}, {}, references.of(spec)};
   watch.invariants = true;
+  MeasuringStatus measuring(streams.err);
+  watch.measuring = [&measuring](double part) { measuring.show(part); };
   out.addTo(watch);
   bool drawn = true;
   const RunRecord record =

@@ -64,6 +64,17 @@ void addSwitches(const RunRecord& record, Json& json) {
   }
 }
 
+void addErrorBar(const RunErrorBar& bar, Json& json) {
+  if (bar.u.size() + bar.v.size() + bar.x.size() + bar.z.size() == 0) return;  // not asked for
+  Json& groups = json["error_bar"] = Json::object();
+  for (const auto& [group, values] : {std::pair{"u", &bar.u}, {"v", &bar.v}, {"x", &bar.x}, {"z", &bar.z}})
+    groups[group] = std::vector<double>(values->begin(), values->end());
+  json["error_bar_tolerances"] = bar.tolerances;
+  if (!bar.component.empty()) json["error_bar_component"] = bar.component;
+  if (!bar.problem.empty()) json["error_bar_remark"] = bar.problem;
+  json["error_bar_cpu_s"] = bar.cpu_s;
+}
+
 // The components in the order of u, v, x, z.
 void addNames(const Scene<double>& scene, Json& json) {
   const Sizes n = scene.sizes();
@@ -103,6 +114,7 @@ std::string solveJson(const RunRecord& record, int indent) {
   json["reference"] = referenceName(record.errors.reference);
   if (!std::isnan(record.errors.accuracy)) json["reference_accuracy"] = record.errors.accuracy;
   if (!record.errors.remark.empty()) json["error_remark"] = record.errors.remark;
+  addErrorBar(record.error_bar, json);
   json["steps"] = {{"accepted", c.steps_accepted},
                    {"rejected_error", c.steps_rejected_error},
                    {"rejected_newton", c.steps_rejected_newton}};

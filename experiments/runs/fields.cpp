@@ -140,6 +140,17 @@ Field<RunSpec> maxStagesField() {
   return field;
 }
 
+// A study file has `error_bar = true`.
+Field<RunSpec> errorBarField() {
+  auto field = axisField<RunSpec>(
+      "Whether a second, independent integration measures the error of a success.",
+      [](auto& s) -> auto& { return s.error_bar; });
+  field.set = [set = field.set](RunSpec& s, std::string_view text) {
+    set(s, text == "true" ? "measured" : text == "false" ? "none" : text);
+  };
+  return field;
+}
+
 // The fields that a series runs through. All other fields, new ones too, are part of the name of a series.
 constexpr std::string_view kSwept[] = {"h", "rtol", "atol"};
 
@@ -160,7 +171,8 @@ std::vector<SpecField> makeFields() {
                             kNotNegative, IRK_MEMBER(time_limit)),
        axisField<RunSpec>("How errors are measured if no reference is stored.", IRK_MEMBER(reference)),
        numberField<RunSpec>("reference_times", "The largest error is taken at this many times, equally far apart.",
-                            Range::integers(1, kMaxReferenceTimes), IRK_MEMBER(reference_times))});
+                            Range::integers(1, kMaxReferenceTimes), IRK_MEMBER(reference_times)),
+       errorBarField()});
   constexpr std::size_t kOwn = std::tuple_size_v<decltype(before)> + std::tuple_size_v<decltype(after)>;
   static_assert(kOwn + 1 == memberCount<RunSpec>(), "a member of RunSpec has no field");
   std::vector<SpecField> fields;

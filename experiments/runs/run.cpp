@@ -124,11 +124,20 @@ class Prepared final : public PreparedRun {
       if (watch.switched) watch.switched(t, change.name, values(change.state));
     };
     const auto t_end = decimalNumber<Real>(spec_.t_end);
-    const auto solution = method_.integrate(scene_.start, t_end, monitor);
-    RunRecord result = record(solution, threadSeconds() - start, watch);
+    auto solution = method_.integrate(scene_.start, t_end, monitor);
+    const double seconds = threadSeconds() - start;
+    const MeasuringWatch measuring{interruption(watch, threadSeconds(), spec_.time_limit), watch.measuring};
+    auto bar = measuredErrorBar(spec_, solution, measuring);
+    RunRecord result = record(solution, seconds, watch);
+    result.error_bar = std::move(bar);
     result.switches = std::move(switches);
     for (auto& one : invariants) result.invariants.push_back(std::move(one.change));
     if (result.succeeded()) addErrorsOverTime(watch, result);
+    const std::string doubt = result.succeeded() ? doubtOf(result.error_bar, spec_) : "";
+    if (!doubt.empty()) {
+      result.outcome = name(Outcome::kInaccurate);
+      result.detail = doubt;
+    }
     return result;
   }
 
@@ -243,6 +252,7 @@ class Prepared final : public PreparedRun {
                      .digits = {},
                      .errors = {},
                      .errors_over_time = {},
+                     .error_bar = {},
                      .counters = solution.counters,
                      .switches = {},
                      .invariants = {},

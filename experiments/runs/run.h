@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/runs/error_bar.h"
 #include "experiments/runs/references/made_reference.h"
 #include "experiments/runs/run_errors.h"
 #include "experiments/runs/run_spec.h"
@@ -48,6 +49,7 @@ struct RunRecord {
   RunErrors errors;
   /// the largest errors at the spec's reference_times; unknown unless the run is a success
   RunErrors errors_over_time;
+  RunErrorBar error_bar;
   Counters counters;
   std::vector<SwitchEvent> switches;        ///< the first kMaxRecordedSwitches
   std::vector<InvariantChange> invariants;  ///< empty unless Watch::invariants is set
@@ -89,6 +91,9 @@ struct Watch {
   /// Makes the reference of a run with `reference = auto` for which nothing is stored (needsReference). Called after
   /// the integration, with the resolved spec. Without this function the error is unknown.
   std::function<MadeReference(const RunSpec& spec)> reference = {};
+  /// Called before each step of the integration that measures the error bar, with the part of the interval that it has
+  /// covered.
+  std::function<void(double part)> measuring = {};
   bool invariants = false;  ///< whether to follow the scene's invariants, which takes time in each step
   bool inside = false;      ///< whether `accepted` needs AcceptedStep::inside
 };

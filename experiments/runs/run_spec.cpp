@@ -25,6 +25,12 @@ constexpr Named<ReferenceUse> kReferenceUses[] = {
     {ReferenceUse::kNone, "none", "where no reference is stored, the error is unknown"},
     {ReferenceUse::kAuto, "auto", "where no reference is stored, one is computed and kept in the user's cache"}};
 
+constexpr Named<ErrorBarUse> kErrorBarUses[] = {
+    {ErrorBarUse::kNone, "none", "one integration only"},
+    {ErrorBarUse::kMeasured, "measured",
+     "a second integration, by another family with a tenth of the tolerance, gives an error bar (study files: true)"},
+    {ErrorBarUse::kRefined, "refined", "the same, and the result is that of the second integration"}};
+
 template <class Axis>
 Axis valueOf(std::string_view id) {
   std::vector<std::string> known;
@@ -61,6 +67,19 @@ std::string_view axisName<ReferenceUse>() {
 template <>
 ReferenceUse parseId<ReferenceUse>(std::string_view id) {
   return valueOf<ReferenceUse>(id);
+}
+
+template <>
+std::span<const Named<ErrorBarUse>> named<ErrorBarUse>() {
+  return kErrorBarUses;
+}
+template <>
+std::string_view axisName<ErrorBarUse>() {
+  return "error_bar";
+}
+template <>
+ErrorBarUse parseId<ErrorBarUse>(std::string_view id) {
+  return valueOf<ErrorBarUse>(id);
 }
 
 double epsilonOf(ScalarKind scalar) {

@@ -32,6 +32,19 @@ ReferenceUse parseId<ReferenceUse>(std::string_view id);
 template <>
 std::string_view axisName<ReferenceUse>();
 
+/// Whether the error of a success is measured by a second, independent integration (irk/error_bar.h).
+enum class ErrorBarUse {
+  kNone,      ///< it is not
+  kMeasured,  ///< the result keeps its values and gets an error bar
+  kRefined,   ///< the result takes the values of the second integration, which are more accurate
+};
+template <>
+std::span<const Named<ErrorBarUse>> named<ErrorBarUse>();
+template <>
+ErrorBarUse parseId<ErrorBarUse>(std::string_view id);
+template <>
+std::string_view axisName<ErrorBarUse>();
+
 inline constexpr int kMaxReferenceTimes = 1000;
 
 /// The unit round-off of this kind of number.
@@ -63,6 +76,7 @@ struct RunSpec {
   ReferenceUse reference = ReferenceUse::kNone;
   /// n >= 1: errors are also taken at k / n of t_end, k = 1 .. n, by a run to each of these times.
   int reference_times = 1;
+  ErrorBarUse error_bar = ErrorBarUse::kNone;
 };
 
 /// Fills in the scene's t_end and removes settings that equal their defaults, so that equal runs have equal specs.

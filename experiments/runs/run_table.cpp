@@ -34,9 +34,12 @@ constexpr std::string_view kErrors[] = {"error",
                                         "error_u_over_time",
                                         "error_v_over_time",
                                         "error_x_over_time",
-                                        "error_z_over_time"};
-constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",   "cpu_spread",
-                                       "cpu_runs", "cpu_all",     "cpu_environment"};
+                                        "error_z_over_time",
+                                        "error_bar",
+                                        "error_bar_z",
+                                        "error_bar_tolerances"};
+constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",    "cpu_spread",
+                                       "cpu_runs", "cpu_all",     "cpu_environment", "cpu_error_bar_s"};
 // The code that made a row, its machine and date, and the date of a --fresh request.
 constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
 
@@ -48,10 +51,13 @@ bool isIn(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// How the run ended, and why it has no error.
+// How the run ended, and why it has no error bar and no error.
 std::string detailOf(const RunRecord& record) {
-  const bool both = !record.detail.empty() && !record.errors.remark.empty();
-  return record.detail + (both ? "; " : "") + record.errors.remark;
+  std::string all;
+  for (const std::string* text : {&record.detail, &record.error_bar.problem, &record.errors.remark}) {
+    if (!text->empty()) all += (all.empty() ? "" : "; ") + *text;
+  }
+  return all;
 }
 
 // The fields behind the derived columns, in the order of the columns.
@@ -91,10 +97,13 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
     row.push_back(numberText(error));
   const RunErrors& largest = record.errors_over_time;
   for (const double error : {largest.all, largest.u, largest.v, largest.x, largest.z}) row.push_back(numberText(error));
+  for (const double error : {record.error_bar.error, record.error_bar.error_z, record.error_bar.tolerances})
+    row.push_back(numberText(error));
   record.counters.forEach([&](const char*, std::int64_t count) { row.push_back(std::to_string(count)); });
   const std::string& environment = thisEnvironment().front();
-  row.insert(row.end(), {numberText(record.cpu_s), "nan", "nan", "nan", "0", "", environment, detailOf(record),
-                         filesOf(record.spec), std::string(buildInfo().code), environment, dateText(), ""});
+  row.insert(row.end(),
+             {numberText(record.cpu_s), "nan", "nan", "nan", "0", "", environment, numberText(record.error_bar.cpu_s),
+              detailOf(record), filesOf(record.spec), std::string(buildInfo().code), environment, dateText(), ""});
   return row;
 }
 

@@ -26,9 +26,9 @@ void refuseForPeer(const RunSpec& spec, const std::vector<std::string>& given) {
 
 const std::vector<std::string>& peerFields() {
   static const std::vector<std::string> fields{
-      "method", "formulation", "scaling",   "discontinuity", "scalar",    "derivatives",    "multipliers",
-      "norm",   "storage",     "step",      "tol",           "rtol",      "atol_of",        "atol",
-      "h_max",  "t_end",       "max_steps", "time_limit",    "reference", "reference_times"};
+      "method", "formulation", "scaling",   "discontinuity", "scalar",    "derivatives",     "multipliers",
+      "norm",   "storage",     "step",      "tol",           "rtol",      "atol_of",         "atol",
+      "h_max",  "t_end",       "max_steps", "time_limit",    "reference", "reference_times", "error_bar"};
   return fields;
 }
 

@@ -1,0 +1,109 @@
+#include "experiments/runs/error_bar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/options/fixed_steps.h"
+#include "experiments/base/clock.h"
+#include "experiments/base/numbers.h"
+#include "experiments/runs/setup.h"
+#include "irk/error_bar.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+IntegratorOptions optionsFor(const RunSpec& spec) {
+  switch (spec.scalar) {
+    case ScalarKind::kDouble:
+      return independentOptions<double>(spec.options);
+    case ScalarKind::kMp50:
+      return independentOptions<mp50>(spec.options);
+    case ScalarKind::kMp100:
+      return independentOptions<mp100>(spec.options);
+  }
+  return {};
+}
+
+// The largest |e| / max(|y|, scale); `place`: of the first component among u, v, x, z.
+double relative(const Vec<double>& errors, const auto& y, const Vec<double>& scale, Index place, double largest) {
+  for (Index i = 0; i < errors.size(); ++i) {
+    const double magnitude = place + i < scale.size() ? scale[place + i] : 1;
+    largest = std::fmax(largest, errors[i] / std::max(std::abs(static_cast<double>(y[i])), magnitude));
+  }
+  return largest;
+}
+
+}  // namespace
+
+RunSpec independentSpec(const RunSpec& spec) {
+  RunSpec second = spec;
+  second.settings = settingsAtStep(spec);
+  second.configuration = "variable";
+  second.method = spec.method.starts_with("lobatto_iiic") ? "radau_iia" : "lobatto_iiic";
+  second.formulation = RunSpec{}.formulation;
+  second.scaling = RunSpec{}.scaling;
+  if (spec.discontinuity != Discontinuity::kSmooth) second.discontinuity = Discontinuity::kLocate;
+  second.options = optionsFor(spec);
+  const double stricter = second.options.tolerances.atol / spec.options.tolerances.atol;
+  for (auto& [name, value] : second.atol_of) {
+    value = numberText(stricter * parseNumber("atol_of", value, kPositive));
+  }
+  second.max_stages = RunSpec{}.max_stages;
+  second.reference = ReferenceUse::kNone;
+  second.reference_times = 1;
+  second.error_bar = ErrorBarUse::kNone;
+  return second;
+}
+
+template <class Real>
+RunErrorBar measuredErrorBar(const RunSpec& spec, Solution<Real>& solution, const MeasuringWatch& watch) {
+  if (spec.error_bar == ErrorBarUse::kNone || solution.outcome != Outcome::kSuccess) return {};
+  const double began = threadSeconds();
+  const auto setup = makeSetup<Real>(independentSpec(spec));
+  const Scene<Real>& scene = setup.scene;
+  auto integrator = setup.integrator();
+  const State<Real>& result = solution.state;
+  Monitor<Real> monitor;
+  double t = static_cast<double>(scene.start.t);
+  const double t0 = t, length = static_cast<double>(result.t) - t0;
+  monitor.interrupt = [&] {
+    if (watch.progress) watch.progress(length > 0 ? (t - t0) / length : 1);
+    return watch.interrupt();
+  };
+  if (watch.progress) monitor.accepted = [&t](const StepRecord<Real>& step) { t = static_cast<double>(step.t); };
+  Solution<Real> second;
+  const ErrorBar bar = measureErrorBar(result, integrator, scene.start, spec.options.tolerances,
+                                       toleranceScale(scene, spec, scene.sizes()), second, monitor);
+  RunErrorBar measured{.u = bar.u, .v = bar.v, .x = bar.x, .z = bar.z};
+  measured.problem = bar.problem;
+  measured.cpu_s = threadSeconds() - began;
+  if (!bar.known()) return measured;
+  measured.tolerances = bar.tolerances;
+  const auto worst = static_cast<std::size_t>(std::max<Index>(bar.worst, 0));
+  if (worst < scene.names.size()) measured.component = scene.names[worst];
+  const Index nu = result.u.size(), nx = result.x.size();
+  measured.error = relative(bar.u, result.u, scene.scale, 0, measured.error);
+  measured.error = relative(bar.v, result.v, scene.scale, nu, measured.error);
+  measured.error = relative(bar.x, result.x, scene.scale, 2 * nu, measured.error);
+  measured.error_z = relative(bar.z, result.z(), scene.scale, 2 * nu + nx, measured.error_z);
+  if (spec.error_bar == ErrorBarUse::kRefined) solution.state = second.state;
+  return measured;
+}
+
+std::string doubtOf(const RunErrorBar& bar, const RunSpec& spec) {
+  const bool judged = spec.error_bar == ErrorBarUse::kMeasured && !hasFixedSteps(spec.options.step);
+  if (!judged || !(bar.tolerances > largestErrorBar(spec.options.tolerances))) return {};
+  return fmt::format("the error bar is {:.2g} tolerances, largest in {}", bar.tolerances, bar.component);
+}
+
+#define IRK_MEASURED(Real) \
+  template RunErrorBar measuredErrorBar(const RunSpec&, Solution<Real>&, const MeasuringWatch&);
+IRK_MEASURED(double)
+IRK_MEASURED(mp50)
+IRK_MEASURED(mp100)
+#undef IRK_MEASURED
+
+}  // namespace irk

@@ -1,0 +1,50 @@
+// The error bar of a run: the run that measures it, and its numbers in the scene's terms.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "experiments/runs/run_spec.h"
+#include "irk/monitor.h"
+#include "irk/scene.h"
+
+namespace irk {
+
+/// The measured error of a result (irk/error_bar.h).
+struct RunErrorBar {
+  Vec<double> u, v, x, z;  ///< absolute, in the units of the components; NaN: unknown. Empty: not asked for
+  /// The largest of u, v, x in tolerances.
+  double tolerances = std::numeric_limits<double>::quiet_NaN();
+  std::string component;  ///< the name of the component with the largest one
+  /// The largest |e| / max(|y|, scale), the measure of RunErrors, over u, v, x and over z.
+  double error = tolerances, error_z = tolerances;
+  std::string problem;        ///< why the bar is unknown, in one line
+  double cpu_s = tolerances;  ///< of the second integration
+};
+
+/// The run that measures the error of a run with this resolved spec: the other family of Radau IIA and Lobatto IIIC
+/// with variable order, index 2, switches located (or smooth, if the run's are), and independentOptions. It is the
+/// maker of all independent runs.
+RunSpec independentSpec(const RunSpec& spec);
+
+/// Callbacks of the second integration, before each of its steps.
+struct MeasuringWatch {
+  /// kSuccess: it goes on. Else it ends with that outcome.
+  std::function<Outcome()> interrupt;
+  /// Gets the part of the interval that is covered. May be empty.
+  std::function<void(double part)> progress;
+};
+
+/// Measures the error of `solution`, the result of a run with the resolved `spec`, by an integration of
+/// independentSpec; does nothing unless it is a success and the spec asks for it. With ErrorBarUse::kRefined the
+/// solution takes the state of the second integration. Real: double, mp50 or mp100, as the spec's scalar.
+template <class Real>
+RunErrorBar measuredErrorBar(const RunSpec& spec, Solution<Real>& solution, const MeasuringWatch& watch);
+
+/// Why a result with this error bar is no success: `the error bar is 3e+04 tolerances, largest in theta`, if it is
+/// above largestErrorBar (irk/error_bar.h). Empty if it may be one, and for runs with fixed steps, which have no
+/// tolerance.
+std::string doubtOf(const RunErrorBar& bar, const RunSpec& spec);
+
+}  // namespace irk
