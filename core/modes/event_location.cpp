@@ -13,12 +13,16 @@ namespace {
 
 // Evaluations of a switching function on the dense output, per root; ten are usual.
 constexpr std::uintmax_t kMaxEvaluations = 200;
-// Re-solved steps per switch; four are usual.
-constexpr int kMaxSolves = 25;
+// Re-solved steps per switch; four are usual. From kSecants on every second one halves the bracket, so that the limit
+// allows for 46 halvings, 14 digits of the step.
+constexpr int kMaxSolves = 100, kSecants = 8;
 // Limit of earlier switches that show only in the shortened step; one is rare.
 constexpr int kMaxEarlier = 5;
 // The allowed error in the time of a switch, in units of h times the tolerance.
 constexpr double kTimeTolerance = 1e-5;
+// The round-off of a switching function is measured with changes of this many epsilons, the round-off of a step's end.
+// Its sign is known where it is above kNoise times the round-off.
+constexpr double kLastDigits = 4, kNoise = 2;
 
 template <class Real>
 Real epsilon() {
@@ -29,7 +33,7 @@ Real epsilon() {
 
 template <class Real>
 EventLocator<Real>::EventLocator(const System<Real>& system, double tolerance)
-    : switches_(system), scan_(system), tolerance_(tolerance) {}
+    : switches_(system), scan_(system), tolerance_(tolerance), moved_(system.sizes()) {}
 
 template <class Real>
 Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
@@ -115,22 +119,45 @@ Real EventLocator<Real>::resolution(const State<Real>& from, const Real& h) cons
   return Real(4) * epsilon<Real>() * scale + Real(kTimeTolerance * std::min(tolerance_, 1e-3)) * h;
 }
 
+// Round-off of function i at `state`: the largest change of g when all components of u, v, x, a, k and z change by
+// their last digits, with equal and with alternating signs.
+template <class Real>
+Real EventLocator<Real>::noiseOf(const State<Real>& state, Index i) {
+  using std::abs;
+  const Real g = switches_.g()[i];
+  Real noise(0);
+  for (const bool alternating : {false, true}) {
+    moved_ = state;
+    int sign = 1;
+    for (auto* part : {&moved_.u, &moved_.v, &moved_.x, &moved_.w}) {
+      for (Real& y : *part) {
+        y += Real(sign * kLastDigits) * epsilon<Real>() * abs(y);
+        if (alternating) sign = -sign;
+      }
+    }
+    if (switches_.evaluate(moved_).outcome != Outcome::kSuccess) continue;
+    const Real change = abs(Real(switches_.g()[i] - g));
+    if (change > noise) noise = change;
+  }
+  return noise;
+}
+
 template <class Real>
 Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
                                            State<Real>& next, const Root& root) {
   using std::abs;
   Location<Real> result;
-  const Real resolution = this->resolution(from, h);
+  const Real least = this->resolution(from, h);
+  Real resolution = least;  // of time, with the round-off of g divided by its slope
   // The switch is due at `high`: at first on the dense output, beyond which nothing is known.
   Real low(0), high = std::min(h, std::max(root.high, resolution));
   Real step = std::min(high, std::max(root.step, resolution));
   bool due_at_high = false;
-  Real slope = root.slope, last_step(0), last_g(0);
+  Real slope = root.slope, noise(-1), last_step(0), last_g(0);
   result.index = root.index;
-  result.resolution = static_cast<double>(resolution);
   for (int solves = 0; solves < kMaxSolves; ++solves) {
     const bool settled = high - low <= resolution;
-    if (settled || solves + 1 == kMaxSolves) step = high;
+    if (settled) step = high;
     result.attempt = attempt.attempt(from, step, next);
     result.outcome = result.attempt.outcome;
     if (result.outcome != Outcome::kSuccess) return result;
@@ -139,15 +166,22 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (result.outcome != Outcome::kSuccess) return result;
     const Index due = switches_.due();
     const bool other = due >= 0 && due != result.index;
-    if (other) {  // values and slopes of another function do not apply
+    if (other) {  // values, slopes and round-off of another function do not apply
       result.index = due;
       slope = Real(0);
+      noise = Real(-1);
     }
     const Real g = switches_.g()[result.index];
+    if (noise < Real(0)) noise = noiseOf(next, result.index);
     result.h = step;
     result.found = due >= 0;
     // Only the dense output has this root: the step goes on from there.
     if (step == high && due < 0) return result;
+    if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
+      slope = (g - last_g) / (step - last_step);
+    }
+    resolution = least + (slope > Real(0) ? Real(kNoise) * noise / slope : Real(0));
+    result.resolution = static_cast<double>(resolution);
     if (due >= 0) {
       high = step;
       due_at_high = true;
@@ -155,21 +189,22 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     } else {
       low = step;
     }
-    if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
-      slope = (g - last_g) / (step - last_step);
-    }
     last_step = step;
     last_g = g;
     Real guess = slope > Real(0) ? Real(step - g / slope + resolution / Real(2)) : low;
+    // Secants converge within four solves, unless g is far from smooth; then every second solve halves the bracket.
+    const bool halves = due_at_high && solves >= kSecants && solves % 2 == 0;
     if (!due_at_high && guess >= high) {
       guess = high;
-    } else if (!(guess > low && guess < high)) {
+    } else if (halves || !(guess > low && guess < high)) {
       // If the root is at the edge, just beyond the last sign change; otherwise in the middle.
       const Real nudge = low + Real(2) * resolution;
       guess = solves < 3 && nudge < high && slope > Real(0) && due < 0 ? nudge : Real((low + high) / Real(2));
     }
     step = guess;
   }
+  // Neither the time nor g is settled: a state somewhere in the bracket is no switch.
+  result.outcome = Outcome::kNewtonFailed;
   return result;
 }
 

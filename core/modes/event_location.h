@@ -19,9 +19,9 @@ struct Location {
 };
 
 /// The root of the dense output is only of order s. It is corrected by solving the step again with the size that the
-/// root gives, until the switching function changes sign within round-off of t (or a small part of the tolerance). The
-/// state that is found lies on the far side, where the switch is due. The shortened step is searched once more for an
-/// earlier switch. Owns scratch.
+/// root gives, until the switching function changes sign within round-off of t (or a small part of the tolerance), or
+/// of the function itself divided by its slope. The state that is found lies on the far side, where the switch is due.
+/// The shortened step is searched once more for an earlier switch. Owns scratch.
 template <class Real>
 class EventLocator {
  public:
@@ -46,10 +46,12 @@ class EventLocator {
   Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h, State<Real>& next,
                          const Root& root);
   Real resolution(const State<Real>& from, const Real& h) const;
+  Real noiseOf(const State<Real>& state, Index i);
 
   Switches<Real> switches_;
   SwitchScan<Real> scan_;
   double tolerance_;
+  State<Real> moved_;  // by last digits
 };
 
 }  // namespace irk
