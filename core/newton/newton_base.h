@@ -18,6 +18,11 @@ double roundOff() {
 
 // Increments below this many units of round-off cannot be reduced further.
 inline constexpr double kRoundOffUnits = 10;
+// A contraction remembered from the step before ends the iteration after its first increment only if that is at most
+// one tolerance. In a phase in which the equations are linear the remembered contraction is round-off, and would accept
+// any increment; the step after that phase has another one (a box on an oscillating table, Stribeck friction with a
+// width of 1e-2, embedded, 1e-7: one increment of 1e6 tolerances, and an acceleration wrong by 9.81 in two stages).
+inline constexpr double kTrustedFirst = 1;
 // After the first iteration an increment counts as converged only if it is itself at most this many tolerances. Start
 // values may be far off: then a much smaller second increment does not show that the solution is near (transamp,
 // radau_ia_20, 1e-2: increments of 3e5 and 28 tolerances, and an error of 5e4).

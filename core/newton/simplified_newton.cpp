@@ -48,9 +48,9 @@ constexpr double kLost = 10;
 
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
-/// In the first iteration theta is unknown; the last step's eta, raised to 0.8, takes its place. Later increments must
-/// be small themselves (kTrustedIncrement). With Broyden's updates the reported theta is the first one, that of the
-/// matrix itself.
+/// In the first iteration theta is unknown; the last step's eta, raised to 0.8, takes its place if the increment is
+/// below the tolerance (kTrustedFirst). Later increments must be small themselves (kTrustedIncrement). With Broyden's
+/// updates the reported theta is the first one, that of the matrix itself.
 ///
 /// The first theta shows how fast the error of the start values decays. That error need not contain the components that
 /// the matrix solves worst; they show from the third increment on. Where kappa is limited by round-off (tight
@@ -142,7 +142,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
       } else if (std::min(last, 1.0) * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta = of_step = std::pow(last, 0.8);  // if min(last, 1) is too large, so is this
       }
-      const bool trusted = m == 0 || norm <= kTrustedIncrement;
+      const bool trusted = norm <= (m == 0 ? kTrustedFirst : kTrustedIncrement);
       if ((trusted && eta * norm <= kappa) || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
