@@ -17,11 +17,11 @@ namespace irk {
 class LaneIntegrator::Run {
  public:
   Run(const Tableau<double>& tableau, const IntegratorOptions& options)
-      : options_(legalInLanes(options)), scheme_(tableau) {
+      : options_(legalInLanes(options)), scheme_(tableau), points_(scheme_) {
     requireLaneMethod(scheme_);
     mu_ = EmbeddedEstimate<double>::weight(tableau);
-    const EstimateUse use(scheme_);
-    for (auto& run : runs_) run = std::make_unique<LaneRun>(use, options_);
+    const int order = EmbeddedEstimate<double>::order(tableau);
+    for (auto& run : runs_) run = std::make_unique<LaneRun>(order, options_);
   }
 
   void integrate(const Ensemble& ensemble, const Next& next, const Done& done, const std::function<Outcome()>& stop) {
@@ -139,15 +139,14 @@ class LaneIntegrator::Run {
     past_ = solved.solved;
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const Lanes again = Lanes::each([&](std::size_t i) { return runs_[i]->filtersAgain() ? 1.0 : kNever; });
-    const Lanes error =
-        stages.estimate(W, norm, newton.filterMatrix(solved.solved, counters_), again, solved.solved, counters_);
+    LaneMatrix& matrix = newton.filterMatrix(solved.solved, counters_);
+    const Lanes estimate = stages.estimate(W, norm, matrix, again, solved.solved, counters_);
+    const Lanes error = withDefect(estimate, solved.solved, matrix);
     LaneMask accepted;
     forEachLane(active_, [&](std::size_t i) {
       LaneRun& run = *runs_[i];
       if (solved.solved[i] && std::isfinite(error[i])) {
-        double judged = run.judge(error[i], vectors_->from.t[i]);
-        if (run.mayBeAtRest(judged)) judged = run.judgeRest(judged, state(i), vectors_->to.get(i, vectors_->sizes));
-        accepted.set(i, run.decide(error[i], judged, solved.round_off[i]));
+        accepted.set(i, run.decide(estimate[i], error[i], solved.round_off[i]));
       } else {
         run.failed(solved.solved[i] ? Outcome::kNotFinite : solved.outcome[i]);
         past_.set(i, false);
@@ -155,6 +154,23 @@ class LaneIntegrator::Run {
     });
     newton.forget(active_ & ~past_);
     commit(accepted);
+  }
+
+  // The larger one of the estimate and of the defect between the stages, in the lanes whose estimate is accepted.
+  Lanes withDefect(const Lanes& estimate, const LaneMask& solved, LaneMatrix& matrix) {
+    Lanes error = estimate;
+    LaneMask open = solved & lessOrEqual(estimate, 1.0);
+    for (int look = 0; open.any(); ++look) {
+      LanePoints at{};
+      forEachLane(open, [&](std::size_t i) {
+        if (look >= runs_[i]->looks()) return open.set(i, false);
+        at[i].emplace(points_[runs_[i]->nextLook()]);
+      });
+      if (!open.any()) break;
+      const Lanes defect = vectors_->stages.defect(at, vectors_->W, vectors_->norm, matrix, open, counters_);
+      error = select(open, largest(error, defect), error);
+    }
+    return error;
   }
 
   void commit(const LaneMask& accepted) {
@@ -166,15 +182,15 @@ class LaneIntegrator::Run {
     forEachLane(accepted, [&](std::size_t i) {
       LaneRun& run = *runs_[i];
       from.t.set(i, run.newTime(from.t[i]));
-      const Outcome outcome = run.afterStep();
-      if (outcome == Outcome::kSuccess && !run.isOver(from.t[i])) return;
-      end(i, outcome);
+      if (!run.isOver(from.t[i])) return;
+      end(i, Outcome::kSuccess);
       load(i);
     });
   }
 
   IntegratorOptions options_;
   Scheme<double> scheme_;
+  MovingPoints<double> points_;
   double mu_ = 0;
   std::array<std::unique_ptr<LaneRun>, kLanes> runs_;
   const Ensemble* ensemble_ = nullptr;

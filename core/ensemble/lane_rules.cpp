@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "core/estimates/accumulation.h"
 #include "core/options/fixed_steps.h"
 #include "irk/ensemble.h"
 #include "irk/system_check.h"

@@ -9,18 +9,10 @@
 #include "core/derivatives/consistent_start.h"
 #include "core/estimates/embedded.h"
 #include "core/integration/end_check.h"
-#include "core/integration/rest_check.h"
 #include "core/system/counting.h"
 #include "irk/system_check.h"
 
 namespace irk {
-namespace {
-
-// As of VariableOrder::Member.
-constexpr int kMaxAccumulating = 4;
-
-}  // namespace
-
 struct LaneRun::Tools {
   CountingSystem<double> system;
   ConsistentStart<double> consistent;
@@ -32,18 +24,8 @@ struct LaneRun::Tools {
         norm(*member.system, options.tolerances, member.scale) {}
 };
 
-EstimateUse::EstimateUse(const Scheme<double>& scheme)
-    : order(EmbeddedEstimate<double>::order(scheme.tableau)),
-      accumulates(scheme.tableau.order <= std::min(order + 1, kMaxAccumulating) || !dampsStiffErrors(scheme)),
-      adds(scheme.tableau.order <= order),
-      caution(stiffCaution(scheme)) {}
-
-LaneRun::LaneRun(const EstimateUse& use, const IntegratorOptions& options)
-    : use_(use),
-      options_(options),
-      controller_(makeController(options.step, use.order)),
-      accumulation_(use.caution, options.tolerances),
-      error_sum_(options.tolerances) {}
+LaneRun::LaneRun(int order, const IntegratorOptions& options)
+    : order_(order), options_(options), controller_(makeController(options.step, order)) {}
 
 LaneRun::~LaneRun() = default;
 
@@ -65,12 +47,11 @@ Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
   detail_ = report.detail;
   if (report.outcome != Outcome::kSuccess) return report.outcome;
   length_ = member_.t_end - start_.t;
-  controller_ = makeController(options_.step, use_.order);
-  accumulation_.begin();
-  error_sum_.begin();
+  controller_ = makeController(options_.step, order_);
   stall_.begin(start_.t);
   attempts_ = steps_ = 0;
-  sum_ = round_off_ = 0;
+  round_off_ = 0;
+  look_ = 0;
   again_ = true;
   too_small_ = Outcome::kStepTooSmall;
   h_ = std::min(firstStep(), options_.step.h_max);
@@ -110,21 +91,8 @@ void LaneRun::failed(Outcome outcome) {
   h_ = controller_->afterFailure(size_);
 }
 
-double LaneRun::judge(double estimate, double t) {
-  const double factor = accumulation_.factor(use_.accumulates ? steps_ : 0, sum_);
-  return accumulation_.asked(estimate, factor, t, size_);
-}
-
-bool LaneRun::mayBeAtRest(double error) const { return mayRest(error, size_, length_); }
-
-double LaneRun::judgeRest(double error, const State<double>& from, const State<double>& to) {
-  tools_->norm.update(from);
-  const double at_rest = RestCheck<double>(tools_->system, tools_->norm, tools_->consistent).error(from, to, size_);
-  return at_rest > 1 ? at_rest : error;
-}
-
 bool LaneRun::decide(double estimate, double error, double round_off) {
-  again_ = !(error <= 1);
+  again_ = !(estimate <= 1);
   const StepDecision decision = controller_->decide(error, size_);
   // A last step that was cut short does not reduce the size of the next one.
   h_ = std::min(last_ && decision.accept ? std::max(h_, decision.h) : decision.h, options_.step.h_max);
@@ -135,9 +103,7 @@ bool LaneRun::decide(double estimate, double error, double round_off) {
   }
   ++counters_.steps_accepted;
   ++steps_;
-  sum_ += estimate;
   round_off_ = std::max(round_off_, round_off);
-  error_sum_.add(use_.adds ? estimate : 0);
   return true;
 }
 
@@ -151,7 +117,7 @@ double LaneRun::newTime(double t_by_lanes) {
 Solution<double> LaneRun::success(State<double> state) {
   const System<double>& system = *member_.system;
   tools_->norm.update(state);
-  const EndCheck end = checkEnd<double>(tools_->system, state, tools_->norm, options_.tolerances, true);
+  const EndCheck end = checkEnd<double>(tools_->system, state, tools_->norm, options_.tolerances);
   if (end.outcome != Outcome::kSuccess) return {end.outcome, end.detail, system.toScene(state), counters_};
   std::string note;
   if (options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {

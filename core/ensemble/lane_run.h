@@ -6,25 +6,17 @@
 
 #include "core/control/controller.h"
 #include "core/control/stall_detector.h"
-#include "core/estimates/accumulation.h"
+#include "core/estimates/defect.h"
 #include "core/stages/scheme.h"
 #include "irk/ensemble.h"
 
 namespace irk {
 
-/// How the estimate of a method is used; the same for all lanes (core/estimates/variable_order.h).
-struct EstimateUse {
-  EstimateUse(const Scheme<double>& scheme);
-  int order;         ///< of the estimate
-  bool accumulates;  ///< errors of many steps add up
-  bool adds;         ///< the estimate is of the order of the error
-  double caution;
-};
-
 /// The decisions of one system's run, as those of Integrator and Trajectory for the configuration `embedded`.
 class LaneRun {
  public:
-  LaneRun(const EstimateUse& use, const IntegratorOptions& options);
+  /// `order`: p of the estimate's leading error h^(p+1).
+  LaneRun(int order, const IntegratorOptions& options);
   LaneRun(const LaneRun&) = delete;  // its tools refer to its counters
   LaneRun& operator=(const LaneRun&) = delete;
   ~LaneRun();
@@ -42,18 +34,13 @@ class LaneRun {
 
   /// Records that the attempt failed: in Newton's method or its matrix.
   void failed(Outcome outcome);
-  /// The error of a solved attempt from t: its estimate times the factor for errors that add up.
-  double judge(double estimate, double t);
-  /// Whether an attempt with this error needs `judgeRest`: the system may be at rest.
-  bool mayBeAtRest(double error) const;
-  /// The error of an attempt between these states, where a step without a change may miss an input.
-  double judgeRest(double error, const State<double>& from, const State<double>& to);
+  /// The number of points between the stages that the attempt looks at, and the next of them in the sequence.
+  int looks() const { return Defect<double>::looks(size_, length_); }
+  std::int64_t nextLook() { return look_++; }
   /// Records the attempt's estimate and its error. Returns whether the step is accepted; then `newTime` is the time at
   /// its end.
   bool decide(double estimate, double error, double round_off);
   double newTime(double t_by_lanes);
-  /// Why an accepted step ends the run. kSuccess: the run goes on, or has ended if t is the end.
-  Outcome afterStep() const { return error_sum_.aboveBar() ? Outcome::kInaccurate : Outcome::kSuccess; }
   bool isOver(double t) const { return !(t < member_.t_end); }
 
   /// The result of a run that has reached its end with `state`, or has failed before.
@@ -69,7 +56,7 @@ class LaneRun {
   double firstStep() const;
   double smallest(double t) const;
 
-  EstimateUse use_;
+  int order_;
   const IntegratorOptions& options_;
   std::size_t index_ = 0;
   EnsembleMember member_;
@@ -78,11 +65,10 @@ class LaneRun {
   Counters counters_;
   std::unique_ptr<Tools> tools_;
   std::unique_ptr<StepController> controller_;
-  Accumulation accumulation_;
-  ErrorSum error_sum_;
   StallDetector stall_;
   std::int64_t attempts_ = 0, steps_ = 0;
-  double length_ = 0, sum_ = 0, round_off_ = 0;
+  std::int64_t look_ = 0;  // points looked at
+  double length_ = 0, round_off_ = 0;
   double h_ = 0, size_ = 0;  // the size asked for; the size of the attempt
   bool last_ = false, again_ = true;
   Outcome too_small_ = Outcome::kStepTooSmall;  // the outcome of a step below the smallest size

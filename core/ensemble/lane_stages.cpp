@@ -77,11 +77,14 @@ LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const s
       slip_(nu_),
       at_(2 * nu_ + nx_),
       error_(at_.size() + nz_),
-      e_(count(n_)) {}
+      e_(count(n_)),
+      constrained_(nz_) {}
 
 void LaneStages::use(const System<Lanes>& system) {
   system_ = &system;
   uses_velocity_ = system.usesVelocity();
+  const auto& powers = system.errorPowers().z;
+  for (std::size_t i = 0; i < nz_; ++i) constrained_[i] = powers[i] > 0;
   if (!uses_velocity_) std::fill(V_.begin(), V_.end(), Lanes(std::numeric_limits<double>::quiet_NaN()));
 }
 
@@ -252,8 +255,8 @@ void LaneStages::finish(const std::vector<Lanes>& W, LaneState& to) const {
 }
 
 // HW II (IV.8.19-20), see EmbeddedEstimate.
-Lanes LaneStages::filter(const LaneNorm& norm, LaneMatrix& matrix) {
-  const Point<Lanes> at{from_->t,
+void LaneStages::filter(const Lanes& t, Between between, LaneMatrix& matrix) {
+  const Point<Lanes> at{t,
                         {at_.data(), sizes_.nu},
                         {at_.data() + nu_, sizes_.nu},
                         {at_.data() + 2 * nu_, sizes_.nx},
@@ -262,6 +265,11 @@ Lanes LaneStages::filter(const LaneNorm& norm, LaneMatrix& matrix) {
                         {defect_.data() + nu_ + nx_, sizes_.nz}};
   system_->evaluate(Level::kFormulated, at, VecView<Lanes>(e_.data(), n_));
   scaleRows(e_.data());
+  if (between == Between::kStages) {  // see EmbeddedEstimate::filtered
+    for (std::size_t i = 0; i < nz_; ++i) {
+      if (constrained_[i]) e_[nu_ + nx_ + i] = 0.0;
+    }
+  }
   matrix.solveFilter(e_.data());
   const Lanes step = h_ * mu_;
   for (std::size_t i = 0; i < nu_; ++i) {
@@ -270,7 +278,6 @@ Lanes LaneStages::filter(const LaneNorm& norm, LaneMatrix& matrix) {
   }
   for (std::size_t i = 0; i < nx_; ++i) error_[2 * nu_ + i] = -(step * e_[nu_ + i]);
   for (std::size_t i = 0; i < nz_; ++i) error_[at_.size() + i] = -e_[nu_ + nx_ + i];
-  return norm.magnitude(error_.data(), error_.data() + at_.size());
 }
 
 Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,
@@ -280,7 +287,8 @@ Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, La
   const Lanes factor = -mu_ * (h_ * h_);
   laneProduct(sizes_.nu, integrals_, stages, [&](Index i, Index, const Lanes& sum) { slip_[count(i)] = factor * sum; });
   for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = i < nu_ ? from_->y[i] + slip_[i] : from_->y[i];
-  const Lanes error = filter(norm, matrix);
+  filter(from_->t, Between::kNone, matrix);
+  const Lanes error = sizeOfError(norm);
   counters.residuals.add(which);
   counters.solves.add(which);
   const LaneMask again = less(again_above, error) & which;
@@ -292,7 +300,43 @@ Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, La
   }
   counters.residuals.add(again);
   counters.solves.add(again);
-  return select(again, filter(norm, matrix), error);
+  filter(from_->t, Between::kNone, matrix);
+  return select(again, sizeOfError(norm), error);
+}
+
+Lanes LaneStages::defect(const LanePoints& at, const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,
+                         const LaneMask& which, LaneCounters& counters) {
+  const auto weights = [&](ConstVec<double> MovingPoints<double>::Point::*of, Index j) {
+    return Lanes::each([&](std::size_t i) { return at[i] ? ((*at[i]).*of)[j] : 0.0; });
+  };
+  const Lanes theta = Lanes::each([&](std::size_t i) { return at[i] ? at[i]->theta : 0.0; });
+  std::fill(defect_.begin(), defect_.end(), Lanes(0.0));
+  std::fill(at_.begin(), at_.end(), Lanes(0.0));
+  for (Index j = 0; j < s_; ++j) {
+    const Lanes inside = weights(&MovingPoints<double>::Point::inside, j),
+                once = weights(&MovingPoints<double>::Point::once, j),
+                twice = weights(&MovingPoints<double>::Point::twice, j);
+    const Lanes* const w = W.data() + j * n_;
+    for (std::size_t i = 0; i < count(n_); ++i) defect_[i] += inside * w[i];
+    for (std::size_t i = 0; i < nu_; ++i) at_[i] += twice * w[i];
+    for (std::size_t i = 0; i < nu_ + nx_; ++i) at_[nu_ + i] += once * w[i];
+  }
+  const Lanes *const y = from_->y.data(), *const v = y + nu_;
+  for (std::size_t i = 0; i < nu_; ++i) at_[i] = y[i] + h_ * (theta * v[i] + h_ * at_[i]);
+  for (std::size_t i = nu_; i < at_.size(); ++i) at_[i] = y[i] + h_ * at_[i];
+  std::fill(slip_.begin(), slip_.end(), Lanes(0.0));
+  const auto filtered = [&](const LaneMask& lanes) {
+    filter(from_->t + theta * h_, Between::kStages, matrix);
+    for (std::size_t i = 0; i < nz_; ++i) error_[at_.size() + i] = 0.0;
+    counters.residuals.add(lanes);
+    counters.solves.add(lanes);
+    return sizeOfError(norm);
+  };
+  const Lanes once_filtered = filtered(which);
+  const LaneMask again = less(1.0, once_filtered) & which;
+  if (!again.any()) return once_filtered;
+  for (std::size_t i = 0; i < at_.size(); ++i) at_[i] += error_[i];
+  return select(again, filtered(again), once_filtered);
 }
 
 }  // namespace irk

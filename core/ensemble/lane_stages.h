@@ -1,15 +1,21 @@
 // The stage equations of eight systems: start values, residuals, derivatives, end of the step, error estimate.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "core/derivatives/point_buffers.h"
 #include "core/ensemble/lane_matrix.h"
 #include "core/ensemble/lane_norm.h"
 #include "core/ensemble/lane_state.h"
+#include "core/estimates/defect.h"
 #include "core/stages/scheme.h"
 
 namespace irk {
+
+/// A point between the stages of each lane.
+using LanePoints = std::array<std::optional<MovingPoints<double>::Point>, kLanes>;
 
 /// Does for all lanes at once what StageEquations, StartValues, Differentiator and EmbeddedEstimate do for one system.
 /// W and R are n x s, stage by stage. Owns scratch; keeps references to the scheme and to the systems in use.
@@ -43,10 +49,17 @@ class LaneStages {
   Lanes estimate(const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix, const Lanes& again_above,
                  const LaneMask& which, LaneCounters& counters);
 
+  /// The defect of the step that W solves at a point of each lane of `which`, see Defect; other lanes may have none.
+  Lanes defect(const LanePoints& at, const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,
+               const LaneMask& which, LaneCounters& counters);
+
  private:
   void place(const std::vector<Lanes>& W);
   void scaleRows(Lanes* r) const;
-  Lanes filter(const LaneNorm& norm, LaneMatrix& matrix);
+  // Evaluates the residual at t, at_ and defect_, and filters it into error_.
+  enum class Between { kNone, kStages };
+  void filter(const Lanes& t, Between between, LaneMatrix& matrix);
+  Lanes sizeOfError(const LaneNorm& norm) const { return norm.magnitude(error_.data(), error_.data() + at_.size()); }
   void shortenPolynomial(const LaneMask& where, const std::vector<Lanes>& basis, std::vector<Lanes>& weights) const;
 
   const Scheme<double>& scheme_;
@@ -67,6 +80,7 @@ class LaneStages {
   std::vector<Lanes> past_W_, basis_, weights_;
   PointBuffers<Dual<Lanes>> dual_;
   std::vector<Lanes> defect_, slip_, at_, error_, e_;  // of the estimate
+  std::vector<bool> constrained_;                      // whether z_i has a higher index than 1
 };
 
 }  // namespace irk

@@ -6,36 +6,18 @@
 #include <memory>
 #include <utility>
 
-#include "core/estimates/accumulation.h"
-#include "core/estimates/embedded.h"
-#include "core/estimates/error_transport.h"
+#include "core/estimates/defect.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 
 namespace {
 
-// Bounds of the decay of roughness from a step to its halves, as powers of 2. It is at least kMinDecay and kPartOfDecay
-// times the decay of a smooth solution, and at most kBeyondDecay more than that decay: a jump next to the middle is
-// rough for the whole step only.
-constexpr double kMinDecay = 1.25, kPartOfDecay = 0.7, kBeyondDecay = 6;
-// The least factor of the estimate, the paper's s_min. The estimate is that of the kept solution, so that errors of all
-// steps count.
-constexpr double kReserve = 4;
-// Roughness of the whole step alone counts above this many tolerances.
-constexpr double kRough = 10;
-
+// Whether the scheme and Newton's method have what the filter of the defect needs.
 template <class Real>
-bool isIndex3(const System<Real>& system) {
-  const auto& powers = system.errorPowers().v;
-  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
-}
-
-// Whether the last stage is before the step's end and EmbeddedEstimate can be used.
-template <class Real>
-bool canLookIntoGaps(const Scheme<Real>& scheme, const IntegratorOptions& options) {
-  return EmbeddedEstimate<Real>::endsBefore(scheme) && scheme.regular && scheme.first == 0 &&
-         scheme.tableau.stage_order >= 1 && catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
+bool hasFilter(const Scheme<Real>& scheme, const IntegratorOptions& options) {
+  return scheme.regular && scheme.first == 0 && scheme.tableau.stage_order >= 1 &&
+         catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
 }
 
 /// No estimate: one step.
@@ -92,21 +74,11 @@ class Doubling : public StepAttempt<Real> {
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
     const double start_defect = watches_start_ ? half_.startDefect(from) : 0;
-    if (looks_again_) {
-      rough_.whole = whole_.roughness(from), rough_.halves = half_.roughness(from);
-      missed_.whole = missed(whole_, from, coarse_, half), missed_.halves = missed(half_, from, middle_, half);
-    }
+    Between between{};
+    if (looks_) between = look(from, middle_);
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
-    if (looks_again_) {
-      rough_.halves = std::max(rough_.halves, half_.roughness(middle_));
-      missed_.halves = std::max(missed_.halves, missed(half_, middle_, to, half));
-    }
+    if (looks_) between = larger(between, look(middle_, to));
     result.error = error(coarse_, to, static_cast<double>(h));
-    if (accumulates_) {
-      result.added = result.error;
-      result.error = accumulation_.asked(result.error, accumulation_.factor(steps_, sum_), static_cast<double>(from.t),
-                                         static_cast<double>(h));
-    }
     worst_ = norm_.worst(coarse_, to, static_cast<double>(h), factor_);
     if (!std::isfinite(result.error)) {
       result.outcome = Outcome::kNotFinite;
@@ -116,28 +88,23 @@ class Doubling : public StepAttempt<Real> {
     result.error = worse(result.error, order_, result.mode_error, 1);
     // ... in a fast motion that both damp ...
     if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
-    // ... and 2^p - 1 divides by too much where the halves do not show order p.
-    if (looks_again_) result.error = worse(result.error, order_, unresolved(), 1);
-    if (transport_ && result.error <= 1) transport_->carry(whole_, from, coarse_, to, factor_, norm_);
+    // ... between the stages of both, and where the halves do not show the order p of 2^p - 1.
+    if (looks_) result.error = worse(result.error, order_, unresolved(between), 1);
     return result;
   }
   void forget() override {
     whole_.forget();
     half_.forget();
   }
-  void begin() override {
+  void begin(double length) override {
     forget();
-    steps_ = 0;
-    sum_ = 0;
-    accumulation_.begin();
-    if (transport_) transport_->begin();
+    if (looks_) looks_->defect.begin(length);
     continues_ = restarted_ = watches_start_ = vague_start_ = false;
   }
   void restart() override {
     forget();
     continues_ = false;
     restarted_ = watches_start_ = vague_start_ = true;
-    if (transport_) transport_->restart();
   }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override {
     // If this step ended with a restart, restart() was called before: the next step is the first one after it.
@@ -145,14 +112,7 @@ class Doubling : public StepAttempt<Real> {
       watches_start_ = false;
       continues_ = continues_ || !vague_start_ || whole_.tellsRates();
     }
-    ++steps_;
-    sum_ += result.added;
-    if (transport_) transport_->accept();
     return StepAttempt<Real>::accepted(result, h, h_next);
-  }
-  CarriedError carriedError() const override {
-    if (!transport_) return {};
-    return {transport_->size(norm_), transport_->amplification(norm_)};
   }
   int order() const override { return order_; }
   Index worstComponent() const override { return worst_; }
@@ -176,69 +136,56 @@ class Doubling : public StepAttempt<Real> {
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         whole_(system, scheme, options, setup.jacobian, setup.norm, setup.counters),
         half_(system, scheme, options, setup.jacobian, setup.norm, setup.counters),
-        accumulates_(ownOrders(options) && !isIndex3(system)),
-        accumulation_(std::max(kReserve, stiffCaution(scheme)), options.tolerances),
-        looks_again_(ownOrders(options) && scheme.s > 1),
         order_(scheme.tableau.order),
         interpolate_(catalogue<Predictor>()[options.predictor].extrapolates),
         locates_(system.sizes().switches > 0 && system.discontinuity().at_switch == AtSwitch::kEnd),
         keeps_pieces_(locates_),
         coarse_(system.sizes()),
         middle_(system.sizes()) {
-    const bool keeps = catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
-    if (ownOrders(options) && keeps && isStableAtInfinity(scheme)) {
-      transport_ = std::make_unique<ErrorTransport<Real>>(system.sizes(), scheme.s);
-    }
-    if (!looks_again_ || !canLookIntoGaps(scheme, options)) return;
-    gaps_ = std::make_unique<EmbeddedEstimate<Real>>(system, scheme, options, setup.jacobian, half_.matrix(),
-                                                     setup.norm, setup.counters);
-  }
-  static bool ownOrders(const IntegratorOptions& options) {
-    return catalogue<ErrorEstimate>()[options.step.estimate].own_orders;
-  }
-  // The error of a fast motion before the first stage of a step or behind the last one, which no stage shows.
-  double missed(Stepper<Real>& stepper, const State<Real>& from, const State<Real>& to, const Real& filter_h) {
-    if (!gaps_) return 0;
-    const auto before = gaps_->missedAtStart(from, stepper.stages(), filter_h);
-    const auto behind = gaps_->missedAtEnd(from, stepper.stages(), to, filter_h);
-    const bool known = before.outcome == Outcome::kSuccess && behind.outcome == Outcome::kSuccess;
-    if (!known) return std::numeric_limits<double>::infinity();
-    const auto [less, more] = std::minmax(before.error, behind.error);
-    return isNews(more, less) ? more : 0;
+    if (!catalogue<ErrorEstimate>()[options.step.estimate].own_orders || !hasFilter(scheme, options)) return;
+    looks_ = std::make_unique<Looks>(setup, half_.matrix());
   }
 
-  // A quantity of the whole step, and the larger one of its two halves.
-  struct Pair {
-    double whole = 0, halves = 0;
+  // What is between the stages of a half step, and how smooth its polynomial is, in tolerances.
+  struct Between {
+    double defect = 0, roughness = 0;
   };
-  // A second check, of the order of the stages. Roughness and missed motion of the halves must be below the tolerance,
-  // or fall from the whole step to its halves as those of a smooth solution do; at a jump of (a, k) they fall by 2
-  // only, at a jump of their rates by 4.
-  double unresolved() const {
-    const double least = std::exp2(std::max(kMinDecay, kPartOfDecay * whole_.decay()));
+  static Between larger(const Between& a, const Between& b) {
+    return {std::max(a.defect, b.defect), std::max(a.roughness, b.roughness)};
+  }
+  // Of the half step from `start` to `end`, which was solved last.
+  Between look(const State<Real>& start, const State<Real>& end) {
+    const auto found = looks_->defect.largest(start, half_.stages(), end);
+    const bool known = found.outcome == Outcome::kSuccess;
+    return {known ? found.error : std::numeric_limits<double>::infinity(), half_.roughness()};
+  }
+  // An error of the stages' order, where half steps do not resolve the motion. Roughness must be below the tolerance,
+  // or fall from the whole step to its halves: with 2^decay where the motion is smooth, with 2 at a jump of (a, k); the
+  // limit is half-way between them, on a logarithmic scale. The defect must be below the tolerance, or below the
+  // roughness, as where the motion is smooth.
+  double unresolved(const Between& halves) {
+    const double falls = std::exp2((whole_.decay() + 1.0) / 2);
     double found = 0;
-    for (const Pair& pair : {rough_, missed_}) {
-      if (pair.halves > 1 && pair.whole < least * pair.halves) found = std::max(found, pair.halves);
-    }
-    const double most = std::exp2(whole_.decay() + kBeyondDecay);
-    if (rough_.whole > kRough && rough_.whole > most * rough_.halves) found = std::max(found, rough_.whole);
+    if (halves.roughness > 1 && whole_.roughness() < falls * halves.roughness) found = halves.roughness;
+    if (halves.defect > 1 && !(halves.defect <= halves.roughness)) found = std::max(found, halves.defect);
     return found;
   }
 
   Stepper<Real> whole_, half_;
-  std::unique_ptr<ErrorTransport<Real>> transport_;  // null for the paper's estimates
-  std::unique_ptr<EmbeddedEstimate<Real>> gaps_;     // null if the last stage is at the end
-  bool accumulates_;  // false for the paper's estimates, and in index 3 because of round-off of velocities
-  Accumulation accumulation_;
-  std::int64_t steps_ = 0;      // accepted
-  double sum_ = 0;              // sum of their estimates
-  bool looks_again_;            // `richardson`: checks whether the halves show the order
-  bool watches_start_ = false;  // in the first step after a restart
-  bool restarted_ = false;      // since the last accepted step
-  bool continues_ = false;      // (a, k) at a step's start belong to its mode
-  bool vague_start_ = false;    // after a restart, which may not determine (a, k)
+  // Looks between the stages of the half steps.
+  struct Looks {
+    Looks(const StepAttemptSetup<Real>& setup, NewtonMatrix<Real>& halves)
+        : filter(setup.system, setup.scheme(), setup.options, setup.jacobian, halves, setup.norm, setup.counters),
+          defect(filter, setup.scheme(), setup.system.sizes(), Defect<Real>::Start::kLookAt) {}
+    EmbeddedEstimate<Real> filter;
+    Defect<Real> defect;
+  };
+  std::unique_ptr<Looks> looks_;  // null for the paper's estimates, and without a filter
+  bool watches_start_ = false;    // in the first step after a restart
+  bool restarted_ = false;        // since the last accepted step
+  bool continues_ = false;        // (a, k) at a step's start belong to its mode
+  bool vague_start_ = false;      // after a restart, which may not determine (a, k)
   Index worst_ = -1;
-  Pair rough_, missed_;
   int order_;
   bool interpolate_;
   bool locates_;       // steps end at switches, found on the dense output

@@ -119,7 +119,7 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h, const Point<Real>& p, Equa
   system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
   if (scaled_) e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
-  if (at == EquationsAt::kGap) {
+  if (at == EquationsAt::kInside) {
     const auto& powers = system_.errorPowers().z;
     for (Index i = 0; i < sizes_.nz; ++i) {
       if (powers[static_cast<std::size_t>(i)] > 0) e_(sizes_.nu + sizes_.nx + i, 0) = Real(0);
@@ -175,57 +175,27 @@ auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolyno
   return estimate(from, stages, start_, again_above);
 }
 
-// The norm of `part` times h times the defect of the stages' polynomial, with these weights, at t, u, v, x of `at_`,
-// filtered with the step `filter_h`.
 template <class Real>
-auto EmbeddedEstimate<Real>::missed(const StagePolynomial<Real>& stages, const Vec<Real>& weights, const Real& part,
-                                    const Real& filter_h) -> Result {
+auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h) -> Result {
   Result result;
-  if (part <= Real(0)) return result;
-  if (scaled_) rowScales(row_powers_, filter_h, scales_);
-  smallProduct<Real>(stages.W, weights, defect_);
+  if (scaled_) rowScales(row_powers_, h, scales_);
+  defect_ = at.w;
   slip_.setZero();
-  const auto filtered = [&] {
-    result.outcome = filter(filter_h, pointAt(at_.t, at_.u, at_), EquationsAt::kGap);
-    if (result.outcome != Outcome::kSuccess) return false;
+  const auto filterAt = [&](const State<Real>& state) {
+    result.outcome = filter(h, pointAt(at.t, state.u, state), EquationsAt::kInside);
+    if (result.outcome != Outcome::kSuccess) return;
     error_.z().setZero();
-    const Real scale = part * stages.h / (mu_ * filter_h);
-    result.error = norm_.magnitude(error_, static_cast<double>(stages.h)) * static_cast<double>(scale);
+    result.error = norm_.magnitude(error_, static_cast<double>(h));
     if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
-    return result.outcome == Outcome::kSuccess;
   };
-  if (!filtered() || result.error <= 1) return result;
-  // The second filter of HW II (IV.8.21) damps stiff components once more and keeps the others. Methods that are not
-  // L-stable leave errors of stiff components at the end of each step; these are not to be counted here.
-  constexpr double kKept = 0.7;
-  const double once = result.error;
-  at_.u += error_.u;
-  at_.v += error_.v;
-  at_.x += error_.x;
-  if (filtered() && result.error < kKept * once) result.error = 0;
+  filterAt(at);
+  if (result.outcome != Outcome::kSuccess || result.error <= 1) return result;
+  at_.u = at.u + error_.u;
+  at_.v = at.v + error_.v;
+  at_.x = at.x + error_.x;
+  at_.d = at.d;
+  filterAt(at_);
   return result;
-}
-
-template <class Real>
-auto EmbeddedEstimate<Real>::missedAtEnd(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                         const State<Real>& to, const Real& filter_h) -> Result {
-  at_.t = from.t + stages.h;
-  at_.d = from.d;
-  at_.u = to.u;
-  at_.v = to.v;
-  at_.x = to.x;
-  return missed(stages, scheme_.end, Real(1) - scheme_.c.maxCoeff(), filter_h);
-}
-
-template <class Real>
-auto EmbeddedEstimate<Real>::missedAtStart(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                           const Real& filter_h) -> Result {
-  at_.t = from.t;
-  at_.d = from.d;
-  at_.u = from.u;
-  at_.v = from.v;
-  at_.x = from.x;
-  return missed(stages, scheme_.start, scheme_.c.minCoeff(), filter_h);
 }
 
 template <class Real>

@@ -43,16 +43,11 @@ class EmbeddedEstimate {
   /// `evaluate` of the same step.
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q);
 
-  /// The error of a fast motion behind the last stage, where that is not at the step's end: (1 - c_s) h times the
-  /// defect of the stages' polynomial at the end `to` of the step, filtered with the step `filter_h`. No stage of this
-  /// step shows such a motion, and it is over in the next step. Counts u, v, x only; violated constraints are drift.
-  [[nodiscard]] Result missedAtEnd(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to,
-                                   const Real& filter_h);
-  /// The same before the first stage: c_1 h times the defect at the start.
-  [[nodiscard]] Result missedAtStart(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                     const Real& filter_h);
-  /// Whether the last stage is before the step's end.
-  static bool endsBefore(const Scheme<Real>& scheme) { return scheme.c.maxCoeff() < Real(1 - 1e-10); }
+  /// The error -h mu (D0 + h mu D1 + h^2 mu^2 D2)^-1 r(at) for a point inside a step of size h, whose (a, k, z) are
+  /// those of the continuous solution: the defect there (core/estimates/defect.h). One above the tolerance is filtered
+  /// a second time, HW II (IV.8.21), so that a transient that the step damps does not count. Counts u, v, x; rows of
+  /// constraints of index 2 and 3 are left out.
+  [[nodiscard]] Result filtered(const State<Real>& at, const Real& h);
 
   /// Allocates what the next evaluation would, where the pattern is known.
   void reserve() {
@@ -75,8 +70,7 @@ class EmbeddedEstimate {
   };
   Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages, const AtStart& at_start,
                   double again_above);
-  Result missed(const StagePolynomial<Real>& stages, const Vec<Real>& weights, const Real& part, const Real& filter_h);
-  enum class EquationsAt { kStart, kGap };
+  enum class EquationsAt { kStart, kInside };
   Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
   Outcome filter(const Real& h, const Point<Real>& p, EquationsAt at);
   Outcome solve(const Real& h);
@@ -98,16 +92,8 @@ class EmbeddedEstimate {
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
   State<Real> at_;         // the point where the residual is evaluated, unless that is the step's start
   State<Real> error_, zero_;
-  double behind_;  // 1 - c_s
   Vec<double> ones_;
   Mat<Real> e_;  // n x 1
 };
-
-/// Whether the error missed at one end of a step is larger than that at the other end. Undamped errors of stiff
-/// components are equally large at both, and shorter steps would not reduce them.
-inline bool isNews(double missed, double elsewhere) {
-  constexpr double kMuchMore = 4;
-  return !(missed <= kMuchMore * elsewhere);
-}
 
 }  // namespace irk

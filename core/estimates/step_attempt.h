@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/estimates/carried_error.h"
 #include "core/options/catalogue.h"
 #include "core/stages/scheme_list.h"
 #include "core/steps/stepper.h"
@@ -38,8 +37,11 @@ class StepAttempt {
   virtual ~StepAttempt() = default;
   /// Attempts a step of size h from `from` to `to`, which are different objects.
   [[nodiscard]] virtual AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) = 0;
-  /// Resets all history: the next integration is bitwise that of a new object.
-  virtual void begin() { forget(); }
+  /// Resets all history: the next integration, over this length, is bitwise that of a new object.
+  virtual void begin(double length) {
+    static_cast<void>(length);
+    forget();
+  }
   /// Forgets the last solved step, which is a bad prediction after a failure of Newton's method or a change of mode.
   /// (A step with too large an error is a good prediction of a shorter one.)
   virtual void forget() = 0;
@@ -51,8 +53,6 @@ class StepAttempt {
     static_cast<void>(h);
     return {h_next, result.error};
   }
-  /// The estimated error after the accepted steps as the motion has carried it (core/estimates/error_transport.h).
-  virtual CarriedError carriedError() const { return {}; }
   /// p of the estimate's leading error h^(p+1) in the next attempt.
   virtual int order() const = 0;
   /// The component of (u, v, x, z) with the largest error of the last solved step; -1 if not known.
@@ -99,8 +99,7 @@ struct Strategy<ErrorEstimate> {
   std::string meaning;
   Needs needs = {};
   bool estimates = true;  ///< false: gives no error to control steps by
-  /// Besides the error of a step, checks the switches in a step that goes on over them, and stiff components at the end
-  /// (core/integration/stiff_rest.h). The paper's estimates do not.
+  /// Besides the error of a step, checks the switches in a step that goes on over them. The paper's estimates do not.
   bool looks_further = false;
   bool own_orders = false;       ///< divides each component's difference by its own order, see doublingFactors
   bool compares_orders = false;  ///< can estimate the error of another method of the family

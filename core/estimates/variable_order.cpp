@@ -67,6 +67,7 @@ void VariableOrder<Real>::make(std::size_t i) {
   if (members_[i]) return;
   members_[i] = std::make_unique<Member>(setup_, setup_.schemes[i]);
   members_[i]->epoch = epoch_;
+  members_[i]->defect.begin(length_);
   if (reserved_) members_[i]->stepper.reserve(), members_[i]->estimate.reserve();
 }
 
@@ -105,18 +106,14 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   const double limit = again_ ? 1 / rank().strictness : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
-  result.added = member().adds ? estimate.error : 0;
-  result.error = estimate.error * rank().strictness;
-  estimate_ = result.error;
-  const double factor = member().accumulation.factor(member().accumulates ? steps_ : 0, sum_);
-  result.error = member().accumulation.asked(result.error, factor, static_cast<double>(from.t), static_cast<double>(h));
-  result.error = worse(result.error, order(), result.mode_error, 1);
-  // The error missed at the end says nothing about stiff components at the start: it causes no second filter.
+  result.error = worse(estimate.error * rank().strictness, order(), result.mode_error, 1);
+  // What the defect shows between the stages says nothing about stiff components at the start, which a second filter
+  // damps.
   again_ = !(result.error <= 1);
-  if (result.outcome == Outcome::kSuccess && EmbeddedEstimate<Real>::endsBefore(member().scheme)) {
-    const auto missed = member().estimate.missedAtEnd(from, *past_, to, h);
-    result.outcome = missed.outcome;
-    if (isNews(missed.error, estimate.error)) result.error = worse(result.error, order(), missed.error, 1);
+  if (result.outcome == Outcome::kSuccess && result.error <= 1) {
+    const auto between = member().defect.largest(from, *past_, to);
+    result.outcome = between.outcome;
+    result.error = std::max(result.error, between.error);
   }
   if (watches_start_) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
@@ -135,17 +132,16 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
 }
 
 template <class Real>
-void VariableOrder<Real>::begin() {
+void VariableOrder<Real>::begin(double length) {
+  length_ = length;
   changeTo(start_);
   if (order_control_) order_control_->begin();
   past_ = &member().stepper.stages();
   past_at_ = at_;
   solved_ = false;
   continues_ = restarted_ = watches_start_ = vague_start_ = false;
-  steps_ = 0;
-  sum_ = 0;
   for (auto& m : members_) {
-    if (m) m->accumulation.begin();
+    if (m) m->defect.begin(length);
   }
   failures_ = 0;
   forget();
@@ -167,8 +163,6 @@ NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, do
     watches_start_ = false;
     continues_ = continues_ || !vague_start_ || member().stepper.tellsRates();
   }
-  ++steps_;
-  sum_ += estimate_;
   if (!order_control_) return {h_next, result.error};
   const auto decision =
       order_control_->decide({at_, result.error, lower_error_, result.theta, result.newton_iterations, h, h_next});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/control/order_controller.h"
-#include "core/estimates/accumulation.h"
+#include "core/estimates/defect.h"
 #include "core/estimates/embedded.h"
 #include "core/estimates/step_attempt.h"
 
@@ -25,7 +25,7 @@ class VariableOrder final : public StepAttempt<Real> {
   explicit VariableOrder(const StepAttemptSetup<Real>& setup);
 
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
-  void begin() override;
+  void begin(double length) override;
   void forget() override;
   void restart() override {
     forget();
@@ -45,20 +45,12 @@ class VariableOrder final : public StepAttempt<Real> {
         : scheme(s),
           stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),
           estimate(setup.system, s, setup.options, setup.jacobian, stepper.matrix(), setup.norm, setup.counters),
-          accumulates(s.tableau.order <= std::min(estimateOrder() + 1, kMaxAccumulating) || !dampsStiffErrors(s)),
-          adds(s.tableau.order <= estimateOrder()),
-          accumulation(stiffCaution(s), setup.options.tolerances) {}
+          defect(estimate, s, setup.system.sizes(), Defect<Real>::Start::kLeaveOut) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
-    /// Its errors add up: its estimate is hardly larger than its error and its steps are many, or stiff errors do not
-    /// decay.
-    bool accumulates;
-    bool adds;  ///< its estimate is of the order of the error
-    Accumulation accumulation;
-    static constexpr int kMaxAccumulating = 4;
+    Defect<Real> defect;
     int epoch = 0;  ///< the epoch in which it last forgot
-    int estimateOrder() const { return EmbeddedEstimate<Real>::order(scheme.tableau); }
   };
   void make(std::size_t i);
   double muOf(std::size_t i);
@@ -81,8 +73,7 @@ class VariableOrder final : public StepAttempt<Real> {
   std::shared_ptr<const Pattern> reserved_;  // the pattern that every member has reserved memory for
   int epoch_ = 0;                            // members not in use forget when they are next used
   bool again_ = true;                        // filter twice: after a start and a rejection
-  std::int64_t steps_ = 0;                   // accepted
-  double estimate_ = 0, sum_ = 0;            // estimate of the last attempt; sum of all accepted ones
+  double length_ = 0;                        // of the integration
   bool watches_start_ = false;               // in the first step after a restart
   bool restarted_ = false;                   // since the last accepted step
   bool continues_ = false;                   // (a, k) at a step's start belong to its mode

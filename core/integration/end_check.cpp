@@ -3,19 +3,15 @@
 #include <sstream>
 
 #include "core/derivatives/constraint_check.h"
-#include "core/estimates/accumulation.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 
 template <class Real>
 EndCheck checkEnd(const System<Real>& system, const State<Real>& state, const ErrorNorm<Real>& norm,
-                  const Tolerances& tolerances, bool bounds) {
+                  const Tolerances& tolerances) {
   const std::string violated = constraintViolation(system, state, norm.weights(), allowedDrift(tolerances));
-  if (!violated.empty()) return {Outcome::kDrift, violated};
-  if (!bounds) return {};
-  const std::string negative = negativeComponent(system, state, norm.weights(), largestError(tolerances));
-  return {negative.empty() ? Outcome::kSuccess : Outcome::kInaccurate, negative};
+  return violated.empty() ? EndCheck{} : EndCheck{Outcome::kDrift, violated};
 }
 
 std::string roundOffRemark(double size) {
@@ -27,7 +23,7 @@ std::string roundOffRemark(double size) {
 }
 
 #define IRK_CHECK(Real) \
-  template EndCheck checkEnd(const System<Real>&, const State<Real>&, const ErrorNorm<Real>&, const Tolerances&, bool);
+  template EndCheck checkEnd(const System<Real>&, const State<Real>&, const ErrorNorm<Real>&, const Tolerances&);
 IRK_CHECK(double)
 IRK_CHECK(mp50)
 IRK_CHECK(mp100)

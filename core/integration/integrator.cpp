@@ -7,7 +7,6 @@
 
 #include "core/control/stall_detector.h"
 #include "core/derivatives/first_order.h"
-#include "core/estimates/accumulation.h"
 #include "core/integration/rules.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
@@ -79,8 +78,7 @@ class Integrator<Real>::Run {
         schemes_(methods.members),
         options_(legal(options, *system_, schemes_, methods.start)),
         counted_(*system_, counters_, options_.threads),
-        trajectory_(counted_, schemes_, methods.start, options_, scale, counters_),
-        error_sum_(options_.tolerances) {}
+        trajectory_(counted_, schemes_, methods.start, options_, scale, counters_) {}
 
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     counters_ = {};
@@ -139,7 +137,6 @@ class Integrator<Real>::Run {
     if (length_ == 0) return {};
     double h = std::min(firstStep(), options_.step.h_max);
     stall_.begin(static_cast<double>(state().t));
-    error_sum_.begin();
     too_small_ = Outcome::kStepTooSmall;
     for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
       if (Stop stop = askCaller(h)) return stop;
@@ -199,10 +196,6 @@ class Integrator<Real>::Run {
       return {};
     }
     if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
-    error_sum_.add(result.added);
-    if (error_sum_.aboveBar()) {
-      return {Outcome::kInaccurate, size, "the sum of the estimated errors is too large " + trajectory_.rejections()};
-    }
     h = std::min(trajectory_.nextSize(result, size, h), options_.step.h_max);
     reach(t_end);
     return {};
@@ -265,7 +258,6 @@ class Integrator<Real>::Run {
   CountingSystem<Real> counted_;
   Trajectory<Real> trajectory_;
   StallDetector stall_;
-  ErrorSum error_sum_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   std::vector<Real> times_;                     // of the system, those before the end

@@ -4,7 +4,6 @@
 #include <sstream>
 #include <utility>
 
-#include "core/estimates/accumulation.h"
 #include "core/integration/end_check.h"
 #include "irk/multiprecision.h"
 
@@ -38,16 +37,6 @@ ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, c
   return norm;
 }
 
-// Whether no unknown has a higher index than 1.
-template <class Real>
-bool isPlain(const System<Real>& system) {
-  const ErrorPowers& powers = system.errorPowers();
-  const auto none = [](const std::vector<int>& p) {
-    return std::all_of(p.begin(), p.end(), [](int power) { return power == 0; });
-  };
-  return none(powers.v) && none(powers.x) && none(powers.z);
-}
-
 // Whether algebraic unknowns other than multipliers have index 2: D0 is then singular, and only a step determines
 // (a, k).
 template <class Real>
@@ -72,7 +61,6 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
       start_(system, options.derivatives, schemes[start].first > 0, &counters, scale,
              jacobian_.differentiator().scratch()),
-      rest_(system, norm_, start_),
       switches_(system),
       inside_(system),
       state_(system.sizes()),
@@ -80,13 +68,6 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
   const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
   if (isIndex3(system) && stops) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
-  }
-  const Scheme<Real>& scheme = schemes[start];
-  // The paper's estimates and its Newton method make no such checks: their successes are reported as they are.
-  const bool looks = catalogue<ErrorEstimate>()[options.step.estimate].looks_further &&
-                     catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
-  if (controller_ && looks && scheme.regular && scheme.first == 0 && !dampsStiffErrors(scheme) && isPlain(system)) {
-    stiff_rest_ = std::make_unique<StiffRest<Real>>(system, options, jacobian_, norm_, counters);
   }
 }
 
@@ -100,7 +81,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   note_.clear();
   round_off_ = 0;
   last_rejection_ = nullptr;
-  attempt_->begin();
+  attempt_->begin(length);
   attempt_->keepPieces(monitor.inside);
   jacobian_.forgetPattern();
   restart();
@@ -131,12 +112,8 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
 
 template <class Real>
 StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
-  double error = result.error;
-  if (mayRest(error, h, length_)) {
-    if (const double asleep = rest_.error(state_, next_, h); asleep > 1) error = asleep;
-  }
   controller_->factorsCost(jacobian_.factorsCost());
-  const StepDecision decision = controller_->decide(error, h);
+  const StepDecision decision = controller_->decide(result.error, h);
   if (!decision.accept) last_rejection_ = "the error";
   return decision;
 }
@@ -283,31 +260,12 @@ Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) c
   return {outcome, std::move(detail), system_.toScene(state_), counters_};
 }
 
-// Why the end is too far from the slow motion; empty if it is not, or if the method damps such errors.
-template <class Real>
-std::string Trajectory<Real>::undampedRest() {
-  if (!stiff_rest_ || counters_.steps_accepted == 0) return {};
-  const StepPieces<Real> last = attempt_->pieces(next_);
-  const double rest = stiff_rest_->error(last.at[last.count - 1], state_);
-  if (!(rest > largestError(options_.tolerances))) return {};
-  std::ostringstream text;
-  text.precision(2);
-  text << "the result is off the slow motion of stiff components by " << rest
-       << " tolerances, and this method does not damp such errors; largest in "
-       << componentName(system_.sizes(), stiff_rest_->worstComponent());
-  return text.str();
-}
-
 template <class Real>
 Solution<Real> Trajectory<Real>::success() {
   if (controller_) {
     norm_.update(state_);
-    const bool looks = catalogue<ErrorEstimate>()[options_.step.estimate].looks_further;
-    const EndCheck end = checkEnd(system_, state_, norm_, options_.tolerances, looks);
+    const EndCheck end = checkEnd(system_, state_, norm_, options_.tolerances);
     if (end.outcome != Outcome::kSuccess) return solution(end.outcome, end.detail);
-    for (const std::string& doubt : {attempt_->carriedError().doubt(options_.tolerances), undampedRest()}) {
-      if (!doubt.empty()) return solution(Outcome::kInaccurate, doubt);
-    }
   }
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
   if (solved_anew) addNote(start_.applyAtEnd(state_));

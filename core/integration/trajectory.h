@@ -10,8 +10,6 @@
 #include "core/derivatives/projection.h"
 #include "core/estimates/step_attempt.h"
 #include "core/integration/inside_attempt.h"
-#include "core/integration/rest_check.h"
-#include "core/integration/stiff_rest.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
 #include "irk/monitor.h"
@@ -51,7 +49,7 @@ class Trajectory {
   /// Sets the time to t_end, after a switch so close to it that the rest is too short for a step.
   void endAt(const Real& t_end) { state_.t = t_end; }
 
-  /// At the end: kSuccess, kDrift or kInaccurate.
+  /// At the end: kSuccess or kDrift.
   Solution<Real> success();
   Solution<Real> failed(Outcome outcome, double h, const std::string& what) const;
   /// For messages that say why steps are small: the rejections, and the component with the largest error.
@@ -67,7 +65,6 @@ class Trajectory {
   void addNote(const std::string& text);
   void restart();
   void tell(Index i) const;
-  std::string undampedRest();
   Solution<Real> solution(Outcome outcome, std::string detail) const;
 
   const System<Real>& system_;
@@ -80,11 +77,9 @@ class Trajectory {
   std::unique_ptr<StepController> controller_;  // null: fixed steps
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;
-  RestCheck<Real> rest_;
   /// In index 3 positions and velocities satisfy their constraints only to the error of a step. The short steps after a
   /// restart would turn that into errors of velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;
-  std::unique_ptr<StiffRest<Real>> stiff_rest_;  // null if errors of stiff components decay
   Switches<Real> switches_;
   ChatterDetector chatter_;
   InsideAttempt<Real> inside_;

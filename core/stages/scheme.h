@@ -1,6 +1,7 @@
 // A scheme: a tableau prepared for the stage equations, with A^2, end weights and properties of its structure.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "irk/tableau.h"
@@ -57,6 +58,14 @@ struct Scheme : Structure<Real> {
   /// A without the explicit first stage. Its square is the same block of A^2.
   Mat<Real> implicitA() const { return A.bottomRightCorner(s - first, s - first); }
 };
+
+/// Whether errors of stiff components decay from step to step: |R(infinity)| < 1. Otherwise they add up.
+template <class Real>
+bool dampsStiffErrors(const Scheme<Real>& scheme) {
+  using std::abs;
+  if (!scheme.regular || scheme.first > 0) return false;
+  return abs(Real(Real(1) - scheme.d.sum())) < Real(0.99);
+}
 
 /// The process keeps schemes and structures in double with up to this many stages (60 kB each).
 inline constexpr Index kMostKeptStages = 30;

@@ -28,8 +28,6 @@ struct AttemptResult : StepResult {
   /// Estimate in the error norm, accepted up to 1; NaN without one. With variable order it is multiplied
   /// by the member's strictness (core/control/order_controller.h).
   double error = 0;
-  /// What an accepted step adds to the error of the result, in tolerances; 0 where it is far below the estimate.
-  double added = 0;
 };
 
 }  // namespace irk

@@ -19,10 +19,6 @@ constexpr double kStartTolerances = 10;
 
 // If rates change by more than this part of their size, the step is on another root of the stage equations.
 constexpr double kAnotherRoot = 0.25;
-// endFrom corrects the stages until the rest is this part of the change, at most so many times. A larger rest than
-// kUseful of the change is a failure.
-constexpr double kCorrected = 1e-3, kUseful = 0.05;
-constexpr int kCorrections = 8;
 // Round-off of (v, x) after many operations, in epsilons.
 constexpr double kRoundOff = 1000;
 
@@ -160,50 +156,18 @@ bool Stepper<Real>::leavesRoot(const State<Real>& from) {
 }
 
 template <class Real>
-Outcome Stepper<Real>::endFrom(const State<Real>& start, State<Real>& to, StepCorrection<Real>& scratch) {
-  const Index first = eq_.scheme().first, implicit = stages_.W.cols() - first;
-  const Real h = stages_.h;
-  scratch.W = stages_.W;
-  eq_.begin(start, h);
-  if (first > 0) scratch.W.col(0) = start.w;
-  norm_.rowWeights(static_cast<double>(h), scratch.weights);
-  double whole = 0, previous = 0;
-  bool corrected = false, contracts = true;
-  for (int i = 0; i < kCorrections && contracts && !corrected; ++i) {
-    if (!eq_.residual(scratch.W, scratch.R)) return Outcome::kNotFinite;
-    matrix_.solve(scratch.R.rightCols(implicit));
-    scratch.W.rightCols(implicit) -= scratch.R.rightCols(implicit);
-    const double size = norm_.increment(scratch.R, first, scratch.weights);
-    if (i == 0) whole = size;
-    const double theta = i == 0 ? 1 : size / previous;
-    contracts = i == 0 || theta < 1;
-    corrected = size * std::min(theta, 1.0) <= kCorrected * whole;
-    previous = size;
-  }
-  if (!(previous <= kUseful * whole)) return Outcome::kNewtonFailed;
-  eq_.finish(scratch.W, to);
-  return projection_ ? projection_->apply(to) : Outcome::kSuccess;
-}
-
-template <class Real>
 int Stepper<Real>::decay() const {
   return static_cast<int>(W_.cols()) - highest() + 1;
 }
 
 template <class Real>
-double Stepper<Real>::roughness(const State<Real>& from) {
+double Stepper<Real>::roughness() {
   // One coefficient passes through zeros as a jump moves through the step; two neighbours have no zero in common.
   double sum = 0;
   for (Index k = W_.cols() - highest(); k < W_.cols(); ++k) {
     addStages(W_, eq_.scheme().legendre_inverse_transposed.col(k), rates_);
     const double size = rate_norm_(rates_, stages_.h);
     sum += size * size;
-  }
-  if (eq_.scheme().stiffly_accurate) {
-    addStages(W_, eq_.scheme().start, rates_);
-    rates_ -= from.w;
-    const double missed = rate_norm_(rates_, stages_.h);
-    if (missed > kStartTolerances) sum += missed * missed;
   }
   return std::sqrt(sum);
 }

@@ -11,14 +11,6 @@
 
 namespace irk {
 
-/// Scratch of Stepper::endFrom.
-template <class Real>
-struct StepCorrection {
-  StepCorrection(Index n, Index stages) : W(n, stages), R(n, stages), weights(n) {}
-  Mat<Real> W, R;
-  Vec<double> weights;
-};
-
 /// Attempts steps; keeps the stages of its last solved step. Owns all scratch of a step. A failed
 /// attempt leaves `to` and the stage polynomial unspecified but `from` untouched.
 template <class Real>
@@ -46,15 +38,10 @@ class Stepper final : private StepRepeater<Real> {
   /// step that moves the solution by less than a tolerance may be an error of its start, divided by h.
   bool tellsRates();
 
-  /// The end `to` of the step solved last if it had begun at the nearby state `start`: corrects the stages with the
-  /// step's factors, usually twice, until 1e-3 of the change is left. For Newton methods that keep a Jacobian.
-  /// kNewtonFailed if the corrections do not contract; `to` is then not set.
-  [[nodiscard]] Outcome endFrom(const State<Real>& start, State<Real>& to, StepCorrection<Real>& scratch);
-
-  /// For the step solved last, in the error norm: h times the highest Legendre coefficients of (a, k) in the stages'
-  /// polynomial; for stiffly accurate methods also h times the polynomial's difference from (a, k) at the start. Both
-  /// fall with h^decay() where the step resolves the motion.
-  double roughness(const State<Real>& from);
+  /// For the step solved last, in the error norm: h times the two highest Legendre coefficients (the highest one up to
+  /// two stages) of (a, k) in the stages' polynomial. It falls with h^decay() where the step resolves the motion, and
+  /// is then above what the polynomial misses.
+  double roughness();
   int decay() const;
 
   /// Allocates in advance what the first attempt would, if the pattern is known.

@@ -186,7 +186,8 @@ void NewtonKernel::moveBy(const Mat<double>& increment) {
 std::optional<Counters> NewtonKernel::attempts() {
   for (int trial = 0; trial < kMaxTrials; ++trial, solvable_h_ /= 2) {
     counters_ = {};
-    attempt_->begin();  // so that all calls do the same
+    // So that all calls do the same: steps of an integration of a hundred of them.
+    attempt_->begin(100 * solvable_h_);
     if (attempt_->attempt(start_, solvable_h_, middle_).outcome != Outcome::kSuccess) continue;
     if (attempt_->attempt(middle_, solvable_h_, end_).outcome == Outcome::kSuccess) return counters_;
   }

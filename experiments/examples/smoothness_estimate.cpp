@@ -12,7 +12,7 @@ class SmoothnessEstimate final : public irk::StepAttempt<double> {
 
   irk::AttemptResult attempt(const irk::State<double>& from, const double& h, irk::State<double>& to) override {
     irk::AttemptResult result{stepper_.attempt(stepper_.stages(), from, h, to)};
-    if (result.outcome == irk::Outcome::kSuccess) result.error = stepper_.roughness(from);
+    if (result.outcome == irk::Outcome::kSuccess) result.error = stepper_.roughness();
     return result;
   }
   void forget() override { stepper_.forget(); }

@@ -77,7 +77,8 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, Solution<Real>& solution, cons
   Solution<Real> second;
   const ErrorBar bar = measureErrorBar(result, integrator, scene.start, spec.options.tolerances,
                                        toleranceScale(scene, spec, scene.sizes()), second, monitor);
-  RunErrorBar measured{.u = bar.u, .v = bar.v, .x = bar.x, .z = bar.z};
+  RunErrorBar measured;
+  measured.u = bar.u, measured.v = bar.v, measured.x = bar.x, measured.z = bar.z;
   measured.problem = bar.problem;
   measured.cpu_s = threadSeconds() - began;
   if (!bar.known()) return measured;

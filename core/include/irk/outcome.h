@@ -22,8 +22,7 @@ enum class Outcome {
   kChattering,         ///< switches follow each other while no time passes
   kStalled,            ///< steps stay so small that the end is out of reach
   kDrift,              ///< the integration reached the end, but the state there violates the position constraints
-  /// the summed errors of all steps, or undamped errors of stiff components, exceed 200 tolerances
-  kInaccurate,
+  kInaccurate,  ///< the error bar of the result exceeds 1000 tolerances (irk/error_bar.h)
 };
 
 /// Whether a shorter step may succeed: Newton's method failed, or its matrix is singular.

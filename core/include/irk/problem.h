@@ -51,8 +51,8 @@
 //     template <class T>
 //     void onTime(Index i, const Point<T>& p, T* d) const;
 //
-//     // Whether x_i is never negative on an exact solution, as a concentration is. A result with x_i below zero by
-//     // more than 200 tolerances ends as `inaccurate`: reactions often run away from zero there.
+//     // Whether x_i is never negative on an exact solution, as a concentration is. A success with x_i below zero by
+//     // more than a tolerance says so in a remark: reactions often run away from zero there.
 //     bool nonNegative(Index i) const;
 //
 //     // Whether the residual reads p.v (true if the function is missing). That of an undamped motion does not; v is

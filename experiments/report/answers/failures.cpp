@@ -148,7 +148,7 @@ std::string causeTitle(std::string_view outcome) {
                                                               {"chattering", "chattering"},
                                                               {"stalled", "steps stay tiny"},
                                                               {"drift", "drift"},
-                                                              {"inaccurate", "errors add up"},
+                                                              {"inaccurate", "error bar too large"},
                                                               {"refused", "not allowed"}};
   const auto found = titles.find(outcome);
   return found == titles.end() ? std::string(outcome) : found->second;
@@ -199,8 +199,8 @@ Answer failureAnswer(const claims::ResultTables& tables) {
     for (const auto& [solver, ends] : sorted(by_solver)) appendRow(solver, ends, answer);
     answer.note =
         "Failed: the run says so itself. Wrong: a success with an error above 1000 tolerances. A solver is asked only "
-        "for problems that it can treat. Steps stay tiny: so small that the end is out of reach. Errors add up: the "
-        "estimates of all steps, or what is left of stiff components, exceed 200 tolerances. Drift: of a constraint. "
+        "for problems that it can treat. Steps stay tiny: so small that the end is out of reach. Error bar too large: "
+        "a second integration differs by more than 1000 tolerances. Drift: of a constraint. "
         "Studies that provoke failures are not counted here.";
   } catch (const claims::MissingResults&) {
   }

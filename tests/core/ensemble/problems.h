@@ -54,19 +54,6 @@ struct Tracking {
   static void start(State<double>&, double) {}
 };
 
-/// y' = -c with y(0) = 1, and y is said to be never negative: false after t = 1 / c.
-template <class Real>
-struct Emptied {
-  Real c;
-  Sizes sizes() const { return {.nx = 1}; }
-  bool nonNegative(Index) const { return true; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -c - p.k[0];
-  }
-  static void start(State<double>& s, double) { s.x << 1; }
-};
-
 /// The systems of a problem with these parameters, all to one end.
 template <template <class> class P>
 struct Members {

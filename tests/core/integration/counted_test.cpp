@@ -206,10 +206,11 @@ TEST(Counted, DoublingSolvesThreeTimes) {
     ASSERT_EQ(all.outcome, Outcome::kSuccess);
     EXPECT_EQ(all.counters.steps_accepted, 8) << idOf(estimate);
     EXPECT_EQ(all.counters.newton_iterations, 24) << idOf(estimate);
-    // `richardson` carries the error along the motion: nothing in the first step, then one correction per step, since
-    // the factors of a linear system are exact, and one that finds nothing left to correct.
-    EXPECT_EQ(all.counters.solves, estimate == ErrorEstimate::kRichardson ? 24 + 2 * 7 : 24) << idOf(estimate);
-    EXPECT_EQ(all.counters.factorizations, 2) << idOf(estimate);
+    // `richardson` looks between the stages of each half step: at its start, and at one point for each hundredth of
+    // the interval that it lasts, 7 of 0.0625.
+    EXPECT_EQ(all.counters.solves, estimate == ErrorEstimate::kRichardson ? 24 + 16 * (7 + 1) : 24) << idOf(estimate);
+    // Two stages have no real eigenvalue, so that `richardson` factorizes the filter of its looks as well.
+    EXPECT_EQ(all.counters.factorizations, estimate == ErrorEstimate::kRichardson ? 3 : 2) << idOf(estimate);
     EXPECT_EQ(all.counters.jacobians, kOfStart + 1) << idOf(estimate);
   }
 }

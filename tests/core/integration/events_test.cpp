@@ -181,7 +181,6 @@ TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
     options.step.h = 0.2;
     const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
-    EXPECT_EQ(r.solution.counters.newton_iterations, r.solution.counters.solves);
     const auto attempts = r.solution.counters.newton_iterations / 3;  // of Richardson: h, h/2, h/2
     EXPECT_EQ(r.solution.counters.newton_iterations % 3, 0);
     // Without the event every attempt needs the same number of iterations.

@@ -157,7 +157,8 @@ struct Asleep {
 
 TEST(Times, AnInputThatVanishesAtAllNodesIsSeen) {
   for (const char* method : {"lobatto_iiid_3", "lobatto_iiic_3", "lobatto_iiic_2", "radau_ia_3", "radau_iia_3"}) {
-    for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kDoubling, ErrorEstimate::kEmbedded}) {
+    // The paper's doubling does not look between the stages.
+    for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
       IntegratorOptions options;
       options.step.estimate = estimate;
       options.tolerances = {1e-6, 1e-6};

@@ -84,8 +84,8 @@ TEST(Success, MultipliersFollowFromTheState) {
 TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
   // Index 1 differentiates the constraint twice; over many revolutions at a loose tolerance the mass moves kilometres
   // away from its circle.
-  for (const char* method : {"radau_iia_2", "gauss_2"}) {
-    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1000, makeTableau<double>(method),
+  for (const auto& [method, t_end] : {std::pair{"radau_iia_2", 1000}, {"gauss_2", 300}}) {
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), t_end, makeTableau<double>(method),
                                      embedded(1e-2), Formulation::kIndex1);
     ASSERT_EQ(s.outcome, Outcome::kDrift) << method << s.detail;
     EXPECT_GT(s.state.u.norm(), 2) << method << ": this motion does not drift, the test tests nothing";

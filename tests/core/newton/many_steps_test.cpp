@@ -61,14 +61,14 @@ Ended ended(const char* id, const char* method, Formulation formulation, const I
   return {std::move(scene), std::move(solution)};
 }
 
-// 320 000 steps; with one kappa for all of them the end was off by 2500 tolerances.
+// Many steps; with one kappa for all of them the end was off by 2500 tolerances.
 TEST(ManySteps, OfAMethodOfOrderTwoOnThePendulumKeepTheTolerance) {
   const auto options = tight(1e-6, ErrorEstimate::kEmbedded);
   const Ended lobatto = ended("pendulum", "lobatto_iiid_2", Formulation::kIndex2Projected, options);
   const Ended radau = ended("pendulum", "radau_iia_5", Formulation::kIndex2, tight(1e-10, ErrorEstimate::kRichardson));
   ASSERT_EQ(lobatto.solution.outcome, Outcome::kSuccess) << lobatto.solution.detail;
   ASSERT_EQ(radau.solution.outcome, Outcome::kSuccess) << radau.solution.detail;
-  EXPECT_GT(lobatto.solution.counters.steps_accepted, 50'000);
+  EXPECT_GT(lobatto.solution.counters.steps_accepted, 10'000);
   EXPECT_LT((lobatto.solution.state.u - radau.solution.state.u).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT((lobatto.solution.state.v - radau.solution.state.v).cwiseAbs().maxCoeff(), 1e-4);
 }

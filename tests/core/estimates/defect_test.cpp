@@ -1,0 +1,206 @@
+// The defect of a step between its stages: its value, its size on smooth motions, and what it finds.
+#include "core/estimates/defect.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/derivatives/consistent_start.h"
+#include "core/estimates/step_attempt.h"
+#include "tests/core/trusted.h"
+
+namespace irk::test {
+namespace {
+
+/// x' = lambda x + t^4 and u'' = -9 u + t^3.
+struct ForcedPair {
+  double lambda = -3;
+  Sizes sizes() const { return {.nu = 1, .nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -9.0 * p.u[0] + p.t * p.t * p.t - p.a[0];
+    r.x[0] = lambda * p.x[0] + p.t * p.t * p.t * p.t - p.k[0];
+  }
+};
+
+/// A stepper with its filter, for one step.
+template <class P>
+struct SolvedStepOf {
+  SolvedStepOf(const P& problem, const char* method, double tol)
+      : options(embedded(tol)),
+        system(makeSystem<double>(problem, {})),
+        scheme(makeTableau<double>(method)),
+        norm(*system, options.tolerances, {}),
+        jacobian(*system, scheme, options, counters),
+        stepper(*system, scheme, options, jacobian, norm, counters),
+        estimate(*system, scheme, options, jacobian, stepper.matrix(), norm, counters),
+        defect(estimate, scheme, system->sizes(), Defect<double>::Start::kLeaveOut),
+        points(scheme) {}
+
+  void solve(State<double> start, double h) {
+    ConsistentStart<double> consistent(*system, options.derivatives, false, &counters);
+    ASSERT_EQ(consistent.apply(start).outcome, Outcome::kSuccess);
+    from = start;
+    to = start;
+    norm.update(from);
+    defect.begin(h);
+    ASSERT_EQ(stepper.attempt(stepper.stages(), from, h, to).outcome, Outcome::kSuccess);
+  }
+
+  IntegratorOptions options;
+  Counters counters;
+  std::shared_ptr<const System<double>> system;
+  Scheme<double> scheme;
+  ErrorNorm<double> norm;
+  SharedJacobian<double> jacobian;
+  Stepper<double> stepper;
+  EmbeddedEstimate<double> estimate;
+  Defect<double> defect;
+  MovingPoints<double> points;
+  State<double> from, to;
+};
+
+// Lagrange's polynomial through the stages, and its integrals by Gauss's rule with many points.
+double lagrangeAt(const Vec<double>& c, Index j, double x) {
+  double product = 1;
+  for (Index i = 0; i < c.size(); ++i) {
+    if (i != j) product *= (x - c[i]) / (c[j] - c[i]);
+  }
+  return product;
+}
+double integralTo(const std::function<double(double)>& f, double to) {
+  const Tableau<double> rule = makeTableau<double>("gauss_8");  // exact for the polynomials here
+  double sum = 0;
+  for (Index i = 0; i < 8; ++i) sum += to * rule.b[i] * f(to * rule.c[i]);
+  return sum;
+}
+
+// e(theta) = h mu |filter^-1 r|, written out for two uncoupled equations:
+//   x: (lambda X + t^4 - K) / (1 - h mu lambda),   u: (-9 U + t^3 - A) / (1 + 9 h^2 mu^2).
+TEST(Defect, IsTheFilteredResidualOfTheContinuousSolution) {
+  for (const char* method : {"radau_iia_3", "lobatto_iiic_4", "gauss_3"}) {
+    const double tol = 1, h = 0.4;
+    SolvedStepOf<ForcedPair> step({}, method, tol);
+    State<double> start(ForcedPair{}.sizes());
+    start.u[0] = 0.3, start.v[0] = -0.2, start.x[0] = 0.7;
+    step.solve(start, h);
+    const Mat<double>& W = step.stepper.stages().W;
+    const Vec<double>& c = step.scheme.c;
+    for (const std::int64_t i : {0, 1, 2, 7}) {
+      const double theta = MovingPoints<double>::place(i);
+      const auto inside = [&](Index row, double x) {
+        double sum = 0;
+        for (Index j = 0; j < c.size(); ++j) sum += W(row, j) * lagrangeAt(c, j, x);
+        return sum;
+      };
+      const auto velocity = [&](double x) {
+        return start.v[0] + h * integralTo([&](double y) { return inside(0, y); }, x);
+      };
+      const double U = start.u[0] + h * integralTo(velocity, theta);
+      const double X = start.x[0] + h * integralTo([&](double y) { return inside(1, y); }, theta);
+      const double t = theta * h, mu = step.estimate.mu();
+      const double x = (-3 * X + std::pow(t, 4) - inside(1, theta)) / (1 + 3 * h * mu);
+      const double a = (-9 * U + std::pow(t, 3) - inside(0, theta)) / (1 + 9 * h * h * mu * mu);
+      // The norm: RMS over u, v, x.
+      const auto weight = [&](double y) { return tol + tol * std::abs(y); };
+      const double du = h * h * mu * mu * a / weight(start.u[0]), dv = h * mu * a / weight(start.v[0]),
+                   dx = h * mu * x / weight(start.x[0]);
+      const double expected = std::sqrt((du * du + dv * dv + dx * dx) / 3);
+      const auto result = step.defect.at(step.points[i], step.from, step.stepper.stages());
+      ASSERT_EQ(result.outcome, Outcome::kSuccess);
+      EXPECT_NEAR(result.error, expected, 1e-8 * expected + 1e-9) << method << " theta " << theta;
+    }
+  }
+}
+
+// Where the solution is a polynomial that the stages reproduce, there is nothing between them: x' = 4 t^3 has degree 3.
+struct QuarticInTime {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = 4.0 * p.t * p.t * p.t - p.k[0];
+  }
+};
+
+TEST(Defect, OfAPolynomialIsZero) {
+  for (const char* method : {"radau_iia_4", "gauss_4", "lobatto_iiic_4"}) {
+    SolvedStepOf<QuarticInTime> step({}, method, 1e-12);
+    State<double> start(QuarticInTime{}.sizes());
+    step.solve(start, 1);
+    const auto result = step.defect.largest(step.from, step.stepper.stages(), step.to);
+    ASSERT_EQ(result.outcome, Outcome::kSuccess);
+    EXPECT_LT(result.error, 0.1) << method;
+  }
+}
+
+// It is no second estimate: on a smooth motion it stays below the embedded one, which is the defect at the start.
+TEST(Defect, OfASmoothMotionIsBelowTheEmbeddedEstimate) {
+  for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "radau_iia_7", "gauss_3", "lobatto_iiic_4"}) {
+    SolvedStepOf<Oscillators> step({}, method, 1e-10);
+    step.solve(oscillatorsStart<double>(), 0.05);
+    const auto estimate = step.estimate.evaluate(step.from, step.stepper.stages(), 1e300);
+    const auto between = step.defect.largest(step.from, step.stepper.stages(), step.to);
+    EXPECT_LT(between.error, estimate.error) << method;
+    EXPECT_GT(between.error, 1e-3 * estimate.error) << method;
+  }
+}
+
+/// x' = -x + 20 while |t - centre| < width / 2, which nobody declares.
+struct UndeclaredPulse {
+  double centre, width;
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::abs;
+    r.x[0] = -p.x[0] + (abs(p.t - centre) < T(width / 2) ? T(20) : T(0)) - p.k[0];
+  }
+  double at(double t) const {
+    return std::exp(-t) + 20 * (std::exp(centre + width / 2 - t) - std::exp(centre - width / 2 - t));
+  }
+};
+
+// Steps are up to a fifth of the interval, and most pulses lie between their stages.
+TEST(Defect, FindsAPulseThatLastsAFiftiethOfTheInterval) {
+  int runs = 0, wrong = 0;
+  for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
+    for (const bool doubles : {false, true}) {
+      for (double centre = 0.2; centre < 1.9; centre += 0.017) {
+        const UndeclaredPulse pulse{centre, 0.04};
+        State<double> start(pulse.sizes());
+        start.x[0] = 1;
+        const auto options = doubles ? adaptive(1e-4) : embedded(1e-4);
+        const auto s = integrate<double>(pulse, start, 2, makeTableau<double>(method), options);
+        ++runs;
+        wrong += s.outcome == Outcome::kSuccess && std::abs(s.state.x[0] - pulse.at(2)) > 100e-4;
+      }
+    }
+  }
+  EXPECT_EQ(wrong, 0) << "of " << runs;
+}
+
+TEST(Defect, LooksAtMorePointsOfALongerStep) {
+  EXPECT_EQ(Defect<double>::looks(0.001, 1), 1);
+  EXPECT_EQ(Defect<double>::looks(0.035, 1), 4);
+  EXPECT_EQ(Defect<double>::looks(1, 1), MovingPoints<double>::kPeriod);
+}
+
+// Also across the end of a period.
+TEST(MovingPoints, LeaveNoGapAboveTwoPartsOfTheirNumber) {
+  for (const int n : {2, 5, 13, 21, 34, 55}) {
+    for (const std::int64_t first : {0, 17, 50, 1000}) {
+      std::vector<double> places{0, 1};
+      for (int i = 0; i < n; ++i) places.push_back(MovingPoints<double>::place(first + i));
+      std::sort(places.begin(), places.end());
+      double gap = 0;
+      for (std::size_t i = 1; i < places.size(); ++i) gap = std::max(gap, places[i] - places[i - 1]);
+      EXPECT_LE(gap, 2.0 / n) << n << " from " << first;
+      EXPECT_GT(places[1], 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace irk::test

@@ -1,0 +1,139 @@
+// The error bar of a result: a second integration with another method measures its error.
+#include "irk/error_bar.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/core/trusted.h"
+
+namespace irk::test {
+namespace {
+
+/// y' = L (y - cos t) - sin t with the solution cos t: errors grow by e^L per unit of time. Second order in u, beside
+/// it, with the solution u = sin t.
+struct GrowingError {
+  double L;
+  Sizes sizes() const { return {.nu = 1, .nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    using std::sin;
+    r.u[0] = -p.u[0] - p.a[0];
+    r.x[0] = L * (p.x[0] - cos(p.t)) - sin(p.t) - p.k[0];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.v[0] = 1;
+    s.x[0] = 1;
+    return s;
+  }
+};
+
+struct MeasuredRun {
+  Solution<double> first, second;
+  ErrorBar bar;
+};
+
+template <class P>
+MeasuredRun measuredRun(const P& problem, const State<double>& start, double t_end, const IntegratorOptions& options) {
+  const auto system = makeSystem<double>(problem, {});
+  Integrator<double> one(system, makeTableau<double>("radau_iia_3"), options);
+  Integrator<double> other(system, makeMethods<double>("lobatto_iiic", 13, 4), independentOptions<double>(options));
+  MeasuredRun result{one.integrate(start, t_end), {}, {}};
+  result.bar = measureErrorBar(result.first.state, other, start, options.tolerances, {}, result.second);
+  return result;
+}
+
+// With growth the error is far above the tolerance, without it below. The bar is right for both.
+TEST(ErrorBar, IsTheErrorOfTheResult) {
+  for (const double L : {-1.0, 5.0, 10.0}) {
+    for (const double tol : {1e-4, 1e-7}) {
+      for (const IntegratorOptions& options : {adaptive(tol), embedded(tol)}) {
+        const GrowingError problem{L};
+        const double t_end = 1.5;
+        const MeasuredRun m = measuredRun(problem, problem.start(), t_end, options);
+        ASSERT_EQ(m.first.outcome, Outcome::kSuccess) << m.first.detail;
+        ASSERT_TRUE(m.bar.known()) << m.bar.problem;
+        const double error = std::abs(m.first.state.x[0] - std::cos(t_end));
+        EXPECT_LE(error, 3 * (m.bar.x[0] + tol)) << "L " << L << " tol " << tol;
+        if (error > tol) EXPECT_LE(m.bar.x[0], 3 * error) << "L " << L << " tol " << tol;
+        const double error_u = std::abs(m.first.state.u[0] - std::sin(t_end));
+        EXPECT_LE(error_u, 3 * (m.bar.u[0] + tol));
+        // One tolerance of x is tol (1 + |cos t_end|).
+        if (L > 1) EXPECT_NEAR(m.bar.tolerances, m.bar.x[0] / (tol * (1 + std::abs(m.first.state.x[0]))), 1e-6);
+        if (L > 1) EXPECT_EQ(m.bar.worst, 2);  // u, v, x
+      }
+    }
+  }
+}
+
+/// y' = -y until t = 1, then no number.
+struct EndsAtOne {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = (p.t > T(1) ? std::numeric_limits<double>::quiet_NaN() : -1.0) * p.x[0] - p.k[0];
+  }
+};
+
+TEST(ErrorBar, IsUnknownIfTheSecondIntegrationFails) {
+  State<double> start(EndsAtOne{}.sizes()), result(EndsAtOne{}.sizes());
+  start.x[0] = 1;
+  result.t = 2;
+  const auto options = adaptive(1e-4);
+  Integrator<double> second(makeSystem<double>(EndsAtOne{}, {}), makeMethods<double>("lobatto_iiic", 13, 4),
+                            independentOptions<double>(options));
+  Solution<double> other;
+  const ErrorBar bar = measureErrorBar(result, second, start, options.tolerances, {}, other);
+  EXPECT_FALSE(bar.known());
+  EXPECT_TRUE(std::isnan(bar.tolerances));
+  ASSERT_EQ(bar.x.size(), 1);
+  EXPECT_TRUE(std::isnan(bar.x[0]));
+  EXPECT_NE(bar.problem.find("second integration"), std::string::npos) << bar.problem;
+}
+
+// It is used as soon as a component of the result is not finite.
+TEST(ErrorBar, OfAResultThatIsNoNumberIsInfinite) {
+  const GrowingError problem{-1};
+  const auto options = adaptive(1e-4);
+  Integrator<double> second(makeSystem<double>(problem, {}), makeMethods<double>("lobatto_iiic", 13, 4),
+                            independentOptions<double>(options));
+  State<double> result = problem.start();
+  result.t = 1;
+  result.u[0] = std::numeric_limits<double>::quiet_NaN();
+  Solution<double> other;
+  const ErrorBar bar = measureErrorBar(result, second, problem.start(), options.tolerances, {}, other);
+  EXPECT_TRUE(std::isinf(bar.tolerances));
+  EXPECT_EQ(bar.worst, 0);
+}
+
+TEST(ErrorBar, TheSecondIntegrationIsStricterAndKeepsWhatDescribesTheProblem) {
+  IntegratorOptions first = adaptive(1e-5);
+  first.tolerances.rtol = 1e-3;
+  first.tolerances.norm = NormKind::kAbsolute;
+  first.derivatives = DerivativeSource::kCentral;
+  first.step.h_max = 0.25;
+  first.step.max_steps = 77;
+  first.threads = 3;
+  first.jacobian = JacobianTerms::kNoMass;
+  const IntegratorOptions second = independentOptions<double>(first);
+  EXPECT_DOUBLE_EQ(second.tolerances.rtol, 1e-4);
+  EXPECT_DOUBLE_EQ(second.tolerances.atol, 1e-6);
+  EXPECT_EQ(second.tolerances.norm, NormKind::kAbsolute);
+  EXPECT_EQ(second.derivatives, DerivativeSource::kCentral);
+  EXPECT_EQ(second.step.h_max, 0.25);
+  EXPECT_EQ(second.step.max_steps, 77);
+  EXPECT_EQ(second.threads, 3);
+  EXPECT_EQ(second.jacobian, JacobianTerms::kFull);
+  EXPECT_EQ(second.order, OrderControl::kVariable);
+  // Not below round-off, and never looser than the first.
+  const double eps = std::numeric_limits<double>::epsilon();
+  EXPECT_DOUBLE_EQ(independentOptions<double>(adaptive(1e-13)).tolerances.rtol, 50 * eps);
+  EXPECT_DOUBLE_EQ(independentOptions<double>(adaptive(5e-15)).tolerances.rtol, 5e-15);
+  EXPECT_DOUBLE_EQ(independentOptions<double>(fixedSteps(0.1)).tolerances.rtol, 1e-10);
+}
+
+}  // namespace
+}  // namespace irk::test
