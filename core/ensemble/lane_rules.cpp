@@ -31,6 +31,7 @@ IntegratorOptions laneOptions(IntegratorOptions options) {
   options.summation = Summation::kCompensated;
   options.order = OrderControl::kFixed;
   options.step.estimate = ErrorEstimate::kEmbedded;
+  options.guards = Guards::kAll;
   options.tolerances.norm = NormKind::kMixed;
   return options;
 }
@@ -47,6 +48,7 @@ IntegratorOptions legalInLanes(const IntegratorOptions& options) {
   requireSame(options.summation, lanes.summation);
   requireSame(options.order, lanes.order);
   requireSame(options.step.estimate, lanes.step.estimate);
+  requireSame(options.guards, lanes.guards);
   requireSame(options.tolerances.norm, lanes.tolerances.norm);
   if (hasFixedSteps(options.step)) {
     throw Misuse("an ensemble in lanes with control 'fixed': lanes choose their steps by the error estimate");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/estimates/defect.h"
+#include "core/options/guards.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -66,14 +67,14 @@ class Doubling : public StepAttempt<Real> {
     const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
     result.switch_at = whole.switch_at;
     if (!done(whole)) return result;
-    if (continues_ && whole_.leavesRoot(from)) {
+    if (continues_ && has(guards_, Guard::kRoot) && whole_.leavesRoot(from)) {
       result.outcome = Outcome::kNewtonFailed;
       return result;
     }
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
-    const double start_defect = watches_start_ ? half_.startDefect(from) : 0;
+    const double start_defect = watches_start_ && has(guards_, Guard::kRestart) ? half_.startDefect(from) : 0;
     Between between{};
     if (looks_) between = look(from, middle_);
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
@@ -85,9 +86,9 @@ class Doubling : public StepAttempt<Real> {
       return result;
     }
     // Doubling sees no error where the whole step and its halves err alike: in the wrong mode, ...
-    result.error = worse(result.error, order_, result.mode_error, 1);
+    if (has(guards_, Guard::kSwitchEffect)) result.error = worse(result.error, order_, result.mode_error, 1);
     // ... in a fast motion that both damp ...
-    if (watches_start_) result.error = worse(result.error, order_, start_defect, 1);
+    result.error = worse(result.error, order_, start_defect, 1);
     // ... between the stages of both, and where the halves do not show the order p of 2^p - 1.
     if (looks_) result.error = worse(result.error, order_, unresolved(between), 1);
     return result;
@@ -136,6 +137,7 @@ class Doubling : public StepAttempt<Real> {
         factor_(doublingFactors(scheme, system, options.step.estimate)),
         whole_(system, scheme, options, setup.jacobian, setup.norm, setup.counters),
         half_(system, scheme, options, setup.jacobian, setup.norm, setup.counters),
+        guards_(options.guards),
         order_(scheme.tableau.order),
         interpolate_(catalogue<Predictor>()[options.predictor].extrapolates),
         locates_(system.sizes().switches > 0 && system.discontinuity().at_switch == AtSwitch::kEnd),
@@ -155,9 +157,12 @@ class Doubling : public StepAttempt<Real> {
   }
   // Of the half step from `start` to `end`, which was solved last.
   Between look(const State<Real>& start, const State<Real>& end) {
+    Between between{0, half_.roughness()};
+    if (!has(guards_, Guard::kDefect)) return between;
     const auto found = looks_->defect.largest(start, half_.stages(), end);
     const bool known = found.outcome == Outcome::kSuccess;
-    return {known ? found.error : std::numeric_limits<double>::infinity(), half_.roughness()};
+    between.defect = known ? found.error : std::numeric_limits<double>::infinity();
+    return between;
   }
   // An error of the stages' order, where half steps do not resolve the motion. Roughness must be below the tolerance,
   // or fall from the whole step to its halves: with 2^decay where the motion is smooth, with 2 at a jump of (a, k); the
@@ -166,7 +171,8 @@ class Doubling : public StepAttempt<Real> {
   double unresolved(const Between& halves) {
     const double falls = std::exp2((whole_.decay() + 1.0) / 2);
     double found = 0;
-    if (halves.roughness > 1 && whole_.roughness() < falls * halves.roughness) found = halves.roughness;
+    const bool smooth = has(guards_, Guard::kSmoothness);
+    if (smooth && halves.roughness > 1 && whole_.roughness() < falls * halves.roughness) found = halves.roughness;
     if (halves.defect > 1 && !(halves.defect <= halves.roughness)) found = std::max(found, halves.defect);
     return found;
   }
@@ -186,6 +192,7 @@ class Doubling : public StepAttempt<Real> {
   bool continues_ = false;        // (a, k) at a step's start belong to its mode
   bool vague_start_ = false;      // after a restart, which may not determine (a, k)
   Index worst_ = -1;
+  Guards guards_;
   int order_;
   bool interpolate_;
   bool locates_;       // steps end at switches, found on the dense output

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/options/guards.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -90,7 +91,8 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
     }
     reserved_ = pattern;
   }
-  if (result.outcome == Outcome::kSuccess && continues_ && member().stepper.leavesRoot(from)) {
+  const auto guards = [this](Guard guard) { return has(setup_.options.guards, guard); };
+  if (result.outcome == Outcome::kSuccess && continues_ && guards(Guard::kRoot) && member().stepper.leavesRoot(from)) {
     result.outcome = Outcome::kNewtonFailed;
   }
   if (result.outcome != Outcome::kSuccess) {
@@ -106,16 +108,17 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   const double limit = again_ ? 1 / rank().strictness : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
-  result.error = worse(estimate.error * rank().strictness, order(), result.mode_error, 1);
+  result.error = estimate.error * rank().strictness;
+  if (guards(Guard::kSwitchEffect)) result.error = worse(result.error, order(), result.mode_error, 1);
   // What the defect shows between the stages says nothing about stiff components at the start, which a second filter
   // damps.
   again_ = !(result.error <= 1);
-  if (result.outcome == Outcome::kSuccess && result.error <= 1) {
+  if (result.outcome == Outcome::kSuccess && result.error <= 1 && guards(Guard::kDefect)) {
     const auto between = member().defect.largest(from, *past_, to);
     result.outcome = between.outcome;
     result.error = std::max(result.error, between.error);
   }
-  if (watches_start_) {
+  if (watches_start_ && guards(Guard::kRestart)) {
     result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
   }
   lower_error_ = kUnknown;

@@ -91,6 +91,7 @@ std::span<const OptionField> optionFields() {
       axis(IRK_MEMBER(tolerances.norm), "The norm of errors and of Newton's increments.", noTolerance),
       axis(IRK_MEMBER(jacobian), "Which terms of the Jacobian are left out."),
       axis(IRK_MEMBER(jacobian_point), "Where in a step the Jacobian is evaluated."),
+      axis(IRK_MEMBER(guards), "What is checked of a step besides its error estimate.", noEstimate),
       number("residual_tolerance", IRK_MEMBER(newton.residual_tolerance), Range::above(0).below(1),
              "Newton's method stops when the residual has fallen to this part of its first value.", ofResidualTest),
       number("contractivity_limit", IRK_MEMBER(newton.contractivity_limit), Range::above(0).to(1),

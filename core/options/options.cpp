@@ -42,6 +42,16 @@ constexpr Named<JacobianPoint> kPoints[] = {
     {JacobianPoint::kEachStage, "each_stage", "at the stages' start values; coupled solvers only"}};
 constexpr Named<NormKind> kNorms[] = {{NormKind::kMixed, "mixed", "RMS of e / (atol scale + rtol |y|)"},
                                       {NormKind::kAbsolute, "absolute", "2-norm of e / atol (paper)"}};
+constexpr Named<Guards> kGuards[] = {
+    {Guards::kAll, "all", "all of the following"},
+    {Guards::kNone, "none", "the error estimate alone"},
+    {Guards::kWithoutDefect, "no_defect", "without looks between the stages: h mu |filtered residual| <= 1 tolerance"},
+    {Guards::kWithoutSmoothness, "no_smoothness",
+     "richardson without the fall of the highest Legendre coefficients from a step to its halves"},
+    {Guards::kWithoutRestart, "no_restart", "without the rates at the start of the first step after a restart"},
+    {Guards::kWithoutRoot, "no_root", "without the look for another root of the stage equations in index 2"},
+    {Guards::kWithoutSwitchEffect, "no_switch_effect",
+     "without the effect of a switch in a step that goes on over it (ignore, iterate, smooth)"}};
 
 }  // namespace
 
@@ -72,6 +82,7 @@ IRK_AXIS(Summation, kSummations, "summation")
 IRK_AXIS(Multipliers, kMultipliers, "multipliers")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
 IRK_AXIS(NormKind, kNorms, "norm")
+IRK_AXIS(Guards, kGuards, "guards")
 #undef IRK_AXIS
 
 }  // namespace irk

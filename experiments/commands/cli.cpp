@@ -180,9 +180,9 @@ class Program {
     } else if (field.name == "reference") {
       sub.add_flag_callback(option, [this] { fields_["reference"] = "auto"; })
           ->description("Sets auto. " + helpText(field));
-    } else if (field.name == "error_bar") {
+    } else if (field.name == axisName<ErrorBarUse>()) {
       describe(sub.add_option(option, fields_[field.name]), "With solve the default is measured. ");
-      sub.add_flag_callback("--refine", [this] { fields_["error_bar"] = "refined"; })
+      sub.add_flag_callback("--refine", [this] { fields_["error_bars"] = "refined"; })
           ->description("Sets error-bar refined: the result of the stricter integration, with the same bar.");
     } else {
       describe(sub.add_option(option, fields_[field.name]));

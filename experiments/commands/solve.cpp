@@ -248,7 +248,7 @@ RunSpec solveSpec(const SolveOptions& options) {
   set(true);  // first: other fields override it
   set(false);
   applyStep(options, spec);
-  if (!isGiven(options, "error_bar")) spec.error_bar = ErrorBarUse::kMeasured;
+  if (!isGiven(options, axisName<ErrorBarUse>())) spec.error_bar = ErrorBarUse::kMeasured;
   refuseUnknownMethod(spec.method);
   spec = resolved(spec);
   refuseUnused(spec, givenFields(options));

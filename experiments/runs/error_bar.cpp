@@ -59,12 +59,12 @@ RunSpec independentSpec(const RunSpec& spec) {
 }
 
 template <class Real>
-RunErrorBar measuredErrorBar(const RunSpec& spec, Solution<Real>& solution, const MeasuringWatch& watch) {
+RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
+                             const MeasuringWatch& watch) {
   if (spec.error_bar == ErrorBarUse::kNone || solution.outcome != Outcome::kSuccess) return {};
-  const double began = threadSeconds();
-  const auto setup = makeSetup<Real>(independentSpec(spec));
-  const Scene<Real>& scene = setup.scene;
+  const auto setup = setUp<Real>(independentSpec(spec), scene);
   auto integrator = setup.integrator();
+  const double began = threadSeconds();
   const State<Real>& result = solution.state;
   Monitor<Real> monitor;
   double t = static_cast<double>(scene.start.t);
@@ -101,7 +101,7 @@ std::string doubtOf(const RunErrorBar& bar, const RunSpec& spec) {
 }
 
 #define IRK_MEASURED(Real) \
-  template RunErrorBar measuredErrorBar(const RunSpec&, Solution<Real>&, const MeasuringWatch&);
+  template RunErrorBar measuredErrorBar(const RunSpec&, const Scene<Real>&, Solution<Real>&, const MeasuringWatch&);
 IRK_MEASURED(double)
 IRK_MEASURED(mp50)
 IRK_MEASURED(mp100)

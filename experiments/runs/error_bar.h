@@ -20,7 +20,7 @@ struct RunErrorBar {
   /// The largest |e| / max(|y|, scale), the measure of RunErrors, over u, v, x and over z.
   double error = tolerances, error_z = tolerances;
   std::string problem;        ///< why the bar is unknown, in one line
-  double cpu_s = tolerances;  ///< of the second integration
+  double cpu_s = tolerances;  ///< of the second integration, without what is made before it
 };
 
 /// The run that measures the error of a run with this resolved spec: the other family of Radau IIA and Lobatto IIIC
@@ -37,10 +37,12 @@ struct MeasuringWatch {
 };
 
 /// Measures the error of `solution`, the result of a run with the resolved `spec`, by an integration of
-/// independentSpec; does nothing unless it is a success and the spec asks for it. With ErrorBarUse::kRefined the
-/// solution takes the state of the second integration. Real: double, mp50 or mp100, as the spec's scalar.
+/// independentSpec, with the run's scene; does nothing unless it is a success and the spec asks for it. With
+/// ErrorBarUse::kRefined the solution takes the state of the second integration. Real: double, mp50 or mp100, as the
+/// spec's scalar.
 template <class Real>
-RunErrorBar measuredErrorBar(const RunSpec& spec, Solution<Real>& solution, const MeasuringWatch& watch);
+RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
+                             const MeasuringWatch& watch);
 
 /// Why a result with this error bar is no success: `the error bar is 3e+04 tolerances, largest in theta`, if it is
 /// above largestErrorBar (irk/error_bar.h). Empty if it may be one, and for runs with fixed steps, which have no

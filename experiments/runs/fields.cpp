@@ -201,6 +201,7 @@ std::span<const SpecField> specFields() {
 }
 
 const SpecField& findField(std::string_view name) {
+  if (name == kErrorBarKey) name = axisName<ErrorBarUse>();
   const auto fields = specFields();
   const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.name == name; });
   if (found != fields.end()) return *found;
@@ -214,6 +215,7 @@ std::string optionName(std::string_view field) {
   if (field == "settings") return "--set";
   if (field == "h") return "--step";
   std::string option = "--" + std::string(field);
+  if (field == axisName<ErrorBarUse>()) option = "--" + std::string(kErrorBarKey);
   std::replace(option.begin() + 2, option.end(), '_', '-');
   return option;
 }

@@ -23,6 +23,9 @@ struct SpecField : Field<RunSpec> {
 
 /// All fields in the order of texts, keys and columns.
 std::span<const SpecField> specFields();
+/// The field `error_bars` has the option --error-bar and the key `error_bar` in studies; the column `error_bar` holds
+/// the measured size.
+inline constexpr std::string_view kErrorBarKey = "error_bar";
 /// Throws Misuse for an unknown name; the message names the nearest field.
 const SpecField& findField(std::string_view name);
 

@@ -127,7 +127,7 @@ class Prepared final : public PreparedRun {
     auto solution = method_.integrate(scene_.start, t_end, monitor);
     const double seconds = threadSeconds() - start;
     const MeasuringWatch measuring{interruption(watch, threadSeconds(), spec_.time_limit), watch.measuring};
-    auto bar = measuredErrorBar(spec_, solution, measuring);
+    auto bar = measuredErrorBar(spec_, scene_, solution, measuring);
     RunRecord result = record(solution, seconds, watch);
     result.error_bar = std::move(bar);
     result.switches = std::move(switches);

@@ -75,7 +75,7 @@ std::span<const Named<ErrorBarUse>> named<ErrorBarUse>() {
 }
 template <>
 std::string_view axisName<ErrorBarUse>() {
-  return "error_bar";
+  return "error_bars";
 }
 template <>
 ErrorBarUse parseId<ErrorBarUse>(std::string_view id) {

@@ -28,7 +28,7 @@ const std::vector<std::string>& peerFields() {
   static const std::vector<std::string> fields{
       "method", "formulation", "scaling",   "discontinuity", "scalar",    "derivatives",     "multipliers",
       "norm",   "storage",     "step",      "tol",           "rtol",      "atol_of",         "atol",
-      "h_max",  "t_end",       "max_steps", "time_limit",    "reference", "reference_times", "error_bar"};
+      "h_max",  "t_end",       "max_steps", "time_limit",    "reference", "reference_times", "error_bars"};
   return fields;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/fields.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/toml/figure_tables.h"
 #include "experiments/study/toml/toml_text.h"
@@ -68,7 +69,9 @@ class FileReader {
                "a table 'quick' in this table has no effect: [quick], [block.quick], [timing.quick] or "
                "[audit.quick] is expected");
       }
-      keys.insert_or_assign(std::string(key.str()), value(key.str(), node));
+      // The key `error_bar` sets the field `error_bars`.
+      const auto field = key.str() == kErrorBarKey ? axisName<ErrorBarUse>() : key.str();
+      keys.insert_or_assign(std::string(field), value(key.str(), node));
     }
   }
 

@@ -135,6 +135,18 @@ enum class NormKind {
   kAbsolute,  ///< the paper's: 2-norm of e / atol over all components
 };
 
+/// The guards of a step: what is checked of a solved step besides its error estimate. Each finds what the estimate
+/// cannot see, and can be left out to show what it buys and costs (core/options/guards.h, study `guards`).
+enum class Guards {
+  kAll,
+  kNone,
+  kWithoutDefect,        ///< no looks between the stages
+  kWithoutSmoothness,    ///< `richardson`: 2^p - 1 divides also where the half steps do not show the order p
+  kWithoutRestart,       ///< the first step after a restart need not follow the rates at its start
+  kWithoutRoot,          ///< index 2: a step may go to another root of the stage equations
+  kWithoutSwitchEffect,  ///< `ignore`, `iterate`, `smooth`: a step over a switch is judged by its estimate alone
+};
+
 /// One id of an axis, as it is written on the command line, in study files and in tables.
 template <class E>
 struct Named {
@@ -231,6 +243,7 @@ struct IntegratorOptions {
   Summation summation = Summation::kCompensated;
   Multipliers multipliers = Multipliers::kConsistent;
   OrderControl order = OrderControl::kFixed;
+  Guards guards = Guards::kAll;
   StepOptions step;
 };
 

@@ -21,7 +21,7 @@ std::vector<double> spread(double first, double last, int count) {
 
 template <template <class> class P>
 std::vector<Solution<double>> lanesOf(const Members<P>& members, const std::string& method,
-                                      const IntegratorOptions& options = lanesAt(kLaneTolerance), double rounding = 0.01) {
+                                      const IntegratorOptions& options = lanesAt(kLaneTolerance)) {
   return inLanes(members.ensemble(), inOrder(members.parameters.size()), method, options);
 }
 
@@ -48,7 +48,7 @@ std::vector<std::int64_t> countsOf(const Counters& counters) {
 // decision the results differ by less than ten tolerances.
 template <template <class> class P>
 void expectSingleRuns(const Members<P>& members, const std::string& method,
-                      const IntegratorOptions& options = lanesAt(kLaneTolerance)) {
+                      const IntegratorOptions& options = lanesAt(kLaneTolerance), double rounding = 0.01) {
   const auto lanes = lanesOf(members, method, options);
   std::size_t same = 0;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
