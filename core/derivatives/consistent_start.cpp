@@ -61,6 +61,7 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
 // Returns false if D0 is singular. For a dense D0 this is decided by full pivoting.
 template <class Real>
 bool ConsistentStart<Real>::factorize() {
+  ++factorizations_;
   if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
   dense_lu_.compute(D_.dense0());
   return dense_lu_.isInvertible();
@@ -124,8 +125,11 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
     if (checked.outcome != Outcome::kSuccess) return checked;
   }
   given_ = state.w;
-  const char* const place = check == StartCheck::kConstraints ? kStart : kConsistent;
+  const bool at_start = check == StartCheck::kConstraints;
+  const char* const place = at_start ? kStart : kConsistent;
+  const std::int64_t before = factorizations_;
   StartReport found = determine(state, place, kStartTolerance);
+  if (counters_ && !at_start) counters_->mass_factorizations += factorizations_ - before;
   if (found.outcome != Outcome::kSuccess) state.w = given_;
   return found.outcome == Outcome::kSingular ? keep(state, place) : found;
 }

@@ -29,7 +29,8 @@ template <class Real>
 class ConsistentStart {
  public:
   /// Keeps a reference to the system. `w_required`: if (a, k, z) cannot be determined, the given values have to
-  /// satisfy the residual. `counters`, if given, count the Jacobians; they must live as long as this object.
+  /// satisfy the residual. `counters`, if given, count the Jacobians, and the factorizations of restarts; they
+  /// must live as long as this object.
   /// `scale`: typical magnitudes > 0 of u, v, x, z (2 nu + nx + nz numbers), relative to which a start is judged;
   /// empty means 1. Throws Misuse for another length. `scratch`: see Differentiator.
   ConsistentStart(const System<Real>& system, DerivativeSource source, bool w_required, Counters* counters = nullptr,
@@ -65,6 +66,7 @@ class ConsistentStart {
   RateLu<Real> lu_;  // for a sparse pattern
   Eigen::FullPivLU<Mat<Real>> dense_lu_;
   Vec<Real> r_, dw_, given_;
+  std::int64_t factorizations_ = 0;
   Vec<double> scale_;  // of u, v, x, z
 };
 

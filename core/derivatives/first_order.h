@@ -98,4 +98,11 @@ class FirstOrderForm final : public System<Real> {
   mutable std::int64_t factorizations_ = 0;
 };
 
+/// Those of a system that is a first-order form, part of Counters::mass_factorizations; 0 of any other.
+template <class Real>
+std::int64_t massFactorizations(const System<Real>& system) {
+  const auto* form = dynamic_cast<const FirstOrderForm<Real>*>(&system);
+  return form ? form->massFactorizations() : 0;
+}
+
 }  // namespace irk

@@ -4,7 +4,9 @@
 #include <sstream>
 #include <utility>
 
+#include "core/derivatives/first_order.h"
 #include "core/integration/end_check.h"
+#include "core/system/counting.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -257,7 +259,9 @@ void Trajectory<Real>::addNote(const std::string& text) {
 
 template <class Real>
 Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) const {
-  return {outcome, std::move(detail), system_.toScene(state_), counters_};
+  Counters counters = counters_;
+  counters.mass_factorizations += massFactorizations(uncounted(system_));
+  return {outcome, std::move(detail), system_.toScene(state_), counters};
 }
 
 template <class Real>

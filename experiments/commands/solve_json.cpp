@@ -119,8 +119,10 @@ std::string solveJson(const RunRecord& record, int indent) {
                    {"rejected_error", c.steps_rejected_error},
                    {"rejected_newton", c.steps_rejected_newton}};
   json["counters"] = {{"residuals", c.residuals},
+                      {"dual_residuals", c.dual_residuals},
                       {"jacobians", c.jacobians},
                       {"factorizations", c.factorizations},
+                      {"mass_factorizations", c.mass_factorizations},
                       {"solves", c.solves},
                       {"newton_iterations", c.newton_iterations}};
   addSwitches(record, json);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/derivatives/first_order.h"
 #include "core/options/fixed_steps.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
@@ -40,10 +39,6 @@ class RungeKutta {
     if (solution.detail.find('[') != std::string::npos) {
       const Sizes sizes{.nu = start.u.size(), .nx = start.x.size(), .nz = start.z().size()};
       solution.detail = withNames(solution.detail, scene().names, sizes, setup_.system->sizes());
-    }
-    const auto* form = dynamic_cast<const FirstOrderForm<Real>*>(setup_.system.get());
-    if (form && solution.detail.empty()) {
-      solution.detail = "mass factorizations: " + std::to_string(form->massFactorizations());
     }
     return solution;
   }

@@ -10,7 +10,10 @@ struct Counters {
   std::int64_t residuals = 0;       ///< evaluations of r over plain numbers
   std::int64_t dual_residuals = 0;  ///< evaluations of r over dual numbers (8 directions each)
   std::int64_t jacobians = 0;  ///< evaluations of (D0, D1, D2) at one point, of D0 alone at starts, restarts and ends
-  std::int64_t factorizations = 0;     ///< of the Newton matrix (all its blocks together count as one)
+  std::int64_t factorizations = 0;  ///< of the Newton matrix (all its blocks together count as one)
+  /// of D0 = dr/d(a, k, z) alone, which holds the mass matrix, between the start and the end: by first-order forms,
+  /// projections, restarts and checks of a step. The consistent start and the multipliers of the end are left out.
+  std::int64_t mass_factorizations = 0;
   std::int64_t solves = 0;             ///< with a factorized Newton matrix (all its blocks together count as one)
   std::int64_t newton_iterations = 0;  ///< of all attempted steps
   /// iterations begun anew from the start values, with a new Jacobian or full Newton (paper)
@@ -30,6 +33,7 @@ struct Counters {
     f("dual_residuals", dual_residuals);
     f("jacobians", jacobians);
     f("factorizations", factorizations);
+    f("mass_factorizations", mass_factorizations);
     f("solves", solves);
     f("newton_iterations", newton_iterations);
     f("newton_restarts", newton_restarts);

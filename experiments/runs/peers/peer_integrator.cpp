@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/derivatives/first_order.h"
 #include "core/integration/rules.h"
 #include "experiments/runs/peers/problem/make_problem.h"
 #include "experiments/runs/setup.h"
@@ -103,6 +104,7 @@ Solution<double> PeerIntegrator::integrate(const State<double>& start, double t_
   if (report.outcome == Outcome::kSuccess && ends_consistent_) {
     report.detail = ConsistentStart<double>(*system_, derivatives_, false).applyAtEnd(state_);
   }
+  counters_.mass_factorizations = massFactorizations(*system_);
   return {report.outcome, report.detail, system_->toScene(state_), counters_};
 }
 

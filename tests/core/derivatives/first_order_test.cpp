@@ -45,6 +45,25 @@ TEST(FirstOrder, FactorizesOncePerStep) {
   }
 }
 
+// The K-form factorizes D0 alone at the start and for the multipliers of the end, which do not count. A projection does
+// so in every step, a first-order form at every point.
+TEST(MassFactorizations, AreCountedWhereTheyAreMade) {
+  const auto count = [](Formulation formulation) {
+    const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
+                                     makeTableau<double>("radau_iia_3"), fixedSteps(0.05), formulation);
+    EXPECT_EQ(s.outcome, Outcome::kSuccess) << idOf(formulation) << s.detail;
+    EXPECT_EQ(s.counters.steps_accepted, 20);
+    return s.counters.mass_factorizations;
+  };
+  EXPECT_EQ(count(Formulation::kIndex2), 0);
+  EXPECT_EQ(count(Formulation::kIndex3), 0);
+  EXPECT_EQ(count(Formulation::kIndex2Projected), 20);
+  EXPECT_GT(count(Formulation::kFirstOrder), 3 * 20);
+  const auto point =
+      firstOrderRun(Oscillators{}, oscillatorsStart<double>(), Formulation::kFirstOrderPerStep, fixedSteps(0.05));
+  EXPECT_EQ(point.solution.counters.mass_factorizations, point.factorizations);
+}
+
 // Refined solves are as exact as those with factors of their own, also over long steps.
 TEST(FirstOrder, RefinesToRoundOff) {
   const auto point =

@@ -34,6 +34,7 @@ RunRecord distinct() {
   c.dual_residuals = 102;
   c.jacobians = 103;
   c.factorizations = 104;
+  c.mass_factorizations = 115;
   c.solves = 105;
   c.newton_iterations = 106;
   c.newton_restarts = 107;
@@ -86,6 +87,7 @@ TEST(RunRow, HoldsEveryNumberUnderItsName) {
                                                  {"dual_residuals", 102},
                                                  {"jacobians", 103},
                                                  {"factorizations", 104},
+                                                 {"mass_factorizations", 115},
                                                  {"solves", 105},
                                                  {"newton_iterations", 106},
                                                  {"newton_restarts", 107},

@@ -10,7 +10,7 @@ ImplicitProblem::ImplicitProblem(const System<double>& system, const ProblemOpti
       determined_(options.determined),
       scale_(options.scale),
       dense_(isDense(options.storage, sizes_.n())),
-      differentiator_(system, options.derivatives, JacobianTerms::kFull, options.storage) {}
+      differentiator_(system_, options.derivatives, JacobianTerms::kFull, options.storage) {}
 
 int ImplicitProblem::indexOf(Index i) const {
   return std::max(1 + system_.errorPowers().z[static_cast<std::size_t>(i)], determined_ ? 1 : 2);

@@ -20,7 +20,7 @@ OdeProblem::OdeProblem(const System<double>& system, const ProblemOptions& optio
       dense_(isDense(options.storage, sizes_.nx)),
       dual_(sizes_),
       f_(sizes_.nx),
-      differentiator_(system, DerivativeSource::kAutomatic, JacobianTerms::kFull, options.storage),
+      differentiator_(system_, DerivativeSource::kAutomatic, JacobianTerms::kFull, options.storage),
       assembly_(0, columns(sizes_.nx)) {
   const auto n = static_cast<std::size_t>(sizes_.nx);
   const Index nu = system.sceneSizes().nu;

@@ -20,15 +20,15 @@ void PeerJacobian::writeFull(double* to, Index leading) const {
   forEach([to, leading](Index i, Index j, double value) { to[j * leading + i] = value; });
 }
 
-bool SceneProblem::over() { return evaluations_ % kEvaluationsPerStop == 0 && stopped(); }
+bool SceneProblem::over() { return asked_ % kEvaluationsPerStop == 0 && stopped(); }
 
 Evaluated SceneProblem::rates(double t, const double* y, double* f) {
-  ++evaluations_;
+  ++asked_;
   return over() ? Evaluated::kStop : evaluated(evaluateRates(t, y, f));
 }
 
 Evaluated SceneProblem::residual(double t, const double* y, const double* yp, double* r) {
-  ++evaluations_;
+  ++asked_;
   return over() ? Evaluated::kStop : evaluated(evaluateResidual(t, y, yp, r));
 }
 
@@ -38,7 +38,8 @@ Evaluated SceneProblem::jacobian(double t, const double* y, const double* yp, do
 }
 
 void SceneProblem::count(Counters& counters) const {
-  counters.residuals += evaluations_;
+  counters.residuals += evaluations_.residuals;
+  counters.dual_residuals += evaluations_.dual_residuals;
   counters.jacobians += jacobians_;
 }
 

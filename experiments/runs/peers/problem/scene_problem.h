@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/derivatives/consistent_start.h"
+#include "core/system/counting.h"
 #include "irk/peer.h"
 #include "irk/system.h"
 
@@ -26,7 +27,8 @@ struct ProblemOptions {
 /// Keeps a reference to the system, which must outlive it. Use one object per thread.
 class SceneProblem : public PeerProblem {
  public:
-  explicit SceneProblem(const System<double>& system) : system_(system), sizes_(system.sizes()), d_(sizes_.discrete) {}
+  explicit SceneProblem(const System<double>& system)
+      : counting_(system, evaluations_), system_(counting_), sizes_(system.sizes()), d_(sizes_.discrete) {}
 
   const PeerLayout& layout() const override { return layout_; }
   Evaluated rates(double t, const double* y, double* f) final;
@@ -46,9 +48,16 @@ class SceneProblem : public PeerProblem {
 
   void setDiscrete(const Vec<double>& d) { d_ = d; }
   void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
-  /// Adds the evaluations since resetCounts.
+  /// Adds the evaluations since resetCounts: those that the peer asks for, and those of the Jacobians that it gets.
   void count(Counters& counters) const;
-  void resetCounts() { evaluations_ = jacobians_ = 0; }
+  void resetCounts() {
+    evaluations_ = {};
+    asked_ = jacobians_ = 0;
+  }
+
+ private:
+  Counters evaluations_;  // residuals and dual residuals only
+  CountingSystem<double> counting_;
 
  protected:
   virtual bool evaluateRates(double t, const double* y, double* f) = 0;
@@ -56,7 +65,7 @@ class SceneProblem : public PeerProblem {
   virtual bool evaluateJacobian(double t, const double* y, const double* yp, double c, PeerJacobian& J,
                                 double* dfdt) = 0;
 
-  const System<double>& system_;
+  const System<double>& system_;  // counts its evaluations
   Sizes sizes_;
   Vec<double> d_;
   PeerLayout layout_;
@@ -67,7 +76,7 @@ class SceneProblem : public PeerProblem {
   bool over();
 
   std::function<bool()> stop_;
-  std::int64_t evaluations_ = 0, jacobians_ = 0;
+  std::int64_t asked_ = 0, jacobians_ = 0;
 };
 
 }  // namespace irk
