@@ -30,6 +30,9 @@ inline constexpr double kTrustedIncrement = 10;
 // Increments that stop contracting below this many units of round-off are round-off of the residual.
 inline constexpr double kStagnationUnits = 1e4;
 
+// Fixed steps cannot be shortened: Newton's method may use this many times max_iterations.
+inline constexpr int kFixedStepFactor = 4;
+
 // Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
 template <class Real>
 double unitRoundOff(const IntegratorOptions& options) {

@@ -1,8 +1,10 @@
 #include "core/newton/residual_newton.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/newton/newton_base.h"
+#include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -11,14 +13,24 @@ namespace {
 /// Whether an increment at round-off ends the iteration although the residual has not shrunk by the required factor.
 enum class AtRoundOff { kEnd, kGoOn };
 
+// Paper (3.4): an iteration contracts if it leaves at most this part of the residual; contractivity_limit may allow
+// more.
+constexpr double kContracts = 0.7;
+
 /// Paper, section 3. eps(i) = |R|_2; converged when eps(i) <= tol eps(0). By default an increment at round-off ends the
 /// iteration as well, since the residual then cannot shrink further.
+///
+/// Fixed steps have no tolerance that says what tol is good for: what the rule leaves would be a part of the error that
+/// they show. From eps(i) <= tol eps(0) on their iteration therefore goes on to round-off: until an increment is at
+/// round-off, or two iterations together shrink eps by less than the paper asks for (kContracts).
 template <class Real>
 class ResidualNewton : public NewtonBase<Real> {
  public:
   ResidualNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme,
                  AtRoundOff at_round_off = AtRoundOff::kEnd)
-      : NewtonBase<Real>(options, sizes, scheme), at_round_off_(at_round_off) {}
+      : NewtonBase<Real>(options, sizes, scheme),
+        at_round_off_(at_round_off),
+        to_round_off_(hasFixedSteps(options.step) && at_round_off == AtRoundOff::kEnd) {}
 
  protected:
   enum Jacobian { kKept, kStagewise };
@@ -28,9 +40,12 @@ class ResidualNewton : public NewtonBase<Real> {
     NewtonResult result;
     if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
     const double eps0 = residualNorm();
-    double eps = eps0;
+    double eps = eps0, before_previous = eps0;
     if (eps0 == 0) return result;
-    for (int i = 1; i <= o.max_iterations; ++i) {
+    bool reached = false;
+    const double contracts = std::max(kContracts, o.contractivity_limit);
+    const int limit = o.max_iterations * (to_round_off_ ? kFixedStepFactor : 1);
+    for (int i = 1; i <= limit; ++i) {
       ++result.iterations;
       ++c.counters.newton_iterations;
       result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W) : c.matrix.prepare(c.eq.h());
@@ -39,16 +54,20 @@ class ResidualNewton : public NewtonBase<Real> {
       if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
       const double previous = eps;
       eps = residualNorm();
-      result.theta = eps / previous;
-      if (eps <= o.residual_tolerance * eps0) return result;
+      const double theta = eps / previous;
+      if (!reached) result.theta = theta;
+      const bool stagnates = reached && eps >= contracts * contracts * before_previous;
+      reached = reached || eps <= o.residual_tolerance * eps0;
+      if (eps == 0 || stagnates || (reached && !to_round_off_)) return result;
+      before_previous = previous;
       if (at_round_off_ == AtRoundOff::kEnd) {
         if (norm <= kRoundOffUnits * this->round_off_) return result;
-        if (result.theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+        if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
       }
+      if (reached) continue;
       // Paper (3.4). Full Newton is the last resort and may use all iterations.
-      if (jacobian == kKept && result.theta > o.contractivity_limit && i > o.contractivity_after) {
-        return fail(result, Outcome::kNewtonFailed);
-      }
+      const bool slow = jacobian == kKept && theta > o.contractivity_limit && i > o.contractivity_after;
+      if (slow || i == o.max_iterations) return fail(result, Outcome::kNewtonFailed);
     }
     return fail(result, Outcome::kNewtonFailed);
   }
@@ -61,6 +80,7 @@ class ResidualNewton : public NewtonBase<Real> {
   }
 
   AtRoundOff at_round_off_;
+  bool to_round_off_;
 };
 
 /// Tries the kept Jacobian, then a new one, then Jacobians of all stages if these are the last resort.
@@ -152,7 +172,9 @@ Strategy<NewtonKind> modifiedOnlyNewton() {
 
 Strategy<NewtonKind> paperRuleNewton() {
   return {.id = {{"paper_rule"}},
-          .meaning = "the paper's with its stopping rule (3.2) alone: round-off does not end the iteration",
+          .meaning =
+              "the paper's with its stopping rule (3.2) alone: round-off does not end the iteration, nor is it asked "
+              "for in fixed steps",
           .uses_stage_matrices = true,
           .make = makes<NewtonMaker, PaperRuleNewton>()};
 }

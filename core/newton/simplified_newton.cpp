@@ -41,9 +41,7 @@ constexpr double kUnknownFloor = -1;
 // theta before any step has shown one: assumes no contraction.
 constexpr double kUnknownTheta = 1;
 
-// Fixed steps cannot be shortened: Newton's method may use this many times max_iterations, and goes on until increments
-// are this many times the first one.
-constexpr int kFixedStepFactor = 4;
+// With fixed steps Newton's method goes on until increments are this many times the first one.
 constexpr double kLost = 10;
 
 /// HW II (IV.8): simplified Newton with the increment test

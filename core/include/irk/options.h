@@ -183,7 +183,8 @@ std::string_view axisName();
 /// Options of Newton's method.
 struct NewtonOptions {
   NewtonKind kind = NewtonKind::kSimplified;
-  /// `modified`, `full`: converged when eps(i) <= residual_tolerance eps(0), with eps = |R|_2. Paper (3.2).
+  /// `modified`, `full`: converged when eps(i) <= residual_tolerance eps(0), with eps = |R|_2. Paper (3.2). Fixed
+  /// steps then go on to round-off, but not with `paper_rule`.
   double residual_tolerance = 1e-10;
   /// `modified`: the Jacobian is recomputed when the contraction exceeds this limit, ... Paper (3.4).
   double contractivity_limit = 0.7;

@@ -36,7 +36,7 @@ TEST(PapersNewton, FollowsItsRules) {
   start.x[0] = 1;
   const auto run = [&](double tolerance, double limit, int after, int most) {
     IntegratorOptions o = fixedSteps(0.1);
-    o.newton.kind = NewtonKind::kModified;
+    o.newton.kind = parseId<NewtonKind>("paper_rule");  // `modified` would go on to round-off
     o.newton.residual_tolerance = tolerance;
     o.newton.contractivity_limit = limit;
     o.newton.contractivity_after = after;

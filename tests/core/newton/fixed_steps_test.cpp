@@ -1,0 +1,56 @@
+// Fixed steps: every Newton method iterates to round-off, so that errors are those of the scheme.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/newton/newton.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+Vec<double> riccatiEnd(NewtonKind newton, double residual_tolerance) {
+  IntegratorOptions o = fixedSteps(0.1);
+  o.newton.kind = newton;
+  o.newton.residual_tolerance = residual_tolerance;
+  o.solver = StageSolverKind::kCoupledDense;
+  const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 2, makeTableau<double>("radau_iia_3"), o);
+  EXPECT_EQ(s.outcome, Outcome::kSuccess) << idOf(newton) << ": " << s.detail;
+  return s.state.x;
+}
+
+// Two hundred round-off units after 20 steps. Ended at 1e-2, the paper's rule leaves 1e-6 and more.
+TEST(FixedSteps, DoNotShowWhereNewtonsMethodEnds) {
+  const Vec<double> exact = riccatiEnd(NewtonKind::kSimplified, 1e-10);
+  for (const auto& method : catalogue<NewtonKind>().named()) {
+    if (method.id == "paper_rule") continue;  // its rule alone ends the iteration
+    for (const double tolerance : {1e-2, 1e-6, 1e-13}) {
+      EXPECT_LT((riccatiEnd(method.value, tolerance) - exact).norm(), 200 * 2.2e-16 * exact.norm())
+          << method.id << " " << tolerance;
+    }
+  }
+  EXPECT_GT((riccatiEnd(parseId<NewtonKind>("paper_rule"), 1e-2) - exact).norm(), 1e-9) << "the test can fail";
+}
+
+// With an exponent that Newton's error would change: Gauss with 4 stages has order 8. Between h = 1 / 2 and 1 / 8 its
+// error falls from some 1e-7 to some 1e-12.
+TEST(FixedSteps, ShowTheOrderOfTheSchemeWithEveryNewton) {
+  const auto end = [](NewtonKind newton, double h) {
+    IntegratorOptions o = fixedSteps(h);
+    o.newton.kind = newton;
+    o.solver = StageSolverKind::kCoupledDense;
+    return integrate<double>(Riccati{}, riccatiStart<double>(), 2, makeTableau<double>("gauss_4"), o).state.x;
+  };
+  const Vec<double> exact = end(NewtonKind::kSimplified, 1.0 / 64);
+  for (const auto newton : {NewtonKind::kSimplified, NewtonKind::kModified, NewtonKind::kFull}) {
+    std::vector<double> steps, errors;
+    for (const double h : {1.0 / 2, 1.0 / 4, 1.0 / 8}) {
+      steps.push_back(h);
+      errors.push_back((end(newton, h) - exact).norm());
+    }
+    EXPECT_NEAR(slope(steps, errors), 8, 0.5) << idOf(newton);
+  }
+}
+
+}  // namespace
+}  // namespace irk::test
