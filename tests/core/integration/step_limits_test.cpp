@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -48,6 +50,29 @@ TEST(Steps, AreNotBelowTheSmallestButAFailure) {
   EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome, Outcome::kSuccess);
   o.step.h_min = 0.3;
   EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 2, o).solution.outcome, Outcome::kStepTooSmall);
+}
+
+/// z = 0 at t = 0; behind it z^2 + z + 1 = 0, so that no step of any size can be solved.
+struct Unsolvable {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 1, .constraints = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = 1.0 - p.k[0];
+    r.z[0] = p.t > T(0.0) ? T(p.z[0] * p.z[0] + p.z[0] + 1.0) : T(p.z[0]);
+  }
+};
+
+// 16 eps^2 of the interval is the least size at t = 0: 8e-31 of it. Without it steps shrink to 1e-308.
+TEST(Steps, AtTimeZeroEndAtAPartOfTheInterval) {
+  for (const double t_end : {1e-3, 1.0, 1e6}) {
+    const auto run = taken(Unsolvable{}, State<double>(Unsolvable{}.sizes()), t_end, adaptive(1e-6));
+    EXPECT_EQ(run.solution.outcome, Outcome::kStepTooSmall) << run.solution.detail;
+    const auto at = run.solution.detail.find(", h = ");
+    ASSERT_NE(at, std::string::npos) << run.solution.detail;
+    const double h = std::strtod(run.solution.detail.c_str() + at + 6, nullptr);
+    EXPECT_LT(h, 16 * std::pow(2.220446049250313e-16, 2) * t_end);
+    EXPECT_GT(h, 1e-33 * t_end) << "the first size below it";
+  }
 }
 
 TEST(Steps, OfVariableOrderAreNeverAboveTheLargest) {
