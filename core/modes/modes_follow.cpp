@@ -1,4 +1,6 @@
 // `ignore` and `smooth`: the mode follows the solution from step to step.
+#include <algorithm>
+
 #include "core/estimates/step_attempt.h"
 #include "core/modes/switch_effect.h"
 #include "core/steps/modes.h"
@@ -31,8 +33,11 @@ class FollowedModes : public ModesInStep<Real> {
     if (!looks_further_) return;
     Index inside = -1;
     if (report.count == 0 && !effect_.dueInside(step, before_, inside)) return;
-    if (inside >= 0) result.switched = inside;
-    result.mode_error = effect_.changeInStep(step, before_);
+    if (inside >= 0) {
+      result.switched = inside;
+      result.mode_error = effect_.changeOfRates(step.h);  // there: no stage need have this mode, nor the step's end
+    }
+    result.mode_error = std::max(result.mode_error, effect_.changeInStep(step, before_));
   }
 
  private:
