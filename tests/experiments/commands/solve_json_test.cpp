@@ -149,11 +149,13 @@ TEST(SolveJson, AFailureNamesComponentAndCause) {
     EXPECT_EQ(run.status, 1);
     EXPECT_NE(run.out.find(text), std::string::npos) << run.out;
     EXPECT_NE(run.out.find(", the last by the error"), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find("index2_projected"), std::string::npos) << "Radau IIA keeps the constraint: " << run.out;
   }
   // Which of the two rejects the last step depends on last digits.
   const Ended newton = program({"solve", "slider_crank", "--method", "gauss_3", "--tol", "1e-4"});
   EXPECT_TRUE(std::regex_search(newton.out, std::regex("by Newton [1-9].*, the last by (Newton|the error)")))
       << newton.out;
+  EXPECT_NE(newton.out.find("formulation index2_projected projects them"), std::string::npos) << newton.out;
 }
 
 }  // namespace
