@@ -105,6 +105,16 @@ std::string windowText(const OrderFitOptions& options) {
                      options.min_span);
 }
 
+OrderFit secondWindow(const std::vector<ErrorPoint>& points, const OrderFit& first, const OrderFitOptions& options) {
+  std::vector<ErrorPoint> coarser, finer;
+  for (const auto& p : points) {
+    if (p.h >= first.h_max) coarser.push_back(p);
+    if (p.h <= first.h_min) finer.push_back(p);
+  }
+  const OrderFit fine = fitOrder(finer, options);
+  return fine.measurable ? fine : fitOrder(coarser, options);
+}
+
 double orderTolerance(double order) { return std::max(0.2, 0.01 * std::abs(order)); }
 
 OrderFit fitOrder(std::vector<ErrorPoint> given, const OrderFitOptions& options) {

@@ -44,6 +44,10 @@ std::string windowText(const OrderFitOptions& options = {});
 /// The tolerance with which orders count as equal: 0.2, or one percent for orders beyond 20.
 double orderTolerance(double order);
 
+/// The fit of the steps beside the window of `first`, the coarser or the finer ones; its end belongs to both. It is not
+/// measurable if too few are left, or if neither keeps to a line.
+OrderFit secondWindow(const std::vector<ErrorPoint>& points, const OrderFit& first, const OrderFitOptions& options);
+
 /// Points in any order; errors that are not positive and finite are ignored. Errors that stay constant or grow as h
 /// shrinks have zero or negative orders.
 OrderFit fitOrder(std::vector<ErrorPoint> points, const OrderFitOptions& options = {});

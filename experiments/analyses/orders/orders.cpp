@@ -1,5 +1,7 @@
 #include "experiments/analyses/orders/orders.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -31,16 +33,23 @@ std::string verdictText(const OrderFit& fit, double theory) {
 // A slope that differs from every integer by more than this is not an order.
 constexpr double kNoInteger = 0.2;
 
-// For algebraic and stiff systems theory gives a bound, which single components can exceed.
-std::string reasonText(const OrderFit& fit, double theory, SystemKind kind) {
+// For algebraic and stiff systems theory gives a bound, which single components can exceed. That they do shows in more
+// than one window of steps; what exceeds it in one only can have another cause, as errors that are not of the scheme.
+std::string reasonText(const OrderFit& fit, const OrderFit& second, double theory, SystemKind kind) {
   const bool differs = fit.measurable && std::abs(fit.order - theory) > orderTolerance(theory);
   if (!differs) return fit.reason;
   if (std::abs(fit.order - std::round(fit.order)) > kNoInteger) {
     return "no integer: the steps are not yet asymptotic where round-off comes";
   }
   if (kind == SystemKind::kOde) return fit.reason;
-  return fit.order > theory ? "higher than the general result: this system does not excite its worst term"
-                            : "lower than theory for this kind of system";
+  if (fit.order < theory) return "lower than theory for this kind of system";
+  if (!second.measurable) return "higher than the general result; no second window of steps shows it";
+  const auto where = fmt::format("{:.1e} to {:.1e}", second.h_max, second.h_min);
+  if (std::abs(second.order - fit.order) > orderTolerance(fit.order)) {
+    return fmt::format("higher than the general result; the steps {} have {:.4g}", where, second.order);
+  }
+  return fmt::format("higher than the general result, also at the steps {}: this system does not excite its worst term",
+                     where);
 }
 
 OrderFitOptions fitOptions(const Table& runs, const TableRow& row, std::optional<SystemKind> kind) {
@@ -84,9 +93,11 @@ void appendOrders(const Table& runs, const std::vector<const TableRow*>& series,
       known = known || !std::isnan(points.back().error);
     }
     if (!known) continue;
-    const OrderFit fit = fitOrder(points, fitOptions(runs, finest, kind));
+    const auto options = fitOptions(runs, finest, kind);
+    const OrderFit fit = fitOrder(points, options);
     const Theory theory = theoryFor(runs, finest, kind, component);
-    const auto reason = reasonText(fit, theory.order, kind.value_or(SystemKind::kOde));
+    const auto second = fit.measurable ? secondWindow(points, fit, options) : OrderFit{};
+    const auto reason = reasonText(fit, second, theory.order, kind.value_or(SystemKind::kOde));
     orders.add(orderRow(runs, finest, component, "h", fit, theory, reason));
   }
 }
