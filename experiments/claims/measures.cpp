@@ -246,6 +246,10 @@ Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Set
   return timedRuns(tables, "claims", claimBlocks(beginning), setting);
 }
 
+double evaluationsAt(const Table& runs, const TableRow& run) {
+  return numberAt(runs, run, "residuals") + numberAt(runs, run, "dual_residuals");
+}
+
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
 
 std::span<const double> comparedErrors() { return kErrors; }

@@ -53,6 +53,9 @@ Table claimRuns(const ResultTables& tables, std::string_view beginning, Setting 
 /// The same, with errors over ten times.
 Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Setting setting);
 
+/// Residual evaluations of a run, over plain numbers and over dual ones.
+double evaluationsAt(const Table& runs, const TableRow& run);
+
 /// `5 %`.
 std::string percent(double part);
 

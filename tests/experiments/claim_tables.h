@@ -114,6 +114,8 @@ class RunTable {
                                   {"cpu_s", "1"},
                                   {"newton_iterations", "1"},
                                   {"residuals", "1"},
+                                  {"dual_residuals", "0"},
+                                  {"mass_factorizations", "0"},
                                   {"jacobians", "1"},
                                   {"steps_accepted", "1"},
                                   {"steps_rejected_error", "0"},

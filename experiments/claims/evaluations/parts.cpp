@@ -23,13 +23,6 @@ Table coveredPhases(const ResultTables& tables, Setting setting) {
   });
 }
 
-double massFactorizationsAt(const Table& runs, const TableRow& run) {
-  constexpr std::string_view kCount = "mass factorizations: ";
-  const std::string& detail = textAt(runs, run, "detail");
-  const auto at = detail.find(kCount);
-  return at == detail.npos ? 0 : std::stod(detail.substr(at + kCount.size()));
-}
-
 Measurement shareOfEvaluations(const ResultTables& tables, Setting setting) {
   constexpr double kFewest = 3, kMost = 200;
   const Table phases = coveredPhases(tables, setting);
@@ -58,7 +51,7 @@ Measurement massFactorizations(const ResultTables& tables, Setting) {
   const Table runs = where(tables.runs("k_form"), {{"formulation", "index2"}, {"outcome", "success"}});
   Measurement measured;
   for (const auto& run : runs.rows) {
-    measured.cases.push_back({textAt(runs, run, "scene"), massFactorizationsAt(runs, run)});
+    measured.cases.push_back({textAt(runs, run, "scene"), numberAt(runs, run, "mass_factorizations")});
   }
   return measured;
 }

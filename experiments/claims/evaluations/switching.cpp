@@ -90,21 +90,19 @@ Measurement reliableRuns(const ResultTables& tables, Setting setting) {
   std::size_t counts[2] = {0, 0}, failed = 0;
   for (const Table* runs : {&jumps, &smooth}) {
     for (const auto& run : runs->rows) {
-      if (!succeededAt(*runs, run)) {
-        ++failed;  // the run reports that it has no result
-        continue;
-      }
-      const double value = overTolerance(*runs, run);
+      const bool succeeded = succeededAt(*runs, run);
+      failed += succeeded ? 0 : 1;
+      const double value = succeeded ? overTolerance(*runs, run) : kInfinity;
       if (std::isnan(value)) continue;
       measured.cases.push_back({textAt(*runs, run, "scene"), value});
       ++counts[runs == &jumps ? 0 : 1];
     }
   }
   if (counts[0] < kLeastRuns / 2 || counts[1] < kLeastRuns / 2) {
-    return cannotMeasure("study reliability lacks 25 successful runs with jumps, or 25 without");
+    return cannotMeasure("study reliability lacks 25 runs with jumps, or 25 without");
   }
   measured.remark = std::to_string(counts[0]) + " runs with jumps, " + std::to_string(counts[1]) + " without; " +
-                    std::to_string(failed) + " failed and are left out.";
+                    std::to_string(failed) + " of them failed and do not reach their tolerance.";
   return measured;
 }
 
@@ -125,13 +123,13 @@ Measurement costOverLocating(const ResultTables& tables, Setting setting, std::s
   const Table runs = timedRuns(tables, "reliability", kWithJumps, setting);
   std::map<TableRow, double> located;
   for (const auto& run : where(runs, {{"discontinuity", "locate"}, {"outcome", "success"}}).rows) {
-    located[tolerancePlace(runs, run)] = numberAt(runs, run, "residuals");
+    located[tolerancePlace(runs, run)] = evaluationsAt(runs, run);
   }
   Measurement measured;
   for (const auto& run : where(runs, {{"discontinuity", treatment}, {"outcome", "success"}}).rows) {
     const auto at = located.find(tolerancePlace(runs, run));
     if (at == located.end()) continue;
-    measured.cases.push_back({textAt(runs, run, "scene"), numberAt(runs, run, "residuals") / at->second});
+    measured.cases.push_back({textAt(runs, run, "scene"), evaluationsAt(runs, run) / at->second});
   }
   return measured;
 }

@@ -25,7 +25,8 @@ TEST(SchemeClaims, ObservedOrder) {
   EXPECT_EQ(orderOf("19.81"), kYes);
   EXPECT_EQ(orderOf("19.79"), kUnknown) << "three cases without one";
   EXPECT_EQ(orderOf("19.79", "agrees", "10", 4), kNo);
-  EXPECT_EQ(orderOf("20", "differs"), kUnknown);
+  EXPECT_EQ(orderOf("20", "differs"), kYes) << "the observed order counts, whatever theory says";
+  EXPECT_EQ(orderOf("nan", "not_measurable", "10", 4), kUnknown);
   EXPECT_EQ(orderOf("20", "agrees", "11"), kUnknown) << "other stages";
   EXPECT_EQ(finding("C1a", kNoResults, Setting::kBest).judged.verdict, Verdict::kDoesNotApply);
 }
@@ -155,6 +156,7 @@ TEST(SchemeClaims, Drift) {
   EXPECT_EQ(drift("C7c", {5, 5, 1}), kYes);
   EXPECT_EQ(drift("C7c", {0, 0, 1.1}), kNo);
   EXPECT_EQ(drift("C7c", {0, 0, 0}, "newton_failed"), kUnknown);
+  EXPECT_EQ(drift("C7c", {0, 0, 5}, "drift"), kNo) << "a run that ends because of its drift";
 }
 
 // --- C10: computed, not read.
