@@ -22,8 +22,12 @@ namespace irk {
   scene(AncfPendulum) \
   scene(AncfStop) \
   scene(Andrews) \
+  scene(CrossingWires) \
+  scene(Eight) \
   scene(Beam) \
   scene(BeamChain) \
+  scene(BlowUp) \
+  scene(BouncingBall) \
   scene(BouncingMass) \
   scene(CarAxis) \
   scene(ChemicalAkzo) \
@@ -32,16 +36,21 @@ namespace irk {
   scene(E5) \
   scene(Elastica) \
   scene(Elastoplastic) \
+  scene(NearExtinction) \
   scene(Heat) \
   scene(HeavyTop) \
   scene(Hires) \
   scene(HydraulicArm) \
   scene(HydraulicManipulator) \
   scene(Index1Nonlinear) \
+  scene(Index2Jump) \
   scene(Index2Nonlinear) \
   scene(Index3Nonlinear) \
+  scene(InputKink) \
+  scene(InputPulse) \
   scene(Kaps) \
   scene(Kepler) \
+  scene(Lorenz) \
   scene(MechanicalDae) \
   scene(MechatronicCrank) \
   scene(MedicalAkzo) \
@@ -58,10 +67,14 @@ namespace irk {
   scene(SliderCrank) \
   scene(FlexibleSliderCrank) \
   scene(SlidingMass) \
+  scene(SolutionEnd) \
   scene(SpatialSliderCrank) \
   scene(StickSlip) \
   scene(LuGre) \
+  scene(StribeckBox) \
   scene(TransistorAmplifier) \
+  scene(TwoPointControl) \
+  scene(UnstableMotion) \
   scene(VanDerPol)
 // clang-format on
 

@@ -19,7 +19,7 @@ TEST(Collections, EverySceneBelongsToOne) {
     EXPECT_TRUE(std::is_sorted(entry.collections.begin(), entry.collections.end())) << entry.id;
     EXPECT_EQ(collectionsOf(entry.id), entry.collections);
   }
-  EXPECT_EQ(collections(), (std::vector<std::string>{"ivp", "multibody", "probes", "switching"}));
+  EXPECT_EQ(collections(), (std::vector<std::string>{"foreign", "ivp", "multibody", "probes", "switching"}));
 }
 
 TEST(Collections, HoldTheirScenesInTheOrderOfTheCatalogue) {
@@ -36,10 +36,15 @@ TEST(Collections, HoldTheirScenesInTheOrderOfTheCatalogue) {
 }
 
 // Every scene with switches is in the collection `switching`, except the slider-crank: with its defaults the torque
-// never switches.
+// never switches; and the foreign scenes, which are in no other collection, since studies of the paper run those.
 TEST(Collections, ScenesWithSwitchesAreTogether) {
-  const auto switching = scenesOf("switching");
+  const auto switching = scenesOf("switching"), foreign = scenesOf("foreign");
+  EXPECT_EQ(foreign.size(), 13U);
   for (const SceneEntry& entry : sceneCatalogue()) {
+    if (std::count(foreign.begin(), foreign.end(), entry.id) > 0) {
+      EXPECT_EQ(entry.collections, std::vector<std::string>{"foreign"}) << entry.id;
+      continue;
+    }
     const bool switches = makeScene<double>(entry.id).sizes().switches > 0 && entry.id != "slider_crank";
     const bool listed = std::count(switching.begin(), switching.end(), entry.id) > 0;
     EXPECT_TRUE(listed || !switches) << entry.id;
