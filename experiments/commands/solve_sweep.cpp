@@ -101,8 +101,9 @@ std::string valuesText(const std::vector<std::string>& values, const std::vector
 void printLine(std::ostream& out, const std::string& values, const RunRecord& record) {
   const Counters& c = record.counters;
   const std::string remark = record.succeeded() ? largeErrorText(record) : record.detail;
-  fmt::print(out, "{}{:<14}  {:<10.3e}  {:>8}  {:>8}  {:>8}  {:>9.3g}{}{}\n", values, record.outcome, record.errors.all,
-             c.steps_accepted, c.steps_rejected_error + c.steps_rejected_newton, c.newton_iterations, record.cpu_s,
+  fmt::print(out, "{}{:<14}  {:<10.3e}  {:<10.3e}  {:>8}  {:>8}  {:>8}  {:>9.3g}{}{}\n", values, record.outcome,
+             record.errors.all, record.error_bar.error, c.steps_accepted,
+             c.steps_rejected_error + c.steps_rejected_newton, c.newton_iterations, record.cpu_s,
              remark.empty() && record.succeeded() ? "" : "  ", remark);
 }
 
@@ -142,8 +143,8 @@ int solveSweep(const Sweep& sweep, Streams streams) {
   requireMethods(specs);
   const auto columns = widths(sweep);
   if (!first.json) {
-    fmt::print(streams.out, "{}{:<14}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9}\n", valuesText(sweep.names, columns),
-               "outcome", "error", "accepted", "rejected", "newton", "cpu_s");
+    fmt::print(streams.out, "{}{:<14}  {:<10}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9}\n", valuesText(sweep.names, columns),
+               "outcome", "error", "error_bar", "accepted", "rejected", "newton", "cpu_s");
   }
   const InterruptScope interrupts;
   SolveReferences references(streams.err);

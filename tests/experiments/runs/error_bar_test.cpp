@@ -1,0 +1,102 @@
+// The error bar of a run, its outcome, and the run that measures it.
+#include "experiments/runs/error_bar.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "experiments/runs/fields.h"
+#include "experiments/runs/run.h"
+
+namespace irk {
+namespace {
+
+RunSpec barSpec(const std::string& text) { return resolved(parseSpec(text + ";error_bar=measured")); }
+
+TEST(RunErrorBar, IsTheErrorInTheMeasureOfTheTables) {
+  for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiic_4"}) {
+    const RunRecord run = execute(barSpec(std::string("scene=kepler;rtol=1e-6;atol=1e-6;method=") + method));
+    ASSERT_TRUE(run.succeeded()) << run.detail;
+    const double error = std::fmax(run.errors.u, run.errors.v);
+    EXPECT_NEAR(run.error_bar.error / error, 1, 0.2) << method;
+    EXPECT_EQ(run.error_bar.u.size(), 2);
+    EXPECT_EQ(run.error_bar.v.size(), 2);
+    EXPECT_FALSE(run.error_bar.component.empty());
+    EXPECT_GT(run.error_bar.cpu_s, 0);
+  }
+}
+
+TEST(RunErrorBar, AboveAThousandTolerancesTheRunIsInaccurate) {
+  const std::string growing = "scene=unstable;t_end=1.5;rtol=1e-5;atol=1e-5;settings=";
+  const RunRecord bad = execute(barSpec(growing + "L=12"));
+  EXPECT_EQ(bad.outcome, "inaccurate");
+  EXPECT_NE(bad.detail.find("the error bar is"), std::string::npos) << bad.detail;
+  EXPECT_GT(bad.error_bar.tolerances, 1000);
+  // The error is known to be large, and stays in the row.
+  EXPECT_GT(bad.errors.x, 1e-2);
+  const RunRecord unmeasured = execute(resolved(parseSpec(growing + "L=12")));
+  EXPECT_EQ(unmeasured.outcome, "success");
+  EXPECT_EQ(unmeasured.error_bar.x.size(), 0);
+  EXPECT_TRUE(std::isnan(unmeasured.error_bar.error));
+  EXPECT_EQ(execute(barSpec(growing + "L=1")).outcome, "success");
+}
+
+TEST(RunErrorBar, FixedStepsAreMeasuredAndNotJudged) {
+  const RunRecord run = execute(barSpec("scene=kepler;control=fixed;estimate=none;h=0.5;method=radau_iia_2"));
+  EXPECT_EQ(run.outcome, "success") << run.detail;
+  EXPECT_NEAR(run.error_bar.error / std::fmax(run.errors.u, run.errors.v), 1, 1e-3);
+}
+
+TEST(RunErrorBar, ARefinedResultIsThatOfTheSecondIntegration) {
+  RunSpec spec = barSpec("scene=kepler;rtol=1e-5;atol=1e-5;method=radau_iia_3");
+  const RunRecord measured = execute(spec);
+  spec.error_bar = ErrorBarUse::kRefined;
+  const RunRecord refined = execute(spec);
+  ASSERT_TRUE(refined.succeeded());
+  EXPECT_LT(refined.errors.u, 0.3 * measured.errors.u);
+  EXPECT_EQ(refined.error_bar.u, measured.error_bar.u);
+}
+
+TEST(RunErrorBar, OfAnotherLibrarysResultIsMeasuredAsWell) {
+  const RunRecord run = execute(barSpec("scene=van_der_pol;rtol=1e-6;atol=1e-6;method=cvode_bdf"));
+  ASSERT_TRUE(run.succeeded()) << run.detail;
+  EXPECT_NEAR(run.error_bar.error / run.errors.x, 1, 0.1);
+}
+
+TEST(RunErrorBar, IsUnknownIfTheSecondIntegrationRunsOutOfTime) {
+  auto spec = barSpec("scene=kepler;rtol=1e-6;atol=1e-6");
+  spec.options.step.max_steps = 1'000'000;
+  State<double> end = sceneOf<double>(spec).start;
+  end.t = 1;
+  Solution<double> solution{Outcome::kSuccess, "", end, {}};
+  const auto bar =
+      measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, {[] { return Outcome::kTimeout; }, {}});
+  EXPECT_NE(bar.problem.find("timeout"), std::string::npos) << bar.problem;
+  EXPECT_TRUE(std::isnan(bar.tolerances));
+  EXPECT_TRUE(doubtOf(bar, spec).empty());
+}
+
+TEST(IndependentSpec, DiffersInAllThatAMethodIsMadeOf) {
+  const auto spec = barSpec(
+      "scene=slider_crank;configuration=paper;method=radau_iia_5;formulation=index3;rtol=1e-4;atol=1e-5;"
+      "atol_of=theta=1e-3;derivatives=difference_central;h_max=0.1");
+  const RunSpec second = independentSpec(spec);
+  EXPECT_EQ(second.method, "lobatto_iiic");
+  EXPECT_EQ(second.options.order, OrderControl::kVariable);
+  EXPECT_EQ(second.formulation, Formulation::kIndex2);
+  EXPECT_EQ(second.discontinuity, Discontinuity::kLocate);
+  EXPECT_EQ(second.options.derivatives, DerivativeSource::kCentral);
+  EXPECT_EQ(second.options.step.h_max, 0.1);
+  EXPECT_DOUBLE_EQ(second.options.tolerances.rtol, 1e-5);
+  EXPECT_DOUBLE_EQ(second.options.tolerances.atol, 1e-6);
+  EXPECT_DOUBLE_EQ(std::stod(second.atol_of.at("theta")), 1e-4);
+  EXPECT_EQ(second.error_bar, ErrorBarUse::kNone);
+  auto other = spec;
+  other.method = "lobatto_iiic_4";
+  other.discontinuity = Discontinuity::kSmooth;
+  EXPECT_EQ(independentSpec(other).method, "radau_iia");
+  EXPECT_EQ(independentSpec(other).discontinuity, Discontinuity::kSmooth);
+}
+
+}  // namespace
+}  // namespace irk
