@@ -45,7 +45,7 @@ void forSizes(Check&& check) {
   }
 }
 
-constexpr double kStep = 0.3;
+constexpr double kStageStep = 0.3;
 
 TEST(StageEquations, ResidualsOfEverySize) {
   forSizes([](const Scheme<double>& scheme, const Uncoupled& problem) {
@@ -53,16 +53,16 @@ TEST(StageEquations, ResidualsOfEverySize) {
     const Index nu = problem.nu, nx = problem.nx;
     StageEquations<double> equations(*system, scheme, Summation::kPlain, 1);
     const State<double> from = anyState(system->sizes());
-    equations.begin(from, kStep);
+    equations.begin(from, kStageStep);
     const Mat<double> W = Mat<double>::Random(nu + nx, scheme.s);
     Mat<double> R(nu + nx, scheme.s), expected(nu + nx, scheme.s);
     ASSERT_TRUE(equations.residual(W, R));
     const Mat<double> A = W.topRows(nu), K = W.bottomRows(nx);
-    Mat<double> V = kStep * A * scheme.A.transpose(), U = kStep * kStep * A * scheme.A2.transpose();
+    Mat<double> V = kStageStep * A * scheme.A.transpose(), U = kStageStep * kStageStep * A * scheme.A2.transpose();
     V.colwise() += from.v;
     U.colwise() += from.u;
-    U += kStep * from.v * scheme.A1.transpose();
-    Mat<double> X = kStep * K * scheme.A.transpose();
+    U += kStageStep * from.v * scheme.A1.transpose();
+    Mat<double> X = kStageStep * K * scheme.A.transpose();
     X.colwise() += from.x;
     expected << U + 2 * V - A, X - K;
     EXPECT_LT((R - expected).norm(), 1e-13) << nu << " " << nx << " " << scheme.s;
@@ -74,7 +74,7 @@ TEST(StageEquations, DetectsANumberThatIsNotFiniteAnywhere) {
     const auto system = makeSystem<double>(problem);
     StageEquations<double> equations(*system, scheme, Summation::kPlain, 1);
     const State<double> from = anyState(system->sizes());
-    equations.begin(from, kStep);
+    equations.begin(from, kStageStep);
     const Mat<double> good = Mat<double>::Random(system->sizes().n(), scheme.s);
     Mat<double> R = good;
     for (Index i = 0; i < good.size(); ++i) {
@@ -97,12 +97,12 @@ TEST(StageEquations, EndsOfEverySizeWithBothSummations) {
     const Mat<double> A = W.topRows(nu), K = W.bottomRows(nx);
     for (const Summation summation : {Summation::kPlain, Summation::kCompensated}) {
       StageEquations<double> equations(*system, scheme, summation, 1);
-      equations.begin(from, kStep);
+      equations.begin(from, kStageStep);
       State<double> to(system->sizes());
       equations.finish(W, to);
-      EXPECT_LT((to.u - from.u - kStep * from.v - kStep * kStep * A * scheme.bA).norm(), 1e-14);
-      EXPECT_LT((to.v - from.v - kStep * A * scheme.b).norm(), 1e-14);
-      EXPECT_LT((to.x - from.x - kStep * K * scheme.b).norm(), 1e-14);
+      EXPECT_LT((to.u - from.u - kStageStep * from.v - kStageStep * kStageStep * A * scheme.bA).norm(), 1e-14);
+      EXPECT_LT((to.v - from.v - kStageStep * A * scheme.b).norm(), 1e-14);
+      EXPECT_LT((to.x - from.x - kStageStep * K * scheme.b).norm(), 1e-14);
       EXPECT_EQ(to.w, W.col(scheme.s - 1));
     }
   });
