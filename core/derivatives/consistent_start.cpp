@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/derivatives/constraint_check.h"
+#include "core/derivatives/derivative_fault.h"
 #include "core/derivatives/weighted_changes.h"
 #include "core/system/component_scale.h"
 #include "core/system/counting.h"
@@ -50,6 +51,7 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
                                        Counters* counters, const Vec<double>& scale,
                                        std::shared_ptr<DifferentiatorScratch<Real>> scratch)
     : system_(system),
+      source_(source),
       w_required_(w_required),
       counters_(counters),
       differentiator_(system, source, JacobianTerms::kFull, Storage::kAutomatic, Matrices::kOnlyD0, std::move(scratch)),
@@ -169,7 +171,9 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
       if (counters_) ++counters_->jacobians;
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
-        return report(Outcome::kNotFinite, place, t, -1, "dr/d(a, k, z)", static_cast<double>(D_.d0.sum()));
+        std::ostringstream text;
+        text << place << ", t = " << t << ": " << derivativeFault(uncounted(system_), source_, state);
+        return {Outcome::kNotFinite, text.str(), true};
       }
       if (!factorize()) {
         std::ostringstream text;

@@ -43,8 +43,9 @@ class ConsistentStart {
   /// the derivatives while it contracts well. If Newton does not converge, a residual within the tolerance of the
   /// constraint check is accepted, since w then only serves as start values. If D0 is singular (algebraic unknowns
   /// of higher index that are no multipliers of position constraints), state.w is kept, provided that it is not
-  /// required or satisfies the residual; otherwise the outcome is kInconsistentStart. For kNotFinite the detail
-  /// names the row or the matrix. A failure leaves the state unchanged.
+  /// required or satisfies the residual; otherwise the outcome is kInconsistentStart. For kNotFinite the detail names
+  /// the row, and for a derivative the component (core/derivatives/derivative_fault.h). A failure leaves the state
+  /// unchanged.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
   /// The same at the end of an integration, for `Multipliers::kConsistent`. If Newton does not converge, (a, k, z)
   /// stay those of the stages, and the reason is returned; otherwise the text is empty.
@@ -59,6 +60,7 @@ class ConsistentStart {
   void solve();
 
   const System<Real>& system_;
+  DerivativeSource source_;
   bool w_required_;
   Counters* counters_;
   Differentiator<Real> differentiator_;
