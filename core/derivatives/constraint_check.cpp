@@ -21,13 +21,6 @@ constexpr double kAllowed = 10;
 constexpr double kFinest = 1e-12;
 constexpr double kCoarsest = 0.1;
 
-template <class Real>
-const System<Real>& constrainedIn(const System<Real>& system) {
-  const System<Real>& inner = uncounted(system);
-  const auto* first_order = dynamic_cast<const FirstOrderForm<Real>*>(&inner);
-  return first_order ? first_order->inner() : inner;
-}
-
 // g or dg/dt.
 template <class Real>
 Vec<Real> constraintsAt(const System<Real>& system, Level level, const State<Real>& state) {
@@ -55,6 +48,13 @@ std::string violationAt(const System<Real>& system, Level level, const State<Rea
 }
 
 }  // namespace
+
+template <class Real>
+const System<Real>& constrainedIn(const System<Real>& system) {
+  const System<Real>& inner = uncounted(system);
+  const auto* first_order = dynamic_cast<const FirstOrderForm<Real>*>(&inner);
+  return first_order ? first_order->inner() : inner;
+}
 
 template <class Real>
 std::string constraintViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
@@ -97,6 +97,7 @@ double allowedDrift(const Tolerances& tolerances) {
 }
 
 #define IRK_CHECKS(Real)                                                                                         \
+  template const System<Real>& constrainedIn(const System<Real>&);                                               \
   template std::string constraintViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double); \
   template std::string negativeComponent(const System<Real>&, const State<Real>&, const Vec<double>&, double);
 IRK_CHECKS(double)

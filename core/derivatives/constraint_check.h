@@ -8,6 +8,11 @@
 
 namespace irk {
 
+/// The system that has the position constraints: not the decorator that counts, and the inner system of a first-order
+/// form, which has eliminated them.
+template <class Real>
+const System<Real>& constrainedIn(const System<Real>& system);
+
 /// Checks g(t, u) = 0 and dg/dt = 0 in every formulation; the first-order form has eliminated these constraints, and
 /// its inner system is checked. Returns an empty text, or which constraint is violated, by how much, and the allowed
 /// value: `allowed` times the change of the constraint if every component changes by its weight. A residual far above

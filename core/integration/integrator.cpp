@@ -7,6 +7,7 @@
 
 #include "core/control/stall_detector.h"
 #include "core/derivatives/first_order.h"
+#include "core/integration/memory_check.h"
 #include "core/integration/rules.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
@@ -86,6 +87,7 @@ class Integrator<Real>::Run {
     requireStart(*system_, start, t_end);
     const std::string not_finite = notFinite(start);
     if (!not_finite.empty()) return {Outcome::kNotFinite, "at the start: " + not_finite, start, counters_};
+    requireNoMemory(*system_, start, t_end);
     length_ = static_cast<double>(Real(t_end - start.t));
     beginTimes(start.t, t_end);
     const Outcome outcome = trajectory_.begin(start, length_, monitor);

@@ -1,0 +1,92 @@
+// A residual that remembers is no function of its arguments, and is refused before the first step.
+#include "core/integration/memory_check.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "irk/misuse.h"
+#include "irk/multiprecision.h"
+#include "tests/core/support.h"
+
+namespace irk::test {
+namespace {
+
+/// x' = -x(t - delay), with the history kept in the problem.
+struct DelayByHand {
+  double delay;
+  mutable std::vector<std::pair<double, double>> past{};
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    double old = 1;
+    if constexpr (std::is_same_v<T, double>) {
+      past.emplace_back(p.t, p.x[0]);
+      for (const auto& [t, x] : past) {
+        if (t <= p.t - delay) old = x;
+      }
+    }
+    r.x[0] = T(-old) - p.k[0];
+  }
+};
+/// Noise of a relative size, as of sums in another order or of an inner iteration.
+struct Noisy {
+  double noise;
+  mutable std::minstd_rand random{1};
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const double part = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max());
+    r.x[0] = -p.x[0] * (1.0 + noise * part) - p.k[0];
+  }
+};
+
+template <class P>
+std::string refusal(const P& problem, double t_end, Formulation formulation = Formulation::kIndex2) {
+  State<double> start(problem.sizes());
+  start.x[0] = 1;
+  try {
+    (void)integrate<double>(problem, start, t_end, makeTableau<double>("radau_iia_3"), adaptive(1e-4), formulation);
+  } catch (const Misuse& misuse) {
+    return misuse.what();
+  }
+  return {};
+}
+
+TEST(MemoryCheck, AHistoryInTheProblemIsRefused) {
+  for (const double delay : {0.1, 1.0, 2.0}) {
+    for (const Formulation formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
+      const std::string message = refusal(DelayByHand{delay}, 5, formulation);
+      EXPECT_NE(message.find("row 0 of the residual"), std::string::npos) << delay << message;
+      EXPECT_NE(message.find("keeps no history"), std::string::npos) << delay << message;
+    }
+  }
+}
+
+TEST(MemoryCheck, NoiseIsRefusedAboveEightDigitsOnly) {
+  EXPECT_NE(refusal(Noisy{1e-3}, 1), "");
+  EXPECT_EQ(refusal(Noisy{1e-12}, 1), "");
+  EXPECT_EQ(refusal(Noisy{0}, 1), "");
+}
+
+/// Not finite for x > 1: where a residual is not defined, nothing is compared.
+struct RootDomain {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sqrt;
+    r.x[0] = -sqrt(1.0 - p.x[0]) - 1.0 - p.k[0];
+  }
+};
+TEST(MemoryCheck, PointsOutsideOfTheDomainAreNotJudged) {
+  EXPECT_EQ(refusal(RootDomain{}, 0.5), "");
+  State<double> start(RootDomain{}.sizes());
+  start.x[0] = 1;
+  EXPECT_NO_THROW(requireNoMemory(*makeSystem<double>(RootDomain{}, {}), start, 0.5));
+}
+
+}  // namespace
+}  // namespace irk::test
