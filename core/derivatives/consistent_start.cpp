@@ -101,6 +101,15 @@ State<double> ConsistentStart<Real>::weightsOf(const State<Real>& state) const {
   return weights;
 }
 
+// Those of (u, v, x).
+template <class Real>
+Vec<double> ConsistentStart<Real>::weightsOfMotion(const State<Real>& state) const {
+  const State<double> weights = weightsOf(state);
+  Vec<double> of_uvx(weights.carry.size());
+  of_uvx << weights.u, weights.v, weights.x;
+  return of_uvx;
+}
+
 // Checks that all residuals are finite and that the constraints hold.
 template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
@@ -112,10 +121,7 @@ StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
       if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
     }
   }
-  const State<double> weights = weightsOf(state);
-  Vec<double> of_uvx(weights.carry.size());
-  of_uvx << weights.u, weights.v, weights.x;
-  const std::string violated = constraintViolation<Real>(system_, state, of_uvx, 1);
+  const std::string violated = constraintViolation<Real>(system_, state, weightsOfMotion(state), 1);
   if (violated.empty()) return {};
   return {Outcome::kInconsistentStart, std::string(kStart) + ": " + violated, true};
 }
@@ -133,7 +139,12 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   StartReport found = determine(state, place, kStartTolerance);
   if (counters_ && !at_start) counters_->mass_factorizations += factorizations_ - before;
   if (found.outcome != Outcome::kSuccess) state.w = given_;
-  return found.outcome == Outcome::kSingular ? keep(state, place) : found;
+  if (found.outcome != Outcome::kSingular) return found;
+  if (check == StartCheck::kConstraints) {
+    const std::string violated = fixedRowViolation(system_, state, weightsOfMotion(state), 1);
+    if (!violated.empty()) return {Outcome::kInconsistentStart, std::string(kStart) + ": " + violated, true};
+  }
+  return keep(state, place);
 }
 
 template <class Real>

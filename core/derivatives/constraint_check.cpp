@@ -6,6 +6,7 @@
 
 #include "core/derivatives/first_order.h"
 #include "core/derivatives/weighted_changes.h"
+#include "core/options/fixed_steps.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
 
@@ -45,6 +46,22 @@ std::string violationAt(const System<Real>& system, Level level, const State<Rea
     return text.str();
   }
   return {};
+}
+
+// As kStartTolerance in core/derivatives/consistent_start.cpp.
+constexpr double kEightDigits = 1e-7;
+
+// The state with other (a, k, z): moved by 1 to 2 times 1 + their magnitude, each by another amount, so that no row
+// that reads them keeps its value.
+template <class Real>
+State<Real> withOtherRates(const State<Real>& state) {
+  using std::abs;
+  State<Real> other = state;
+  const auto n = static_cast<double>(other.w.size());
+  for (Index i = 0; i < other.w.size(); ++i) {
+    other.w[i] += Real(1 + static_cast<double>(i + 1) / n) * (Real(1) + Real(abs(other.w[i])));
+  }
+  return other;
 }
 
 }  // namespace
@@ -96,9 +113,41 @@ double allowedDrift(const Tolerances& tolerances) {
   return std::min(kAllowed * std::max(1.0, kFinest / tolerance), kCoarsest / tolerance);
 }
 
+template <class Real>
+std::string fixedRowViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
+                              double allowed) {
+  const System<Real>& uncounted_system = uncounted(system);
+  const Sizes n = system.sizes();
+  const auto residual = [&](const State<Real>& at) {
+    Vec<Real> r(n.n());
+    uncounted_system.evaluate(Level::kAcceleration, pointOf(at), VecView<Real>(r.data(), r.size()));
+    return r;
+  };
+  const Vec<Real> r = residual(state), other = residual(withOtherRates(state));
+  State<double> moves(n);
+  moves.u = weights.head(n.nu);
+  moves.v = weights.segment(n.nu, n.nu);
+  moves.x = weights.segment(2 * n.nu, n.nx);
+  const Vec<double> most = allowed * weightedChanges(state, moves, r, residual);
+  for (Index i = 0; i < r.size(); ++i) {
+    const double value = static_cast<double>(r[i]);
+    if (other[i] != r[i] || std::abs(value) <= most[i]) continue;
+    std::ostringstream text;
+    text << "row " << i << " = " << value << " at t = " << static_cast<double>(state.t) << ", allowed " << most[i]
+         << ": it reads neither a, k nor z, so that only a jump of u, v or x could satisfy it";
+    return text.str();
+  }
+  return {};
+}
+
+double allowedInFixedRows(const IntegratorOptions& options) {
+  return hasFixedSteps(options.step) ? kEightDigits : allowedDrift(options.tolerances);
+}
+
 #define IRK_CHECKS(Real)                                                                                         \
   template const System<Real>& constrainedIn(const System<Real>&);                                               \
   template std::string constraintViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double); \
+  template std::string fixedRowViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);   \
   template std::string negativeComponent(const System<Real>&, const State<Real>&, const Vec<double>&, double);
 IRK_CHECKS(double)
 IRK_CHECKS(mp50)

@@ -1,4 +1,5 @@
-// Whether a state lies on its position constraints and within its bounds, relative to the magnitudes of its components.
+// Whether a state satisfies what no rate and no algebraic unknown can change, relative to the magnitudes of its
+// components: position constraints, and rows that read (t, u, v, x) only; and whether it is within its bounds.
 #pragma once
 
 #include <string>
@@ -32,5 +33,19 @@ std::string negativeComponent(const System<Real>& system, const State<Real>& sta
 /// The allowed violation of constraints, in weights of the error norm: 10, i.e. 10 tolerances, but relative to the
 /// state not less than 1e-11 and not more than 0.1.
 double allowedDrift(const Tolerances& tolerances);
+
+/// Checks the rows of the residual at Level::kAcceleration that read neither a, k nor z, as 0 = x - f(t) of index 2.
+/// Where such a row is violated, because a mode has changed or a start is inconsistent, only a jump of u, v or x could
+/// satisfy it, and a system without `jump` there has no solution; a step would turn the violation into z of its size
+/// divided by h. Returns an empty text, or the first violated row with its time, its value and the allowed one:
+/// `allowed` times its change if u, v, x change by their weights (2 nu + nx numbers, in this order). Its evaluations
+/// are not counted. Allocates.
+template <class Real>
+std::string fixedRowViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
+                              double allowed);
+
+/// `allowed` after a restart, in weights of the error norm: as for constraints (allowedDrift). With fixed steps, where
+/// Newton's method leaves round-off and the weights are magnitudes, it is 1e-7, as for starts.
+double allowedInFixedRows(const IntegratorOptions& options);
 
 }  // namespace irk

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/derivatives/first_order.h"
+#include "core/derivatives/constraint_check.h"
 #include "core/integration/end_check.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
@@ -205,6 +206,11 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
+    if (!report.determined) {
+      norm_.update(state_);
+      start_detail_ = fixedRowViolation(system_, state_, norm_.weights(), allowedInFixedRows(options_));
+      if (!start_detail_.empty()) return Outcome::kInconsistentStart;
+    }
     // In index 3 the stages' accelerations are of low order, and their difference at the start shows nothing. If D0 is
     // singular, (a, k) are not known, and the first step may change them: it has no rates to follow.
     if ((report.determined || hidesRates(system_)) && !projection_) attempt_->restart();
