@@ -88,26 +88,6 @@ std::string constraintViolation(const System<Real>& system, const State<Real>& s
   return g.empty() ? violationAt(constrained, Level::kVelocity, scene, moves, allowed) : g;
 }
 
-template <class Real>
-std::string negativeComponent(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
-                              double allowed) {
-  const Sizes n = system.sceneSizes();
-  Index i = 0;
-  while (i < n.nx && !system.nonNegative(i)) ++i;
-  if (i == n.nx) return {};  // toScene may solve a system
-  const State<Real> scene = system.toScene(state);
-  const Index first = 2 * n.nu;
-  for (; i < n.nx; ++i) {
-    const double value = static_cast<double>(scene.x[i]), least = -allowed * weights[first + i];
-    if (value >= least || !system.nonNegative(i)) continue;
-    std::ostringstream text;
-    text << "x[" << i << "] = " << value << " at t = " << static_cast<double>(scene.t)
-         << ", but it is never negative on an exact solution; allowed " << least;
-    return text.str();
-  }
-  return {};
-}
-
 double allowedDrift(const Tolerances& tolerances) {
   const double tolerance = std::max(tolerances.rtol, tolerances.atol);
   return std::min(kAllowed * std::max(1.0, kFinest / tolerance), kCoarsest / tolerance);
@@ -147,8 +127,7 @@ double allowedInFixedRows(const IntegratorOptions& options) {
 #define IRK_CHECKS(Real)                                                                                         \
   template const System<Real>& constrainedIn(const System<Real>&);                                               \
   template std::string constraintViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double); \
-  template std::string fixedRowViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);   \
-  template std::string negativeComponent(const System<Real>&, const State<Real>&, const Vec<double>&, double);
+  template std::string fixedRowViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);
 IRK_CHECKS(double)
 IRK_CHECKS(mp50)
 IRK_CHECKS(mp100)

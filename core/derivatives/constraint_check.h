@@ -1,5 +1,5 @@
 // Whether a state satisfies what no rate and no algebraic unknown can change, relative to the magnitudes of its
-// components: position constraints, and rows that read (t, u, v, x) only; and whether it is within its bounds.
+// components: position constraints, and rows that read (t, u, v, x) only.
 #pragma once
 
 #include <string>
@@ -23,12 +23,6 @@ const System<Real>& constrainedIn(const System<Real>& system);
 template <class Real>
 std::string constraintViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
                                 double allowed);
-
-/// Returns an empty text, or which x is negative though it never is on an exact solution (System::nonNegative), by how
-/// much, and the allowed value: `allowed` weights. `weights` as above. Allocates.
-template <class Real>
-std::string negativeComponent(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
-                              double allowed);
 
 /// The allowed violation of constraints, in weights of the error norm: 10, i.e. 10 tolerances, but relative to the
 /// state not less than 1e-11 and not more than 0.1.

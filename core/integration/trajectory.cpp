@@ -4,8 +4,9 @@
 #include <sstream>
 #include <utility>
 
-#include "core/derivatives/first_order.h"
 #include "core/derivatives/constraint_check.h"
+#include "core/derivatives/first_order.h"
+#include "core/integration/component_name.h"
 #include "core/integration/end_check.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
@@ -20,14 +21,6 @@ template <class Real>
 bool isIndex3(const System<Real>& system) {
   const auto& powers = system.errorPowers().v;
   return std::any_of(powers.begin(), powers.end(), [](int p) { return p > 0; });
-}
-
-// "u[3]": component i of (u, v, x, z).
-std::string componentName(const Sizes& n, Index i) {
-  const auto name = [i](const char* group, Index first) { return group + ("[" + std::to_string(i - first) + "]"); };
-  if (i < n.nu) return name("u", 0);
-  if (i < 2 * n.nu) return name("v", n.nu);
-  return i < 2 * n.nu + n.nx ? name("x", 2 * n.nu) : name("z", 2 * n.nu + n.nx);
 }
 
 // Errors of multipliers do not count if the method does not determine them and they are computed anew at the end.
@@ -64,6 +57,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       modes_(catalogue<Discontinuity>()[system.discontinuity()].after_step.template of<Real>()(system, options)),
       start_(system, options.derivatives, schemes[start].first > 0, &counters, scale,
              jacobian_.differentiator().scratch()),
+      amounts_(system, start_, counters),
       switches_(system),
       inside_(system),
       state_(system.sizes()),
@@ -96,6 +90,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
   if (!switches_.none() && report.determined) attempt_->restart();
+  if (controller_) amounts_.begin(state_, norm_);
   return report.outcome;
 }
 
@@ -172,6 +167,7 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   const AttemptResult& attempt = step.attempt;
   std::swap(state_, next_);
   ++counters_.steps_accepted;
+  if (controller_) amounts_.look(next_, state_);
   round_off_ = std::max(round_off_, attempt.round_off);
   if (step.switched) {
     ++counters_.switches;
@@ -280,6 +276,7 @@ Solution<Real> Trajectory<Real>::success() {
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
   if (solved_anew) addNote(start_.applyAtEnd(state_));
   addNote(roundOffRemark(round_off_));
+  if (controller_) addNote(amounts_.remark());
   return solution(Outcome::kSuccess, note_);
 }
 

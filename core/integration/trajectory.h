@@ -9,6 +9,7 @@
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/projection.h"
 #include "core/estimates/step_attempt.h"
+#include "core/integration/amounts.h"
 #include "core/integration/inside_attempt.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
@@ -77,6 +78,7 @@ class Trajectory {
   std::unique_ptr<StepController> controller_;  // null: fixed steps
   std::unique_ptr<ModesAfterStep<Real>> modes_;
   ConsistentStart<Real> start_;
+  Amounts<Real> amounts_;
   /// In index 3 positions and velocities satisfy their constraints only to the error of a step. The short steps after a
   /// restart would turn that into errors of velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;

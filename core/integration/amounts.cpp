@@ -1,0 +1,198 @@
+#include "core/integration/amounts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/integration/component_name.h"
+#include "irk/multiprecision.h"
+
+namespace irk {
+namespace {
+
+constexpr std::size_t kNamed = 4;  // a remark is one line
+// Up to so many units of round-off of its scale a component is zero: sums of some terms leave that.
+constexpr double kUnits = 10;
+
+// Removes the element at `at` by the last one; the order does not matter.
+template <class T>
+void dropFrom(std::vector<T>& list, std::size_t at) {
+  list[at] = list.back();
+  list.pop_back();
+}
+
+// Cubic Hermite interpolation of y with the rates dy, at theta in [0, 1] of a step h.
+template <class Real>
+Real hermite(double theta, const Real& h, const Real& y0, const Real& y1, const Real& dy0, const Real& dy1) {
+  const Real s(theta), left = Real(1) - s;
+  return left * left * (Real(1) + Real(2) * s) * y0 + s * s * (Real(3) - Real(2) * s) * y1 +
+         h * s * left * (left * dy0 - s * dy1);
+}
+
+}  // namespace
+
+template <class Real>
+Amounts<Real>::Amounts(const System<Real>& system, ConsistentStart<Real>& start, Counters& counters)
+    : system_(system),
+      start_(start),
+      counters_(counters),
+      sizes_(system.sizes()),
+      first_x_(sizes_.nx - system.sceneSizes().nx),
+      scene_nx_(system.sceneSizes().nx),
+      least_(2 * sizes_.nu + sizes_.nx),
+      largest_(least_.size()),
+      from_(sizes_),
+      to_(sizes_),
+      at_(sizes_) {
+  small_.reserve(static_cast<std::size_t>(least_.size()));
+  never_.reserve(static_cast<std::size_t>(scene_nx_));
+  negative_.reserve(static_cast<std::size_t>(scene_nx_));
+}
+
+template <class Real>
+Real Amounts<Real>::component(const State<Real>& state, Index i) const {
+  if (i < sizes_.nu) return state.u[i];
+  return i < 2 * sizes_.nu ? state.v[i - sizes_.nu] : state.x[i - 2 * sizes_.nu];
+}
+
+template <class Real>
+void Amounts<Real>::begin(const State<Real>& state, ErrorNorm<Real>& norm) {
+  norm.update(State<Real>(sizes_));
+  least_ = norm.weights().head(least_.size());
+  round_off_ = kUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
+  small_.clear();
+  never_.clear();
+  negative_.clear();
+  for (Index i = 0; i < least_.size(); ++i) {
+    largest_[i] = std::abs(static_cast<double>(component(state, i)));
+    if (largest_[i] < least_[i]) small_.push_back(i);
+  }
+  for (Index i = 0; i < scene_nx_; ++i) {
+    if (state.x[first_x_ + i] >= Real(0)) never_.push_back(i);
+  }
+}
+
+template <class Real>
+void Amounts<Real>::look(const State<Real>& from, const State<Real>& to) {
+  for (std::size_t at = 0; at < small_.size();) {
+    const Index i = small_[at];
+    const double size = std::abs(static_cast<double>(component(to, i)));
+    largest_[i] = std::max(largest_[i], size);
+    if (size < least_[i]) {
+      ++at;
+    } else {
+      dropFrom(small_, at);
+    }
+  }
+  lookBelowZero(from, to);
+}
+
+template <class Real>
+void Amounts<Real>::lookBelowZero(const State<Real>& from, const State<Real>& to) {
+  const double t = static_cast<double>(to.t);
+  const auto value = [&](Index i) { return static_cast<double>(to.x[first_x_ + i]); };
+  const auto isBelow = [&](Index i) { return value(i) < -least_[2 * sizes_.nu + first_x_ + i]; };
+  for (std::size_t at = 0; at < negative_.size();) {
+    Negative& found = negative_[at];
+    if (value(found.i) < found.value) found.value = value(found.i), found.t = t;
+    const bool again = !found.declared && isBelow(found.i) && from.x[first_x_ + found.i] >= Real(0);
+    if (again && !cannotCross(first_x_ + found.i, from, to)) {
+      dropFrom(negative_, at);
+    } else {
+      ++at;
+    }
+  }
+  for (std::size_t at = 0; at < never_.size();) {
+    const Index i = never_[at];
+    if (!isBelow(i)) {
+      ++at;
+      continue;
+    }
+    const bool declared = system_.nonNegative(i);
+    if (declared || cannotCross(first_x_ + i, from, to)) negative_.push_back({i, value(i), t, declared});
+    dropFrom(never_, at);
+  }
+}
+
+template <class Real>
+bool Amounts<Real>::findRates(State<Real>& state) {
+  const Counters kept = counters_;
+  const StartReport report = start_.apply(state, StartCheck::kNone);
+  counters_ = kept;
+  return report.outcome == Outcome::kSuccess && report.determined;
+}
+
+// Sets at_ to the step's polynomial between from_ and to_.
+template <class Real>
+void Amounts<Real>::between(double theta) {
+  const Real h = to_.t - from_.t;
+  at_.t = from_.t + Real(theta) * h;
+  for (Index j = 0; j < sizes_.nu; ++j) {
+    at_.u[j] = hermite(theta, h, from_.u[j], to_.u[j], from_.v[j], to_.v[j]);
+    at_.v[j] = hermite(theta, h, from_.v[j], to_.v[j], from_.w[j], to_.w[j]);
+  }
+  for (Index j = 0; j < sizes_.nx; ++j) {
+    at_.x[j] = hermite(theta, h, from_.x[j], to_.x[j], from_.w[sizes_.nu + j], to_.w[sizes_.nu + j]);
+  }
+}
+
+// Whether k_i >= 0 where the polynomial through the rates at both ends crosses x_i = 0. False if rates are not known.
+template <class Real>
+bool Amounts<Real>::cannotCross(Index i, const State<Real>& from, const State<Real>& to) {
+  constexpr int kHalvings = 40;
+  from_ = from, to_ = to, at_ = from;
+  if (!findRates(from_) || !findRates(to_)) return false;
+  double above = 0, below = from_.x[i] < Real(0) ? 0 : 1;
+  for (int k = 0; k < kHalvings && below > 0; ++k) {
+    const double middle = (above + below) / 2;
+    between(middle);
+    (at_.x[i] < Real(0) ? below : above) = middle;
+  }
+  between(below);
+  at_.x[i] = Real(0);
+  return findRates(at_) && at_.w[sizes_.nu + i] >= Real(0);
+}
+
+template <class Real>
+std::string Amounts<Real>::belowTolerance() const {
+  std::vector<Index> named;
+  for (const Index i : small_) {
+    if (largest_[i] > round_off_ * least_[i]) named.push_back(i);  // what is always zero is right
+  }
+  if (named.empty()) return {};
+  std::sort(named.begin(), named.end());
+  std::string text;
+  for (std::size_t k = 0; k < std::min(named.size(), kNamed); ++k) {
+    text += (k > 0 ? ", " : "") + componentName(sizes_, named[k]);
+  }
+  if (named.size() > kNamed) text += " and " + std::to_string(named.size() - kNamed) + " more";
+  return text + " stayed below the absolute tolerance: values of this size are not controlled";
+}
+
+template <class Real>
+std::string Amounts<Real>::belowZero() const {
+  if (negative_.empty()) return {};
+  const auto worst = std::min_element(negative_.begin(), negative_.end(), [this](const auto& a, const auto& b) {
+    const auto inTolerances = [this](const Negative& n) { return n.value / least_[2 * sizes_.nu + first_x_ + n.i]; };
+    return inTolerances(a) < inTolerances(b);
+  });
+  std::ostringstream text;
+  text.precision(2);
+  text << componentName(sizes_, 2 * sizes_.nu + first_x_ + worst->i) << " falls to " << worst->value
+       << " at t = " << worst->t
+       << (worst->declared ? ", but it is never negative on an exact solution"
+                           : ", but its rate at zero does not lead below zero");
+  if (negative_.size() > 1) text << "; " << negative_.size() - 1 << " more components, too";
+  return text.str();
+}
+
+template <class Real>
+std::string Amounts<Real>::remark() const {
+  const std::string small = belowTolerance(), negative = belowZero();
+  return small + (small.empty() || negative.empty() ? "" : "; ") + negative;
+}
+
+IRK_INSTANTIATE_CLASS(Amounts)
+
+}  // namespace irk

@@ -1,0 +1,62 @@
+// Remarks on components that the error control does not see, or that have a sign which they cannot have.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/derivatives/consistent_start.h"
+#include "core/stages/error_norm.h"
+
+namespace irk {
+
+/// Watches the accepted states of an integration for components of (u, v, x)
+///  - whose magnitude never reaches their absolute tolerance: an error of 100 % in them is no error in the norm;
+///  - and for components of the scene's x that fall below zero by more than their tolerance though they cannot: because
+///    the problem says so (System::nonNegative), or because their rate k_i is not negative wherever the computed
+///    solution crosses x_i = 0 downwards. For a concentration k_i >= 0 at x_i = 0, so that an exact solution does not
+///    cross zero (the rates are quasi-positive; Hundsdorfer & Verwer, Time-Dependent Advection-Diffusion-Reaction
+///    Equations, I.7). One crossing with a negative rate shows that a component is none; it is not looked at again.
+/// Both are facts about a result that may be right; neither changes it. Evaluations are not counted. Allocates in its
+/// constructor only, but for `remark`.
+template <class Real>
+class Amounts {
+ public:
+  /// Keeps references. `start` determines rates; `counters` are what it counts in.
+  Amounts(const System<Real>& system, ConsistentStart<Real>& start, Counters& counters);
+
+  /// Begins an integration. `norm` is left with the weights of zero: update it before its next use.
+  void begin(const State<Real>& state, ErrorNorm<Real>& norm);
+  /// Looks at an accepted step.
+  void look(const State<Real>& from, const State<Real>& to);
+  /// One line; empty if there is nothing to say.
+  std::string remark() const;
+
+ private:
+  struct Negative {
+    Index i = -1;  // of the scene's x
+    double value = 0, t = 0;
+    bool declared = false;
+  };
+  Real component(const State<Real>& state, Index i) const;
+  void lookBelowZero(const State<Real>& from, const State<Real>& to);
+  bool cannotCross(Index i, const State<Real>& from, const State<Real>& to);
+  bool findRates(State<Real>& state);
+  void between(double theta);
+  std::string belowTolerance() const;
+  std::string belowZero() const;
+
+  const System<Real>& system_;
+  ConsistentStart<Real>& start_;
+  Counters& counters_;
+  Sizes sizes_;
+  Index first_x_, scene_nx_;  // the scene's x in the system's x
+  double round_off_ = 0;      // of a component that is zero, in absolute tolerances
+  Vec<double> least_;         // absolute tolerances of (u, v, x)
+  std::vector<Index> small_;  // components of (u, v, x) that have not reached them
+  Vec<double> largest_;       // magnitude so far, of small components
+  std::vector<Index> never_;  // components of the scene's x that have not been below zero
+  std::vector<Negative> negative_;
+  State<Real> from_, to_, at_;
+};
+
+}  // namespace irk

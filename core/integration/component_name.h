@@ -1,0 +1,18 @@
+// Names of components in messages.
+#pragma once
+
+#include <string>
+
+#include "irk/system.h"
+
+namespace irk {
+
+/// "u[3]": component i of (u, v, x, z).
+inline std::string componentName(const Sizes& n, Index i) {
+  const auto name = [i](const char* group, Index first) { return group + ("[" + std::to_string(i - first) + "]"); };
+  if (i < n.nu) return name("u", 0);
+  if (i < 2 * n.nu) return name("v", n.nu);
+  return i < 2 * n.nu + n.nx ? name("x", 2 * n.nu) : name("z", 2 * n.nu + n.nx);
+}
+
+}  // namespace irk
