@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/derivatives/constraint_check.h"
+#include "core/derivatives/constraint_frame.h"
 #include "core/derivatives/derivative_fault.h"
 #include "core/derivatives/weighted_changes.h"
 #include "core/system/component_scale.h"
@@ -110,6 +111,20 @@ Vec<double> ConsistentStart<Real>::weightsOfMotion(const State<Real>& state) con
   return of_uvx;
 }
 
+// Says how many of the constraints are independent at the start; empty if all are.
+template <class Real>
+std::string ConsistentStart<Real>::dependentConstraints(const State<Real>& state) const {
+  ConstraintFrames<Real> frames(uncounted(system_), scale_);
+  if (frames.constraints() == 0) return {};
+  ConstraintFrame frame = frames.make();
+  frames.evaluate(state, state.t, frames.positions(state), frame);
+  if (!frame.finite || frame.regular()) return {};
+  std::ostringstream text;
+  text << "the constraints have rank " << frame.rank << " of " << frames.constraints() << ' ' << kStart
+       << ", t = " << static_cast<double>(state.t);
+  return text.str();
+}
+
 // Checks that all residuals are finite and that the constraints hold.
 template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
@@ -141,6 +156,9 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   if (found.outcome != Outcome::kSuccess) state.w = given_;
   if (found.outcome != Outcome::kSingular) return found;
   if (check == StartCheck::kConstraints) {
+    if (const std::string dependent = dependentConstraints(state); !dependent.empty()) {
+      return {Outcome::kSingular, dependent, true};
+    }
     const std::string violated = fixedRowViolation(system_, state, weightsOfMotion(state), 1);
     if (!violated.empty()) return {Outcome::kInconsistentStart, std::string(kStart) + ": " + violated, true};
   }

@@ -44,8 +44,9 @@ class ConsistentStart {
   /// constraint check is accepted, since w then only serves as start values. If D0 is singular (algebraic unknowns
   /// of higher index that are no multipliers of position constraints), state.w is kept, provided that a user's start
   /// satisfies the rows that read none of it (core/derivatives/constraint_check.h), and that it is not required or
-  /// satisfies the residual; otherwise the outcome is kInconsistentStart. For kNotFinite the detail names the row, and
-  /// for a derivative the component (core/derivatives/derivative_fault.h). A failure leaves the state unchanged.
+  /// satisfies the residual; otherwise the outcome is kInconsistentStart. A start at which the constraints are
+  /// dependent is kSingular. For kNotFinite the detail names the row, and for a derivative the component
+  /// (core/derivatives/derivative_fault.h). A failure leaves the state unchanged.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
   /// The same at the end of an integration, for `Multipliers::kConsistent`. If Newton does not converge, (a, k, z)
   /// stay those of the stages, and the reason is returned; otherwise the text is empty.
@@ -54,6 +55,7 @@ class ConsistentStart {
  private:
   State<double> weightsOf(const State<Real>& state) const;
   Vec<double> weightsOfMotion(const State<Real>& state) const;
+  std::string dependentConstraints(const State<Real>& state) const;
   StartReport checkConstraints(const State<Real>& state);
   StartReport determine(State<Real>& state, const char* place, double tolerated);
   StartReport keep(const State<Real>& state, const char* place);

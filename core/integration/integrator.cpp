@@ -192,7 +192,7 @@ class Integrator<Real>::Run {
       return {};
     }
     const Outcome outcome = trajectory_.commit(result, step, last ? t_end : trajectory_.next().t);
-    if (isRecoverable(outcome)) {
+    if (isRecoverable(outcome) && !trajectory_.atSingularPosition()) {
       ++counters_.steps_rejected_newton;
       h = trajectory_.shorten(size);
       return {};

@@ -66,6 +66,8 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
   if (isIndex3(system) && stops) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
+  const bool constrained = constrainedIn(system).sizes().constraints > 0;
+  if (constrained) positions_ = std::make_unique<SingularPositions<Real>>(system, scale);
 }
 
 template <class Real>
@@ -90,6 +92,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
   if (!switches_.none() && report.determined) attempt_->restart();
+  if (positions_) positions_->begin(state_);
   if (controller_) amounts_.begin(state_, norm_);
   return report.outcome;
 }
@@ -145,6 +148,7 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
     return step.outcome;
   }
   if (!step.shortened) next_.t = end;
+  if (positions_ && positions_->passes(jacobian_, state_, next_)) return Outcome::kSingular;
   takeOver(step);
   if (!step.at_switch) return Outcome::kSuccess;
   ++counters_.located_events;
@@ -202,6 +206,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
+    if (positions_) positions_->begin(state_);
     if (!report.determined) {
       norm_.update(state_);
       start_detail_ = fixedRowViolation(system_, state_, norm_.weights(), allowedInFixedRows(options_));
@@ -283,6 +288,7 @@ Solution<Real> Trajectory<Real>::success() {
 template <class Real>
 Solution<Real> Trajectory<Real>::failed(Outcome outcome, double h, const std::string& what) const {
   if (!start_detail_.empty()) return solution(outcome, start_detail_);
+  if (positions_ && positions_->explains(outcome, state_)) return solution(Outcome::kSingular, positions_->found());
   std::ostringstream text;
   text.precision(6);
   text << what << " at t = " << static_cast<double>(state_.t) << ", h = " << h;

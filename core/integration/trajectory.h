@@ -11,6 +11,7 @@
 #include "core/estimates/step_attempt.h"
 #include "core/integration/amounts.h"
 #include "core/integration/inside_attempt.h"
+#include "core/integration/singular_positions.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
 #include "irk/monitor.h"
@@ -42,6 +43,9 @@ class Trajectory {
   [[nodiscard]] Outcome commit(const AttemptResult& result, const Real& h, const Real& end);
   /// After `commit`: the size of the next step if the controller asks for `wanted`. The order may change.
   double nextSize(const AttemptResult& result, double h, double wanted);
+
+  /// Whether `commit` has found a singular position of the constraints in the step; nothing was taken over.
+  bool atSingularPosition() const { return positions_ && !positions_->found().empty(); }
 
   const State<Real>& state() const { return state_; }
   const State<Real>& next() const { return next_; }
@@ -82,6 +86,7 @@ class Trajectory {
   /// In index 3 positions and velocities satisfy their constraints only to the error of a step. The short steps after a
   /// restart would turn that into errors of velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;
+  std::unique_ptr<SingularPositions<Real>> positions_;  // null without position constraints
   Switches<Real> switches_;
   ChatterDetector chatter_;
   InsideAttempt<Real> inside_;
