@@ -50,8 +50,16 @@ Measurement shareOfEvaluations(const ResultTables& tables, Setting setting) {
 Measurement massFactorizations(const ResultTables& tables, Setting) {
   const Table runs = where(tables.runs("k_form"), {{"formulation", "index2"}, {"outcome", "success"}});
   Measurement measured;
+  std::map<std::string, double> most;
   for (const auto& run : runs.rows) {
-    measured.cases.push_back({textAt(runs, run, "scene"), numberAt(runs, run, "mass_factorizations")});
+    const auto& scene = textAt(runs, run, "scene");
+    const double count = numberAt(runs, run, "mass_factorizations");
+    measured.cases.push_back({scene, count});
+    if (count > 0) most[scene] = std::max(most[scene], count);
+  }
+  for (const auto& [scene, count] : most) {
+    measured.remark += fmt::format(
+        "{}{} {:g}", measured.remark.empty() ? "Restarts and checks of steps, at most: " : ", ", scene, count);
   }
   return measured;
 }

@@ -159,6 +159,7 @@ ResultTables kForm(const std::string& mass_factorizations) {
 TEST(NewtonClaims, MassIsNotFactorized) {
   EXPECT_EQ(verdict("C11a", kForm("0")), kYes);
   EXPECT_EQ(verdict("C11a", kForm("1")), kNo);
+  EXPECT_TRUE(containsAll(finding("C11a", kForm("3")).judged.remark, {"pendulum 3", "slider_crank 3"}));
 }
 
 // The costs of the K-form and of both first-order forms.
