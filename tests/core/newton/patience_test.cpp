@@ -19,15 +19,16 @@ struct Hidden {
   }
 };
 
-constexpr double kStep = 0.1;
+constexpr double kPatienceStep = 0.1;
 
 Solution<double> follow(double c, const IntegratorOptions& options) {
-  return integrate<double>(Hidden{c}, State<double>(Hidden{c}.sizes()), kStep, makeTableau<double>("gauss_3"), options);
+  return integrate<double>(Hidden{c}, State<double>(Hidden{c}.sizes()), kPatienceStep, makeTableau<double>("gauss_3"),
+                           options);
 }
 
 // The second increment is about three times the first one.
 TEST(Patience, OneLargerIncrementEndsNoFixedStep) {
-  const auto solution = follow(2000, fixedSteps(kStep));
+  const auto solution = follow(2000, fixedSteps(kPatienceStep));
   ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   EXPECT_NEAR(solution.state.x[0], 9 * 2000 * 1e-5 / 5, 1e-13);
   EXPECT_NEAR(solution.state.x[1], 0.03, 1e-15);
@@ -35,12 +36,14 @@ TEST(Patience, OneLargerIncrementEndsNoFixedStep) {
 }
 
 // A hundred times the first one counts as divergence.
-TEST(Patience, EndsWhenIncrementsGrow) { EXPECT_EQ(follow(1e5, fixedSteps(kStep)).outcome, Outcome::kNewtonFailed); }
+TEST(Patience, EndsWhenIncrementsGrow) {
+  EXPECT_EQ(follow(1e5, fixedSteps(kPatienceStep)).outcome, Outcome::kNewtonFailed);
+}
 
 // A shorter step costs less than to go on.
 TEST(Patience, IsNotForStepsThatCanBeShortened) {
   IntegratorOptions options = adaptive(1e-3);
-  options.step.h = kStep;
+  options.step.h = kPatienceStep;
   const auto solution = follow(2000, options);
   EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   EXPECT_GT(solution.counters.steps_rejected_newton, 0);
