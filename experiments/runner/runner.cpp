@@ -209,7 +209,7 @@ class Sweep {
     if (interruptFlag() && spec.reference == ReferenceUse::kAuto) return {};
     const std::string text = hexText(key);
     const std::lock_guard lock(mutex_);
-    if (study_.states) store_.addState(text, vectorText(componentsOf(record)));
+    if (study_.states) store_.addState(text, vectorText(componentsOf(record)), vectorText(barsOf(record)));
     store_.addRun(runRow(text, study_.id, record));
     if (too_long) {
       progress_->skipped(kind);

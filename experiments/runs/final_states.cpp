@@ -1,5 +1,6 @@
 #include "experiments/runs/final_states.h"
 
+#include <cmath>
 #include <sstream>
 #include <vector>
 
@@ -11,6 +12,14 @@ Vec<double> componentsOf(const RunRecord& record) {
   Vec<double> y(record.u.size() + record.v.size() + record.x.size() + record.z.size());
   y << record.u, record.v, record.x, record.z;
   return y;
+}
+
+Vec<double> barsOf(const RunRecord& record) {
+  const RunErrorBar& bar = record.error_bar;
+  if (std::isnan(bar.tolerances)) return {};
+  Vec<double> all(bar.u.size() + bar.v.size() + bar.x.size() + bar.z.size());
+  all << bar.u, bar.v, bar.x, bar.z;
+  return all;
 }
 
 std::string vectorText(const Vec<double>& y) {

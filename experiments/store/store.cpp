@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kTables[] = {"runs", "states", "environments", "calibrations"};
 
-std::vector<std::string> stateColumns() { return {"key", "state", "code", "date"}; }
+std::vector<std::string> stateColumns() { return {"key", "state", "bar", "code", "date"}; }
 
 // The first unused name among runs.old.csv, runs.old2.csv, ...
 std::filesystem::path freeName(const std::filesystem::path& file) {
@@ -126,8 +126,8 @@ void Store::addRun(TableRow row) {
   runs_.append(row);
 }
 
-void Store::addState(const std::string& key, const std::string& state) {
-  states_.append({key, state, std::string(buildInfo().code), dateText()});
+void Store::addState(const std::string& key, const std::string& state, const std::string& bar) {
+  states_.append({key, state, bar, std::string(buildInfo().code), dateText()});
 }
 
 std::size_t Store::takeOver(const Store& other) {

@@ -65,7 +65,8 @@ class Store {
   void addTimes(TableRow row);
   /// Stores a calibration that was measured here and now, in seconds.
   void addCalibration(double seconds);
-  void addState(const std::string& key, const std::string& state);
+  /// `bar`: the error bars of the state, which may be empty.
+  void addState(const std::string& key, const std::string& state, const std::string& bar);
   /// Copies the rows of `other` that this store does not have. Returns the number of copied runs.
   std::size_t takeOver(const Store& other);
 
