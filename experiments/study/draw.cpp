@@ -11,16 +11,23 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
-#include "experiments/runs/own_files.h"
+#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run.h"
 #include "experiments/study/dice.h"
+#include "experiments/study/drawn/options.h"
 #include "irk/misuse.h"
 #include "irk/tableaus.h"
 
 namespace irk::audit {
 namespace {
 
-constexpr double kWidth = 4;  // numeric settings are multiplied by a factor in 1/kWidth .. kWidth
+constexpr double kWidth = 4;                 // numeric settings are multiplied by a factor in 1/kWidth .. kWidth
+constexpr const char* kForeign = "foreign";  // the collection of scenes whose parameters are drawn over their ranges
+constexpr double kDefaults = 0.5, kForeignDefaults = 0.1;  // of the runs have the scene's default settings
+constexpr double kEnds = 0.5;                              // of the drawn variants end at another time
+constexpr double kPeers = 0.15;                            // of the runs are made by other libraries
+constexpr double kOnTheWay = 0.3;                          // of the runs with a closed form are also judged on the way
+constexpr int kTimesOnTheWay = 4;
 constexpr int kMaxAttempts = 1000;
 
 // A run looks at its time limit between attempts only, and one factorization of 8000 coupled rows takes 21 s. Larger
@@ -62,7 +69,7 @@ std::optional<double> defaultNumber(const Parameter& p) {
 std::string threeDigits(double x) { return fmt::format("{:.3g}", x); }
 
 // A drawn value; empty keeps the default.
-std::string drawnValue(Dice& dice, const Parameter& p, double t_end) {
+std::string drawnValue(Dice& dice, const Parameter& p, double t_end, bool foreign) {
   if (!p.choices.empty()) {
     return p.choices[static_cast<std::size_t>(dice.below(static_cast<Index>(p.choices.size())))];
   }
@@ -75,17 +82,24 @@ std::string drawnValue(Dice& dice, const Parameter& p, double t_end) {
     const double at = dice.uniform() * t_end;
     return off ? threeDigits(at) : "";
   }
-  const double factor = std::pow(kWidth, 2 * dice.uniform() - 1);
+  const double part = dice.uniform();
+  if (foreign && p.min > 0) return threeDigits(p.min * std::pow(p.max / p.min, part));
+  const double factor = std::pow(kWidth, 2 * part - 1);
   const auto number = defaultNumber(p);
   if (!number || *number == 0) return "";
   return threeDigits(std::clamp(*number * factor, p.min, p.max));
 }
 
+bool isForeign(const SceneEntry& scene) {
+  return std::count(scene.collections.begin(), scene.collections.end(), kForeign) > 0;
+}
+
 Settings drawnOnce(Dice& dice, const SceneEntry& scene, Discontinuity treatment, double t_end) {
+  const bool foreign = isForeign(scene);
   Settings settings;
   for (const Parameter& p : scene.parameters) {
     if (p.only_smooth && treatment != Discontinuity::kSmooth) continue;
-    const std::string value = drawnValue(dice, p, t_end);
+    const std::string value = drawnValue(dice, p, t_end, foreign);
     if (!value.empty() && value != p.default_value) settings[p.name] = value;
   }
   return settings;
@@ -174,7 +188,8 @@ class Draw::Drawer {
   struct Variant {
     Settings settings;
     Sizes sizes;
-    double t_end;
+    double t_end = 0;
+    bool exact = false;  // the solution is known in closed form
   };
 
   const Variant& variantOf(const SceneEntry& scene, Index number, bool smooth) {
@@ -186,19 +201,24 @@ class Draw::Drawer {
     if (number >= 0) variant.settings = drawnSettings(scene, options_.seed, number, treatment);
     const auto made = makeScene<double>(scene.id, variant.settings);
     variant.sizes = made.sizes();
+    variant.exact = made.exact && !smooth;
     variant.t_end = made.t_end;
+    Dice dice(fmt::format("{} end {} {}", options_.seed, scene.id, number));
+    if (number >= 0 && dice.chance(kEnds)) variant.t_end = drawnEnd(dice, made.t_end);
     return variants_[key] = variant;
   }
 
   // All parts are drawn independently of each other, except the variant of the settings.
   std::optional<DrawnRun> drawn(Dice& dice, const SceneEntry& scene) {
-    const std::string configuration = chosen(dice, kConfigurations);
+    const bool by_peer = dice.chance(kPeers);
+    const PeerEntry& peer = drawnPeer(dice);
+    const std::string configuration = by_peer ? "default" : chosen(dice, kConfigurations);
     std::string treatment = chosen(dice, kTreatments);
     std::string formulation = chosen(dice, kFormulations);
-    const bool defaults = dice.chance(0.5);
+    const bool defaults = dice.chance(isForeign(scene) ? kForeignDefaults : kDefaults);
     const Index number = dice.below(options_.variants);
     const MethodChoice method = drawnMethod(dice, configuration == "variable");
-    const auto tolerance = fmt::format("1e-{}", dice.between(2, 13));
+    const bool on_the_way = dice.chance(kOnTheWay);
 
     const bool smooth = treatment == idOf(Discontinuity::kSmooth);
     const Variant& variant = variantOf(scene, defaults ? -1 : number, smooth);
@@ -208,8 +228,10 @@ class Draw::Drawer {
     const bool first_order =
         formulation == idOf(Formulation::kFirstOrder) || formulation == idOf(Formulation::kFirstOrderPerStep);
     const bool algebraic = variant.sizes.nz > 0 && !first_order;
-    if (!allowsSystem(scene.id, variant.settings, formulation, treatment)) return std::nullopt;
-    if (!allowsMethod(configuration, method, algebraic)) return std::nullopt;
+    if (!allowsSystem(scene.id, variant.settings, formulation, switches ? treatmentOf(configuration, treatment) : ""))
+      return std::nullopt;
+    const std::string small = method.smallId();
+    if (!by_peer && !allowsMethod(configuration, small, algebraic)) return std::nullopt;
 
     DrawnRun run;
     run.treatment = !switches ? kNoSwitches : treatment.empty() ? kDefaultTreatment : treatment;
@@ -217,17 +239,28 @@ class Draw::Drawer {
     run.spec.settings = variant.settings;
     run.spec.t_end = variant.t_end;
     run.spec.time_limit = options_.time_limit;
+    if (on_the_way && variant.exact) run.spec.reference_times = kTimesOnTheWay;
     set(run.spec, "configuration", configuration);
+    set(run.spec, "method", by_peer ? peer.id : method.id());
+    set(run.spec, "formulation", formulation);
+    set(run.spec, "discontinuity", treatment);
+    drawTolerances(dice, run.spec);
+    if (by_peer) return allowsPeer(run.spec) ? std::optional(run) : std::nullopt;
+    run.spec.error_bar = ErrorBarUse::kMeasured;
     if (run.spec.options.solver == StageSolverKind::kCoupledDense &&
         method.stages * variant.sizes.n() > kMaxCoupledRows) {
       return std::nullopt;
     }
-    set(run.spec, "method", method.id());
-    set(run.spec, "formulation", formulation);
-    set(run.spec, "discontinuity", treatment);
-    set(run.spec, "rtol", tolerance);
-    set(run.spec, "atol", tolerance);
+    drawOptions(dice, run.spec, [&](const RunSpec& spec) { return allowsOptions(spec, small, algebraic); });
     return run;
+  }
+
+  const PeerEntry& drawnPeer(Dice& dice) const {
+    std::vector<const PeerEntry*> peers;
+    for (const auto& peer : peerCatalogue()) {
+      if (peer.source.empty()) peers.push_back(&peer);  // none of a user's
+    }
+    return *peers[static_cast<std::size_t>(dice.below(std::ssize(peers)))];
   }
 
   bool remembered(const std::string& what, const RunSpec& spec) {
@@ -236,7 +269,15 @@ class Draw::Drawer {
     return legal_[what] = canBePrepared(spec);
   }
 
-  // Whether the scene supports this formulation and treatment. An empty treatment is always legal.
+  // The treatment, or that of the configuration if it is empty.
+  static std::string treatmentOf(const std::string& configuration, const std::string& treatment) {
+    if (!treatment.empty()) return treatment;
+    RunSpec spec;
+    set(spec, "configuration", configuration);
+    return std::string(idOf(spec.discontinuity));
+  }
+
+  // Whether the scene supports this formulation and treatment.
   bool allowsSystem(const std::string& scene, const Settings& settings, const std::string& formulation,
                     const std::string& treatment) {
     RunSpec spec;
@@ -249,12 +290,26 @@ class Draw::Drawer {
     return remembered(fmt::format("{} {} {}", scene, formulation, treatment), spec);
   }
 
-  bool allowsMethod(const std::string& configuration, const MethodChoice& method, bool algebraic) {
+  bool allowsMethod(const std::string& configuration, const std::string& method, bool algebraic) {
+    RunSpec spec;
+    set(spec, "configuration", configuration);
+    return allowsOptions(spec, method, algebraic);
+  }
+
+  bool allowsOptions(const RunSpec& of, const std::string& method, bool algebraic) {
     RunSpec spec;
     spec.scene = sceneOfKind(algebraic ? SceneKind::kIndex1 : SceneKind::kStiffTest);
-    set(spec, "configuration", configuration);
-    spec.method = method.smallId();
-    return remembered(fmt::format("{} {} {}", spec.scene, configuration, spec.method), spec);
+    spec.configuration = of.configuration;
+    spec.options = of.options;
+    spec.options.tolerances.rtol = spec.options.tolerances.atol = RunSpec{}.options.tolerances.atol;
+    spec.method = method;
+    return remembered(canonicalText(spec), spec);
+  }
+
+  bool allowsPeer(const RunSpec& spec) {
+    return remembered(fmt::format("{} {} {} {} {}", spec.method, spec.scene, settingsText(spec.settings),
+                                  idOf(spec.formulation), idOf(spec.discontinuity)),
+                      spec);
   }
 
   AuditOptions options_;
@@ -281,28 +336,6 @@ Draw::~Draw() = default;
 DrawnRun Draw::operator[](std::size_t i) const {
   const std::lock_guard lock(mutex_);
   return drawer_->run(static_cast<int>(i));
-}
-
-std::string commandOf(const DrawnRun& run) {
-  const RunSpec& spec = run.spec;
-  std::string command = "irk solve " + spec.scene;
-  for (const auto& [name, value] : spec.settings) command += fmt::format(" --set {}", shellWord(name + "=" + value));
-  if (spec.configuration != "default") command += " --configuration " + spec.configuration;
-  const std::string files = filesOf(spec);
-  command += " --method " + shellWord(methodIn(files, spec.method));
-  const RunSpec defaults;
-  if (spec.formulation != defaults.formulation) {
-    command += fmt::format(" --formulation {}", idOf(spec.formulation));
-  }
-  if (run.treatment != kDefaultTreatment && run.treatment != kNoSwitches) {
-    command += " --discontinuity " + run.treatment;
-  }
-  command += " --tol " + numberText(spec.options.tolerances.rtol);
-  if (spec.t_end != makeScene<double>(spec.scene, spec.settings).t_end) {
-    command += " --t-end " + numberText(spec.t_end);
-  }
-  if (spec.time_limit > 0) command += " --time-limit " + numberText(spec.time_limit);
-  return command + loadOptions(files);
 }
 
 }  // namespace irk::audit

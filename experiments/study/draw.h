@@ -27,8 +27,10 @@ struct DrawnRun {
 ///
 /// Scenes are drawn with equal probability from options.scenes or, if that is empty, from the scenes of the library
 /// (never from those of users). Then follow the settings (half of the time the defaults, else one of `options.variants`
-/// drawn variants), configuration, treatment of switches, formulation, method and tolerance. A combination that is
-/// refused is drawn again. Thread-safe.
+/// drawn variants, half of which also end at another time), configuration or another library's integrator, treatment
+/// of switches, formulation, method, rtol and atol, and options of the solver (drawn/options.h). A combination that is
+/// refused is drawn again. Of each run but those of other libraries the error bar is measured; some with a closed form
+/// are also judged on the way (reference_times). Thread-safe.
 class Draw {
  public:
   /// Throws Misuse for an unknown scene.
@@ -46,7 +48,8 @@ class Draw {
 };
 
 /// Variant i of the scene's settings. Each number with a default other than 0 is multiplied by 4^x, x uniform in [-1,
-/// 1], clipped to its range and rounded to three digits; words are drawn among the choices; integers stay small.
+/// 1], clipped to its range and rounded to three digits; words are drawn among the choices; integers stay small. The
+/// foreign scenes have ranges for this purpose: a number is drawn from its whole range, uniform in its logarithm.
 /// Regularization parameters differ from their defaults only with the treatment `smooth`. Variants of which no scene
 /// can be made are drawn again.
 Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant, Discontinuity treatment);

@@ -14,8 +14,10 @@
 #include "experiments/runs/configurations.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/final_states.h"
+#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/dice.h"
+#include "experiments/study/drawn/options.h"
 #include "experiments/study/study_reader.h"
 #include "irk/tableaus.h"
 #include "tests/experiments/audit/audited.h"
@@ -80,7 +82,6 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
     formulations.insert(std::string(idOf(spec.formulation)));
     methods.insert(spec.method);
     tolerances.insert(spec.options.tolerances.rtol);
-    EXPECT_EQ(spec.options.tolerances.rtol, spec.options.tolerances.atol);
     with_settings += !spec.settings.empty();
     for (const auto& [name, value] : spec.settings) {
       const bool unknowns = name == "m" && spec.scene == "beam_chain";
@@ -108,11 +109,47 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
   EXPECT_GT(with_settings, 700);  // half of the runs, for scenes with parameters
 }
 
+TEST(AuditDraw, ReachesOptionsEndsAndOtherLibraries) {
+  std::set<std::string> methods;
+  std::map<std::string_view, std::set<std::string>> options;
+  int two_tolerances = 0, other_ends = 0, on_the_way = 0, by_peers = 0;
+  for (const auto& [spec, treatment] : drawnRuns({.runs = 2500})) {
+    methods.insert(spec.method);
+    const auto& [rtol, atol] = std::pair(spec.options.tolerances.rtol, spec.options.tolerances.atol);
+    EXPECT_LE(std::max(rtol, atol) / std::min(rtol, atol), 1000 * (1 + 1e-15));
+    two_tolerances += rtol != atol;
+    for (const auto name : drawnOptionNames()) options[name].insert(findField(name).get(spec));
+    const double own_end = makeScene<double>(spec.scene, spec.settings).t_end;
+    EXPECT_GE(spec.t_end, 0.199 * own_end);
+    EXPECT_LE(spec.t_end, 2.01 * own_end);
+    other_ends += spec.t_end != own_end;
+    on_the_way += spec.reference_times > 1;
+    EXPECT_TRUE(spec.reference_times == 1 || makeScene<double>(spec.scene, spec.settings).exact) << spec.scene;
+    const bool by_peer = findPeer(spec.method) != nullptr;
+    by_peers += by_peer;
+    EXPECT_EQ(spec.error_bar == ErrorBarUse::kNone, by_peer);
+  }
+  for (const auto& [name, least] : {std::pair("norm", 2u),
+                                    {"estimate", 4u},
+                                    {"control", 3u},
+                                    {"newton", 4u},
+                                    {"predictor", 3u},
+                                    {"multipliers", 2u}}) {
+    EXPECT_EQ(options[name].size(), least) << name;
+  }
+  EXPECT_GT(two_tolerances, 500);  // 0.3 of the runs, but for those at the ends of the range
+  EXPECT_GT(other_ends, 500);      // a quarter; more of the foreign scenes
+  EXPECT_GT(on_the_way, 200);
+  EXPECT_GT(by_peers, 150);  // fewer than 0.15: they do not take all scenes
+  for (const auto& peer : peerCatalogue()) EXPECT_TRUE(!peer.source.empty() || methods.contains(peer.id)) << peer.id;
+}
+
 // medakzo has 400 unknowns; twenty stages of it in one dense matrix take 21 s for one factorization.
 TEST(AuditDraw, LeavesOutCoupledMatricesThatOutlastEveryTimeLimit) {
   int coupled = 0, many_stages = 0;
   for (const auto& run : drawnRuns({.runs = 300, .scenes = {"medakzo"}})) {
     if (run.spec.method.find_first_of("0123456789") == std::string::npos) continue;  // a whole family
+    if (findPeer(run.spec.method)) continue;
     const auto tableau = makeTableau<double>(run.spec.method);
     const Index unknowns = makeScene<double>("medakzo", run.spec.settings).sizes().n();
     if (run.spec.configuration == "paper") {
@@ -124,6 +161,21 @@ TEST(AuditDraw, LeavesOutCoupledMatricesThatOutlastEveryTimeLimit) {
   }
   EXPECT_GT(coupled, 15);      // of about 45
   EXPECT_GT(many_stages, 15);  // other configurations keep them
+}
+
+// The parameters of foreign scenes come from their whole ranges.
+TEST(AuditDraw, ReachesTheEndsOfTheRangesOfForeignScenes) {
+  double least = 1e300, most = 0;
+  for (const auto& run : drawnRuns({.runs = 200, .scenes = {"two_point_control"}})) {
+    const auto width = run.spec.settings.find("width");
+    if (width == run.spec.settings.end()) continue;
+    least = std::min(least, std::stod(width->second));
+    most = std::max(most, std::stod(width->second));
+  }
+  EXPECT_GE(least, 1e-8);
+  EXPECT_LT(least, 1e-7);
+  EXPECT_GT(most, 0.1);
+  EXPECT_LE(most, 1);
 }
 
 TEST(AuditDraw, CommandsRepeatTheRuns) {
