@@ -8,11 +8,15 @@
 #include <optional>
 #include <set>
 
+#include "experiments/audit/bar_tables.h"
+#include "experiments/audit/coverage.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/final_states.h"
+#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/tables/keyed_file.h"
+#include "irk/collections.h"
 
 namespace irk::audit {
 namespace {
@@ -22,80 +26,149 @@ constexpr double kNotJudged = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> kColumns{"run",
                                         "key",
                                         "scene",
+                                        "collection",
                                         "settings",
+                                        "t_end",
                                         "method",
                                         "family",
                                         "stages",
+                                        "integrator",
                                         "configuration",
                                         "formulation",
                                         "treatment",
                                         "discontinuity",
                                         "tolerance",
+                                        "rtol",
+                                        "atol",
                                         "outcome",
                                         "detail",
                                         "judgement",
                                         "error",
                                         "error_over_tolerance",
                                         "error_z",
+                                        "error_way",
+                                        "error_bar",
+                                        "error_bar_z",
+                                        "error_bar_tolerances",
+                                        "part_of_cover",
                                         "reference",
                                         "accuracy",
                                         "kappa",
                                         "accumulated",
                                         "remark",
                                         "cpu_s",
+                                        "cpu_error_bar_s",
                                         "command"};
 
-// Errors of u, v, x together, and of z.
-struct StateErrors {
-  double judged = kNotJudged, multipliers = kNotJudged;
+// The final state of a run and its error bars; empty vectors: not kept.
+struct Result {
+  Vec<double> state, bars;
 };
 
-StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Vec<double>& state, const Answer& answer) {
-  const Vec<double>& reference = answer.stateFor(family);
-  if (reference.size() == 0 || reference.size() != state.size()) return {};
+// Errors and error bars of u, v, x together, and of z; and the part of its cover that an error reaches (coverage.h).
+struct StateErrors {
+  double judged = kNotJudged, multipliers = kNotJudged, part_of_cover = kNotJudged;
+  double bar = kNotJudged, bar_of_multipliers = kNotJudged;
+};
+
+// The largest bar / max(|y|, scale) of the components first <= i < last; NaN if none is known.
+double largestBar(const Result& result, const Vec<double>& scale, Index first, Index last) {
+  double largest = kNotJudged;
+  if (result.bars.size() != result.state.size()) return largest;
+  for (Index i = first; i < last; ++i) {
+    const double magnitude = std::max(std::abs(result.state[i]), i < scale.size() ? scale[i] : 1.0);
+    largest = std::fmax(largest, result.bars[i] / magnitude);
+  }
+  return largest;
+}
+
+StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Result& result, const Answer& answer) {
+  StateErrors errors;
+  const Index size = result.state.size();
   const auto scene = makeScene<double>(spec.scene, spec.settings);
   const Sizes n = scene.sizes();
   const Index judged = 2 * n.nu + n.nx;
-  return {scaledDifference(state, reference, scene.scale, 0, judged),
-          scaledDifference(state, reference, scene.scale, judged, reference.size())};
+  errors.bar = largestBar(result, scene.scale, 0, judged);
+  errors.bar_of_multipliers = largestBar(result, scene.scale, judged, size);
+  const Vec<double>& reference = answer.stateFor(family);
+  if (size == 0 || reference.size() != size) return errors;
+  errors.judged = scaledDifference(result.state, reference, scene.scale, 0, judged);
+  errors.multipliers = scaledDifference(result.state, reference, scene.scale, judged, size);
+  errors.part_of_cover = partOfCover(
+      {result.state, result.bars, reference, scene.scale, spec.options.tolerances, answer.accuracy}, judged);
+  return errors;
+}
+
+// A run to the end has a state there, be it a success or not.
+bool isAtTheEnd(const std::string& outcome) {
+  return outcome == name(Outcome::kSuccess) || outcome == name(Outcome::kInaccurate) ||
+         outcome == name(Outcome::kDrift);
+}
+
+// The largest error of u, v, x at the run's reference times; NaN for a run with one such time, its end.
+double errorOnTheWay(const RunSpec& spec, const Table& runs, const TableRow& row) {
+  double largest = kNotJudged;
+  if (spec.reference_times == 1) return largest;
+  for (const auto* column : {"error_u_over_time", "error_v_over_time", "error_x_over_time"}) {
+    largest = std::fmax(largest, numberAt(runs, row, column));
+  }
+  return largest;
 }
 
 TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, const TableRow& row,
-                  const Vec<double>* state, const Answer* answer) {
+                  const Result& result, const Answer& known) {
   const RunSpec& spec = drawn.spec;
   const auto text = [&](std::string_view column) { return textAt(runs, row, column); };
-  const Answer none;
-  const Answer& known = answer ? *answer : none;
-  const bool success = succeededAt(runs, row);
   StateErrors errors;
-  if (success && state) errors = errorsOf(spec, text("family"), *state, known);
-  const double tolerance = spec.options.tolerances.atol;
-  const Judgement judgement = judge({success, tolerance, errors.judged, known.accuracy, known.kappa});
+  if (isAtTheEnd(text("outcome"))) errors = errorsOf(spec, text("family"), result, known);
+  const Tolerances& tolerances = spec.options.tolerances;
+  const double tolerance = std::max(tolerances.rtol, tolerances.atol);
+  const Judgement judgement = judge({succeededAt(runs, row), tolerance, errors.judged, known.accuracy, known.kappa});
+  const auto collections = collectionsOf(spec.scene);
   return {std::to_string(number),
           row.front(),
           spec.scene,
+          collections.empty() ? "" : collections.front(),
           settingsText(spec.settings),
+          numberText(spec.t_end),
           spec.method,
           text("family"),
           text("stages"),
+          findPeer(spec.method) ? spec.method : spec.configuration,
           spec.configuration,
           std::string(idOf(spec.formulation)),
           drawn.treatment,
           std::string(idOf(spec.discontinuity)),
           numberText(tolerance),
+          numberText(tolerances.rtol),
+          numberText(tolerances.atol),
           text("outcome"),
           text("detail"),
           std::string(nameOf(judgement)),
           numberText(errors.judged),
           numberText(errors.judged / tolerance),
           numberText(errors.multipliers),
+          numberText(errorOnTheWay(spec, runs, row)),
+          numberText(errors.bar),
+          numberText(errors.bar_of_multipliers),
+          text("error_bar_tolerances"),
+          numberText(errors.part_of_cover),
           known.source,
           numberText(known.accuracy),
           numberText(known.kappa),
           numberText(accumulated(numberAt(runs, row, "steps_accepted"), known.kappa, tolerance)),
           known.remark,
           text("cpu_s"),
+          text("cpu_error_bar_s"),
           commandOf(drawn)};
+}
+
+Result resultIn(const Table& states, const std::optional<TableRow>& row) {
+  if (!row) return {};
+  const auto vectorAt = [&](const char* column) {
+    return states.hasColumn(column) ? parseVector(textAt(states, *row, column)) : Vec<double>();
+  };
+  return {vectorAt("state"), vectorAt("bar")};
 }
 
 }  // namespace
@@ -103,18 +176,15 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
 void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::filesystem::path& states,
                 const Answers& answers, const std::filesystem::path& file) {
   KeyedFile made(runs), ends(states);
-  const auto state_column = ends.names().column("state");
   TableWriter table(file, made.names().head, kColumns);
   for (std::size_t i = 0; i < draw.size(); ++i) {
     const DrawnRun drawn = draw[i];
     const auto key = specKey(drawn.spec);
     const auto row = made.find(key);
     if (!row) continue;  // not run because of an interrupt
-    const auto end = ends.find(key);
-    const auto state = end ? std::optional(parseVector((*end)[state_column])) : std::nullopt;
     const auto answer = answers.find(questionOf(drawn.spec));
-    table.add(auditRow(i, drawn, made.names(), *row, state ? &*state : nullptr,
-                       answer == answers.end() ? nullptr : &answer->second));
+    table.add(auditRow(i, drawn, made.names(), *row, resultIn(ends.names(), ends.find(key)),
+                       answer == answers.end() ? Answer{} : answer->second));
   }
   table.close();
 }
@@ -125,16 +195,19 @@ std::string auditRuns(const Study& study, const std::filesystem::path& folder, i
   std::set<Question> questions;
   for (std::size_t i = 0; i < draw.size(); ++i) questions.insert(questionOf(draw[i].spec));
   const Answers answers = answersTo(questions, folder / "references.csv", jobs, progress);
-  const auto audit = folder / "audit.csv", summary_file = folder / "audit_summary.csv";
+  const auto audit = folder / "audit.csv", summary_file = folder / "audit_summary.csv",
+             bar_file = folder / "audit_error_bar.csv", word_file = folder / "audit_own_word.csv";
   if (interruptFlag()) {
     // Without their references runs would count as unjudged, and there would seem to be few wrong ones.
-    for (const auto& table : {audit, summary_file}) std::filesystem::remove(table);
+    for (const auto& table : {audit, summary_file, bar_file, word_file}) std::filesystem::remove(table);
     return "interrupted: not all references are known, so no run is judged yet\n";
   }
   writeAudit(draw, folder / "runs.csv", folder / "states.csv", answers, audit);
-  const Table summary = summaryTable(audit);
+  const Table summary = summaryTable(audit), bars = errorBarTable(audit), words = ownWordTable(audit);
   writeTable(summary_file, summary);
-  return summaryText(audit, summary, kWorst);
+  writeTable(bar_file, bars);
+  writeTable(word_file, words);
+  return summaryText(audit, summary, kWorst) + errorBarText(bars) + ownWordText(words);
 }
 
 }  // namespace irk::audit

@@ -17,14 +17,15 @@ namespace irk::audit {
 void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::filesystem::path& states,
                 const Answers& answers, const std::filesystem::path& file);
 
-/// audit_summary.csv of an audit.csv: counts of judgements over all runs, and grouped by configuration, treatment,
-/// scene, family, formulation, and configuration with treatment. The group `bar` counts by configuration the runs that
-/// must not be wrong: those whose switches are treated by default or located, and those of scenes without switches.
+/// audit_summary.csv of an audit.csv: counts of judgements and of successes that are wrong beside them (judge.h), over
+/// all runs, and grouped by configuration, treatment, scene, family, formulation, and configuration with treatment. The
+/// group `bar` counts by configuration the runs that must not be wrong: those whose switches are treated by default or
+/// located, and those of scenes without switches.
 Table summaryTable(const std::filesystem::path& audit);
 
-/// Reads runs.csv and states.csv in the study's folder, and writes references.csv, audit.csv and audit_summary.csv
-/// there; returns the lines of summaryText. After an interrupt audit.csv and its summary do not exist; the references
-/// found so far are kept.
+/// Reads runs.csv and states.csv in the study's folder, and writes references.csv, audit.csv, audit_summary.csv and the
+/// tables of bar_tables.h there; returns the lines of summaryText and of both tables. After an interrupt audit.csv and
+/// its tables do not exist; the references found so far are kept.
 std::string auditRuns(const Study& study, const std::filesystem::path& folder, int jobs, std::ostream& progress);
 
 /// A few lines about an audit.csv: counts by configuration, and the `worst` largest wrong successes with their

@@ -22,7 +22,7 @@ Judgement judge(const Evidence& e) {
   if (e.kappa > kLargestKappa || e.kappa * kRoundOff > e.tolerance) return Judgement::kIllConditioned;
   if (!e.success) return Judgement::kFailed;
   const bool known = e.accuracy <= kAccuracyOfBar * bar(e.tolerance);
-  if (!known || std::isnan(e.error) || std::isnan(e.kappa)) return Judgement::kUnjudged;
+  if (!known || std::isnan(e.error)) return Judgement::kUnjudged;
   return e.error > bar(e.tolerance) ? Judgement::kWrong : Judgement::kRight;
 }
 

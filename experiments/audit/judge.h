@@ -8,6 +8,10 @@
 //             constraints forbid every step from a perturbed start, the whole run is perturbed instead, by
 //             integrating with the tolerance 1e-9.
 //
+//             Since 2026-11-26: where the solution is known in closed form, kappa is the growth of an error of the
+//             start through the closed form (conditioning.h), since runs of the judged program share its faults. Where
+//             that is not to be had, kappa is not known, and the run is judged without it.
+//
 //   ill_conditioned   kappa > 1000: an error of one tolerance in the start alone exceeds the bar; or
 //                     kappa eps > tolerance: round-off alone does. Set aside, whatever the outcome.
 //   failed            the outcome is not success: an honest failure.
@@ -19,6 +23,9 @@
 //   accumulated       steps max(kappa, 1) tolerance: what errors of one tolerance in each step can add up to. A wrong
 //                     success above it has a step whose error was not seen; below it, the method keeps its word in each
 //                     step, and nothing but an estimate of the global error could tell.
+// Since 2026-11-26: successes with an error above the bar among those set aside; successes with an error of the
+// multipliers z, or at one of the earlier reference times of the run, above the bar. A closed form that is infinite
+// says that there is no solution at this time: each success is wrong. The error bar is judged by thresholds.h.
 #pragma once
 
 #include <limits>
@@ -43,7 +50,7 @@ struct Evidence {
   double tolerance = 0;
   double error = std::numeric_limits<double>::quiet_NaN();
   double accuracy = error;  ///< of the reference, measured as an error
-  double kappa = error;
+  double kappa = error;     ///< NaN: the run is judged without it
 };
 
 /// The bar: larger errors are wrong.

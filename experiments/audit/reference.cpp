@@ -6,11 +6,13 @@
 #include <cmath>
 #include <vector>
 
+#include "experiments/audit/conditioning.h"
 #include "experiments/audit/judge.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/final_states.h"
 #include "experiments/study/dice.h"
 #include "irk/misuse.h"
 
@@ -36,29 +38,42 @@ struct Strictness {
 constexpr Strictness kStrictnesses[] = {{1e-12, 100}, {1e-12, 2000}, {1e-11, 500}, {1e-9, 1000}};
 constexpr Strictness kIgnoring{1e-8, 1000};
 
+// Where double precision does not suffice, as for a motion that multiplies errors by 1e6 and more, two runs in 50
+// digits decide: for systems without switches of few unknowns, since each number costs some hundred times as much.
+constexpr Index kFewUnknowns = 8;
+constexpr double kPreciseTolerance = 1e-20, kPreciseTimeLimit = 20;
+constexpr const char* kPreciseMethod = "radau_iia_9";
+constexpr const char* kOtherPreciseMethod = "lobatto_iiic_8";
+
 class Search {
  public:
   Search(const Question& question, const std::atomic<bool>* stop)
-      : question_(question), scene_(made(question)), n_(scene_.sizes()), watch_{stop, {}, {}} {}
+      : question_(question),
+        settings_(settingsOf(question)),
+        scene_(makeScene<double>(question.scene, settings_)),
+        n_(scene_.sizes()),
+        watch_{stop, {}, {}} {}
 
   Answer answer() {
-    if (!question_.smooth) known();
+    if (!question_.smooth && exact()) return answer_;
+    if (!question_.smooth) fromFile();
     const bool compute = answer_.source.empty();
     for (const auto& strictness : kStrictnesses) {
       if (answer_.accuracy <= kEnough && !std::isnan(answer_.kappa)) break;
       if (stopped()) return interrupted();
       attempt(strictness, compute);
     }
+    if (compute && !(answer_.accuracy <= kEnough) && canBePrecise()) agreePrecisely();
     if (stopped()) return interrupted();
     if (std::isnan(answer_.accuracy)) answer_.source.clear();
     return answer_;
   }
 
  private:
-  static Scene<double> made(const Question& question) {
+  static Settings settingsOf(const Question& question) {
     RunSpec spec;
     findField("settings").set(spec, question.settings);
-    return makeScene<double>(question.scene, spec.settings);
+    return spec.settings;
   }
 
   bool stopped() const { return watch_.stop && watch_.stop->load(std::memory_order_relaxed); }
@@ -74,17 +89,25 @@ class Search {
   }
   bool complete(const Vec<double>& y) const { return y.size() >= judged() && y.head(judged()).allFinite(); }
 
-  // Uses the exact state, or the state in the reference files.
-  void known() {
-    if (scene_.exact) {
-      const Vec<double> exact = components(scene_.exact(question_.t_end));
-      if (complete(exact)) return keep("exact", exact, 0);
+  // Uses the closed form, if there is one for all of u, v, x.
+  bool exact() {
+    if (!scene_.exact) return false;
+    const Vec<double> exact = components(scene_.exact(question_.t_end));
+    if (exact.size() < judged() || exact.head(judged()).hasNaN()) return false;
+    keep("exact", exact, 0);
+    if (!complete(exact)) {
+      answer_.remark = "no solution at this time";
+    } else {
+      answer_.kappa = growthByClosedForm(question_.scene, settings_, question_.t_end);
     }
+    return true;
+  }
+
+  // Uses the state in the reference files.
+  void fromFile() {
     Vec<double> state = Vec<double>::Constant(n_.components(), kNoValue);
     double accuracy = 0;
-    RunSpec spec;
-    findField("settings").set(spec, question_.settings);
-    for (const auto& reference : references(question_.scene, spec.settings)) {
+    for (const auto& reference : references(question_.scene, settings_)) {
       const auto at = std::find(scene_.names.begin(), scene_.names.end(), reference.component);
       const double late = std::abs(reference.t - question_.t_end);
       if (at == scene_.names.end() || late > kSameTime * std::max(1.0, question_.t_end)) continue;
@@ -163,6 +186,28 @@ class Search {
     answer_.remark = disagreement > kEnough ? fmt::format("two runs differ by {:.1e}", disagreement) : "";
   }
 
+  bool canBePrecise() const {
+    return n_.switches == 0 && judged() <= kFewUnknowns && findScene(question_.scene).make_mp50 != nullptr;
+  }
+  // Keeps the state on which two runs in 50 digits agree, if it is more accurate than what double precision gave.
+  void agreePrecisely() {
+    const auto made = [&](const char* method) {
+      RunSpec precise = spec(method, "embedded", "locate", {kPreciseTolerance, 1});
+      precise.scalar = ScalarKind::kMp50;
+      precise.time_limit = kPreciseTimeLimit;
+      const RunRecord record = execute(precise, watch_);
+      return record.succeeded() ? componentsOf(record) : Vec<double>();
+    };
+    const Vec<double> first = made(kPreciseMethod);
+    const Vec<double> other = complete(first) ? made(kOtherPreciseMethod) : Vec<double>();
+    if (!complete(other)) return;
+    const double disagreement = difference(first, other);
+    if (answer_.accuracy <= disagreement) return;
+    keep("computed", first, disagreement);
+    answer_.other = {};
+    answer_.remark = "in 50 digits";
+  }
+
   // 0 if the scene has no switches, or if the run fails: a failure contradicts nothing.
   double differenceOfHistory(const Vec<double>& first) {
     if (n_.switches == 0 || question_.smooth) return 0;
@@ -204,6 +249,7 @@ class Search {
   }
 
   Question question_;
+  Settings settings_;
   Scene<double> scene_;
   Sizes n_;
   Watch watch_;

@@ -30,18 +30,20 @@ struct Answer {
   std::string source;  ///< `exact`, `file`, `computed`, or empty: none
   /// The accuracy of the state, measured as an error. NaN without a state.
   double accuracy = std::numeric_limits<double>::quiet_NaN();
-  double kappa = accuracy;  ///< see judge.h; NaN if the strict run fails
+  double kappa = accuracy;  ///< see judge.h; NaN if it is not known: the strict run fails, no closed form tells
   std::string remark;       ///< why there is no answer, or why it is doubtful
   double cpu_s = 0;
 
   const Vec<double>& stateFor(const std::string& family) const;
 };
 
-/// The exact state, or the state of the reference files, if these know all of u, v, x at t_end. Otherwise the state
+/// The exact state, with the growth of errors of its closed form and without any run, infinite where there is no
+/// solution; or the state of the reference files, if these know all of u, v, x at t_end. Otherwise the state
 /// on which two strict runs of different families agree (radau_iia_7, lobatto_iiic_6; index 2, switches located,
 /// small steps). If the scene switches, a third run that leaves the switches to its error estimate must follow the
-/// same history. All options are given explicitly, so that changed defaults change no answer. Also integrates the
-/// perturbed starts. After an interrupt the answer has the source `interrupted`.
+/// same history. All options are given explicitly, so that changed defaults change no answer. If double precision does
+/// not suffice, two runs in 50 digits decide for small systems without switches. Unless the state is exact, the
+/// perturbed starts are integrated, too. After an interrupt the answer has the source `interrupted`.
 Answer answerOf(const Question& question, const std::atomic<bool>* stop);
 
 inline constexpr const char* kInterruptedSource = "interrupted";

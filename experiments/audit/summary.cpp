@@ -53,13 +53,26 @@ constexpr Grouping kGroupings[] = {
     {"scene", cell<kScene>},
 };
 
-using Counts = std::array<int, 5>;
+// Successes with an error above the bar that the judgement does not count: of runs that are set aside, of multipliers,
+// and at earlier times.
+constexpr const char* kBeside[] = {"wrong_set_aside", "wrong_z", "wrong_way"};
 
-Counts& operator+=(Counts& counts, std::string_view judgement) {
+// The judgements in their order, then those of kBeside.
+using Counts = std::array<int, 5 + std::size(kBeside)>;
+
+void add(Counts& counts, const Table& t, const TableRow& row) {
   const auto names = judgementNames();
+  const std::string& judgement = textAt(t, row, "judgement");
   const auto at = std::find(names.begin(), names.end(), judgement);
   if (at != names.end()) ++counts[static_cast<std::size_t>(at - names.begin())];
-  return counts;
+  if (!succeededAt(t, row)) return;
+  const bool aside = judgement == nameOf(Judgement::kIllConditioned);
+  const double largest = bar(numberAt(t, row, "tolerance"));
+  const auto isAbove = [&](const char* error) { return numberAt(t, row, error) > largest; };
+  std::size_t beside = names.size();
+  counts[beside++] += aside && isAbove("error");
+  counts[beside++] += !aside && isAbove("error_z");
+  counts[beside] += !aside && isAbove("error_way");
 }
 
 struct WrongSuccess {
@@ -97,15 +110,16 @@ Table summaryTable(const std::filesystem::path& file) {
   const Table audit = forEachRow(file, [&](const Table& names, const TableRow& row) {
     for (std::size_t by = 0; by < std::size(kGroupings); ++by) {
       const std::string group = kGroupings[by].group(names, row);
-      if (!group.empty()) groups[by][group] += textAt(names, row, "judgement");
+      if (!group.empty()) add(groups[by][group], names, row);
     }
   });
   Table table{audit.head, {"by", "group", "runs"}, {}};
   for (const auto name : judgementNames()) table.columns.emplace_back(name);
+  table.columns.insert(table.columns.end(), std::begin(kBeside), std::end(kBeside));
   for (std::size_t by = 0; by < std::size(kGroupings); ++by) {
     for (const auto& [group, counts] : groups[by]) {
       int all = 0;
-      for (const int count : counts) all += count;
+      for (std::size_t i = 0; i < judgementNames().size(); ++i) all += counts[i];
       TableRow row{kGroupings[by].by, group, std::to_string(all)};
       for (const int count : counts) row.push_back(std::to_string(count));
       table.rows.push_back(std::move(row));
@@ -119,6 +133,7 @@ std::string summaryText(const std::filesystem::path& audit, const Table& summary
   const auto print = [&](std::string_view by, std::string_view title) {
     text += fmt::format("{:<42}{:>7}", title, "runs");
     for (const auto name : judgementNames()) text += fmt::format("{:>16}", name);
+    for (const auto* name : kBeside) text += fmt::format("{:>16}", name);
     text += '\n';
     for (const auto& row : summary.rows) {
       if (row[0] != by) continue;

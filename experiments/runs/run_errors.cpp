@@ -26,7 +26,8 @@ struct Deviation {
   double scale;      // the magnitude below which errors are absolute
   double ratio;      // atol / rtol
 
-  double error() const { return distance / std::max(magnitude, scale); }
+  // Infinite where there is no solution.
+  double error() const { return std::isinf(magnitude) ? magnitude : distance / std::max(magnitude, scale); }
 };
 
 void raise(RunErrors& errors, const Deviation& d) {

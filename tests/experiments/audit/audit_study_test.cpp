@@ -108,7 +108,7 @@ TEST_F(SmallAudit, JudgesEveryRun) {
     }
     EXPECT_EQ(specKey(solveSpec(parsed(textAt(table, row, "command")))), textAt(table, row, "key"));
   }
-  EXPECT_GT(counts["right"], 30);
+  EXPECT_GT(counts["right"], 20);
   const Table summary = readTable(folder() / "audit_summary.csv");
   for (const char* by :
        {"all", "configuration", "treatment", "scene", "family", "formulation", "configuration_treatment"}) {
@@ -121,7 +121,8 @@ TEST_F(SmallAudit, JudgesEveryRun) {
     EXPECT_EQ(runs, 60) << by;
     EXPECT_EQ(right, counts["right"]) << by;
   }
-  EXPECT_TRUE(containsAll(*text_, {"by configuration", "default", "embedded", "paper", "variable"}));
+  EXPECT_TRUE(containsAll(*text_, {"by configuration", "default", "embedded", "paper", "variable", "the error bar",
+                                   "second / first", "the solver's own word"}));
 }
 
 TEST_F(SmallAudit, FindsADamagedResult) {
@@ -132,16 +133,17 @@ TEST_F(SmallAudit, FindsADamagedResult) {
   std::ostringstream quiet;
   const Answers answers = answersTo(questions, folder() / "references.csv", 2, quiet);
   EXPECT_EQ(quiet.str().find("runs made"), std::string::npos) << "all of them are known";
+  const auto bars = readStates(folder() / "states.csv", "bar");
   const auto audited = [&](const std::map<std::string, Vec<double>>& ends) {
-    Table written{{}, {"key", "state"}, {}};
-    for (const auto& [key, state] : ends) written.rows.push_back({key, vectorText(state)});
+    Table written{{}, {"key", "state", "bar"}, {}};
+    for (const auto& [key, state] : ends) written.rows.push_back({key, vectorText(state), vectorText(bars.at(key))});
     return ofFile(written, [&](const auto& file) {
       return writtenBy([&](const auto& to) { writeAudit(drawn, folder() / "runs.csv", file, answers, to); });
     });
   };
   const Table table = audited(states);
-  // Moves the first component of all right runs by `bars` times the bar.
-  const auto moved = [&](double bars) {
+  // Moves the first component of all right runs by `times` the bar.
+  const auto moved = [&](double times) {
     auto other = states;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const auto spec = drawn[i].spec;
@@ -149,12 +151,12 @@ TEST_F(SmallAudit, FindsADamagedResult) {
       const auto scale = makeScene<double>(spec.scene, spec.settings).scale;
       const Vec<double>& state = states.at(table.rows[i][1]);
       const double size = std::max(std::abs(state[0]), scale.size() > 0 ? scale[0] : 1);
-      other.at(table.rows[i][1])[0] = state[0] + bars * bar(spec.options.tolerances.atol) * size;
+      other.at(table.rows[i][1])[0] = state[0] + times * bar(numberAt(table, table.rows[i], "tolerance")) * size;
     }
     return audited(other);
   };
   const Table same = moved(0), damaged = moved(3);
-  int checked = 0;
+  int checked = 0, covered = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     EXPECT_EQ(same.rows[i], table.rows[i]);
     // An error of several bars is detected only if the bar is below 1.
@@ -162,8 +164,13 @@ TEST_F(SmallAudit, FindsADamagedResult) {
     if (!sharp || textAt(table, table.rows[i], "judgement") != "right") continue;
     EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << commandOf(drawn[i]);
     ++checked;
+    // 3000 tolerances are beyond three error bars of at most 100.
+    if (!(numberAt(table, table.rows[i], "error_bar_tolerances") < 100)) continue;
+    EXPECT_GT(numberAt(damaged, damaged.rows[i], "part_of_cover"), 1) << commandOf(drawn[i]);
+    covered += numberAt(table, table.rows[i], "part_of_cover") <= 1;
   }
-  EXPECT_GT(checked, 20);
+  EXPECT_GT(checked, 15);
+  EXPECT_GT(covered, 10);
   const auto text = ofFile(damaged, [](const auto& file) { return summaryText(file, summaryTable(file), 3); });
   EXPECT_TRUE(containsAll(text, {"the worst successes that are wrong", "irk solve "}));
 }
@@ -197,7 +204,9 @@ TEST_F(SmallAudit, InterruptedLeavesNoCounts) {
   }
   EXPECT_TRUE(containsAll(text, {"interrupted"}));
   EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit.csv"));
-  EXPECT_FALSE(std::filesystem::exists(copy.path() / "audit_summary.csv"));
+  for (const char* table : {"audit_summary.csv", "audit_error_bar.csv", "audit_own_word.csv"}) {
+    EXPECT_FALSE(std::filesystem::exists(copy.path() / table)) << table;
+  }
   EXPECT_EQ(readTable(copy.path() / "references.csv").rows, references.rows);
   const InterruptScope uninterrupted;  // the flag is false again
   EXPECT_EQ(auditRuns(*study_, copy.path(), 2, quiet_), *text_);

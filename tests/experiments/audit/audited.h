@@ -48,11 +48,11 @@ inline SolveOptions parsed(const std::string& command) {
   return options;
 }
 
-// The states of an exported states.csv by the keys of their runs.
-inline std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file) {
+// The states, or the error bars, of an exported states.csv by the keys of their runs.
+inline std::map<std::string, Vec<double>> readStates(const std::filesystem::path& file, const char* column = "state") {
   std::map<std::string, Vec<double>> states;
   const Table table = readTable(file);
-  for (const auto& row : table.rows) states[textAt(table, row, "key")] = parseVector(textAt(table, row, "state"));
+  for (const auto& row : table.rows) states[textAt(table, row, "key")] = parseVector(textAt(table, row, column));
   return states;
 }
 
