@@ -142,6 +142,29 @@ Real EventLocator<Real>::noiseOf(const State<Real>& state, Index i) {
   return noise;
 }
 
+namespace {
+
+/// The step sizes between which a switch becomes due.
+template <class Real>
+struct Bracket {
+  Real low, high;
+  bool due_at_high;  // by a solved step, not only on the dense output
+  Real resolution;
+};
+
+// The size to solve with next: the secant's, where that lies in the bracket. If the root is at the edge, just beyond
+// the last sign change; otherwise, and if the bracket is to be halved, in the middle. Secants converge within four
+// solves, unless g is far from smooth.
+template <class Real>
+Real nextSize(const Bracket<Real>& at, const Real& secant, bool beside_low, bool halves) {
+  if (!at.due_at_high && secant >= at.high) return at.high;
+  if (!halves && secant > at.low && secant < at.high) return secant;
+  const Real nudge = at.low + Real(2) * at.resolution;
+  return beside_low && nudge < at.high ? nudge : Real((at.low + at.high) / Real(2));
+}
+
+}  // namespace
+
 template <class Real>
 Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
                                            State<Real>& next, const Root& root) {
@@ -191,17 +214,10 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     }
     last_step = step;
     last_g = g;
-    Real guess = slope > Real(0) ? Real(step - g / slope + resolution / Real(2)) : low;
-    // Secants converge within four solves, unless g is far from smooth; then every second solve halves the bracket.
+    const Real secant = slope > Real(0) ? Real(step - g / slope + resolution / Real(2)) : low;
+    const bool beside_low = solves < 3 && slope > Real(0) && due < 0;
     const bool halves = due_at_high && solves >= kSecants && solves % 2 == 0;
-    if (!due_at_high && guess >= high) {
-      guess = high;
-    } else if (halves || !(guess > low && guess < high)) {
-      // If the root is at the edge, just beyond the last sign change; otherwise in the middle.
-      const Real nudge = low + Real(2) * resolution;
-      guess = solves < 3 && nudge < high && slope > Real(0) && due < 0 ? nudge : Real((low + high) / Real(2));
-    }
-    step = guess;
+    step = nextSize<Real>({low, high, due_at_high, resolution}, secant, beside_low, halves);
   }
   // Neither the time nor g is settled: a state somewhere in the bracket is no switch.
   result.outcome = Outcome::kNewtonFailed;

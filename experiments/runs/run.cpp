@@ -7,7 +7,7 @@
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
 #include "experiments/own/stuck.h"
-#include "experiments/runs/component_names.h"
+#include "experiments/runs/texts/component_names.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/setup.h"

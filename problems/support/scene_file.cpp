@@ -240,8 +240,8 @@ void completeStart(Scene<Real>& scene) {
   ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true, nullptr, scene.scale);
   StartReport report = consistent.apply(scene.start);
   if (report.outcome == Outcome::kNotFinite) {
-    // Exact derivatives can be 0/0 where differences are finite. How they were found does not matter to (a, k, z), which
-    // satisfy the residual; whether a run accepts these derivatives, its own option decides.
+    // Exact derivatives can be 0/0 where differences are finite. How they were found does not matter to (a, k, z),
+    // which satisfy the residual; whether a run accepts these derivatives, its own option decides.
     ConsistentStart<Real> by_differences(*system, DerivativeSource::kCentral, true, nullptr, scene.scale);
     if (by_differences.apply(scene.start).outcome == Outcome::kSuccess) return;
   }

@@ -22,7 +22,7 @@ enum class Outcome {
   kChattering,         ///< switches follow each other while no time passes
   kStalled,            ///< steps stay so small that the end is out of reach
   kDrift,              ///< the integration reached the end, but the state there violates the position constraints
-  kInaccurate,  ///< the error bar of the result exceeds 1000 tolerances (irk/error_bar.h)
+  kInaccurate,         ///< the error bar of the result exceeds 1000 tolerances (irk/error_bar.h)
 };
 
 /// Whether a shorter step may succeed: Newton's method failed, or its matrix is singular.

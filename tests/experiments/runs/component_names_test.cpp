@@ -1,4 +1,4 @@
-#include "experiments/runs/component_names.h"
+#include "experiments/runs/texts/component_names.h"
 
 #include <gtest/gtest.h>
 
