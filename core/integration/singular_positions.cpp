@@ -117,7 +117,9 @@ bool SingularPositions<Real>::explains(Outcome outcome, const State<Real>& state
 template <class Real>
 bool SingularPositions<Real>::lookAlong(const State<Real>& from, const State<Real>& to) {
   const double t = std::abs(static_cast<double>(to.t)), h = static_cast<double>(Real(to.t - from.t));
-  const double shortest = 16 * std::numeric_limits<double>::epsilon() * std::max(1.0, t / h);
+  // Shorter pieces end in the round-off of positions, where gradients point anywhere.
+  constexpr double kEps = std::numeric_limits<double>::epsilon(), kUnits = 1e4;
+  const double shortest = std::max(std::sqrt(kEps), kUnits * kEps * t / h);
   double at = 0, next = 1;
   const auto look = [&](double theta) {
     move(from, to, theta);
