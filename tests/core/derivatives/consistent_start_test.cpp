@@ -83,7 +83,8 @@ TEST(ConsistentStart, KeepsUndeterminedValuesWhereThatIsAllowed) {
   const auto kept = start(Equation::kNone, 1, 0.7);
   EXPECT_EQ(kept.report.outcome, Outcome::kSuccess) << kept.report.detail;
   EXPECT_EQ(kept.state.z()[0], 0.7);
-  EXPECT_EQ(start(Equation::kNone, 2, 0.7, false).report.outcome, Outcome::kSuccess);
+  EXPECT_EQ(start(Equation::kNone, 1, 0.7, false).report.outcome, Outcome::kSuccess);
+  EXPECT_EQ(start(Equation::kNone, 2, 0.7, false).report.outcome, Outcome::kInconsistentStart) << "x = 2 is not 1";
   EXPECT_EQ(start(Equation::kNone, 2, 0.7, true).report.outcome, Outcome::kInconsistentStart);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(start(Equation::kNone, nan, 0.7, false).report.outcome, Outcome::kNotFinite);
