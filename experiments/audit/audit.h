@@ -18,8 +18,9 @@ void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::
                 const Answers& answers, const std::filesystem::path& file);
 
 /// audit_summary.csv of an audit.csv: counts of judgements and of successes that are wrong beside them (judge.h), over
-/// all runs, and grouped by configuration, treatment, scene, family, formulation, and configuration with treatment. The
-/// group `bar` counts by configuration the runs that must not be wrong: those whose switches are treated by default or
+/// all runs of our own, and grouped by configuration, treatment, scene, family, formulation, and configuration with
+/// treatment; those of other libraries are in the groups `other_library` only. The group `bar` counts by configuration
+/// the runs that must not be wrong: those whose switches are treated by default or
 /// located, and those of scenes without switches.
 Table summaryTable(const std::filesystem::path& audit);
 

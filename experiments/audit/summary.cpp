@@ -20,7 +20,16 @@ namespace {
 struct Grouping {
   const char* by;
   std::string (*group)(const Table&, const TableRow&);
+  bool of_others = false;  // of the integrators of other libraries, else of ours
 };
+
+// The configuration, or the id of another library's integrator.
+constexpr const char* kIntegrator = "integrator";
+constexpr const char* kConfiguration = "configuration";
+
+bool isOurs(const Table& t, const TableRow& row) {
+  return textAt(t, row, kIntegrator) == textAt(t, row, kConfiguration);
+}
 
 bool hasToBeRight(const std::string& treatment) {
   return treatment == kDefaultTreatment || treatment == kNoSwitches || treatment == idOf(Discontinuity::kLocate);
@@ -30,7 +39,6 @@ template <const char* const& Column>
 std::string cell(const Table& t, const TableRow& row) {
   return textAt(t, row, Column);
 }
-constexpr const char* kConfiguration = "configuration";
 constexpr const char* kTreatment = "treatment";
 constexpr const char* kScene = "scene";
 constexpr const char* kFamily = "family";
@@ -51,6 +59,7 @@ constexpr Grouping kGroupings[] = {
      }},
     {"family", cell<kFamily>},
     {"scene", cell<kScene>},
+    {"other_library", cell<kIntegrator>, true},
 };
 
 // Successes with an error above the bar that the judgement does not count: of runs that are set aside, of multipliers,
@@ -90,7 +99,8 @@ struct WrongSuccesses {
 WrongSuccesses wrongOnes(const std::filesystem::path& file, std::size_t most) {
   WrongSuccesses wrong;
   forEachRow(file, [&](const Table& audit, const TableRow& row) {
-    if (textAt(audit, row, "judgement") != nameOf(Judgement::kWrong)) return;
+    const bool ours = isOurs(audit, row);
+    if (!ours || textAt(audit, row, "judgement") != nameOf(Judgement::kWrong)) return;
     const double error = numberAt(audit, row, "error");
     ++wrong.count;
     if (!(error <= numberAt(audit, row, "accumulated"))) ++wrong.unseen;
@@ -108,7 +118,9 @@ WrongSuccesses wrongOnes(const std::filesystem::path& file, std::size_t most) {
 Table summaryTable(const std::filesystem::path& file) {
   std::map<std::string, Counts> groups[std::size(kGroupings)];
   const Table audit = forEachRow(file, [&](const Table& names, const TableRow& row) {
+    const bool ours = isOurs(names, row);
     for (std::size_t by = 0; by < std::size(kGroupings); ++by) {
+      if (kGroupings[by].of_others == ours) continue;
       const std::string group = kGroupings[by].group(names, row);
       if (!group.empty()) add(groups[by][group], names, row);
     }
@@ -144,6 +156,7 @@ std::string summaryText(const std::filesystem::path& audit, const Table& summary
   };
   print("configuration", "by configuration");
   print("bar", "the same, switches by default or located");
+  print("other_library", "other libraries");
   const auto wrong = wrongOnes(audit, worst);
   if (wrong.count > 0) {
     text += fmt::format(

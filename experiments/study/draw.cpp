@@ -287,7 +287,12 @@ class Draw::Drawer {
     spec.discontinuity = Discontinuity::kLocate;
     set(spec, "formulation", formulation);
     set(spec, "discontinuity", treatment);
-    return remembered(fmt::format("{} {} {}", scene, formulation, treatment), spec);
+    std::string words;  // they may choose other equations, with other switches
+    for (const Parameter& p : findScene(scene).parameters) {
+      const auto given = settings.find(p.name);
+      if (!p.choices.empty() && given != settings.end()) words += " " + given->second;
+    }
+    return remembered(fmt::format("{} {} {}{}", scene, formulation, treatment, words), spec);
   }
 
   bool allowsMethod(const std::string& configuration, const std::string& method, bool algebraic) {

@@ -240,7 +240,7 @@ TEST(Run, IntegratesFromAnotherStart) {
 Table judgements(const std::vector<std::vector<std::string>>& rows) {
   return {{},
           {"configuration", "treatment", "scene", "family", "formulation", "judgement", "error", "tolerance", "command",
-           "accumulated", "outcome", "error_z", "error_way"},
+           "accumulated", "outcome", "error_z", "error_way", "integrator"},
           rows};
 }
 
@@ -252,15 +252,20 @@ TEST(AuditJudge, ErrorsAddUpOverStepsAndGrowWithKappa) {
 
 TEST(AuditSummary, CountsAndSortsByExcess) {
   const Table audit = judgements({
-      {"default", "default", "hires", "gauss", "index2", "right", "0", "1e-3", "a", "1", "success", "2", "nan"},
+      {"default", "default", "hires", "gauss", "index2", "right", "0", "1e-3", "a", "1", "success", "2", "nan",
+       "default"},
       {"default", "ignore", "hires", "gauss", "index2", "wrong", "9", "1e-3", "nine times the bar", "8", "success", "0",
-       "9"},
+       "9", "default"},
       {"default", "locate", "kaps", "gauss", "index2", "wrong", "5e-3", "1e-6", "five times", "6e-3", "success", "0",
-       "0"},
+       "0", "default"},
       {"paper", "no switches", "kaps", "radau_ia", "ggl", "unjudged", "nan", "1e-6", "d", "nan", "success", "nan",
-       "nan"},
-      {"paper", "smooth", "kaps", "radau_ia", "ggl", "ill_conditioned", "2", "1e-6", "e", "nan", "success", "2", "2"},
-      {"paper", "iterate", "kaps", "radau_ia", "ggl", "failed", "2", "1e-6", "f", "nan", "inaccurate", "2", "2"},
+       "nan", "paper"},
+      {"paper", "smooth", "kaps", "radau_ia", "ggl", "ill_conditioned", "2", "1e-6", "e", "nan", "success", "2", "2",
+       "paper"},
+      {"paper", "iterate", "kaps", "radau_ia", "ggl", "failed", "2", "1e-6", "f", "nan", "inaccurate", "2", "2",
+       "paper"},
+      {"default", "locate", "kaps", "cvode_bdf", "index2", "failed", "nan", "1e-6", "g", "nan", "stalled", "nan", "nan",
+       "cvode_bdf"},
   });
   const Table summary = ofFile(audit, summaryTable);
   const auto row = [&](const std::string& by, const std::string& group) {
@@ -271,6 +276,8 @@ TEST(AuditSummary, CountsAndSortsByExcess) {
   };
   // runs; right, failed, wrong, ill_conditioned, unjudged; wrong ones beside them: set aside, in z, on the way
   EXPECT_EQ(row("all", "all"), (TableRow{"6", "1", "1", "2", "1", "1", "1", "1", "1"}));
+  EXPECT_EQ(row("other_library", "cvode_bdf"), (TableRow{"1", "0", "1", "0", "0", "0", "0", "0", "0"}));
+  EXPECT_EQ(row("family", "cvode_bdf"), TableRow{}) << "of another library";
   EXPECT_EQ(row("configuration", "default"), (TableRow{"3", "1", "0", "2", "0", "0", "0", "1", "1"}));
   EXPECT_EQ(row("bar", "default"), (TableRow{"2", "1", "0", "1", "0", "0", "0", "1", "0"}));
   EXPECT_EQ(row("bar", "paper"), (TableRow{"1", "0", "0", "0", "0", "1", "0", "0", "0"}));
