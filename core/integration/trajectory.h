@@ -61,6 +61,7 @@ class Trajectory {
   std::string rejections() const;
 
  private:
+  bool passesSingularPosition();
   Outcome settle();
   Outcome restartAtSwitch();
   void takeOver(const CommittedStep<Real>& step);

@@ -7,6 +7,7 @@
 
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run.h"
+#include "experiments/runs/setup.h"
 
 namespace irk {
 namespace {
