@@ -14,10 +14,11 @@ namespace irk {
 
 namespace {
 
-// Whether the scheme and Newton's method have what the filter of the defect needs.
+// Whether the scheme and Newton's method have what the filter of the defect needs. One stage says nothing about how
+// smooth the motion is.
 template <class Real>
 bool hasFilter(const Scheme<Real>& scheme, const IntegratorOptions& options) {
-  return scheme.regular && scheme.first == 0 && scheme.tableau.stage_order >= 1 &&
+  return scheme.s > 1 && scheme.regular && scheme.first == 0 && scheme.tableau.stage_order >= 1 &&
          catalogue<NewtonKind>()[options.newton.kind].keeps_jacobian;
 }
 

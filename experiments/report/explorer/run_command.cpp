@@ -65,9 +65,10 @@ RunSpec specOf(const Row& row) {
   return spec;
 }
 
-// The spec that `--configuration` alone gives.
+// The spec that `--configuration` alone gives to `irk solve`, which measures an error bar unless it is told otherwise.
 RunSpec configured(const std::string& configuration) {
   RunSpec spec;
+  spec.error_bar = ErrorBarUse::kMeasured;
   try {
     findField("configuration").set(spec, configuration);
   } catch (const Misuse&) {
