@@ -245,7 +245,7 @@ std::string examplesOf(const std::string& verb) {
        "  irk solve slider_crank --method radau_iia_5 --tol 1e-8\n"
        "  irk solve van_der_pol --method radau_iia_9 --tol 1e-6 --plot vdp\n"
        "  irk solve bouncing_mass --out run.csv --points 500\n"
-       "  irk solve kepler --set e=0.1,0.3,0.5 --tol 1e-4,1e-6     all combinations, a line per run"},
+       "  irk solve kepler --set e=0.1,0.3 --tol 1e-4,1e-6         all combinations, a line per run"},
       {"run", "  irk run order --quick\n  irk run my_study.toml --jobs 4"},
       {"paper", "  irk paper --quick"},
       {"ensemble",

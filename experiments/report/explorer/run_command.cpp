@@ -20,7 +20,8 @@ namespace {
 // These have places of their own in a command.
 constexpr std::string_view kPlaced[] = {"scene", "settings", "configuration", "method", "h", "rtol", "atol", "t_end"};
 // Fields that do not distinguish solvers.
-constexpr std::string_view kLimits[] = {"max_steps", "time_limit", "threads", "reference", "reference_times"};
+constexpr std::string_view kLimits[] = {"max_steps", "time_limit",      "threads",
+                                        "reference", "reference_times", "error_bars"};
 
 template <class Names>
 bool isIn(const Names& names, std::string_view name) {

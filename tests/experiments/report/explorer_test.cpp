@@ -136,7 +136,7 @@ TEST(RunCommand, SaysNothingThatIsUsualAndQuotesForTheShell) {
   put("kappa", "0.10000000000000001");
   put("t_end", "3");
   const auto command = seriesCommand(runs, row);
-  EXPECT_EQ(command.text, "irk solve 'nobody'\\''s scene' --method radau_iia_5 --kappa 0.1 --t-end 3");
+  EXPECT_EQ(command.text, "irk solve 'nobody'\\''s scene' --method radau_iia_5 --kappa 0.1 --error-bar none --t-end 3");
   EXPECT_EQ(sweptOptions(runs, row), " --tol 1e-06");
   ASSERT_EQ(command.options.size(), 1u);
   EXPECT_EQ(command.options.front().first, "kappa");
