@@ -27,9 +27,10 @@ Vec<double> distances(const auto& a, const auto& b) {
 
 Vec<double> unknown(Index n) { return Vec<double>::Constant(n, std::numeric_limits<double>::quiet_NaN()); }
 
-// Sets `tolerances` and `worst`.
+// Sets `tolerances` and `worst`. `second`: the more accurate result, whose magnitudes count: a result that is wrong and
+// large would seem to be within a few tolerances of its own.
 template <class Real>
-void weigh(const State<Real>& result, const Tolerances& t, const Vec<double>& scale, ErrorBar& bar) {
+void weigh(const State<Real>& second, const Tolerances& t, const Vec<double>& scale, ErrorBar& bar) {
   Index place = 0;
   const auto add = [&](const Vec<double>& errors, const auto& y) {
     for (Index i = 0; i < errors.size(); ++i, ++place) {
@@ -44,9 +45,9 @@ void weigh(const State<Real>& result, const Tolerances& t, const Vec<double>& sc
     }
   };
   bar.tolerances = 0;
-  add(bar.u, result.u);
-  add(bar.v, result.v);
-  add(bar.x, result.x);
+  add(bar.u, second.u);
+  add(bar.v, second.v);
+  add(bar.x, second.x);
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   bar.v = distances<Real>(result.v, other.v);
   bar.x = distances<Real>(result.x, other.x);
   bar.z = distances<Real>(result.z(), other.z());
-  weigh(result, tolerances, scale, bar);
+  weigh(other, tolerances, scale, bar);
   return bar;
 }
 

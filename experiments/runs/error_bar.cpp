@@ -86,10 +86,10 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   const auto worst = static_cast<std::size_t>(std::max<Index>(bar.worst, 0));
   if (worst < scene.names.size()) measured.component = scene.names[worst];
   const Index nu = result.u.size(), nx = result.x.size();
-  measured.error = relative(bar.u, result.u, scene.scale, 0, measured.error);
-  measured.error = relative(bar.v, result.v, scene.scale, nu, measured.error);
-  measured.error = relative(bar.x, result.x, scene.scale, 2 * nu, measured.error);
-  measured.error_z = relative(bar.z, result.z(), scene.scale, 2 * nu + nx, measured.error_z);
+  measured.error = relative(bar.u, second.state.u, scene.scale, 0, measured.error);
+  measured.error = relative(bar.v, second.state.v, scene.scale, nu, measured.error);
+  measured.error = relative(bar.x, second.state.x, scene.scale, 2 * nu, measured.error);
+  measured.error_z = relative(bar.z, second.state.z(), scene.scale, 2 * nu + nx, measured.error_z);
   if (spec.error_bar == ErrorBarUse::kRefined) solution.state = second.state;
   return measured;
 }

@@ -10,7 +10,8 @@ namespace irk {
 /// The measured error of a result, component by component, in the scene's unknowns and their units. NaN: unknown.
 struct ErrorBar {
   Vec<double> u, v, x, z;  ///< |result - second result|
-  /// The largest of |e_i| / (atol scale_i + rtol |y_i|) over u, v and x; NaN if the bar is unknown.
+  /// The largest of |e_i| / (atol scale_i + rtol |y_i|) over u, v and x, with y of the second result; NaN if the bar is
+  /// unknown.
   double tolerances = std::numeric_limits<double>::quiet_NaN();
   Index worst = -1;     ///< the component of (u, v, x) with the largest of them
   std::string problem;  ///< why the bar is unknown, in one line; empty if it is known

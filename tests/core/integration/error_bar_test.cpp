@@ -58,12 +58,16 @@ TEST(ErrorBar, IsTheErrorOfTheResult) {
         ASSERT_TRUE(m.bar.known()) << m.bar.problem;
         const double error = std::abs(m.first.state.x[0] - std::cos(t_end));
         EXPECT_LE(error, 3 * (m.bar.x[0] + tol)) << "L " << L << " tol " << tol;
-        if (error > tol) EXPECT_LE(m.bar.x[0], 3 * error) << "L " << L << " tol " << tol;
+        if (error > tol) {
+          EXPECT_LE(m.bar.x[0], 3 * error) << "L " << L << " tol " << tol;
+        }
         const double error_u = std::abs(m.first.state.u[0] - std::sin(t_end));
         EXPECT_LE(error_u, 3 * (m.bar.u[0] + tol));
         // One tolerance of x is tol (1 + |cos t_end|).
-        if (L > 1) EXPECT_NEAR(m.bar.tolerances, m.bar.x[0] / (tol * (1 + std::abs(m.first.state.x[0]))), 1e-6);
-        if (L > 1) EXPECT_EQ(m.bar.worst, 2);  // u, v, x
+        if (L > 1) {
+          EXPECT_NEAR(m.bar.tolerances, m.bar.x[0] / (tol * (1 + std::abs(m.second.state.x[0]))), 1e-6);
+          EXPECT_EQ(m.bar.worst, 2);  // u, v, x
+        }
       }
     }
   }

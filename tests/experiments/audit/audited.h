@@ -37,6 +37,7 @@ inline SolveOptions parsed(const std::string& command) {
   while (in >> option >> value) {
     std::string field = option.substr(2);
     std::replace(field.begin(), field.end(), '-', '_');
+    if (field == kErrorBarKey) field = axisName<ErrorBarUse>();
     if (field == "set") {
       options.settings.push_back(value);
     } else if (field == "tol") {

@@ -26,13 +26,34 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
       program({"solve", "slider_crank", "--method", "radau_iia_5", "--tol", "1e-10", "--t-end", "1", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_EQ(keysOf(json),
-            (std::set<std::string>{"schema", "version", "outcome", "t", "u", "v", "x", "z", "names", "units", "error",
-                                   "mescd", "scd", "drift", "reference", "steps", "counters", "cpu_s", "spec"}));
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"schema",
+                                                 "version",
+                                                 "outcome",
+                                                 "t",
+                                                 "u",
+                                                 "v",
+                                                 "x",
+                                                 "z",
+                                                 "names",
+                                                 "units",
+                                                 "error",
+                                                 "mescd",
+                                                 "scd",
+                                                 "drift",
+                                                 "reference",
+                                                 "error_bar",
+                                                 "error_bar_tolerances",
+                                                 "error_bar_component",
+                                                 "error_bar_cpu_s",
+                                                 "steps",
+                                                 "counters",
+                                                 "cpu_s",
+                                                 "spec"}));
   EXPECT_EQ(json["reference"], "file");
   EXPECT_EQ(keysOf(json["steps"]), (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),
-            (std::set<std::string>{"residuals", "jacobians", "factorizations", "solves", "newton_iterations"}));
+            (std::set<std::string>{"residuals", "dual_residuals", "jacobians", "factorizations", "mass_factorizations",
+                                   "solves", "newton_iterations"}));
   EXPECT_EQ(json["outcome"], "success");
   EXPECT_NEAR(json["u"][0].get<double>(), 14.127892217751, 1e-7);
   EXPECT_NEAR(json["v"][0].get<double>(), 20.537482851413, 1e-7);
@@ -73,7 +94,8 @@ TEST(Cli, AnExactSolutionIsAReference) {
 
 // Other libraries' codes make such errors on this circuit; it is no failure.
 TEST(Cli, AKnownLargeErrorOfASuccessIsALine) {
-  const std::vector<std::string> run{"solve", "ringmod", "--method", "cvode_bdf", "--t-end", "1e-3", "--tol"};
+  const std::vector<std::string> run{"solve", "ringmod",     "--method", "cvode_bdf", "--t-end",
+                                     "1e-3",  "--error-bar", "none",     "--tol"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), run.begin(), run.end());
     return program(more);
@@ -82,7 +104,7 @@ TEST(Cli, AKnownLargeErrorOfASuccessIsALine) {
   EXPECT_EQ(large.status, 0);
   EXPECT_TRUE(containsAll(large.out, {"\nthe error is ", "e+03 tolerances, though the run is a success\n"}));
   EXPECT_TRUE(containsAll(with({"1e-6,1e-3"}).out, {"  the error is ", "e+03 tolerances\n"}));
-  const auto small = program({"solve", "van_der_pol", "--method", "cvode_bdf", "--tol", "1e-6"});
+  const auto small = program({"solve", "van_der_pol", "--method", "cvode_bdf", "--tol", "1e-6", "--error-bar", "none"});
   EXPECT_EQ(small.out.find("tolerances"), std::string::npos) << small.out;
 }
 
