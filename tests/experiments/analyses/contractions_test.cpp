@@ -18,7 +18,7 @@ RunSpec kepler() {
   spec.method = "radau_iia_3";
   spec.t_end = 1;
   spec.options.newton.kind = NewtonKind::kModified;
-  spec.options.tolerances = {.rtol = 1e-5, .atol = 1e-5};
+  spec.options.tolerances = {.rtol = 1e-6, .atol = 1e-6};
   return spec;
 }
 
