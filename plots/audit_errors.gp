@@ -1,11 +1,11 @@
 # Meaning of the tolerance: error divided by tolerance for every judged success, over the tolerance, with the bar
-# above which a success is wrong; one panel per configuration.
+# above which a success is wrong; one panel per configuration (other libraries have none).
 #   gnuplot -e "data='results/audit'; out='audit_errors'" audit_errors.gp
 # Reads audit.csv. Tolerances are powers of ten; marks are spread around them so that they do not overlap.
 load system('dirname "'.ARG0.'"')."/style.gp"
 file = data.'/audit.csv'
 configurations = "default paper embedded variable"
-of(i) = is("configuration", word(configurations, i)) && (is("judgement", 'right') || is("judgement", 'wrong'))
+of(i) = is("integrator", word(configurations, i)) && (is("judgement", 'right') || is("judgement", 'wrong'))
 undefine N_*
 stats file using (of(1) || of(2) || of(3) || of(4) ? 1 : NaN) name "N" nooutput
 if (!exists("N_sum") || N_sum == 0) { eval absence(file) }

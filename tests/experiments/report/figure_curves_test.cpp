@@ -119,9 +119,10 @@ TEST(FigureCurves, Audit) {
 TEST(FigureCurves, AuditErrors) {
   Drawing drawing;
   std::vector<Cells> rows;
-  const auto add = [&](const char* configuration, const char* judgement, double tolerance, double ratio) {
+  const auto add = [&](const char* integrator, const char* judgement, double tolerance, double ratio) {
     rows.push_back({{"run", std::to_string(rows.size())},
-                    {"configuration", configuration},
+                    {"integrator", integrator},
+                    {"configuration", integrator == std::string("cvode_bdf") ? "embedded" : integrator},
                     {"judgement", judgement},
                     {"treatment", "default"},
                     {"tolerance", exact(tolerance)},
@@ -132,7 +133,9 @@ TEST(FigureCurves, AuditErrors) {
     add(configuration, "right", 1e-8, 100);
     add(configuration, "wrong", 1e-6, 1e6);
   }
-  drawing.put("audit.csv", {"run", "configuration", "judgement", "treatment", "tolerance", "error"}, rows);
+  add("cvode_bdf", "wrong", 1e-6, 1e4);  // of another library: in no panel
+  drawing.put("audit.csv", {"run", "integrator", "configuration", "judgement", "treatment", "tolerance", "error"},
+              rows);
   const Svg svg = drawing.draw("audit_errors.gp", "");  // the third panel has labels on both axes
   auto right = svg.marks('c', 1, kLog, kLog), wrong = svg.marks('c', 3, kLog, kLog);
   ASSERT_EQ(right.size(), 2u);
