@@ -45,6 +45,7 @@ const std::vector<std::string> kColumns{"run",
                                         "judgement",
                                         "error",
                                         "error_over_tolerance",
+                                        "error_in_tolerances",
                                         "error_z",
                                         "error_way",
                                         "error_bar",
@@ -65,9 +66,10 @@ struct Result {
   Vec<double> state, bars;
 };
 
-// Errors and error bars of u, v, x together, and of z; and the part of its cover that an error reaches (coverage.h).
+// Errors and error bars of u, v, x together, and of z; the error in tolerances, and the part of its cover that an error
+// reaches (coverage.h).
 struct StateErrors {
-  double judged = kNotJudged, multipliers = kNotJudged, part_of_cover = kNotJudged;
+  double judged = kNotJudged, multipliers = kNotJudged, in_tolerances = kNotJudged, part_of_cover = kNotJudged;
   double bar = kNotJudged, bar_of_multipliers = kNotJudged;
 };
 
@@ -94,8 +96,10 @@ StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Resul
   if (size == 0 || reference.size() != size) return errors;
   errors.judged = scaledDifference(result.state, reference, scene.scale, 0, judged);
   errors.multipliers = scaledDifference(result.state, reference, scene.scale, judged, size);
-  errors.part_of_cover = partOfCover(
-      {result.state, result.bars, reference, scene.scale, spec.options.tolerances, answer.accuracy}, judged);
+  const MeasuredResult measured{result.state,   result.bars, reference, scene.scale, spec.options.tolerances,
+                                answer.accuracy};
+  errors.in_tolerances = errorInTolerances(measured, judged);
+  errors.part_of_cover = partOfCover(measured, judged);
   return errors;
 }
 
@@ -147,6 +151,7 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
           std::string(nameOf(judgement)),
           numberText(errors.judged),
           numberText(errors.judged / tolerance),
+          numberText(errors.in_tolerances),
           numberText(errors.multipliers),
           numberText(errorOnTheWay(spec, runs, row)),
           numberText(errors.bar),

@@ -24,7 +24,7 @@ constexpr double kOfBar = 0.1;  // a reference is known if it is this part of th
 // What the tables need of a row of audit.csv.
 struct Facts {
   bool success, measured, by_peer, to_the_end;
-  double tolerance, error, accuracy, bar, part_of_cover, cost;
+  double tolerance, error, in_tolerances, accuracy, bar, part_of_cover, cost;
 
   bool known() const { return accuracy <= kOfBar * audit::bar(tolerance) && !std::isnan(error); }
 };
@@ -39,6 +39,7 @@ Facts factsIn(const Table& t, const TableRow& row) {
           .to_the_end = outcome == "success" || outcome == "inaccurate" || outcome == "drift",
           .tolerance = number("tolerance"),
           .error = number("error"),
+          .in_tolerances = number("error_in_tolerances"),
           .accuracy = number("accuracy"),
           .bar = error_bar,
           .part_of_cover = number("part_of_cover"),
@@ -62,7 +63,7 @@ struct Bars {
         sharpness.push_back(run.bar / run.error);
       }
     }
-    if (run.to_the_end && run.known() && run.error < kRightTolerances * run.tolerance) {
+    if (run.to_the_end && run.known() && run.in_tolerances < kRightTolerances) {
       ++near;
       if (!run.success) ++false_alarms;
     }

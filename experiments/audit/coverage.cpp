@@ -26,4 +26,16 @@ double partOfCover(const MeasuredResult& r, Index judged) {
   return largest;
 }
 
+double errorInTolerances(const MeasuredResult& r, Index judged) {
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  for (Index i = 0; i < judged; ++i) {
+    if (std::isnan(r.reference[i])) continue;
+    const double scale = i < r.scale.size() ? r.scale[i] : 1;
+    const double tolerance = r.tolerances.atol * scale + r.tolerances.rtol * std::abs(r.reference[i]);
+    const double size = std::abs(r.state[i] - r.reference[i]) / tolerance;
+    largest = std::fmax(largest, std::isfinite(size) ? size : std::numeric_limits<double>::infinity());
+  }
+  return largest;
+}
+
 }  // namespace irk::audit

@@ -21,4 +21,8 @@ struct MeasuredResult {
 /// component has a reference; infinite where there is no solution.
 double partOfCover(const MeasuredResult& result, Index judged);
 
+/// The largest |y - reference| / (atol scale + rtol |reference|) over the first `judged` components: the measure of
+/// error bars. NaN if none has a reference; infinite where there is no solution.
+double errorInTolerances(const MeasuredResult& result, Index judged);
+
 }  // namespace irk::audit

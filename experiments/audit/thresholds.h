@@ -17,6 +17,9 @@
 //                 variable order 1.1.
 //   false alarms  runs to the end whose true error in u, v and x is below 100 tolerances and that end as anything but
 //                 success, over all runs with such an error. Asked: at most 0.2 %.
+//                 Changed on 2026-11-26, after the first draws: a component's tolerance is atol scale + rtol |ref|, as
+//                 for the bar itself. Before it was max(rtol, atol) max(|ref|, scale), by which an error of 1800 of the
+//                 tolerances that the user had given counted as 6 where rtol was 1000 atol.
 //
 // Beside it, as the solver's own word, without error bar: successes with an error above 100 and above 1000 tolerances,
 // for each integrator of this program and of others.

@@ -184,6 +184,19 @@ TEST(AuditReference, KnowsTheConditioningFromPerturbedRuns) {
   EXPECT_LT(answer("pump", "", false, 40).kappa, kLargestKappa);
 }
 
+// A component's own tolerance counts, with the magnitude of the reference, not of the result.
+TEST(AuditCoverage, MeasuresErrorsInTheTolerancesOfEachComponent) {
+  const auto sizeOf = [](const Vec<double>& state, const Vec<double>& reference, Index judged) {
+    return errorInTolerances({state, {}, reference, vec({2, 1}), {1e-2, 1e-4}, 0}, judged);
+  };
+  EXPECT_NEAR(sizeOf(vec({3.1}), vec({3}), 1), 0.1 / (1e-4 * 2 + 1e-2 * 3), 1e-9);
+  EXPECT_NEAR(sizeOf(vec({300, 0}), vec({0, 0}), 2), 300 / (1e-4 * 2), 1e-6);
+  EXPECT_NEAR(sizeOf(vec({3, 5}), vec({3, 4}), 1), 0, 1e-12);  // the second one is a multiplier
+  EXPECT_NEAR(sizeOf(vec({3, 5}), vec({kUnknown, 4}), 2), 1 / (1e-4 + 1e-2 * 4), 1e-6);
+  EXPECT_TRUE(std::isnan(sizeOf(vec({3}), vec({kUnknown}), 1)));
+  EXPECT_EQ(sizeOf(vec({3}), vec({kInfinity}), 1), kInfinity);
+}
+
 // One component, scale 2, tolerances 1e-3 (absolute) and 1e-2 (relative): at y = 3 one tolerance is 0.032.
 TEST(AuditCoverage, AllowsThreeBarsAndTolerances) {
   const auto part = [](double error, double bar, double accuracy = 0) {
