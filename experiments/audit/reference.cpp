@@ -11,6 +11,7 @@
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
 #include "experiments/base/numbers.h"
+#include "experiments/runs/error_bar.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/study/dice.h"
@@ -21,9 +22,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kFirstMethod = "radau_iia_7";
+constexpr auto kFirst = IndependentFamily::kRadauIIA, kOther = IndependentFamily::kLobattoIIIC;
 constexpr const char* kFirstFamily = "radau";
-constexpr const char* kOtherMethod = "lobatto_iiic_6";
 constexpr double kTimeLimit = 5;       // CPU seconds of a strict run
 constexpr double kSameTime = 1e-12;    // relative difference of a reference's time and t_end
 constexpr double kEnough = 1e-10;      // an agreement that suffices to judge every tolerance
@@ -39,11 +39,11 @@ constexpr Strictness kStrictnesses[] = {{1e-12, 100}, {1e-12, 2000}, {1e-11, 500
 constexpr Strictness kIgnoring{1e-8, 1000};
 
 // Where double precision does not suffice, as for a motion that multiplies errors by 1e6 and more, two runs in 50
-// digits decide: for systems without switches of few unknowns, since each number costs some hundred times as much.
+// digits decide: for systems without switches of few unknowns, since each number costs some hundred times as much. The
+// first tolerance suffices where errors grow by up to 1e8.
 constexpr Index kFewUnknowns = 8;
-constexpr double kPreciseTolerance = 1e-20, kPreciseTimeLimit = 20;
-constexpr const char* kPreciseMethod = "radau_iia_9";
-constexpr const char* kOtherPreciseMethod = "lobatto_iiic_8";
+constexpr double kPreciseTolerances[] = {1e-14, 1e-20};
+constexpr double kPreciseTimeLimit = 20;
 
 class Search {
  public:
@@ -63,7 +63,10 @@ class Search {
       if (stopped()) return interrupted();
       attempt(strictness, compute);
     }
-    if (compute && !(answer_.accuracy <= kEnough) && canBePrecise()) agreePrecisely();
+    for (const double tolerance : kPreciseTolerances) {
+      if (stopped()) return interrupted();
+      if (compute && !(answer_.accuracy <= kEnough) && canBePrecise()) agreePrecisely(tolerance);
+    }
     if (stopped()) return interrupted();
     if (std::isnan(answer_.accuracy)) answer_.source.clear();
     return answer_;
@@ -126,17 +129,23 @@ class Search {
     answer_.accuracy = accuracy;
   }
 
-  RunSpec spec(const char* method, const char* estimate, const char* treatment, const Strictness& strictness) const {
+  RunSpec spec(IndependentFamily family, const Strictness& strictness) const {
+    RunSpec asked;
+    asked.scene = question_.scene;
+    asked.settings = settings_;
+    if (question_.smooth) asked.discontinuity = Discontinuity::kSmooth;
+    asked.t_end = question_.t_end;
+    asked.time_limit = kTimeLimit;
     const double length = question_.t_end - scene_.start.t;
-    return parseSpec(
-        fmt::format("scene={};settings={};configuration=default;method={};formulation=index2;scaling=on;"
-                    "discontinuity={};scalar=double;derivatives=automatic;newton=simplified;solver=schur;"
-                    "storage=automatic;predictor=extrapolated;estimate={};control=predictive;order=fixed;"
-                    "summation=compensated;multipliers=consistent;norm=mixed;jacobian=full;jacobian_point=start;"
-                    "h_max={};rtol={};atol={};t_end={};time_limit={}",
-                    question_.scene, question_.settings, method, question_.smooth ? "smooth" : treatment, estimate,
-                    numberText(length / strictness.steps), numberText(strictness.tolerance),
-                    numberText(strictness.tolerance), numberText(question_.t_end), kTimeLimit));
+    return strictRun(asked, family, strictness.tolerance, length / strictness.steps);
+  }
+  RunSpec ignoring() const {
+    RunSpec spec = this->spec(kFirst, kIgnoring);
+    spec.discontinuity = Discontinuity::kIgnore;
+    spec.method = "radau_iia_3";
+    spec.options.order = OrderControl::kFixed;
+    spec.options.step.estimate = ErrorEstimate::kRichardson;
+    return spec;
   }
 
   // Empty after a failure; `remark_` then has the reason.
@@ -152,7 +161,7 @@ class Search {
   }
 
   void attempt(const Strictness& strictness, bool compute) {
-    const RunSpec strict = spec(kFirstMethod, "embedded", "locate", strictness);
+    const RunSpec strict = spec(kFirst, strictness);
     const Vec<double> first = integrate(strict, scene_.start);
     if (!complete(first)) {
       if (answer_.remark.empty()) answer_.remark = remark_;
@@ -169,7 +178,7 @@ class Search {
   }
 
   void agree(const Vec<double>& first, const Strictness& strictness) {
-    const Vec<double> other = integrate(spec(kOtherMethod, "richardson", "locate", strictness), scene_.start);
+    const Vec<double> other = integrate(spec(kOther, strictness), scene_.start);
     if (!complete(other)) {
       if (answer_.remark.empty()) answer_.remark = remark_;
       return;
@@ -190,16 +199,16 @@ class Search {
     return n_.switches == 0 && judged() <= kFewUnknowns && findScene(question_.scene).make_mp50 != nullptr;
   }
   // Keeps the state on which two runs in 50 digits agree, if it is more accurate than what double precision gave.
-  void agreePrecisely() {
-    const auto made = [&](const char* method) {
-      RunSpec precise = spec(method, "embedded", "locate", {kPreciseTolerance, 1});
+  void agreePrecisely(double tolerance) {
+    const auto made = [&](IndependentFamily family) {
+      RunSpec precise = spec(family, {tolerance, 1});
       precise.scalar = ScalarKind::kMp50;
       precise.time_limit = kPreciseTimeLimit;
       const RunRecord record = execute(precise, watch_);
       return record.succeeded() ? componentsOf(record) : Vec<double>();
     };
-    const Vec<double> first = made(kPreciseMethod);
-    const Vec<double> other = complete(first) ? made(kOtherPreciseMethod) : Vec<double>();
+    const Vec<double> first = made(kFirst);
+    const Vec<double> other = complete(first) ? made(kOther) : Vec<double>();
     if (!complete(other)) return;
     const double disagreement = difference(first, other);
     if (answer_.accuracy <= disagreement) return;
@@ -211,7 +220,7 @@ class Search {
   // 0 if the scene has no switches, or if the run fails: a failure contradicts nothing.
   double differenceOfHistory(const Vec<double>& first) {
     if (n_.switches == 0 || question_.smooth) return 0;
-    const Vec<double> y = integrate(spec("radau_iia_3", "richardson", "ignore", kIgnoring), scene_.start);
+    const Vec<double> y = integrate(ignoring(), scene_.start);
     return complete(y) ? difference(y, first) : 0;
   }
 

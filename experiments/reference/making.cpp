@@ -11,6 +11,7 @@
 #include "experiments/base/progress.h"
 #include "experiments/reference/agreement.h"
 #include "experiments/reference/attempt.h"
+#include "experiments/runs/error_bar.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/setup.h"
 
@@ -53,20 +54,18 @@ ReferenceSpecs specsInFiftyDigits(const ReferenceQuestion& question, const Refer
   return specs;
 }
 
-// All options are given explicitly, so that changed defaults change no reference.
 ReferenceSpecs specsInDouble(const ReferenceQuestion& question, double length, const Strictness& strictness) {
+  RunSpec asked;
+  asked.scene = question.scene;
+  asked.settings = question.settings;
+  asked.t_end = question.t_end;
+  if (question.smooth) asked.discontinuity = Discontinuity::kSmooth;
   ReferenceSpecs specs;
   for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     const bool fine = i >= 2, radau = i % 2 == 1;
-    const std::string tolerance = numberText(strictness.tolerance * (fine ? 0.1 : 1));
-    specs[i] = resolved(parseSpec(fmt::format(
-        "scene={};settings={};configuration=default;method={};formulation=index2;scaling=on;discontinuity={};"
-        "scalar=double;derivatives=automatic;newton=simplified;solver=schur;storage=automatic;"
-        "predictor=extrapolated;estimate={};control=predictive;order=fixed;summation=compensated;"
-        "multipliers=consistent;norm=mixed;jacobian=full;jacobian_point=start;h_max={};rtol={};atol={};t_end={}",
-        question.scene, settingsText(question.settings), radau ? "radau_iia_7" : "lobatto_iiic_6",
-        question.smooth ? "smooth" : "locate", radau ? "embedded" : "richardson",
-        numberText(length / strictness.steps / (fine ? 2 : 1)), tolerance, tolerance, numberText(question.t_end))));
+    const auto family = radau ? IndependentFamily::kRadauIIA : IndependentFamily::kLobattoIIIC;
+    specs[i] =
+        strictRun(asked, family, strictness.tolerance * (fine ? 0.1 : 1), length / strictness.steps / (fine ? 2 : 1));
   }
   return specs;
 }

@@ -58,6 +58,16 @@ RunSpec independentSpec(const RunSpec& spec) {
   return second;
 }
 
+RunSpec strictRun(const RunSpec& question, IndependentFamily family, double tolerance, double h_max) {
+  RunSpec loose = question;  // a run of the other family with ten times the tolerance
+  loose.method = family == IndependentFamily::kRadauIIA ? "lobatto_iiic_4" : "radau_iia_5";
+  loose.options.tolerances.rtol = loose.options.tolerances.atol = 10 * tolerance;
+  loose.options.step.h_max = h_max;
+  RunSpec strict = independentSpec(resolved(loose));
+  strict.options.tolerances.rtol = strict.options.tolerances.atol = tolerance;  // not rounded
+  return strict;
+}
+
 template <class Real>
 RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
                              const MeasuringWatch& watch) {

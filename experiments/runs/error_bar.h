@@ -28,6 +28,14 @@ struct RunErrorBar {
 /// maker of all independent runs.
 RunSpec independentSpec(const RunSpec& spec);
 
+/// Families of methods whose runs are independent of each other.
+enum class IndependentFamily { kRadauIIA, kLobattoIIIC };
+
+/// A strict run of the scene, settings, t_end and treatment of switches of `question` by methods of this family, as
+/// independentSpec makes them, with rtol = atol = `tolerance` and steps up to `h_max`. Two of them that agree are a
+/// reference.
+RunSpec strictRun(const RunSpec& question, IndependentFamily family, double tolerance, double h_max);
+
 /// Callbacks of the second integration, before each of its steps.
 struct MeasuringWatch {
   /// kSuccess: it goes on. Else it ends with that outcome.
