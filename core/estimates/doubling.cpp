@@ -68,14 +68,9 @@ class Doubling : public StepAttempt<Real> {
     const StepResult whole = whole_.attempt(whole_.stages(), from, h, coarse_);
     result.switch_at = whole.switch_at;
     if (!done(whole)) return result;
-    if (continues_ && has(guards_, Guard::kRoot) && whole_.leavesRoot(from)) {
-      result.outcome = Outcome::kNewtonFailed;
-      return result;
-    }
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
-    const double start_defect = watches_start_ && has(guards_, Guard::kRestart) ? half_.startDefect(from) : 0;
     Between between{};
     if (looks_) between = look(from, middle_);
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
@@ -88,8 +83,6 @@ class Doubling : public StepAttempt<Real> {
     }
     // Doubling sees no error where the whole step and its halves err alike: in the wrong mode, ...
     if (has(guards_, Guard::kSwitchEffect)) result.error = worse(result.error, order_, result.mode_error, 1);
-    // ... in a fast motion that both damp ...
-    result.error = worse(result.error, order_, start_defect, 1);
     // ... between the stages of both, and where the halves do not show the order p of 2^p - 1.
     if (looks_) result.error = worse(result.error, order_, unresolved(between), 1);
     return result;
@@ -101,20 +94,6 @@ class Doubling : public StepAttempt<Real> {
   void begin(double length) override {
     forget();
     if (looks_) looks_->defect.begin(length);
-    continues_ = restarted_ = watches_start_ = vague_start_ = false;
-  }
-  void restart() override {
-    forget();
-    continues_ = false;
-    restarted_ = watches_start_ = vague_start_ = true;
-  }
-  NextStep accepted(const AttemptResult& result, double h, double h_next) override {
-    // If this step ended with a restart, restart() was called before: the next step is the first one after it.
-    if (!std::exchange(restarted_, false)) {
-      watches_start_ = false;
-      continues_ = continues_ || !vague_start_ || whole_.tellsRates();
-    }
-    return StepAttempt<Real>::accepted(result, h, h_next);
   }
   int order() const override { return order_; }
   Index worstComponent() const override { return worst_; }
@@ -183,15 +162,12 @@ class Doubling : public StepAttempt<Real> {
   struct Looks {
     Looks(const StepAttemptSetup<Real>& setup, NewtonMatrix<Real>& halves)
         : filter(setup.system, setup.scheme(), setup.options, setup.jacobian, halves, setup.norm, setup.counters),
-          defect(filter, setup.scheme(), setup.system.sizes(), Defect<Real>::Start::kLookAt) {}
+          defect(filter, setup.scheme(), setup.system.sizes(), Defect<Real>::Start::kLookAt, setup.options.step.looks) {
+    }
     EmbeddedEstimate<Real> filter;
     Defect<Real> defect;
   };
   std::unique_ptr<Looks> looks_;  // null for the paper's estimates, and without a filter
-  bool watches_start_ = false;    // in the first step after a restart
-  bool restarted_ = false;        // since the last accepted step
-  bool continues_ = false;        // (a, k) at a step's start belong to its mode
-  bool vague_start_ = false;      // after a restart, which may not determine (a, k)
   Index worst_ = -1;
   Guards guards_;
   int order_;

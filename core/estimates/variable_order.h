@@ -27,11 +27,6 @@ class VariableOrder final : public StepAttempt<Real> {
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
   void begin(double length) override;
   void forget() override;
-  void restart() override {
-    forget();
-    continues_ = false;
-    restarted_ = watches_start_ = vague_start_ = true;
-  }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   int order() const override;
   Index worstComponent() const override { return member().estimate.worstComponent(); }
@@ -45,7 +40,7 @@ class VariableOrder final : public StepAttempt<Real> {
         : scheme(s),
           stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),
           estimate(setup.system, s, setup.options, setup.jacobian, stepper.matrix(), setup.norm, setup.counters),
-          defect(estimate, s, setup.system.sizes(), Defect<Real>::Start::kLeaveOut) {}
+          defect(estimate, s, setup.system.sizes(), Defect<Real>::Start::kLeaveOut, setup.options.step.looks) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;
     EmbeddedEstimate<Real> estimate;
@@ -74,10 +69,6 @@ class VariableOrder final : public StepAttempt<Real> {
   int epoch_ = 0;                            // members not in use forget when they are next used
   bool again_ = true;                        // filter twice: after a start and a rejection
   double length_ = 0;                        // of the integration
-  bool watches_start_ = false;               // in the first step after a restart
-  bool restarted_ = false;                   // since the last accepted step
-  bool continues_ = false;                   // (a, k) at a step's start belong to its mode
-  bool vague_start_ = false;                 // after a restart, which may not determine (a, k)
   double lower_error_;                       // estimate for the member below, NaN if not known
 };
 

@@ -9,8 +9,6 @@ namespace irk {
 enum class Guard {
   kDefect,        ///< core/estimates/defect.h
   kSmoothness,    ///< Stepper::roughness of a step and its halves
-  kRestart,       ///< Stepper::startDefect
-  kRoot,          ///< Stepper::leavesRoot
   kSwitchEffect,  ///< core/modes/switch_effect.h
 };
 
@@ -25,10 +23,6 @@ constexpr bool has(Guards set, Guard guard) {
       return guard != Guard::kDefect;
     case Guards::kWithoutSmoothness:
       return guard != Guard::kSmoothness;
-    case Guards::kWithoutRestart:
-      return guard != Guard::kRestart;
-    case Guards::kWithoutRoot:
-      return guard != Guard::kRoot;
     case Guards::kWithoutSwitchEffect:
       return guard != Guard::kSwitchEffect;
   }

@@ -10,25 +10,6 @@
 namespace irk {
 namespace {
 
-// The first step after a restart resolves the motion if, at its start, the stages' polynomial misses (a, k) by less
-// than this part of their change over the step.
-constexpr double kFollows = 0.1;
-// A difference below this many tolerances is accepted as well: in index 3 a start within the tolerance changes
-// velocities by as much, at any step size.
-constexpr double kStartTolerances = 10;
-
-// If rates change by more than this part of their size, the step is on another root of the stage equations.
-constexpr double kAnotherRoot = 0.25;
-// Round-off of (v, x) after many operations, in epsilons.
-constexpr double kRoundOff = 1000;
-
-template <class Real>
-bool hasHiddenUnknowns(const System<Real>& system) {
-  const auto& powers = system.errorPowers().z;
-  const auto multipliers = static_cast<std::ptrdiff_t>(system.sizes().constraints);
-  return std::any_of(powers.begin() + multipliers, powers.end(), [](int power) { return power > 0; });
-}
-
 // The sum of the stages with these weights.
 template <class Real, class Weights>
 void addStages(const Mat<Real>& W, const Weights& weights, Vec<Real>& sum) {
@@ -55,8 +36,7 @@ StageSolverSetup<Real> setupOf(const System<Real>& system, const Scheme<Real>& s
 template <class Real>
 Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
                        SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
-    : sizes_(system.sizes()),
-      counters_(counters),
+    : counters_(counters),
       eq_(system, scheme, options.summation, options.threads),
       matrix_(jacobian, options.solver, setupOf(system, scheme, options), counters),
       stagewise_(jacobian, setupOf(system, scheme, options),
@@ -67,8 +47,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, c
       W_(system.sizes().n(), scheme.s),
       modes_(modesOf(system, options, norm, counters)),
       rate_norm_(system.sizes(), norm),
-      rates_(system.sizes().n()),
-      has_hidden_unknowns_(hasHiddenUnknowns(system)) {
+      rates_(system.sizes().n()) {
   stages_.scheme = &scheme;
   stages_.W.setZero(system.sizes().n(), scheme.s);
   if (system.projectsVelocity()) {
@@ -122,37 +101,6 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
   }
   stages_.valid = result.outcome == Outcome::kSuccess;
   return result;
-}
-
-template <class Real>
-double Stepper<Real>::startDefect(const State<Real>& from) {
-  // Rates that index 2 hides are not known at a restart: (a, k) are then those of the mode before.
-  if (has_hidden_unknowns_) return 0;
-  addStages(W_, eq_.scheme().start, rates_);
-  rates_ -= from.w;
-  const double missed = rate_norm_(rates_, stages_.h);
-  const double changed = rate_norm_.largestChange(W_, from.w, stages_.h);
-  return missed > kStartTolerances && missed > kFollows * changed ? missed : 0;
-}
-
-template <class Real>
-bool Stepper<Real>::tellsRates() {
-  if (!has_hidden_unknowns_) return true;
-  rates_ = W_.col(W_.cols() - 1);
-  return rate_norm_(rates_, stages_.h) > 1;
-}
-
-template <class Real>
-bool Stepper<Real>::leavesRoot(const State<Real>& from) {
-  // A step that moves the solution by more than a tolerance may change its rates.
-  if (!has_hidden_unknowns_ || tellsRates()) return false;
-  const Index n = sizes_.nu + sizes_.nx;
-  addStages(W_, eq_.scheme().start, rates_);
-  const Real size = rates_.head(n).norm() + from.w.head(n).norm();
-  const Real change = (rates_.head(n) - from.w.head(n)).norm();
-  // At rest the rates are round-off of (v, x), divided by h.
-  const Real round_off = Real(kRoundOff) * std::numeric_limits<Real>::epsilon() * (from.v.norm() + from.x.norm());
-  return change > Real(kAnotherRoot) * size && stages_.h * change > round_off;
 }
 
 template <class Real>

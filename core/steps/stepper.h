@@ -23,21 +23,6 @@ class Stepper final : private StepRepeater<Real> {
   [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                                    State<Real>& to, JacobianUse use = JacobianUse::kRefreshIfStale);
 
-  /// For the step solved last, after a restart from a known `from.w`: the norm of h times the difference between (a, k)
-  /// at the start and the stages' polynomial there; 0 if the polynomial follows the motion. L-stable methods damp a
-  /// fast motion that starts at a switch, in the whole step and in its halves alike, so that no other estimate shows
-  /// it.
-  double startDefect(const State<Real>& from);
-
-  /// Whether the step solved last may be on another root of the stage equations. The error of algebraic unknowns of
-  /// index 2 is round-off divided by h; at tiny steps Newton's method can then go from one root to another, and (a, k)
-  /// do not continue those of `from`. Always false where (a, k) follow from (u, v, x).
-  bool leavesRoot(const State<Real>& from);
-
-  /// Whether later steps can be compared with (a, k) of the step solved last. Where index 2 hides the rates, those of a
-  /// step that moves the solution by less than a tolerance may be an error of its start, divided by h.
-  bool tellsRates();
-
   /// For the step solved last, in the error norm: h times the two highest Legendre coefficients (the highest one up to
   /// two stages) of (a, k) in the stages' polynomial. It falls with h^decay() where the step resolves the motion, and
   /// is then above what the polynomial misses.
@@ -61,7 +46,6 @@ class Stepper final : private StepRepeater<Real> {
   void repeat(const State<Real>& start, StepResult& result) override;
   int highest() const { return W_.cols() > 2 ? 2 : 1; }  // number of coefficients in `roughness`
 
-  Sizes sizes_;
   Counters& counters_;
   StageEquations<Real> eq_;
   NewtonMatrix<Real> matrix_;
@@ -74,8 +58,7 @@ class Stepper final : private StepRepeater<Real> {
   std::unique_ptr<VelocityProjection<Real>> projection_;
   std::unique_ptr<ModesInStep<Real>> modes_;  // null: no treatment after a solved step
   RateNorm<Real> rate_norm_;
-  Vec<Real> rates_;           // n
-  bool has_hidden_unknowns_;  // algebraic, of index 2, and no multipliers of position constraints
+  Vec<Real> rates_;  // n
   // Arguments of the attempt, for `repeat`.
   const StagePolynomial<Real>* past_ = nullptr;
   State<Real>* to_ = nullptr;
