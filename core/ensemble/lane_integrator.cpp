@@ -17,7 +17,7 @@ namespace irk {
 class LaneIntegrator::Run {
  public:
   Run(const Tableau<double>& tableau, const IntegratorOptions& options)
-      : options_(legalInLanes(options)), scheme_(tableau), points_(scheme_) {
+      : options_(legalInLanes(options)), scheme_(tableau), points_(scheme_, options_.step.looks) {
     requireLaneMethod(scheme_);
     mu_ = EmbeddedEstimate<double>::weight(tableau);
     const int order = EmbeddedEstimate<double>::order(tableau);
@@ -160,14 +160,14 @@ class LaneIntegrator::Run {
   Lanes withDefect(const Lanes& estimate, const LaneMask& solved, LaneMatrix& matrix) {
     Lanes error = estimate;
     LaneMask open = solved & lessOrEqual(estimate, 1.0);
-    for (int look = 0; open.any(); ++look) {
+    for (std::int64_t look = 0; open.any(); ++look) {
       LanePoints at{};
       forEachLane(open, [&](std::size_t i) {
-        if (look >= runs_[i]->looks()) return open.set(i, false);
+        if (look >= runs_[i]->looks(points_.period())) return open.set(i, false);
         at[i].emplace(points_[runs_[i]->nextLook()]);
       });
       if (!open.any()) break;
-      const Lanes defect = vectors_->stages.defect(at, vectors_->W, vectors_->norm, matrix, open, counters_);
+      const Lanes defect = vectors_->stages.defect(at, vectors_->W, vectors_->norm, matrix, open, look == 0, counters_);
       error = select(open, largest(error, defect), error);
     }
     return error;

@@ -34,8 +34,11 @@ class LaneRun {
 
   /// Records that the attempt failed: in Newton's method or its matrix.
   void failed(Outcome outcome);
-  /// The number of points between the stages that the attempt looks at, and the next of them in the sequence.
-  int looks() const { return Defect<double>::looks(size_, length_); }
+  /// The number of points between the stages that the attempt looks at, up to `most`, and the next of them in the
+  /// sequence.
+  std::int64_t looks(std::int64_t most) const {
+    return looksInStep(static_cast<double>(options_.step.looks), size_, length_, most);
+  }
   std::int64_t nextLook() { return look_++; }
   /// Records the attempt's estimate and its error. Returns whether the step is accepted; then `newTime` is the time at
   /// its end.

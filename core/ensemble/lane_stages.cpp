@@ -78,6 +78,7 @@ LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const s
       at_(2 * nu_ + nx_),
       error_(at_.size() + nz_),
       e_(count(n_)),
+      most_(count(n_)),
       constrained_(nz_) {}
 
 void LaneStages::use(const System<Lanes>& system) {
@@ -255,7 +256,7 @@ void LaneStages::finish(const std::vector<Lanes>& W, LaneState& to) const {
 }
 
 // HW II (IV.8.19-20), see EmbeddedEstimate.
-void LaneStages::filter(const Lanes& t, Between between, LaneMatrix& matrix) {
+void LaneStages::evaluate(const Lanes& t, Between between) {
   const Point<Lanes> at{t,
                         {at_.data(), sizes_.nu},
                         {at_.data() + nu_, sizes_.nu},
@@ -270,6 +271,20 @@ void LaneStages::filter(const Lanes& t, Between between, LaneMatrix& matrix) {
       if (constrained_[i]) e_[nu_ + nx_ + i] = 0.0;
     }
   }
+}
+
+LaneMask LaneStages::raise(const LaneMask& which) {
+  LaneMask raised;
+  for (std::size_t i = 0; i < count(n_); ++i) {
+    const Lanes size = abs(e_[i]);
+    const LaneMask larger = ~lessOrEqual(size, most_[i]) & which;  // or not a number
+    most_[i] = select(larger, size, most_[i]);
+    raised = raised | larger;
+  }
+  return raised;
+}
+
+void LaneStages::filter(LaneMatrix& matrix) {
   matrix.solveFilter(e_.data());
   const Lanes step = h_ * mu_;
   for (std::size_t i = 0; i < nu_; ++i) {
@@ -287,7 +302,8 @@ Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, La
   const Lanes factor = -mu_ * (h_ * h_);
   laneProduct(sizes_.nu, integrals_, stages, [&](Index i, Index, const Lanes& sum) { slip_[count(i)] = factor * sum; });
   for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = i < nu_ ? from_->y[i] + slip_[i] : from_->y[i];
-  filter(from_->t, Between::kNone, matrix);
+  evaluate(from_->t, Between::kNone);
+  filter(matrix);
   const Lanes error = sizeOfError(norm);
   counters.residuals.add(which);
   counters.solves.add(which);
@@ -300,12 +316,14 @@ Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, La
   }
   counters.residuals.add(again);
   counters.solves.add(again);
-  filter(from_->t, Between::kNone, matrix);
+  evaluate(from_->t, Between::kNone);
+  filter(matrix);
   return select(again, sizeOfError(norm), error);
 }
 
 Lanes LaneStages::defect(const LanePoints& at, const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,
-                         const LaneMask& which, LaneCounters& counters) {
+                         const LaneMask& which, bool first, LaneCounters& counters) {
+  if (first) std::fill(most_.begin(), most_.end(), Lanes(0.0));
   const auto weights = [&](ConstVec<double> MovingPoints<double>::Point::*of, Index j) {
     return Lanes::each([&](std::size_t i) { return at[i] ? ((*at[i]).*of)[j] : 0.0; });
   };
@@ -325,17 +343,24 @@ Lanes LaneStages::defect(const LanePoints& at, const std::vector<Lanes>& W, cons
   for (std::size_t i = 0; i < nu_; ++i) at_[i] = y[i] + h_ * (theta * v[i] + h_ * at_[i]);
   for (std::size_t i = nu_; i < at_.size(); ++i) at_[i] = y[i] + h_ * at_[i];
   std::fill(slip_.begin(), slip_.end(), Lanes(0.0));
+  const Lanes t = from_->t + theta * h_;
   const auto filtered = [&](const LaneMask& lanes) {
-    filter(from_->t + theta * h_, Between::kStages, matrix);
+    filter(matrix);
     for (std::size_t i = 0; i < nz_; ++i) error_[at_.size() + i] = 0.0;
-    counters.residuals.add(lanes);
     counters.solves.add(lanes);
-    return sizeOfError(norm);
+    const Lanes size = sizeOfError(norm);
+    return select(finite(size), size, std::numeric_limits<double>::infinity());
   };
-  const Lanes once_filtered = filtered(which);
-  const LaneMask again = less(1.0, once_filtered) & which;
+  evaluate(t, Between::kStages);
+  counters.residuals.add(which);
+  const LaneMask raised = raise(which);
+  if (!raised.any()) return Lanes(0.0);
+  const Lanes once_filtered = select(raised, filtered(raised), Lanes(0.0));
+  const LaneMask again = less(1.0, once_filtered) & raised;
   if (!again.any()) return once_filtered;
   for (std::size_t i = 0; i < at_.size(); ++i) at_[i] += error_[i];
+  evaluate(t, Between::kStages);
+  counters.residuals.add(again);
   return select(again, filtered(again), once_filtered);
 }
 

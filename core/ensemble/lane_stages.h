@@ -50,15 +50,20 @@ class LaneStages {
                  const LaneMask& which, LaneCounters& counters);
 
   /// The defect of the step that W solves at a point of each lane of `which`, see Defect; other lanes may have none.
+  /// `first`: these are the step's first points.
   Lanes defect(const LanePoints& at, const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,
-               const LaneMask& which, LaneCounters& counters);
+               const LaneMask& which, bool first, LaneCounters& counters);
 
  private:
   void place(const std::vector<Lanes>& W);
   void scaleRows(Lanes* r) const;
-  // Evaluates the residual at t, at_ and defect_, and filters it into error_.
+  // Sets e_ to the residual at t, at_ and defect_.
   enum class Between { kNone, kStages };
-  void filter(const Lanes& t, Between between, LaneMatrix& matrix);
+  void evaluate(const Lanes& t, Between between);
+  // Lanes in which e_ is larger than most_ in any row; raises most_ there.
+  LaneMask raise(const LaneMask& which);
+  // Filters e_ into error_.
+  void filter(LaneMatrix& matrix);
   Lanes sizeOfError(const LaneNorm& norm) const { return norm.magnitude(error_.data(), error_.data() + at_.size()); }
   void shortenPolynomial(const LaneMask& where, const std::vector<Lanes>& basis, std::vector<Lanes>& weights) const;
 
@@ -80,6 +85,7 @@ class LaneStages {
   std::vector<Lanes> past_W_, basis_, weights_;
   PointBuffers<Dual<Lanes>> dual_;
   std::vector<Lanes> defect_, slip_, at_, error_, e_;  // of the estimate
+  std::vector<Lanes> most_;                            // the largest residuals of the step's points
   std::vector<bool> constrained_;                      // whether z_i has a higher index than 1
 };
 

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
 
+#include "core/base/kept.h"
 #include "core/base/legendre.h"
 #include "core/base/small_product.h"
 #include "irk/multiprecision.h"
@@ -10,46 +14,70 @@
 namespace irk {
 
 template <class Real>
-MovingPoints<Real>::MovingPoints(const Scheme<Real>& scheme)
-    : scheme_(scheme),
-      inside_(scheme.s, kPeriod),
-      once_(scheme.s, kPeriod),
-      twice_(scheme.s, kPeriod),
-      known_(kPeriod, false),
-      p_(scheme.s + 2),
-      integral_(scheme.s + 1),
-      second_(scheme.s) {}
-
-template <class Real>
-double MovingPoints<Real>::place(std::int64_t i) {
-  return (static_cast<double>(i * kStride % kPeriod) + 0.5) / kPeriod;
-}
-
-template <class Real>
-auto MovingPoints<Real>::operator[](std::int64_t i) -> Point {
-  const Index at = i % kPeriod, s = scheme_.s;
-  const Real theta(place(at));
-  if (const auto k = static_cast<std::size_t>(at); !known_[k]) {
-    known_[k] = true;
-    legendre<Real>(theta, p_);
-    integrateLegendre(p_, integral_, second_);
-    const auto& to_stages = scheme_.legendre_inverse_transposed;
-    inside_.col(at).noalias() = to_stages * p_.head(s);
-    once_.col(at).noalias() = to_stages * integral_.head(s);
-    twice_.col(at).noalias() = to_stages * second_;
+MovingPoints<Real>::MovingPoints(const Scheme<Real>& scheme, std::int64_t looks) {
+  while (2 * period_ < looks) stride_ = std::exchange(period_, period_ + stride_);
+  if constexpr (std::is_same_v<Real, double>) {
+    static Kept<Weights> all;
+    std::string key = std::to_string(period_);
+    appendKey(scheme.c, key);
+    weights_ = all.of(key, [&] { return computed(scheme); });
+  } else {
+    weights_ = std::make_shared<const Weights>(computed(scheme));
   }
-  return {theta, {inside_.col(at).data(), s}, {once_.col(at).data(), s}, {twice_.col(at).data(), s}};
 }
 
 template <class Real>
-Defect<Real>::Defect(EmbeddedEstimate<Real>& filter, const Scheme<Real>& scheme, const Sizes& sizes, Start start)
+double MovingPoints<Real>::place(std::int64_t i) const {
+  return (static_cast<double>(i * stride_ % period_) + 0.5) / static_cast<double>(period_);
+}
+
+template <class Real>
+auto MovingPoints<Real>::computed(const Scheme<Real>& scheme) const -> Weights {
+  const Index s = scheme.s;
+  Vec<Real> p(s + 2), integral(s + 1), second(s);
+  Weights weights;
+  for (auto* of : {&weights.inside, &weights.once, &weights.twice}) of->resize(s, period_);
+  const auto& to_stages = scheme.legendre_inverse_transposed;
+  for (Index i = 0; i < period_; ++i) {
+    legendre<Real>(Real(place(i)), p);
+    integrateLegendre(p, integral, second);
+    weights.inside.col(i).noalias() = to_stages * p.head(s);
+    weights.once.col(i).noalias() = to_stages * integral.head(s);
+    weights.twice.col(i).noalias() = to_stages * second;
+  }
+  return weights;
+}
+
+template <class Real>
+auto MovingPoints<Real>::operator[](std::int64_t i) const -> Point {
+  const Index at = i % period_, s = weights_->inside.rows();
+  const auto column = [&](const Mat<Real>& of) { return ConstVec<Real>(of.col(at).data(), s); };
+  return {Real(place(i)), column(weights_->inside), column(weights_->once), column(weights_->twice)};
+}
+
+template <class Real>
+auto MovingPoints<Real>::block(std::int64_t i, std::int64_t most) const -> Block {
+  const Index at = i % period_, s = weights_->inside.rows();
+  const Index count = std::min<Index>(most, period_ - at);
+  const auto columns = [&](const Mat<Real>& of) { return Eigen::Map<const Mat<Real>>(of.col(at).data(), s, count); };
+  return {count, columns(weights_->inside), columns(weights_->once), columns(weights_->twice)};
+}
+
+template <class Real>
+Defect<Real>::Defect(EmbeddedEstimate<Real>& filter, const Scheme<Real>& scheme, const Sizes& sizes, Start start,
+                     std::int64_t looks)
     : filter_(filter),
       scheme_(scheme),
       sizes_(sizes),
       looks_at_start_(start == Start::kLookAt),
       looks_at_end_(scheme.c.maxCoeff() < Real(1 - 1e-10)),
-      points_(scheme),
-      at_(sizes) {}
+      looks_(static_cast<double>(looks)),
+      points_(scheme, looks),
+      at_(sizes),
+      most_(sizes.n()),
+      w_(sizes.n(), kBlock),
+      once_(sizes.nu + sizes.nx, kBlock),
+      twice_(sizes.nu, kBlock) {}
 
 template <class Real>
 void Defect<Real>::begin(double length) {
@@ -57,27 +85,52 @@ void Defect<Real>::begin(double length) {
   next_ = 0;
 }
 
-template <class Real>
-int Defect<Real>::looks(double h, double length) {
-  return static_cast<int>(std::clamp(std::ceil(kParts * h / length), 1.0, double{MovingPoints<Real>::kPeriod}));
+std::int64_t looksInStep(double looks, double h, double length, std::int64_t most) {
+  return static_cast<std::int64_t>(std::clamp(std::ceil(looks * h / length), 1.0, static_cast<double>(most)));
 }
 
+namespace {
+
+template <class Result>
+void add(Result& largest, const Result& one) {
+  if (largest.outcome == Outcome::kSuccess) largest.outcome = one.outcome;
+  largest.error = std::max(largest.error, one.error);
+}
+
+}  // namespace
+
+// The largest one of `count` points from the point `first` on.
 template <class Real>
-auto Defect<Real>::at(const typename MovingPoints<Real>::Point& point, const State<Real>& from,
-                      const StagePolynomial<Real>& stages) -> Result {
+auto Defect<Real>::among(std::int64_t first, std::int64_t count, const State<Real>& from,
+                         const StagePolynomial<Real>& stages) -> Result {
   const Real& h = stages.h;
   const Index n = sizes_.n(), nu = sizes_.nu, nx = sizes_.nx;
   const Real* const W = stages.W.data();
-  at_.t = from.t + point.theta * h;
+  Result largest;
   at_.d = from.d;
-  inlinedProduct(W, n, n, point.inside, at_.w.data(), n);
-  inlinedProduct(W, n, nu, point.twice, at_.u.data(), nu);
-  inlinedProduct(W, n, nu, point.once, at_.v.data(), nu);
-  inlinedProduct(W + nu, n, nx, point.once, at_.x.data(), nx);
-  at_.u = from.u + h * (point.theta * from.v + h * at_.u);
-  at_.v = from.v + h * at_.v;
-  at_.x = from.x + h * at_.x;
-  return filter_.filtered(at_, h);
+  for (const std::int64_t end = first + count; first < end;) {
+    const auto block = points_.block(first, std::min<std::int64_t>(end - first, kBlock));
+    smallProduct(W, n, n, block.inside, w_.data(), n);
+    smallProduct(W, n, nu, block.twice, twice_.data(), nu);
+    smallProduct(W, n, nu + nx, block.once, once_.data(), nu + nx);
+    for (Index j = 0; j < block.count; ++j) {
+      const Real theta(points_.place(first + j));
+      at_.t = from.t + theta * h;
+      at_.u = from.u + h * (theta * from.v + h * twice_.col(j));
+      at_.v = from.v + h * once_.col(j).head(nu);
+      at_.x = from.x + h * once_.col(j).tail(nx);
+      at_.w = w_.col(j);
+      add(largest, filter_.filtered(at_, h, most_));
+    }
+    first += block.count;
+  }
+  return largest;
+}
+
+template <class Real>
+auto Defect<Real>::at(std::int64_t i, const State<Real>& from, const StagePolynomial<Real>& stages) -> Result {
+  most_.setZero();
+  return among(i, 1, from, stages);
 }
 
 // At the start or the end of the step, where u, v, x are known and K has these weights.
@@ -90,20 +143,18 @@ auto Defect<Real>::atEnd(const State<Real>& end, const Real& t, const Vec<Real>&
   at_.v = end.v;
   at_.x = end.x;
   inlinedProduct(stages.W.data(), sizes_.n(), sizes_.n(), weights, at_.w.data(), sizes_.n());
-  return filter_.filtered(at_, stages.h);
+  return filter_.filtered(at_, stages.h, most_);
 }
 
 template <class Real>
 auto Defect<Real>::largest(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to)
     -> Result {
-  Result largest;
-  const auto add = [&largest](const Result& one) {
-    if (largest.outcome == Outcome::kSuccess) largest.outcome = one.outcome;
-    largest.error = std::max(largest.error, one.error);
-  };
-  for (int i = looks(static_cast<double>(stages.h), length_); i > 0; --i) add(at(points_[next_++], from, stages));
-  if (looks_at_start_) add(atEnd(from, from.t, from.d, scheme_.start, stages));
-  if (looks_at_end_) add(atEnd(to, from.t + stages.h, from.d, scheme_.end, stages));
+  most_.setZero();
+  const std::int64_t looks = looksInStep(looks_, static_cast<double>(stages.h), length_, points_.period());
+  Result largest = among(next_, looks, from, stages);
+  next_ += looks;
+  if (looks_at_start_) add(largest, atEnd(from, from.t, from.d, scheme_.start, stages));
+  if (looks_at_end_) add(largest, atEnd(to, from.t + stages.h, from.d, scheme_.end, stages));
   return largest;
 }
 

@@ -2,36 +2,46 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "core/estimates/embedded.h"
 
 namespace irk {
 
 /// Points inside a step that move from step to step, with the weights of a scheme's stages there. Point i is the place
-/// (34 i mod 55 + 1/2) / 55 of the step, the golden section's sequence with a period: n successive points leave no gap
-/// above 2 / n. Allocates in its constructor.
+/// (q i mod p + 1/2) / p of the step with neighbours q < p among Fibonacci's numbers, the golden section's sequence
+/// with the period p: n <= p successive points leave no gap above 2 / n. The process keeps weights in
+/// double.
 template <class Real>
 class MovingPoints {
  public:
-  static constexpr int kPeriod = 55, kStride = 34;  // neighbours among Fibonacci's numbers
-
-  explicit MovingPoints(const Scheme<Real>& scheme);
-  static double place(std::int64_t i);
+  /// The period is at least `looks` / 2, and 55.
+  MovingPoints(const Scheme<Real>& scheme, std::int64_t looks);
+  double place(std::int64_t i) const;
+  std::int64_t period() const { return period_; }
 
   /// The point i: its place, and the weights of the stages in their polynomial K for (a, k, z), in the integral of K
-  /// from the step's start, and in its second integral. Computed at its first use.
+  /// from the step's start, and in its second integral.
   struct Point {
     Real theta;
     ConstVec<Real> inside, once, twice;
   };
-  Point operator[](std::int64_t i);
+  Point operator[](std::int64_t i) const;
+  /// The weights at the points from i on, a column each: `most` of them, or fewer at the end of a period.
+  struct Block {
+    Index count;
+    Eigen::Map<const Mat<Real>> inside, once, twice;
+  };
+  Block block(std::int64_t i, std::int64_t most) const;
 
  private:
-  const Scheme<Real>& scheme_;
-  Mat<Real> inside_, once_, twice_;  // s x kPeriod
-  std::vector<bool> known_;
-  Vec<Real> p_, integral_, second_;
+  struct Weights {
+    Mat<Real> inside, once, twice;  // s x period
+  };
+  Weights computed(const Scheme<Real>& scheme) const;
+
+  std::int64_t stride_ = 34, period_ = 55;
+  std::shared_ptr<const Weights> weights_;
 };
 
 /// The defect of a solved step at t0 + theta h is the residual of its continuous solution: the stages' polynomial K for
@@ -43,9 +53,8 @@ class MovingPoints {
 /// solution ends. Control of the defect: Enright, ACM TOMS 15 (1989); Shampine, Numer. Math. 101 (2005).
 ///
 /// A step is looked at in one or more moving points (MovingPoints), so that nothing can hide from all steps, and runs
-/// repeat bit for bit: in as many as it has hundredths of the whole interval. An input that lasts longer than a
-/// fiftieth of the interval cannot be missed. Where the last stage is before the step's end, the end is looked at as
-/// well.
+/// repeat bit for bit: in its part of StepOptions::looks, rounded up. An input that lasts longer than 2 / looks of the
+/// interval cannot be missed. Where the last stage is before the step's end, the end is looked at as well.
 ///
 /// Owns scratch; keeps references.
 template <class Real>
@@ -53,24 +62,23 @@ class Defect {
  public:
   /// Whether the step's start is looked at: not if an embedded estimate does that anyway.
   enum class Start { kLookAt, kLeaveOut };
-  /// `filter` has the step's filter; `scheme` is that of the steps.
-  Defect(EmbeddedEstimate<Real>& filter, const Scheme<Real>& scheme, const Sizes& sizes, Start start);
+  /// `filter` has the step's filter; `scheme` is that of the steps; `looks`: StepOptions.
+  Defect(EmbeddedEstimate<Real>& filter, const Scheme<Real>& scheme, const Sizes& sizes, Start start,
+         std::int64_t looks);
 
   /// A new integration over this length; its points begin anew.
   void begin(double length);
-  /// The number of moving points of a step of size h, in an integration over `length`.
-  static int looks(double h, double length);
 
   using Result = typename EmbeddedEstimate<Real>::Result;
   /// The largest e(theta) of the solved step from `from` to `to`. Counts u, v and x; constraints of index 2 and 3 that
   /// are violated between the stages are no error of the step's end.
   [[nodiscard]] Result largest(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to);
-  /// e(theta) at a point.
-  [[nodiscard]] Result at(const typename MovingPoints<Real>::Point& point, const State<Real>& from,
-                          const StagePolynomial<Real>& stages);
+  /// e(theta) at the point i alone.
+  [[nodiscard]] Result at(std::int64_t i, const State<Real>& from, const StagePolynomial<Real>& stages);
 
  private:
-  static constexpr double kParts = 100;  // of the interval
+  static constexpr Index kBlock = 32;  // points whose states are computed together
+  Result among(std::int64_t first, std::int64_t count, const State<Real>& from, const StagePolynomial<Real>& stages);
   Result atEnd(const State<Real>& end, const Real& t, const Vec<Real>& d, const Vec<Real>& weights,
                const StagePolynomial<Real>& stages);
 
@@ -78,10 +86,17 @@ class Defect {
   const Scheme<Real>& scheme_;
   Sizes sizes_;
   bool looks_at_start_, looks_at_end_;
+  double looks_;  // over the interval
   double length_ = 0;
   std::int64_t next_ = 0;
   MovingPoints<Real> points_;
   State<Real> at_;
+  Vec<Real> most_;              // the largest residuals of the step's points, n
+  Mat<Real> w_, once_, twice_;  // at the points of a block: K and its integrals of (a, k) and of a
 };
+
+/// The number of moving points of a step of size h in an integration over `length`, `looks` in all: at least 1, at most
+/// `most`.
+std::int64_t looksInStep(double looks, double h, double length, std::int64_t most);
 
 }  // namespace irk

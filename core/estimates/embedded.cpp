@@ -113,9 +113,9 @@ Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
   return outcome;
 }
 
-// Solves for e with the residual at `p`, and sets `error_` to the error of the state that follows from e.
+// Sets e_ to the residual at `p`.
 template <class Real>
-Outcome EmbeddedEstimate<Real>::filter(const Real& h, const Point<Real>& p, EquationsAt at) {
+Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at) {
   system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
   if (scaled_) e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
@@ -125,6 +125,12 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h, const Point<Real>& p, Equa
       if (powers[static_cast<std::size_t>(i)] > 0) e_(sizes_.nu + sizes_.nx + i, 0) = Real(0);
     }
   }
+  return Outcome::kSuccess;
+}
+
+// Solves for e with the residual e_, and sets `error_` to the error of the state that follows from e.
+template <class Real>
+Outcome EmbeddedEstimate<Real>::filter(const Real& h) {
   const Outcome solved = solve(h);
   if (solved != Outcome::kSuccess) return solved;
   const Real step = h * mu_;
@@ -152,7 +158,8 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
     slip_[i] *= factor;
     at_.u[i] = from.u[i] + slip_[i];
   }
-  result.outcome = filter(h, pointAt(from.t, at_.u, from), EquationsAt::kStart);
+  result.outcome = evaluateAt(pointAt(from.t, at_.u, from), EquationsAt::kStart);
+  if (result.outcome == Outcome::kSuccess) result.outcome = filter(h);
   if (result.outcome != Outcome::kSuccess) return result;
   result.error = norm_.magnitude(error_, static_cast<double>(h));
   if (result.error > again_above) {
@@ -161,7 +168,8 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
     at_.v = from.v + error_.v;
     at_.x = from.x + error_.x;
     at_.d = from.d;
-    result.outcome = filter(h, pointAt(from.t, at_.u, at_), EquationsAt::kStart);
+    result.outcome = evaluateAt(pointAt(from.t, at_.u, at_), EquationsAt::kStart);
+    if (result.outcome == Outcome::kSuccess) result.outcome = filter(h);
     if (result.outcome != Outcome::kSuccess) return result;
     result.error = norm_.magnitude(error_, static_cast<double>(h));
   }
@@ -176,25 +184,41 @@ auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolyno
 }
 
 template <class Real>
-auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h) -> Result {
+bool EmbeddedEstimate<Real>::raises(Vec<Real>& most) const {
+  using std::abs;
+  bool raised = false;
+  for (Index i = 0; i < most.size(); ++i) {
+    const Real size = abs(e_(i, 0));
+    if (!(size > most[i])) continue;
+    most[i] = size;
+    raised = true;
+  }
+  return raised;
+}
+
+template <class Real>
+auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<Real>& most) -> Result {
   Result result;
   if (scaled_) rowScales(row_powers_, h, scales_);
   defect_ = at.w;
+  result.outcome = evaluateAt(pointAt(at.t, at.u, at), EquationsAt::kInside);
+  if (result.outcome != Outcome::kSuccess || !raises(most)) return result;
   slip_.setZero();
-  const auto filterAt = [&](const State<Real>& state) {
-    result.outcome = filter(h, pointAt(at.t, state.u, state), EquationsAt::kInside);
+  const auto measure = [&] {
+    result.outcome = filter(h);
     if (result.outcome != Outcome::kSuccess) return;
     error_.z().setZero();
     result.error = norm_.magnitude(error_, static_cast<double>(h));
     if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
   };
-  filterAt(at);
+  measure();
   if (result.outcome != Outcome::kSuccess || result.error <= 1) return result;
   at_.u = at.u + error_.u;
   at_.v = at.v + error_.v;
   at_.x = at.x + error_.x;
   at_.d = at.d;
-  filterAt(at_);
+  result.outcome = evaluateAt(pointAt(at.t, at_.u, at_), EquationsAt::kInside);
+  if (result.outcome == Outcome::kSuccess) measure();
   return result;
 }
 

@@ -46,8 +46,9 @@ class EmbeddedEstimate {
   /// The error -h mu (D0 + h mu D1 + h^2 mu^2 D2)^-1 r(at) for a point inside a step of size h, whose (a, k, z) are
   /// those of the continuous solution: the defect there (core/estimates/defect.h). One above the tolerance is filtered
   /// a second time, HW II (IV.8.21), so that a transient that the step damps does not count. Counts u, v, x; rows of
-  /// constraints of index 2 and 3 are left out.
-  [[nodiscard]] Result filtered(const State<Real>& at, const Real& h);
+  /// constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at the points before it in this step; a
+  /// point whose residual is larger in no row shows nothing new: it has the error 0 and is not filtered.
+  [[nodiscard]] Result filtered(const State<Real>& at, const Real& h, Vec<Real>& most);
 
   /// Allocates what the next evaluation would, where the pattern is known.
   void reserve() {
@@ -72,7 +73,9 @@ class EmbeddedEstimate {
                   double again_above);
   enum class EquationsAt { kStart, kInside };
   Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
-  Outcome filter(const Real& h, const Point<Real>& p, EquationsAt at);
+  Outcome evaluateAt(const Point<Real>& p, EquationsAt at);
+  bool raises(Vec<Real>& most) const;
+  Outcome filter(const Real& h);
   Outcome solve(const Real& h);
 
   const System<Real>& system_;

@@ -6,12 +6,13 @@
 #include <tuple>
 
 #include "core/options/fixed_steps.h"
+#include "core/options/guards.h"
 
 namespace irk {
 namespace {
 
 constexpr std::int64_t kMaxAttempts = 1'000'000'000'000;
-constexpr std::int64_t kMaxNewtonIterations = 1000, kMaxThreads = 1024;
+constexpr std::int64_t kMaxNewtonIterations = 1000, kMaxThreads = 1024, kMaxLooks = 1000;
 
 using Options = IntegratorOptions;
 
@@ -48,6 +49,10 @@ std::string_view noEstimate(const Options& o) {
   return hasFixedSteps(o.step) && asked ? "fixed steps have no error estimate" : "";
 }
 std::string_view noChosenStep(const Options& o) { return hasFixedSteps(o.step) ? "fixed steps all have one size" : ""; }
+std::string_view noLooks(const Options& o) {
+  if (hasFixedSteps(o.step)) return "fixed steps have no error estimate";
+  return has(o.guards, Guard::kDefect) ? "" : "the guard of the defect is left out";
+}
 std::string_view ofIncrementTest(const Options& o) {
   return stopsByResidual(o) ? "it belongs to newton 'simplified', 'broyden' and its variants" : "";
 }
@@ -108,6 +113,8 @@ std::span<const OptionField> optionFields() {
              "Newton's method stops when its error falls below this part of the tolerance; 0 = by order, rtol and "
              "number of steps.",
              ofKappa),
+      number("looks", IRK_MEMBER(step.looks), Range::integers(1, kMaxLooks),
+             "Points over the interval at which the defect between the stages is looked at.", noLooks),
       number("h", IRK_MEMBER(step.h), Range::from(0),
              "The constant step of control fixed, else the first step; 0 = by the scale of the solution."),
       number("h_min", IRK_MEMBER(step.h_min), Range::from(0),

@@ -142,8 +142,6 @@ enum class Guards {
   kNone,
   kWithoutDefect,        ///< no looks between the stages
   kWithoutSmoothness,    ///< `richardson`: 2^p - 1 divides also where the half steps do not show the order p
-  kWithoutRestart,       ///< the first step after a restart need not follow the rates at its start
-  kWithoutRoot,          ///< index 2: a step may go to another root of the stage equations
   kWithoutSwitchEffect,  ///< `ignore`, `iterate`, `smooth`: a step over a switch is judged by its estimate alone
 };
 
@@ -211,6 +209,10 @@ struct StepOptions {
   /// The integration fails below this size. 0 means 16 eps |t|, or the smallest positive number.
   double h_min = 0;
   double h_max = 1e300;
+  /// The defect of the solution between the stages is looked at in this many points over the whole interval, at least
+  /// one in each step (core/estimates/defect.h): an input that lasts longer than 2 / looks of the interval is not
+  /// missed. At most 1000.
+  std::int64_t looks = 100;
   /// The integration fails after this many attempted steps.
   std::int64_t max_steps = 1'000'000;
   /// Controls `paper` and `hotint`, paper (6.1)-(6.3): s_max = s_min^2; a step is kept unless it would change by

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/derivatives/consistent_start.h"
@@ -37,8 +38,8 @@ struct SolvedStepOf {
         jacobian(*system, scheme, options, counters),
         stepper(*system, scheme, options, jacobian, norm, counters),
         estimate(*system, scheme, options, jacobian, stepper.matrix(), norm, counters),
-        defect(estimate, scheme, system->sizes(), Defect<double>::Start::kLeaveOut),
-        points(scheme) {}
+        defect(estimate, scheme, system->sizes(), Defect<double>::Start::kLeaveOut, options.step.looks),
+        points(scheme, options.step.looks) {}
 
   void solve(State<double> start, double h) {
     ConsistentStart<double> consistent(*system, options.derivatives, false, &counters);
@@ -90,7 +91,7 @@ TEST(Defect, IsTheFilteredResidualOfTheContinuousSolution) {
     const Mat<double>& W = step.stepper.stages().W;
     const Vec<double>& c = step.scheme.c;
     for (const std::int64_t i : {0, 1, 2, 7}) {
-      const double theta = MovingPoints<double>::place(i);
+      const double theta = step.points.place(i);
       const auto inside = [&](Index row, double x) {
         double sum = 0;
         for (Index j = 0; j < c.size(); ++j) sum += W(row, j) * lagrangeAt(c, j, x);
@@ -109,7 +110,7 @@ TEST(Defect, IsTheFilteredResidualOfTheContinuousSolution) {
       const double du = h * h * mu * mu * a / weight(start.u[0]), dv = h * mu * a / weight(start.v[0]),
                    dx = h * mu * x / weight(start.x[0]);
       const double expected = std::sqrt((du * du + dv * dv + dx * dx) / 3);
-      const auto result = step.defect.at(step.points[i], step.from, step.stepper.stages());
+      const auto result = step.defect.at(i, step.from, step.stepper.stages());
       ASSERT_EQ(result.outcome, Outcome::kSuccess);
       EXPECT_NEAR(result.error, expected, 1e-8 * expected + 1e-9) << method << " theta " << theta;
     }
@@ -148,6 +149,30 @@ TEST(Defect, OfASmoothMotionIsBelowTheEmbeddedEstimate) {
   }
 }
 
+// The twin: every point filtered by itself. Two uncoupled equations: what no row shows, no error shows.
+TEST(Defect, OfAStepIsTheLargestOfItsPoints) {
+  for (const char* method : {"radau_iia_3", "lobatto_iiic_4", "gauss_3"}) {
+    SolvedStepOf<ForcedPair> step({}, method, 1e-6);
+    State<double> start(ForcedPair{}.sizes());
+    start.u[0] = 0.3, start.v[0] = -0.2, start.x[0] = 0.7;
+    step.solve(start, 0.4);
+    const auto together = step.defect.largest(step.from, step.stepper.stages(), step.to);
+    ASSERT_EQ(together.outcome, Outcome::kSuccess);
+    double largest = 0;
+    const std::int64_t solves = step.counters.solves;
+    for (std::int64_t i = 0; i < step.points.period(); ++i) {
+      largest = std::max(largest, step.defect.at(i, step.from, step.stepper.stages()).error);
+    }
+    EXPECT_GE(step.counters.solves - solves, step.points.period());
+    if (std::string(method) == "gauss_3") {
+      EXPECT_GE(together.error, largest);  // it looks at the end as well
+    } else {
+      EXPECT_DOUBLE_EQ(together.error, largest);
+    }
+    EXPECT_LT(together.error, 10 * largest);
+  }
+}
+
 /// x' = -x + 20 while |t - centre| < width / 2, which nobody declares.
 struct UndeclaredPulse {
   double centre, width;
@@ -182,22 +207,48 @@ TEST(Defect, FindsAPulseThatLastsAFiftiethOfTheInterval) {
 }
 
 TEST(Defect, LooksAtMorePointsOfALongerStep) {
-  EXPECT_EQ(Defect<double>::looks(0.001, 1), 1);
-  EXPECT_EQ(Defect<double>::looks(0.035, 1), 4);
-  EXPECT_EQ(Defect<double>::looks(1, 1), MovingPoints<double>::kPeriod);
+  EXPECT_EQ(looksInStep(100, 0.001, 1, 55), 1);
+  EXPECT_EQ(looksInStep(100, 0.035, 1, 55), 4);
+  EXPECT_EQ(looksInStep(100, 1, 1, 55), 55);
+  EXPECT_EQ(looksInStep(1000, 0.035, 1, 610), 35);
+}
+
+// A pulse of 1 / 250 of the interval is shorter than the steps' own looks are sure to find, and as long as 500 are.
+TEST(Defect, FindsShorterPulsesWithMoreLooks) {
+  int missed_with_few = 0, missed_with_many = 0;
+  for (double centre = 0.2; centre < 1.9; centre += 0.017) {
+    const UndeclaredPulse pulse{centre, 0.008};
+    State<double> start(pulse.sizes());
+    start.x[0] = 1;
+    for (const std::int64_t looks : {10, 500}) {
+      IntegratorOptions options = embedded(1e-4);
+      options.step.looks = looks;
+      const auto s = integrate<double>(pulse, start, 2, makeTableau<double>("radau_iia_5"), options);
+      const bool missed = s.outcome == Outcome::kSuccess && std::abs(s.state.x[0] - pulse.at(2)) > 100e-4;
+      (looks == 500 ? missed_with_many : missed_with_few) += missed;
+    }
+  }
+  EXPECT_EQ(missed_with_many, 0);
+  EXPECT_GT(missed_with_few, 20);
 }
 
 // Also across the end of a period.
 TEST(MovingPoints, LeaveNoGapAboveTwoPartsOfTheirNumber) {
-  for (const int n : {2, 5, 13, 21, 34, 55}) {
-    for (const std::int64_t first : {0, 17, 50, 1000}) {
-      std::vector<double> places{0, 1};
-      for (int i = 0; i < n; ++i) places.push_back(MovingPoints<double>::place(first + i));
-      std::sort(places.begin(), places.end());
-      double gap = 0;
-      for (std::size_t i = 1; i < places.size(); ++i) gap = std::max(gap, places[i] - places[i - 1]);
-      EXPECT_LE(gap, 2.0 / n) << n << " from " << first;
-      EXPECT_GT(places[1], 0);
+  const Scheme<double> scheme(makeTableau<double>("radau_iia_3"));
+  for (const std::int64_t looks : {100, 1000}) {
+    const MovingPoints<double> points(scheme, looks);
+    EXPECT_EQ(points.period(), looks == 100 ? 55 : 610);
+    for (const int n : {2, 5, 13, 21, 34, 55, 300, 610}) {
+      if (n > points.period()) continue;
+      for (const std::int64_t first : {0, 17, 50, 1000}) {
+        std::vector<double> places{0, 1};
+        for (int i = 0; i < n; ++i) places.push_back(points.place(first + i));
+        std::sort(places.begin(), places.end());
+        double gap = 0;
+        for (std::size_t i = 1; i < places.size(); ++i) gap = std::max(gap, places[i] - places[i - 1]);
+        EXPECT_LE(gap, 2.0 / n) << n << " from " << first;
+        EXPECT_GT(places[1], 0);
+      }
     }
   }
 }
