@@ -14,6 +14,8 @@ namespace {
 constexpr double kStricter = 0.1;
 // The least tolerance, in epsilons: below it steps end in round-off.
 constexpr double kLeast = 50;
+// The second integration looks at more points between the stages than the first, and at others.
+constexpr std::int64_t kLooks = 1000;
 // Fixed steps have no tolerance to start from.
 constexpr double kOfFixedSteps = 1e-10;
 
@@ -50,6 +52,21 @@ void weigh(const State<Real>& second, const Tolerances& t, const Vec<double>& sc
   add(bar.x, second.x);
 }
 
+// What errors in the times of located switches may have changed in u, v and x, all in all.
+template <class Real>
+struct SwitchErrors {
+  Vec<double> u, v, x;
+
+  explicit SwitchErrors(const State<Real>& s)
+      : u(Vec<double>::Zero(s.u.size())), v(Vec<double>::Zero(s.v.size())), x(Vec<double>::Zero(s.x.size())) {}
+
+  void add(const LocatedSwitch<Real>& at) {
+    u += at.time_error * distances<Real>(at.before.v, at.behind.v);
+    v += at.time_error * distances<Real>(at.before.a(), at.behind.a());
+    x += at.time_error * distances<Real>(at.before.k(), at.behind.k());
+  }
+};
+
 }  // namespace
 
 template <class Real>
@@ -71,6 +88,7 @@ IntegratorOptions independentOptions(const IntegratorOptions& first) {
   second.storage = first.storage;
   second.threads = first.threads;
   second.step.max_steps = first.step.max_steps;
+  second.step.looks = std::max(kLooks, first.step.looks);
   second.step.estimate = ErrorEstimate::kEmbedded;
   second.solver = StageSolverKind::kEigen;
   second.jacobian_point = JacobianPoint::kPredicted;
@@ -83,7 +101,13 @@ template <class Real>
 ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                          const Tolerances& tolerances, const Vec<double>& scale, Solution<Real>& second_result,
                          const Monitor<Real>& monitor) {
-  second_result = second.integrate(start, result.t, monitor);
+  SwitchErrors<Real> switches(result);
+  Monitor<Real> watched = monitor;
+  watched.located = [&](const LocatedSwitch<Real>& at) {
+    switches.add(at);
+    if (monitor.located) monitor.located(at);
+  };
+  second_result = second.integrate(start, result.t, watched);
   ErrorBar bar;
   if (second_result.outcome != Outcome::kSuccess) {
     bar.u = unknown(result.u.size());
@@ -95,9 +119,9 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
     return bar;
   }
   const State<Real>& other = second_result.state;
-  bar.u = distances<Real>(result.u, other.u);
-  bar.v = distances<Real>(result.v, other.v);
-  bar.x = distances<Real>(result.x, other.x);
+  bar.u = distances<Real>(result.u, other.u) + switches.u;
+  bar.v = distances<Real>(result.v, other.v) + switches.v;
+  bar.x = distances<Real>(result.x, other.x) + switches.x;
   bar.z = distances<Real>(result.z(), other.z());
   weigh(other, tolerances, scale, bar);
   return bar;

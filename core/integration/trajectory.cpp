@@ -33,14 +33,6 @@ ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, c
   return norm;
 }
 
-// Whether algebraic unknowns other than multipliers have index 2: D0 is then singular, and only a step determines
-// (a, k).
-template <class Real>
-bool hidesRates(const System<Real>& system) {
-  const auto& powers = system.errorPowers().z;
-  return std::any_of(powers.begin() + system.sizes().constraints, powers.end(), [](int power) { return power > 0; });
-}
-
 }  // namespace
 
 template <class Real>
@@ -91,7 +83,6 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   start_.forgetPattern();
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
-  if (!switches_.none() && report.determined) attempt_->restart();
   if (positions_) positions_->begin(state_);
   if (controller_) amounts_.begin(state_, norm_);
   return report.outcome;
@@ -157,7 +148,11 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
     blamed_ = step.index;
     return Outcome::kChattering;
   }
-  return restartAtSwitch();
+  if (!monitor_->located) return restartAtSwitch();
+  const State<Real> before = system_.toScene(state_);
+  const Outcome outcome = restartAtSwitch();
+  if (outcome == Outcome::kSuccess) monitor_->located({step.time_error, before, system_.toScene(state_)});
+  return outcome;
 }
 
 // Positions that have drifted off their constraints by a tenth of the state tell nothing of a singular position.
@@ -220,9 +215,6 @@ Outcome Trajectory<Real>::restartAtSwitch() {
       start_detail_ = fixedRowViolation(system_, state_, norm_.weights(), allowedInFixedRows(options_));
       if (!start_detail_.empty()) return Outcome::kInconsistentStart;
     }
-    // In index 3 the stages' accelerations are of low order, and their difference at the start shows nothing. If D0 is
-    // singular, (a, k) are not known, and the first step may change them: it has no rates to follow.
-    if ((report.determined || hidesRates(system_)) && !projection_) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
     blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;

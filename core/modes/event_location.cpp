@@ -203,8 +203,10 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
       slope = (g - last_g) / (step - last_step);
     }
-    resolution = least + (slope > Real(0) ? Real(kNoise) * noise / slope : Real(0));
+    const Real lasts = slope > Real(0) ? Real(noise / slope) : Real(0);  // the round-off
+    resolution = least + Real(kNoise) * lasts;
     result.resolution = static_cast<double>(resolution);
+    result.time_error = static_cast<double>(Real(least + lasts / Real(kLastDigits)));
     if (due >= 0) {
       high = step;
       due_at_high = true;

@@ -42,6 +42,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
     }
     step.at_switch = at.found;
     step.resolution = at.resolution;
+    step.time_error = at.time_error;
     return step;
   }
 

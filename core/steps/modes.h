@@ -65,7 +65,8 @@ struct CommittedStep {
   bool switched = false;   ///< the mode changed in the step; the step's end has the new mode
   bool at_switch = false;  ///< a switch is due at its end
   Index index = -1;        ///< of the switch, or of the switch that caused the failure
-  double resolution = 0;   ///< to which the time of the switch is known
+  double resolution = 0;   ///< to which the time of the switch can be known
+  double time_error = 0;   ///< of the switch
 };
 
 /// What a treatment does after acceptance. The defaults suit treatments whose steps go on over switches.

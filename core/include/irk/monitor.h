@@ -47,12 +47,21 @@ struct SwitchRecord {
   const State<Real>& state;
 };
 
+/// One switch that was located, as it is passed. States are in the scene's unknowns and valid during the callback only.
+template <class Real>
+struct LocatedSwitch {
+  double time_error;          ///< by the round-off of its function and the tolerance of its location
+  const State<Real>& before;  ///< u, v, x, and (a, k, z) of the mode before it
+  const State<Real>& behind;  ///< the same behind it
+};
+
 /// Callbacks; each may be empty. They are called from within Integrator::integrate, on the caller's thread.
 template <class Real>
 struct Monitor {
   std::function<void(const StepRecord<Real>&)> accepted;
   bool inside = false;  ///< whether `accepted` needs StepRecord::inside; if not, the integration does not keep it
   std::function<void(const SwitchRecord<Real>&)> switched;
+  std::function<void(const LocatedSwitch<Real>&)> located;
   /// Called before each step. kSuccess continues; kTimeout or kInterrupted ends the integration with that outcome.
   std::function<Outcome()> interrupt;
 };

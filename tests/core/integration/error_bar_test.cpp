@@ -114,6 +114,47 @@ TEST(ErrorBar, OfAResultThatIsNoNumberIsInfinite) {
   EXPECT_EQ(bar.worst, 0);
 }
 
+/// A level that rises and falls by `width` in one second each, and the time for which it rises. The width is a hundred
+/// units of the level's round-off, so that a switch is known to some hundredths of a second only.
+struct NarrowControl {
+  double level = 1e6, width = 1e-8;
+  Sizes sizes() const { return {.nx = 2, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = width * (2.0 * p.d[0] - 1.0) - p.k[0];
+    r.x[1] = p.d[0] - p.k[1];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(p.x[0] - (level + width / 2)) : T(level - width / 2 - p.x[0]);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = 1.0 - p.d[0];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.x[0] = level;
+    s.d[0] = 1;
+    return s;
+  }
+};
+
+// Both integrations switch late by the same round-off; their distance alone would not cover it.
+TEST(ErrorBar, CoversTheRoundOffOfSwitchingFunctions) {
+  const NarrowControl control;
+  constexpr double kEnd = 40.25, kRising = 20.25;  // from 0 to 0.5, then every other second
+  const MeasuredRun m = measuredRun(control, control.start(), kEnd, embedded(1e-6));
+  ASSERT_EQ(m.first.outcome, Outcome::kSuccess) << m.first.detail;
+  ASSERT_TRUE(m.bar.known()) << m.bar.problem;
+  const double error = std::abs(m.first.state.x[1] - kRising);
+  const double distance = std::abs(m.first.state.x[1] - m.second.state.x[1]);
+  EXPECT_GT(error, 3 * (distance + 1e-4)) << "the test shows nothing";
+  EXPECT_LT(error, 3 * m.bar.x[1]);
+  // 40 switches, the time of each known to a unit of the round-off of the level, which is eps times it.
+  EXPECT_NEAR(m.bar.x[1], distance + 40 * 2.22e-16 * control.level / control.width, 0.3 * m.bar.x[1]);
+}
+
 TEST(ErrorBar, TheSecondIntegrationIsStricterAndKeepsWhatDescribesTheProblem) {
   IntegratorOptions first = adaptive(1e-5);
   first.tolerances.rtol = 1e-3;
@@ -130,6 +171,7 @@ TEST(ErrorBar, TheSecondIntegrationIsStricterAndKeepsWhatDescribesTheProblem) {
   EXPECT_EQ(second.derivatives, DerivativeSource::kCentral);
   EXPECT_EQ(second.step.h_max, 0.25);
   EXPECT_EQ(second.step.max_steps, 77);
+  EXPECT_GT(second.step.looks, first.step.looks);
   EXPECT_EQ(second.threads, 3);
   EXPECT_EQ(second.jacobian, JacobianTerms::kFull);
   EXPECT_EQ(second.order, OrderControl::kVariable);
