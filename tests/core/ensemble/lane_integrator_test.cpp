@@ -43,12 +43,13 @@ std::vector<std::int64_t> countsOf(const Counters& counters) {
   return counts;
 }
 
-// The criterion of "equal but for rounding": the same outcomes; nine of ten runs take the same steps, iterations,
-// Jacobians and factorizations, and differ by less than `rounding` of a tolerance; where rounding has changed a
-// decision the results differ by less than ten tolerances.
+// The criterion of "equal but for rounding": the same outcomes; this share of the runs takes the same steps,
+// iterations, Jacobians and factorizations, and differ by less than `rounding` of a tolerance; where rounding has
+// changed a decision the results differ by less than ten tolerances.
 template <template <class> class P>
 void expectSingleRuns(const Members<P>& members, const std::string& method,
-                      const IntegratorOptions& options = lanesAt(kLaneTolerance), double rounding = 0.01) {
+                      const IntegratorOptions& options = lanesAt(kLaneTolerance), double rounding = 0.01,
+                      double share = 0.9) {
   const auto lanes = lanesOf(members, method, options);
   std::size_t same = 0;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -63,7 +64,7 @@ void expectSingleRuns(const Members<P>& members, const std::string& method,
     same += equal;
     EXPECT_LT(differenceOf(lanes[i].state, single.state, kLaneTolerance), equal ? rounding : 10);
   }
-  EXPECT_GE(10 * same, 9 * lanes.size()) << method;
+  EXPECT_GE(static_cast<double>(same), share * static_cast<double>(lanes.size())) << method;
 }
 
 TEST(LaneIntegrator, EqualsSingleRunsOnAForcedOscillator) {
@@ -76,9 +77,11 @@ TEST(LaneIntegrator, EqualsSingleRunsOnAForcedOscillator) {
 
 TEST(LaneIntegrator, EqualsSingleRunsOnAConstrainedMechanism) {
   for (const Formulation formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3}) {
-    // Index 3 divides the round-off of positions by h^2.
-    expectSingleRuns(Members<LongPendulum>{spread(0.5, 2, 19), 2, formulation}, "radau_iia_3", lanesAt(kLaneTolerance),
-                     formulation == Formulation::kIndex3 ? 0.1 : 0.01);
+    // Index 3 divides the round-off of positions by h^2, so that it changes more decisions: 8 % of the runs without
+    // vector instructions.
+    const bool is_index3 = formulation == Formulation::kIndex3;
+    expectSingleRuns(Members<LongPendulum>{spread(0.5, 2, 95), 2, formulation}, "radau_iia_3", lanesAt(kLaneTolerance),
+                     is_index3 ? 0.1 : 0.01, is_index3 ? 0.8 : 0.9);
   }
 }
 
