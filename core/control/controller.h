@@ -1,11 +1,13 @@
 // Step-size controllers; they see error estimates and step sizes only.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "core/options/catalogue.h"
+#include "irk/scalar.h"
 
 namespace irk {
 
@@ -46,5 +48,32 @@ Catalogue<StepControl>& catalogue<StepControl>();
 
 /// The controller that the options name; null for fixed steps. `order`: p of the estimate's leading error h^(p+1).
 std::unique_ptr<StepController> makeController(const StepOptions& options, int order);
+
+/// The sizes of the last steps before an end. Where more than h but less than 2 h is left, two equal steps are taken: h
+/// would leave a tiny one, which round-off spoils (in index 3 multipliers have the round-off of positions divided by
+/// h^2).
+template <class Real>
+class LastSteps {
+ public:
+  void begin() { half_ = Real(0); }
+  /// The size of the next step if h is allowed and `left` is left up to `end`.
+  Real size(double h, const Real& left, const Real& end) {
+    using std::abs;
+    const double rest = static_cast<double>(left);
+    reaches_ = h * (1 + 1e-10) >= rest;
+    cut_ = reaches_ || 2 * h > rest;
+    // The second half has the size of the first, so that factors are kept; it may differ by the round-off of t.
+    const bool second = reaches_ && abs(Real(left - half_)) <= Real(8) * Eigen::NumTraits<Real>::epsilon() * abs(end);
+    const Real half = second ? half_ : Real(left / Real(2));
+    half_ = cut_ && !reaches_ ? half : Real(0);
+    return second ? half : reaches_ ? left : cut_ ? half : Real(h);
+  }
+  bool reachesEnd() const { return reaches_; }  ///< the step of the last size
+  bool cut() const { return cut_; }             ///< it is shorter than it may be
+
+ private:
+  Real half_{0};
+  bool reaches_ = false, cut_ = false;
+};
 
 }  // namespace irk

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/constants.h"
 #include "core/derivatives/consistent_start.h"
 #include "core/estimates/embedded.h"
 #include "core/integration/end_check.h"
@@ -49,6 +50,7 @@ Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
   length_ = member_.t_end - start_.t;
   controller_ = makeController(options_.step, order_);
   stall_.begin(start_.t);
+  last_steps_.begin();
   attempts_ = steps_ = 0;
   round_off_ = 0;
   look_ = 0;
@@ -63,13 +65,13 @@ double LaneRun::firstStep() const {
   if (options_.step.h > 0) return std::min(options_.step.h, length_);
   const double y = start_.u.norm() + start_.v.norm() + start_.x.norm();
   const double dy = start_.v.norm() + start_.a().norm() + start_.k().norm();
-  const double h = y > 1e-5 && dy > 1e-5 ? 0.01 * y / dy : 1e-4 * length_;
-  return std::min(h, 0.1 * length_);
+  const double h = y > 1e-5 && dy > 1e-5 ? kFirstChange * y / dy : 1e-4 * length_;
+  return std::min(h, kFirstPart * length_);
 }
 
 // Below this size t + c_i h does not resolve the stages (16 eps t).
 double LaneRun::smallest(double t) const {
-  const double resolved = 16 * std::numeric_limits<double>::epsilon() * std::abs(t);
+  const double resolved = kSmallestStep * std::numeric_limits<double>::epsilon() * std::abs(t);
   return std::max({options_.step.h_min, resolved, std::numeric_limits<double>::min()});
 }
 
@@ -77,10 +79,9 @@ Outcome LaneRun::plan(double t) {
   const std::int64_t left = options_.step.max_steps - attempts_;
   if (left == 0) return Outcome::kMaxSteps;
   if (h_ < smallest(t)) return too_small_;
-  if (attempts_ > 0 && stall_.attempted(t, h_, member_.t_end, left)) return Outcome::kStalled;
+  if (attempts_ > 0 && stall_.attempted(t, member_.t_end, left)) return Outcome::kStalled;
   ++attempts_;
-  last_ = h_ * (1 + 1e-10) >= member_.t_end - t;
-  size_ = last_ ? member_.t_end - t : h_;
+  size_ = last_steps_.size(h_, member_.t_end - t, member_.t_end);
   return Outcome::kSuccess;
 }
 
@@ -94,8 +95,8 @@ void LaneRun::failed(Outcome outcome) {
 bool LaneRun::decide(double estimate, double error, double round_off) {
   again_ = !(estimate <= 1);
   const StepDecision decision = controller_->decide(error, size_);
-  // A last step that was cut short does not reduce the size of the next one.
-  h_ = std::min(last_ && decision.accept ? std::max(h_, decision.h) : decision.h, options_.step.h_max);
+  // A step that was cut short does not reduce the size of the next one.
+  h_ = std::min(last_steps_.cut() && decision.accept ? std::max(h_, decision.h) : decision.h, options_.step.h_max);
   if (!decision.accept) {
     ++counters_.steps_rejected_error;
     too_small_ = Outcome::kStepTooSmall;
@@ -108,7 +109,7 @@ bool LaneRun::decide(double estimate, double error, double round_off) {
 }
 
 double LaneRun::newTime(double t_by_lanes) {
-  if (last_) return member_.t_end;
+  if (last_steps_.reachesEnd()) return member_.t_end;
   const double resolved =
       std::max(16 * std::numeric_limits<double>::epsilon() * std::abs(t_by_lanes), std::numeric_limits<double>::min());
   return t_by_lanes < member_.t_end && member_.t_end - t_by_lanes < resolved ? member_.t_end : t_by_lanes;

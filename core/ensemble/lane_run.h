@@ -73,7 +73,8 @@ class LaneRun {
   std::int64_t look_ = 0;  // points looked at
   double length_ = 0, round_off_ = 0;
   double h_ = 0, size_ = 0;  // the size asked for; the size of the attempt
-  bool last_ = false, again_ = true;
+  LastSteps<double> last_steps_;
+  bool again_ = true;
   Outcome too_small_ = Outcome::kStepTooSmall;  // the outcome of a step below the smallest size
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/constants.h"
 #include "core/control/stall_detector.h"
 #include "core/derivatives/first_order.h"
 #include "core/integration/memory_check.h"
@@ -139,6 +140,7 @@ class Integrator<Real>::Run {
     if (length_ == 0) return {};
     double h = std::min(firstStep(), options_.step.h_max);
     stall_.begin(static_cast<double>(state().t));
+    last_steps_.begin();
     too_small_ = Outcome::kStepTooSmall;
     for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
       if (Stop stop = askCaller(h)) return stop;
@@ -173,8 +175,8 @@ class Integrator<Real>::Run {
   Stop adaptiveStep(double& h, const Real& t_end) {
     const double least = smallestSize();
     const Real left = t_end - state().t;
-    const bool last = h * (1 + 1e-10) >= static_cast<double>(left);
-    const Real step = last ? left : Real(h);
+    const Real step = last_steps_.size(h, left, t_end);
+    const bool last = last_steps_.reachesEnd();
     const double size = static_cast<double>(step);
     const AttemptResult result = trajectory_.attempt(step);
     if (result.outcome != Outcome::kSuccess) {
@@ -183,8 +185,8 @@ class Integrator<Real>::Run {
       return {};
     }
     const StepDecision decision = trajectory_.decide(result, size);
-    // A last step that was cut short does not reduce the size of the next one.
-    h = std::min(last && decision.accept ? std::max(h, decision.h) : decision.h, options_.step.h_max);
+    // A step that was cut short does not reduce the size of the next one.
+    h = std::min(last_steps_.cut() && decision.accept ? std::max(h, decision.h) : decision.h, options_.step.h_max);
     if (!decision.accept) {
       ++counters_.steps_rejected_error;
       too_small_ = Outcome::kStepTooSmall;
@@ -215,7 +217,7 @@ class Integrator<Real>::Run {
     if (!(h > 0)) return {too_small_, h, "the step control chose no size > 0 " + trajectory_.rejections()};
     if (h < smallestSize()) return {too_small_, h, "step too small " + trajectory_.rejections()};
     const bool stalls =
-        attempts > 0 && stall_.attempted(static_cast<double>(state().t), h, static_cast<double>(t_end), left);
+        attempts > 0 && stall_.attempted(static_cast<double>(state().t), static_cast<double>(t_end), left);
     if (stalls) return {Outcome::kStalled, h, "steps do not grow " + trajectory_.rejections()};
     return {};
   }
@@ -227,14 +229,13 @@ class Integrator<Real>::Run {
     const State<Real>& s = state();
     const double y = size(s.u) + size(s.v) + size(s.x);
     const double dy = size(s.v) + size(s.a()) + size(s.k());
-    const double h = y > 1e-5 && dy > 1e-5 ? 0.01 * y / dy : 1e-4 * length_;
-    return std::min(h, 0.1 * length_);
+    const double h = y > 1e-5 && dy > 1e-5 ? kFirstChange * y / dy : 1e-4 * length_;
+    return std::min(h, kFirstPart * length_);
   }
 
   // After a rejection with a switch in the step, the next step ends just before the switch. The step over the switch is
   // then so small that the mode may be wrong in it.
   static double beforeSwitch(const AttemptResult& result, double step, double h, double least) {
-    constexpr double kJustBefore = 0.98;
     const double before = kJustBefore * result.switch_at * step;
     return before > least ? before : h;
   }
@@ -245,7 +246,7 @@ class Integrator<Real>::Run {
   // scenes.
   double resolvedSize() const {
     const double eps = static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
-    return 16 * eps * std::max(std::abs(static_cast<double>(state().t)), eps * length_);
+    return kSmallestStep * eps * std::max(std::abs(static_cast<double>(state().t)), eps * length_);
   }
   double smallestSize() const { return std::max(options_.step.h_min, resolvedSize()); }
 
@@ -263,6 +264,7 @@ class Integrator<Real>::Run {
   CountingSystem<Real> counted_;
   Trajectory<Real> trajectory_;
   StallDetector stall_;
+  LastSteps<Real> last_steps_;
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   std::vector<Real> times_;                     // of the system, those before the end
