@@ -4,9 +4,13 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/constants.h"
+
 namespace irk {
 
 namespace {
+
+constexpr double kTinyError = 1e-300;  // an estimate of zero divides nothing
 
 /// Paper, section 6, with the error in units of the tolerance:
 ///   f = gamma (1 / (s_min eps))^(1/(p+1))                                        (6.1)
@@ -32,24 +36,24 @@ class PaperController : public StepController {
       // The paper's text breaks off at "restrict gamma <". A gamma above 1 would enlarge the step because the error
       // grew faster than expected. A gamma far below 1 would prevent growth at round-off, where the error no longer
       // follows h^p.
-      gamma_ = std::clamp(gamma, kGammaMin, 1.0);
+      gamma_ = std::clamp(gamma, kGammaMin.value, 1.0);
     }
     last_error_ = eps;
     last_h_ = h;
     const double f = gamma_ * std::pow(1 / (o_.s_min * eps), exponent_);
-    if (error > 1) return {false, h * std::clamp(f, kShrinkAtMost, 1 / o_.change_at_least)};
+    if (error > 1) return {false, h * std::clamp(f, kPaperShrinkAtMost.value, 1 / o_.change_at_least)};
     if (f >= o_.change_at_least && eps < 1 / s_max_) {
       const double grown = h * std::min(f, o_.growth_at_most);
       return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
     }
-    if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kShrinkAtMost)};
+    if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kPaperShrinkAtMost.value)};
     return {true, h};
   }
   // The paper does not say what follows a Newton failure. Sizes from the failed one on are barred for kBarredSteps
   // steps, because the error estimate does not show such failures and would ask for the failed size at once.
   double afterFailure(double h) override {
     failed_h_ = h;
-    barred_ = kBarredSteps;
+    barred_ = kBarredSteps.whole();
     return h / o_.change_at_least;
   }
   void forget() override {
@@ -66,11 +70,6 @@ class PaperController : public StepController {
   }
 
  private:
-  static constexpr double kTinyError = 1e-300;
-  static constexpr double kGammaMin = 0.9;
-  static constexpr double kShrinkAtMost = 0.05;
-  static constexpr int kBarredSteps = 10;
-
   double exponentOf(int order) const { return 1.0 / (order + rules_.beyond_order); }
 
   StepOptions o_;
@@ -125,7 +124,7 @@ class PredictiveController final : public StepController {
     double factor = kSafety / now;
     if (error > 1) {
       rejected_ = true;
-      return {false, h * std::clamp(factor, kShrinkAtMost, kSafety)};
+      return {false, h * std::clamp(factor, kShrinkAtMost.value, kSafety.value)};
     }
     if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / now);
     // If smaller steps did not reduce the error, the next one will not either. Without this rule an error of round-off,
@@ -134,7 +133,7 @@ class PredictiveController final : public StepController {
     if (futile_ >= kFutileSteps) factor = std::max(factor, 1.0);
     last_h_ = h;
     last_root_ = std::max(now, least_root_);
-    factor = std::clamp(factor, kShrinkAtMost, rejected_ ? 1.0 : kGrowAtMost);
+    factor = std::clamp(factor, kShrinkAtMost.value, rejected_ ? 1.0 : kGrowAtMost.value);
     rejected_ = false;
     const double grown = factor < 1 || factor > keep_up_to_ ? h * factor : h;
     return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
@@ -142,7 +141,7 @@ class PredictiveController final : public StepController {
   double afterFailure(double h) override {
     rejected_ = true;
     failed_h_ = h;
-    barred_ = kBarredSteps;
+    barred_ = kBarredSteps.whole();
     const bool far_off = last_h_ == 0 && first_failures_++ > 0;
     return far_off ? std::max(h * kFarOff, std::min(h / 2, h_min_)) : h / 2;
   }
@@ -157,9 +156,7 @@ class PredictiveController final : public StepController {
   // proportional to (ln k + r steps) / (1 - 1/k). The best k therefore grows with the cost of factors. Measured on
   // dense chains of beams, n = 60 ... 200: with k = 2 instead of 1.2 radau_iia_5 takes 0.26 ... 0.36 of the time, with
   // a smaller error.
-  void factorsCost(double steps) override {
-    keep_up_to_ = std::clamp(kKeepUpTo + kKeepPerStep * (steps - 1), kKeepUpTo, kKeepAtMost);
-  }
+  void factorsCost(double steps) override { keep_up_to_ = std::clamp(steps, kKeepUpTo.value, kKeepAtMost.value); }
   void changeOrder(int order, double error, double h) override {
     degree_ = order + 1;
     least_root_ = root(kErrorFloor, degree_);
@@ -168,19 +165,6 @@ class PredictiveController final : public StepController {
   }
 
  private:
-  static constexpr double kTinyError = 1e-300;
-  static constexpr double kSafety = 0.9;
-  static constexpr double kShrinkAtMost = 0.2;  // this and the next two: FACL, FACR and ERRACC of RADAU
-  static constexpr double kGrowAtMost = 8;
-  static constexpr double kErrorFloor = 1e-2;
-  static constexpr double kKeepUpTo = 1.2, kKeepAtMost = 2;  // growth below which the size is kept
-  static constexpr double kKeepPerStep = 0.4;                // added per step that factors cost above one
-  // Factor after the second failure before any step is accepted: a first guess may be off by orders of magnitude.
-  static constexpr double kFarOff = 0.1;
-  static constexpr double kFutile = 0.98;  // of the error's root of the step before
-  static constexpr int kFutileSteps = 40;  // in a row
-  static constexpr int kBarredSteps = 10;
-
   double h_min_;
   double keep_up_to_ = kKeepUpTo;
   int degree_;                         // p + 1, of the roots

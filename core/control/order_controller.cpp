@@ -4,27 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/constants.h"
+
 namespace irk {
 
 namespace {
 
-// The order is reconsidered every kMinStay accepted steps.
-constexpr int kMinStay = 7;
-// A change of order must multiply the progress per work by this factor, because it costs new factors and start values.
-constexpr double kGain = 1.2;
-// Up to kAbove members above the present one are considered. Their errors are extrapolated with the decay to the power
-// kDecayAbove, since it is less certain than the decay below.
-constexpr std::size_t kAbove = 2;
-constexpr double kDecayAbove = 0.9;
-// In the first step up to this many failures of Newton's method only halve the step, whose size is a guess.
-constexpr int kFirstStepFailures = 12;
-// Bounds of Newton's contraction. A step that would contract worse than the upper bound is not planned.
-constexpr double kMinContraction = 1e-4, kMaxContraction = 0.5;
-// Measured costs of a step besides its iterations, in units of one stage in one iteration. kStepPerStage: start values
-// and end, per stage. unknowns / kFactors: the factorizations, per stage. kStepAlone: Jacobian, estimate and control,
-// per step.
-constexpr double kStepPerStage = 0.4, kFactors = 16, kStepAlone = 8;
-constexpr double kSafety = 0.9, kShrinkAtMost = 0.2, kGrowAtMost = 8, kTinyError = 1e-300;
+constexpr double kTinyError = 1e-300;
 
 /// Chooses the member with the most progress per work. Every kMinStay accepted steps it determines the errors e_q of
 /// the member below and of up to two members above. The error below comes from the estimate; those above assume that
@@ -39,17 +25,17 @@ class LeastWork final : public OrderController {
 
   void begin() override { since_change_ = 0; }
   std::size_t afterFailure(std::size_t at, int failures, bool solved) override {
-    if (failures <= (solved ? 1 : kFirstStepFailures) || at == 0) return at;
+    if (failures <= (solved ? 1 : kFirstStepFailures.whole()) || at == 0) return at;
     since_change_ = 0;
     return at - 1;
   }
-  bool needsLower() const override { return (since_change_ + 1) % kMinStay == 0; }
+  bool needsLower() const override { return (since_change_ + 1) % kMinStay.whole() == 0; }
   OrderDecision decide(const OrderFacts& facts) override {
     ++since_change_;
     const std::size_t at = facts.at;
     const OrderDecision same{at, facts.h_next, facts.error};
     if (std::isnan(facts.lower) && at > 0) return same;
-    if (setup_.members.size() == 1 || since_change_ % kMinStay != 0) return same;
+    if (setup_.members.size() == 1 || since_change_ % kMinStay.whole() != 0) return same;
     const auto next = best(facts);
     if (next.next == at) return same;
     since_change_ = 0;
@@ -66,15 +52,15 @@ class LeastWork final : public OrderController {
     const double error = estimate * m.strictness;
     const double s = m.stages;
     const double wish = kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
-    const double ratio = std::clamp(wish, kShrinkAtMost, kGrowAtMost);
+    const double ratio = std::clamp(wish, kShrinkAtMost.value, kGrowAtMost.value);
     Plan plan{now.h * ratio, error, 0};
     // Newton's contraction grows with the step.
-    const double before = std::max(now.theta, kMinContraction);
+    const double before = std::max(now.theta, kLeastContraction.value);
     const double theta = before * ratio;
-    if (theta > kMaxContraction) return plan;
+    if (theta > kMostContraction) return plan;
     const double decades = now.newton_iterations * std::log(1 / before);
     const double iterations = now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
-    const double work = (iterations + kStepPerStage + setup_.unknowns / kFactors) * s + kStepAlone;
+    const double work = (iterations + kCostPerStage + setup_.unknowns / kUnknownsPerCost) * s + kCostPerStep;
     plan.progress = plan.h / work;
     return plan;
   }
@@ -87,7 +73,7 @@ class LeastWork final : public OrderController {
     const double trend = std::min(1.0, facts.h_next / untrended);
     const double estimate = error / members[at].strictness;
     Plan best = plan(estimate, members[at], facts, trend);
-    best.progress *= kGain;
+    best.progress *= kOrderGain;
     std::size_t next = at;
     const auto consider = [&](std::size_t i, double e) {
       const Plan p = plan(e, setup_.members[i], facts, trend);
@@ -97,7 +83,7 @@ class LeastWork final : public OrderController {
     const double s = members[at].stages;
     const double below = at > 0 ? members[at - 1].stages : s - 1;
     const double ratio = at > 0 ? std::min(estimate / facts.lower, 1.0) : 0.1;
-    for (std::size_t i = at + 1; i < members.size() && i <= at + kAbove; ++i) {
+    for (std::size_t i = at + 1; i < members.size() && i <= at + static_cast<std::size_t>(kOrdersAbove.value); ++i) {
       const double more = (members[i].stages - s) / (s - below);
       consider(i, estimate * std::pow(ratio, kDecayAbove * more) * weight(i) / weight(at));
     }

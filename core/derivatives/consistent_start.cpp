@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/base/constants.h"
 #include "core/derivatives/constraint_check.h"
 #include "core/derivatives/constraint_frame.h"
 #include "core/derivatives/derivative_fault.h"
@@ -14,9 +15,6 @@
 namespace irk {
 namespace {
 
-// Relative to the magnitudes of the components: a start given with eight digits is accepted; larger violations count as
-// mistakes.
-constexpr double kStartTolerance = 1e-7;
 constexpr int kIterations = 50;
 // The derivatives are kept while each correction is at most this part of the one before.
 constexpr double kKeepBelow = 1e-3;
@@ -92,7 +90,7 @@ State<double> ConsistentStart<Real>::weightsOf(const State<Real>& state) const {
   const Sizes n = system_.sizes();
   State<double> weights(n);
   const auto weigh = [](const auto& part, const auto& scale) -> Vec<double> {
-    return kStartTolerance * (scale + part.template cast<double>().cwiseAbs());
+    return kEightDigits * (scale + part.template cast<double>().cwiseAbs());
   };
   const Index rates = n.nu + n.nx;
   weights.u = weigh(state.u, scale_.head(n.nu));
@@ -151,7 +149,7 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
   const bool at_start = check == StartCheck::kConstraints;
   const char* const place = at_start ? kStart : kConsistent;
   const std::int64_t before = factorizations_;
-  StartReport found = determine(state, place, kStartTolerance);
+  StartReport found = determine(state, place, kEightDigits);
   if (counters_ && !at_start) counters_->mass_factorizations += factorizations_ - before;
   if (found.outcome != Outcome::kSuccess) state.w = given_;
   if (found.outcome != Outcome::kSingular) return found;

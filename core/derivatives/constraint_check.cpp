@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/base/constants.h"
 #include "core/derivatives/first_order.h"
 #include "core/derivatives/weighted_changes.h"
 #include "core/options/fixed_steps.h"
@@ -12,15 +13,6 @@
 
 namespace irk {
 namespace {
-
-// A result is not trusted if it violates its constraints by more than kAllowed tolerances. With a drift of some tens of
-// tolerances, errors of 1000 tolerances and more occurred in directions that no constraint checks. Among 3060 runs of
-// mechanisms (measured with other random directions than today's) no result with an error below 30 tolerances drifted
-// by more than ten. A tolerance below kFinest counts as kFinest. The limit is at most kCoarsest times the magnitude of
-// the state, whatever the tolerance is, because a state that leaves its constraints grows.
-constexpr double kAllowed = 10;
-constexpr double kFinest = 1e-12;
-constexpr double kCoarsest = 0.1;
 
 // g or dg/dt.
 template <class Real>
@@ -47,9 +39,6 @@ std::string violationAt(const System<Real>& system, Level level, const State<Rea
   }
   return {};
 }
-
-// As kStartTolerance in core/derivatives/consistent_start.cpp.
-constexpr double kEightDigits = 1e-7;
 
 // The state with other (a, k, z): moved by 1 to 2 times 1 + their magnitude, each by another amount, so that no row
 // that reads them keeps its value.
@@ -88,9 +77,12 @@ std::string constraintViolation(const System<Real>& system, const State<Real>& s
   return g.empty() ? violationAt(constrained, Level::kVelocity, scene, moves, allowed) : g;
 }
 
+// With a drift of some tens of tolerances, errors of 1000 tolerances and more occurred in directions that no constraint
+// checks. Among 3060 runs of mechanisms (measured with other random directions than today's) no result with an error
+// below 30 tolerances drifted by more than ten.
 double allowedDrift(const Tolerances& tolerances) {
   const double tolerance = std::max(tolerances.rtol, tolerances.atol);
-  return std::min(kAllowed * std::max(1.0, kFinest / tolerance), kCoarsest / tolerance);
+  return std::min(kAllowedDrift * std::max(1.0, kFinestDrift / tolerance), kCoarsestDrift / tolerance);
 }
 
 template <class Real>

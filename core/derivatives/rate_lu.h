@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/base/constants.h"
 #include "core/derivatives/differentiator.h"
 #include "core/linear/dense_lu.h"
 #include "core/linear/sparse_lu.h"
@@ -20,16 +21,13 @@ class RateLu {
     std::copy_n(D.d0.data(), D.d0.size(), sparse_ ? sparse_->values() : dense_->values());
     if (!sparse_) return dense_->factorize();
     const Outcome outcome = sparse_->factorize();
-    const bool singular = outcome == Outcome::kSuccess && sparse_->reciprocalCondition() < kSingular;
+    const bool singular = outcome == Outcome::kSuccess && sparse_->reciprocalCondition() < kSingularPivot;
     return singular ? Outcome::kSingular : outcome;
   }
   /// Solves in place; x has n entries.
   void solve(Vec<Real>& x) { sparse_ ? sparse_->solve(x.data()) : dense_->solve(x.data()); }
 
  private:
-  // Limit for the ratio of the smallest to the largest pivot: round-off leaves about this much of a zero pivot.
-  static constexpr double kSingular = 1e-15;
-
   void adopt(std::shared_ptr<const Pattern> pattern) {
     pattern_ = std::move(pattern);
     dense_.reset();

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/constants.h"
+
 namespace irk {
 namespace {
 
 // As in core/newton/simplified_newton.cpp.
-constexpr double kMaxRoundOff = 0.3;
-constexpr double kMeasuredRoundOff = 10;
 
 // x^n by squaring, n >= 0.
 Lanes power(Lanes x, int n) {
@@ -120,7 +120,7 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
   LaneMask running = prepare(c, which);
   LaneMask converged;
   Lanes previous;
-  const Lanes floor = kRoundOffUnits * round_off_;
+  const Lanes floor = kRoundOffUnits.value * round_off_;
   for (int m = 0; m < limit_ && running.any(); ++m) {
     const Lanes norm = update(c, running);
     LaneMask done = lessOrEqual(norm, floor);
@@ -128,18 +128,18 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
     if (m == 0) {
       const Lanes eta = largest(eta_, roundOff<double>());
       const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / c.kappa, 5), 1.0);
-      done = (done | (small & lessOrEqual(norm, kTrustedFirst))) & running;
+      done = (done | (small & lessOrEqual(norm, kTrustedFirst.value))) & running;
       if (done.any()) eta_ = select(done, pow(eta, 0.8), eta_);
     } else {
       const Lanes theta = select(less(0.0, previous), norm / previous, 0.0);
       theta_ = select(running, theta, theta_);
-      ends = running & lessOrEqual(0.5, theta) & lessOrEqual(norm, kStagnationUnits * round_off_);
+      ends = running & lessOrEqual(kStagnates.value, theta) & lessOrEqual(norm, kStagnationUnits.value * round_off_);
       Lanes eta = etaOf(theta);
       const LaneMask slow = less(c.kappa, power(theta, limit_ - 1 - m) * eta * norm);
-      const LaneMask hopeless = running & ~ends & (lessOrEqual(0.99, theta) | slow);
+      const LaneMask hopeless = running & ~ends & (lessOrEqual(kStuck.value, theta) | slow);
       if (stop_.by_round_off) eta = etaOf(largest(theta, slowest_));
       if (m > 1) slowest_ = select(running & ~ends & ~hopeless, theta, slowest_);
-      const LaneMask small = lessOrEqual(eta * norm, c.kappa) & lessOrEqual(norm, kTrustedIncrement);
+      const LaneMask small = lessOrEqual(eta * norm, c.kappa) & lessOrEqual(norm, kTrustedIncrement.value);
       done = (done | small) & running & ~ends & ~hopeless;
       eta_ = select(done, eta, eta_);
       if (hopeless.any()) {
@@ -160,7 +160,7 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
 
 // Whether an increment that no longer contracts is round-off of the residual, see SimplifiedNewton::isRoundOff.
 LaneMask LaneNewton::isRoundOff(Context& c, const LaneMask& which, const Lanes& norm) {
-  LaneMask small = which & lessOrEqual(norm, kMaxRoundOff);
+  LaneMask small = which & lessOrEqual(norm, kLargestRoundOff.value);
   if (!small.any()) return small;
   c.counters.residuals.add(small, 2 * s_);
   c.counters.solves.add(small);
@@ -171,7 +171,7 @@ LaneMask LaneNewton::isRoundOff(Context& c, const LaneMask& which, const Lanes& 
   for (std::size_t i = 0; i < R_.size(); ++i) R_[i] -= R0_[i];
   matrix_.solve(R_.data());
   for (std::size_t i = 0; i < R_.size(); ++i) R_[i] -= change_[i];
-  return small & lessOrEqual(norm, kMeasuredRoundOff * c.norm.increment(R_.data(), s_));
+  return small & lessOrEqual(norm, kRoundOffUnits.value * c.norm.increment(R_.data(), s_));
 }
 
 LaneSolved LaneNewton::solve(LaneStages& stages, const LaneNorm& norm, const LaneState& from, const Lanes& h,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/constants.h"
 #include "core/estimates/embedded.h"
 
 namespace irk {
@@ -12,7 +13,6 @@ namespace {
 // As in core/stages/stage_equations.cpp, start_values.cpp and newton/simplified_newton.cpp.
 constexpr double kInner = 0.6;
 constexpr double kAmplificationLimit = 1e4;
-constexpr double kLastDigits = 4;
 
 Index innerStage(const Scheme<double>& scheme) {
   Index inner = 0;

@@ -15,7 +15,7 @@ namespace irk {
 
 template <class Real>
 MovingPoints<Real>::MovingPoints(const Scheme<Real>& scheme, std::int64_t looks) {
-  while (2 * period_ < looks) stride_ = std::exchange(period_, period_ + stride_);
+  while (period_ < looks) stride_ = std::exchange(period_, period_ + stride_);
   if constexpr (std::is_same_v<Real, double>) {
     static Kept<Weights> all;
     std::string key = std::to_string(period_);

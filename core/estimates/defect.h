@@ -15,7 +15,7 @@ namespace irk {
 template <class Real>
 class MovingPoints {
  public:
-  /// The period is at least `looks` / 2, and 55.
+  /// The period is at least `looks`, and 55.
   MovingPoints(const Scheme<Real>& scheme, std::int64_t looks);
   double place(std::int64_t i) const;
   std::int64_t period() const { return period_; }

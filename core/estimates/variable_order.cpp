@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/constants.h"
 #include "core/options/guards.h"
 #include "irk/multiprecision.h"
 
@@ -12,23 +13,19 @@ namespace irk {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Measured: the first number of stages at tolerance 1, and how many more for each decade below it.
-constexpr double kStagesAtOne = 2.51, kStagesPerDecade = 0.7;
-constexpr double kRoundOffUnits = 1e4;
-constexpr double kStricter = 1.25;
-
 // The factor >= 1 by which a member's estimate is multiplied. A solution of order 2s - 1 is much better than its
 // estimate of order s + 1, the more so the larger s is. With equal estimates nearly all of the error would come from
 // the steps of the lower members (kepler, tolerance 1e-8: 300 times the error of nine stages throughout). Members err
 // alike with estimates below tol^(r (s + 1) / s), as in RADAU; r is chosen so that the highest member has the tolerance
-// itself. Measured: the exponent has to exceed 1 by a quarter more (kStricter). The bound does not go below round-off.
+// itself. Measured: the exponent has to exceed 1 by a quarter more (kMemberStrictness). The bound does not go below
+// round-off.
 template <class Real>
 double strictness(Index member, Index highest, const Tolerances& tolerances) {
   const auto per_order = [](Index s) { return (static_cast<double>(s) + 1) / static_cast<double>(s); };
   const double tolerance = std::max(tolerances.rtol, tolerances.atol);
-  const double least = kRoundOffUnits * static_cast<double>(Eigen::NumTraits<Real>::epsilon());
+  const double least = kStagnationUnits * static_cast<double>(Eigen::NumTraits<Real>::epsilon());
   const double more = per_order(member) / per_order(highest) - 1;
-  const double own = std::pow(tolerance, 1 + kStricter * more);
+  const double own = std::pow(tolerance, 1 + kMemberStrictness * more);
   return std::max(1.0, tolerance / std::max(own, least));
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/base/constants.h"
 #include "core/integration/component_name.h"
 #include "irk/multiprecision.h"
 
@@ -12,8 +13,6 @@ namespace irk {
 namespace {
 
 constexpr std::size_t kNamed = 4;  // a remark is one line
-// Up to so many units of round-off of its scale a component is zero: sums of some terms leave that.
-constexpr double kUnits = 10;
 
 // Removes the element at `at` by the last one; the order does not matter.
 template <class T>
@@ -60,7 +59,7 @@ template <class Real>
 void Amounts<Real>::begin(const State<Real>& state, ErrorNorm<Real>& norm) {
   norm.update(State<Real>(sizes_));
   least_ = norm.weights().head(least_.size());
-  round_off_ = kUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
+  round_off_ = kZeroUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
   small_.clear();
   never_.clear();
   negative_.clear();

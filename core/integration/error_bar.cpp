@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/constants.h"
 #include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
-
-// The second tolerance as a part of the first. Measured on 522 successes over foreign systems: with a tenth, 16 errors
-// were above their bar; with ten times the tolerance 25 were, and bars were up to 600 times too large.
-constexpr double kStricter = 0.1;
-// The least tolerance, in epsilons: below it steps end in round-off.
-constexpr double kLeast = 50;
-// The second integration looks at more points between the stages than the first, and at others.
-constexpr std::int64_t kLooks = 1000;
-// Fixed steps have no tolerance to start from.
-constexpr double kOfFixedSteps = 1e-10;
 
 // |a - b|, each difference formed in Real.
 template <class Real>
@@ -75,10 +66,10 @@ IntegratorOptions independentOptions(const IntegratorOptions& first) {
   second.tolerances = first.tolerances;
   const double eps = static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
   const auto stricter = [eps](double tolerance) {
-    return std::min(tolerance, std::max(kStricter * tolerance, kLeast * eps));
+    return std::min(tolerance, std::max(kBarStricter * tolerance, kBarLeast * eps));
   };
   if (hasFixedSteps(first.step)) {
-    second.tolerances.rtol = second.tolerances.atol = kOfFixedSteps;
+    second.tolerances.rtol = second.tolerances.atol = kBarOfFixedSteps;
   } else {
     second.tolerances.rtol = stricter(first.tolerances.rtol);
     second.tolerances.atol = stricter(first.tolerances.atol);
@@ -88,7 +79,7 @@ IntegratorOptions independentOptions(const IntegratorOptions& first) {
   second.storage = first.storage;
   second.threads = first.threads;
   second.step.max_steps = first.step.max_steps;
-  second.step.looks = std::max(kLooks, first.step.looks);
+  second.step.looks = std::max<std::int64_t>(kBarLooks.whole(), first.step.looks);
   second.step.estimate = ErrorEstimate::kEmbedded;
   second.solver = StageSolverKind::kEigen;
   second.jacobian_point = JacobianPoint::kPredicted;
@@ -128,9 +119,7 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
 }
 
 double largestErrorBar(const Tolerances& tolerances) {
-  // The bar of the audit (experiments/audit/judge.h), in tolerances.
-  constexpr double kTolerances = 1000, kRoundOff = 1e-9;
-  return kTolerances + kRoundOff / std::max(tolerances.rtol, tolerances.atol);
+  return kLargestBar + kLargestBarRoundOff / std::max(tolerances.rtol, tolerances.atol);
 }
 
 #define IRK_ERROR_BAR(Real)                                                                                       \

@@ -4,16 +4,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/base/constants.h"
 #include "core/derivatives/constraint_check.h"
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
-
-// As for starts (kStartTolerance in core/derivatives/consistent_start.cpp): what is right to eight digits is no
-// mistake.
-constexpr double kSame = 1e-7;
 
 // A state at time t whose u, v, x differ from those of the start by up to 1 + their magnitude times `by`.
 template <class Real>
@@ -33,7 +30,7 @@ void requireSame(const Vec<Real>& first, const Vec<Real>& again, const Vec<Real>
   for (Index i = 0; i < first.size(); ++i) {
     const double difference = static_cast<double>(Real(abs(Real(again[i] - first[i]))));
     const bool finite = std::isfinite(difference);
-    if (!finite || difference <= kSame * static_cast<double>(magnitude[i])) continue;
+    if (!finite || difference <= kEightDigits * static_cast<double>(magnitude[i])) continue;
     std::ostringstream text;
     text << "row " << i << " of the residual (from 0 on) at t = " << t << " is " << static_cast<double>(first[i])
          << ", and after evaluations elsewhere " << static_cast<double>(again[i])

@@ -6,20 +6,14 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/constants.h"
 #include "core/system/component_scale.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
 
-// Half of the bound of Newton and Kantorovich, 1/4: a motion that turns from one branch into the other reaches the
-// bound at one point only, and half of it on an arc on which the gradients turn by 45 degrees. Measured on the runs
-// over the crossing of an eight and of two wires that turned there (five formulations, three configurations, 1e-4 to
-// 1e-10): the largest rest was 0.22 to 0.25.
-constexpr double kNewtonRest = 0.125;
-// The way is looked at in pieces in which the gradients turn by less than 30 degrees, so that one of them ends in the
-// arc above.
-const double kNear = std::sqrt(0.75);
+const double kNear = std::sqrt(kNearCosine);
 // A failed run looks ahead from this part of its largest step, by pieces that grow by a tenth.
 constexpr double kFirstLook = 1e-3, kLooks = 1.1;
 

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/constants.h"
 #include "core/derivatives/constraint_check.h"
 #include "core/derivatives/first_order.h"
 #include "core/integration/component_name.h"
@@ -13,9 +14,6 @@
 
 namespace irk {
 namespace {
-
-// Limit of rounds of switches at one time in which the new (a, k, z) make further switches due.
-constexpr int kRounds = 5;
 
 template <class Real>
 bool isIndex3(const System<Real>& system) {
@@ -159,8 +157,7 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
 template <class Real>
 bool Trajectory<Real>::passesSingularPosition() {
   if (!positions_ || !positions_->passes(jacobian_, state_, next_)) return false;
-  constexpr double kFarOff = 0.1;  // the largest allowed drift (core/derivatives/constraint_check.h)
-  return constraintViolation(system_, next_, norm_.weights(), kFarOff / norm_.tolerance()).empty();
+  return constraintViolation(system_, next_, norm_.weights(), kCoarsestDrift / norm_.tolerance()).empty();
 }
 
 template <class Real>
@@ -198,7 +195,7 @@ void Trajectory<Real>::report(const CommittedStep<Real>& step) {
 // Sets the new mode and its (a, k, z), which may make further switches due.
 template <class Real>
 Outcome Trajectory<Real>::restartAtSwitch() {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSwitchRounds; ++round) {
     const Outcome modes = settle();
     if (modes != Outcome::kSuccess) return modes;
     restart();

@@ -6,6 +6,7 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "core/base/constants.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -13,16 +14,8 @@ namespace {
 
 // Evaluations of a switching function on the dense output, per root; ten are usual.
 constexpr std::uintmax_t kMaxEvaluations = 200;
-// Re-solved steps per switch; four are usual. From kSecants on every second one halves the bracket, so that the limit
-// allows for 46 halvings, 14 digits of the step.
-constexpr int kMaxSolves = 100, kSecants = 8;
-// Limit of earlier switches that show only in the shortened step; one is rare.
-constexpr int kMaxEarlier = 5;
-// The allowed error in the time of a switch, in units of h times the tolerance.
-constexpr double kTimeTolerance = 1e-5;
-// The round-off of a switching function is measured with changes of this many epsilons, the round-off of a step's end.
-// Its sign is known where it is above kNoise times the round-off.
-constexpr double kLastDigits = 4, kNoise = 2;
+// Solves of a step from which on every second one halves the bracket.
+constexpr int kSecants = 8;
 
 template <class Real>
 Real epsilon() {
@@ -43,7 +36,7 @@ Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const Stat
   result.h = h;
   Root root;
   bool seen = first(attempt, from, next, Scan::EndSample::kLookAt, result, root);
-  for (int i = 0; seen && i < kMaxEarlier; ++i) {
+  for (int i = 0; seen && i < kSwitchRounds; ++i) {
     result = solveTo(attempt, from, result.h, next, root);
     if (result.outcome != Outcome::kSuccess) return result;
     seen = first(attempt, from, next, result.found ? Scan::EndSample::kSkip : Scan::EndSample::kLookAt, result, root) &&
@@ -131,7 +124,7 @@ Real EventLocator<Real>::noiseOf(const State<Real>& state, Index i) {
     int sign = 1;
     for (auto* part : {&moved_.u, &moved_.v, &moved_.x, &moved_.w}) {
       for (Real& y : *part) {
-        y += Real(sign * kLastDigits) * epsilon<Real>() * abs(y);
+        y += Real(sign * kLastDigits.value) * epsilon<Real>() * abs(y);
         if (alternating) sign = -sign;
       }
     }
@@ -178,7 +171,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
   bool due_at_high = false;
   Real slope = root.slope, noise(-1), last_step(0), last_g(0);
   result.index = root.index;
-  for (int solves = 0; solves < kMaxSolves; ++solves) {
+  for (int solves = 0; solves < kMostSolves; ++solves) {
     const bool settled = high - low <= resolution;
     if (settled) step = high;
     result.attempt = attempt.attempt(from, step, next);
@@ -204,9 +197,9 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
       slope = (g - last_g) / (step - last_step);
     }
     const Real lasts = slope > Real(0) ? Real(noise / slope) : Real(0);  // the round-off
-    resolution = least + Real(kNoise) * lasts;
+    resolution = least + Real(kNoise.value) * lasts;
     result.resolution = static_cast<double>(resolution);
-    result.time_error = static_cast<double>(Real(least + lasts / Real(kLastDigits)));
+    result.time_error = static_cast<double>(Real(least + Real(kNoise / kLastDigits) * lasts));
     if (due >= 0) {
       high = step;
       due_at_high = true;

@@ -3,15 +3,13 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/constants.h"
 #include "core/estimates/step_attempt.h"
 #include "core/modes/switch_effect.h"
 #include "core/steps/modes.h"
 
 namespace irk {
 namespace {
-
-// If the mode of a step still changes after this many repetitions, no mode is valid over the whole step.
-constexpr int kDiscontinuousIterations = 10;
 
 /// HOTINT's discontinuous iteration: the mode is constant over the step and updated at its end; the step is solved
 /// again with the new mode until the mode stays the same.
@@ -50,7 +48,7 @@ class IteratedInStep final : public ModesInStep<Real> {
       result.outcome = report.outcome;
       if (report.outcome != Outcome::kSuccess) return false;
       if (done_.size() == before) return true;
-      if (i == kDiscontinuousIterations) {
+      if (i == kModeIterations.whole()) {
         result.outcome = Outcome::kChattering;
         return false;
       }

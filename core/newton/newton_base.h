@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/constants.h"
 #include "core/base/small_size.h"
 #include "core/newton/broyden.h"
 #include "core/newton/newton.h"
@@ -15,23 +16,6 @@ template <class Real>
 double roundOff() {
   return static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
 }
-
-// Increments below this many units of round-off cannot be reduced further.
-inline constexpr double kRoundOffUnits = 10;
-// A contraction remembered from the step before ends the iteration after its first increment only if that is at most
-// one tolerance. In a phase in which the equations are linear the remembered contraction is round-off, and would accept
-// any increment; the step after that phase has another one (a box on an oscillating table, Stribeck friction with a
-// width of 1e-2, embedded, 1e-7: one increment of 1e6 tolerances, and an acceleration wrong by 9.81 in two stages).
-inline constexpr double kTrustedFirst = 1;
-// After the first iteration an increment counts as converged only if it is itself at most this many tolerances. Start
-// values may be far off: then a much smaller second increment does not show that the solution is near (transamp,
-// radau_ia_20, 1e-2: increments of 3e5 and 28 tolerances, and an error of 5e4).
-inline constexpr double kTrustedIncrement = 10;
-// Increments that stop contracting below this many units of round-off are round-off of the residual.
-inline constexpr double kStagnationUnits = 1e4;
-
-// Fixed steps cannot be shortened: Newton's method may use this many times max_iterations.
-inline constexpr int kFixedStepFactor = 4;
 
 // Weights divide by the tolerance: round-off in the error norm is eps / tolerance.
 template <class Real>
@@ -46,12 +30,11 @@ struct IncrementLimit {
   double least;       ///< lower bound of kappa: round-off, or kappa itself if the caller has chosen it
 
   /// kappa after `accepted` steps. The remaining error of Newton's method has the same sign in step after step, and no
-  /// error estimate shows it: N steps would leave N kappa tolerances. From kMany steps on kappa therefore falls as
-  /// kMany / N.
+  /// error estimate shows it: N steps would leave N kappa tolerances. From kManySteps on kappa therefore falls as
+  /// kManySteps / N.
   double after(std::int64_t accepted) const {
-    constexpr std::int64_t kMany = 1000;
-    if (accepted <= kMany) return kappa;
-    return std::max(least, kappa * static_cast<double>(kMany) / static_cast<double>(accepted));
+    const auto steps = static_cast<double>(accepted);
+    return steps <= kManySteps ? kappa : std::max(least, kappa * kManySteps / steps);
   }
 };
 /// kappa shrinks with s: at high order an inaccurate solution of the stage equations spoils the step.
@@ -61,10 +44,8 @@ IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
   const double s = static_cast<double>(stages);
   const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
   const double kappa = options.newton.kappa;
-  // The difference of a step and its halves, divided by 2^q - 1, hides what Newton's method leaves in them.
-  constexpr double kHidden = 0.1;
-  const double part = options.step.estimate == ErrorEstimate::kRichardson ? kHidden : 1;
-  const double wanted = kappa > 0 ? kappa : part * std::min(0.03, std::pow(rtol, (s - 1) / (s + 1)));
+  const double part = options.step.estimate == ErrorEstimate::kRichardson ? kHiddenPart.value : 1;
+  const double wanted = kappa > 0 ? kappa : part * std::min(kNewtonPart.value, std::pow(rtol, (s - 1) / (s + 1)));
   const double limit = std::max(floor, wanted);
   return {limit, floor > wanted, kappa > 0 ? limit : floor};
 }

@@ -13,10 +13,6 @@ namespace {
 /// Whether an increment at round-off ends the iteration although the residual has not shrunk by the required factor.
 enum class AtRoundOff { kEnd, kGoOn };
 
-// Paper (3.4): an iteration contracts if it leaves at most this part of the residual; contractivity_limit may allow
-// more.
-constexpr double kContracts = 0.7;
-
 /// Paper, section 3. eps(i) = |R|_2; converged when eps(i) <= tol eps(0). By default an increment at round-off ends the
 /// iteration as well, since the residual then cannot shrink further.
 ///
@@ -43,8 +39,8 @@ class ResidualNewton : public NewtonBase<Real> {
     double eps = eps0, before_previous = eps0;
     if (eps0 == 0) return result;
     bool reached = false;
-    const double contracts = std::max(kContracts, o.contractivity_limit);
-    const int limit = o.max_iterations * (to_round_off_ ? kFixedStepFactor : 1);
+    const double contracts = std::max(kContracts.value, o.contractivity_limit);
+    const int limit = o.max_iterations * (to_round_off_ ? kFixedStepFactor.whole() : 1);
     for (int i = 1; i <= limit; ++i) {
       ++result.iterations;
       ++c.counters.newton_iterations;
@@ -62,7 +58,7 @@ class ResidualNewton : public NewtonBase<Real> {
       before_previous = previous;
       if (at_round_off_ == AtRoundOff::kEnd) {
         if (norm <= kRoundOffUnits * this->round_off_) return result;
-        if (theta >= 0.5 && norm <= kStagnationUnits * this->round_off_) return result;
+        if (theta >= kStagnates && norm <= kStagnationUnits * this->round_off_) return result;
       }
       if (reached) continue;
       // Paper (3.4). Full Newton is the last resort and may use all iterations.

@@ -22,13 +22,6 @@ double power(double x, int n) {
   return result;
 }
 
-// Round-off of up to kMaxRoundOff tolerances is accepted and reported. Increments of up to kMeasuredRoundOff times the
-// measured round-off count as round-off.
-constexpr double kMaxRoundOff = 0.3;
-constexpr double kMeasuredRoundOff = 10;
-// To measure round-off, numbers are changed by this many units of their round-off.
-constexpr double kLastDigits = 4;
-
 // Broyden's updates cost dot products. If the last step contracted better than this, its iterations are too few for
 // them.
 constexpr double kWorthUpdates = 0.1;
@@ -40,9 +33,6 @@ constexpr double kUnknownFloor = -1;
 
 // theta before any step has shown one: assumes no contraction.
 constexpr double kUnknownTheta = 1;
-
-// With fixed steps Newton's method goes on until increments are this many times the first one.
-constexpr double kLost = 10;
 
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
@@ -104,7 +94,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     NewtonResult result;
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
-    const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor);
+    const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor.whole());
     const double kappa = limit_.after(c.counters.steps_accepted);
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
@@ -122,13 +112,14 @@ class SimplifiedNewton : public NewtonBase<Real> {
         const bool is_bound = m > 1 && norm <= kRoundOffUnits * this->round_off_;
         if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
         // Increments at round-off no longer contract; above round-off this is divergence.
-        const bool may_stagnate = theta >= 0.5 && norm <= kStagnationUnits * this->round_off_;
-        if (may_stagnate && (norm >= 0.5 * before_previous || norm <= kMeasuredRoundOff * floor(c, W))) return result;
+        const bool may_stagnate = theta >= kStagnates && norm <= kStagnationUnits * this->round_off_;
+        if (may_stagnate && (norm >= kStagnates * before_previous || norm <= kRoundOffUnits * floor(c, W)))
+          return result;
         eta = of_step = etaOf(theta);
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
         const bool slow =
             adaptive_ && !(eta * norm <= kappa && theta < 1) && power(theta, limit - 1 - m) * eta * norm > kappa;
-        const bool stuck = theta >= 0.99 && (patience == Patience::kNone || norm > kLost * first);
+        const bool stuck = theta >= kStuck && (patience == Patience::kNone || norm > kLost * first);
         if (!may_stagnate && (stuck || slow)) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
@@ -140,7 +131,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
       } else if (std::min(last, 1.0) * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta = of_step = std::pow(last, 0.8);  // if min(last, 1) is too large, so is this
       }
-      const bool trusted = norm <= (m == 0 ? kTrustedFirst : kTrustedIncrement);
+      const bool trusted = norm <= (m == 0 ? kTrustedFirst : kTrustedIncrement).value;
       if ((trusted && eta * norm <= kappa) || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
@@ -157,7 +148,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   }
   // Whether an increment that no longer contracts is round-off of the residual.
   bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, double norm) {
-    return adaptive_ && norm <= kMaxRoundOff && norm <= kMeasuredRoundOff * measuredFloor(c, W);
+    return adaptive_ && norm <= kLargestRoundOff && norm <= kRoundOffUnits * measuredFloor(c, W);
   }
   // The same round-off, measured at the first use after `forget`.
   double floor(NewtonContext<Real>& c, const Mat<Real>& W) {
@@ -187,7 +178,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     using std::abs;
     const State<Real>& from = c.eq.from();
     const Index nu = from.u.size(), nx = from.x.size();
-    const Real h = c.eq.h(), eps = Real(kLastDigits) * Eigen::NumTraits<Real>::epsilon();
+    const Real h = c.eq.h(), eps = Real(kLastDigits.value) * Eigen::NumTraits<Real>::epsilon();
     change_.resize(W.rows(), W.cols());
     for (Index j = 0; j < W.cols(); ++j) {
       for (Index i = 0; i < W.rows(); ++i) {

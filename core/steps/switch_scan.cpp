@@ -5,18 +5,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/constants.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
 
-// A maximum is searched where the samples' parabola, with its height above the largest sample multiplied by this,
-// exceeds 0. The height is at most an eighth of the second difference.
-constexpr double kCaution = 8;
-// A corner, for example of the minimum of two functions, shows as a third difference above kCorner times the second.
-// Next to an end of the step its peak does not show in the parabola; a probe at kProbe times the distance of samples
-// finds it.
-constexpr double kCorner = 0.25, kProbe = 1e-3;
 // Limits of the search for a maximum: bits of theta, and evaluations.
 constexpr int kPeakBits = 20;
 constexpr std::uintmax_t kPeakEvaluations = 40;
@@ -92,10 +86,10 @@ void SwitchScan<Real>::lookForCorner(Index i, Index end, Index inwards) {
   using std::abs;
   const Real g0 = g_(i, end), g1 = g_(i, end + inwards), g2 = g_(i, end + 2 * inwards);
   const Real bend = 2 * g1 - g0 - g2, third = g_(i, end + 3 * inwards) - 3 * g2 + 3 * g1 - g0;
-  if (!(bend > Real(0)) || !(g0 > g1) || !(abs(third) > Real(kCorner) * bend)) return;
-  const Real rise = value(partOf<Real>(end) + Real(kProbe) * partOf<Real>(inwards), i) - g0;
-  if (!(g0 + rise / Real(kProbe) > Real(0))) return;
-  lookForPeak(i, std::min(end, end + inwards), std::max(end, end + inwards), g0, rise / Real(kProbe));
+  if (!(bend > Real(0)) || !(g0 > g1) || !(abs(third) > Real(kCorner.value) * bend)) return;
+  const Real rise = value(partOf<Real>(end) + Real(kProbe.value) * partOf<Real>(inwards), i) - g0;
+  if (!(g0 + rise / Real(kProbe.value) > Real(0))) return;
+  lookForPeak(i, std::min(end, end + inwards), std::max(end, end + inwards), g0, rise / Real(kProbe.value));
 }
 
 template <class Real>

@@ -2,15 +2,10 @@
 
 #include <cmath>
 
+#include "core/base/constants.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
-namespace {
-// Largest number of switches at one time, per switching function. No scene needs more than two of a kind; after
-// three the modes are taken to repeat in a circle.
-constexpr Index kRounds = 3;
-}  // namespace
-
 template <class Real>
 Switches<Real>::Switches(const System<Real>& system)
     : system_(system), g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))) {}
@@ -43,7 +38,7 @@ SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps, const std::
     const Index i = due();
     if (i < 0) return report;
     report.index = i;
-    if (report.count == kRounds * g_.size()) {
+    if (report.count == kSwitchRounds.whole() * g_.size()) {
       report.outcome = Outcome::kChattering;
       return report;
     }

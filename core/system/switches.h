@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "core/base/constants.h"
 #include "irk/outcome.h"
 #include "irk/system.h"
 
@@ -23,23 +24,21 @@ struct SwitchReport {
 /// Detects chattering: switches that follow each other while time (almost) stands still.
 class ChatterDetector {
  public:
-  /// Call after each accepted step if switches are not located. Returns true when kRun steps in succession have
+  /// Call after each accepted step if switches are not located. Returns true when kChatterRun steps in succession have
   /// ended with a switch; once for each such sequence.
   bool step(bool switched) {
     steps_ = switched ? steps_ + 1 : 0;
-    return steps_ == kRun;
+    return steps_ == kChatterRun.whole();
   }
   /// Call after a switch located at t, with accuracy `resolution`, in an integration over an interval of this length.
-  /// Returns true when kRun switches in succession had practically no time between them.
+  /// Returns true when kChatterRun switches in succession had practically no time between them.
   bool event(double t, double length, double resolution) {
     events_ = t - last_ <= std::max(kNoTime * length, 4 * resolution) ? events_ + 1 : 0;
     last_ = t;
-    return events_ == kRun;
+    return events_ == kChatterRun.whole();
   }
 
  private:
-  static constexpr int kRun = 20;
-  static constexpr double kNoTime = 1e-12;
   int steps_ = 0, events_ = 0;
   double last_ = -std::numeric_limits<double>::infinity();
 };

@@ -220,7 +220,7 @@ class Program {
       return printScenes(collection_, solve_.json, s.out), 0;
     });
     addLoad(*sub);
-    sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies or numbers");
+    sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies, numbers or constants");
     sub->add_option("--collection", collection_, "The scenes of: ivp, multibody, switching or probes.");
     sub->add_flag("--json", solve_.json, "Print the scenes as a JSON array.");
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "core/base/constants.h"
 #include "core/base/text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/list_scenes.h"
@@ -55,12 +56,19 @@ void listNumbers(std::ostream& out) {
   }
 }
 
+void listConstants(std::ostream& out) {
+  for (const Constant* one : kConstants) {
+    fmt::print(out, "{:<24} {:<8g} {}\n{:<33} {}\n", one->name, one->value, one->decides, "", one->source);
+  }
+}
+
 struct List {
   const char* id;
   void (*print)(std::ostream&);
 };
-constexpr List kLists[] = {{"scenes", listScenes},     {"methods", listMethods},       {"studies", listStudies},
-                           {"analyses", listAnalyses}, {"strategies", listStrategies}, {"numbers", listNumbers}};
+constexpr List kLists[] = {{"scenes", listScenes},      {"methods", listMethods},       {"studies", listStudies},
+                           {"analyses", listAnalyses},  {"strategies", listStrategies}, {"numbers", listNumbers},
+                           {"constants", listConstants}};
 
 }  // namespace
 

@@ -183,7 +183,7 @@ StartReport PeerIntegrator::take(const PeerStep& step, double t_end, const Monit
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     monitor.accepted({state_.t, state_.t - t, kUnknown, 0, system_->toScene(state_)});
   }
-  if (stall_.attempted(state_.t, state_.t - t, t_end_, max_steps_ - counters_.steps_accepted)) {
+  if (stall_.attempted(state_.t, t_end_, max_steps_ - counters_.steps_accepted)) {
     return failed(Outcome::kStalled, fmt::format("steps do not grow ({} accepted, {} switches)",
                                                  counters_.steps_accepted, counters_.switches));
   }

@@ -75,7 +75,7 @@ TEST(Predictive, BoundsOldErrorsFromBelowAndKeepsAHistoryPerOrder) {
 
 TEST(Predictive, KeepsStepsLongerWhereFactorsAreExpensive) {
   // The cost of a factorization in steps, and the growth up to which the step size is then kept.
-  for (const auto& [cost, up_to] : {std::pair{0.0, 1.2}, {1.0, 1.2}, {2.0, 1.6}, {3.0, 2.0}, {100.0, 2.0}}) {
+  for (const auto& [cost, up_to] : {std::pair{0.0, 1.2}, {1.0, 1.2}, {1.7, 1.7}, {2.0, 2.0}, {100.0, 2.0}}) {
     for (const double growth : {up_to - 0.02, up_to + 0.02}) {
       const auto controller = makeController(controlled(StepControl::kPredictive), 3);
       controller->factorsCost(cost);

@@ -151,8 +151,8 @@ TEST(ErrorBar, CoversTheRoundOffOfSwitchingFunctions) {
   const double distance = std::abs(m.first.state.x[1] - m.second.state.x[1]);
   EXPECT_GT(error, 3 * (distance + 1e-4)) << "the test shows nothing";
   EXPECT_LT(error, 3 * m.bar.x[1]);
-  // 40 switches, the time of each known to a unit of the round-off of the level, which is eps times it.
-  EXPECT_NEAR(m.bar.x[1], distance + 40 * 2.22e-16 * control.level / control.width, 0.3 * m.bar.x[1]);
+  // 40 switches, the time of each known to two units of the round-off of the level, which is eps times it.
+  EXPECT_NEAR(m.bar.x[1], distance + 40 * 2 * 2.22e-16 * control.level / control.width, 0.3 * m.bar.x[1]);
 }
 
 TEST(ErrorBar, TheSecondIntegrationIsStricterAndKeepsWhatDescribesTheProblem) {

@@ -188,7 +188,7 @@ TEST(StallDetector, SeesStepsThatStaySmallAndNoOthers) {
     detector.begin(t);
     for (int i = 1; i <= 100000; ++i) {
       t += h;
-      if (detector.attempted(t, h, 1.0, 1000000 - i)) return i;
+      if (detector.attempted(t, 1.0, 1000000 - i)) return i;
       if (i % 1000 == 0) h *= growth;
       if (t >= 1) break;
     }
@@ -201,7 +201,7 @@ TEST(StallDetector, SeesStepsThatStaySmallAndNoOthers) {
   StallDetector detector;
   detector.begin(0);
   for (int i = 1; i < 100000; ++i) {
-    ASSERT_FALSE(detector.attempted(i * 1e-5, 1e-5, 1.0, 1000000 - i)) << i;
+    ASSERT_FALSE(detector.attempted(i * 1e-5, 1.0, 1000000 - i)) << i;
   }
 }
 
