@@ -41,12 +41,12 @@ class PaperController : public StepController {
     last_error_ = eps;
     last_h_ = h;
     const double f = gamma_ * std::pow(1 / (o_.s_min * eps), exponent_);
-    if (error > 1) return {false, h * std::clamp(f, kPaperShrinkAtMost.value, 1 / o_.change_at_least)};
+    if (error > 1) return {false, h * std::min(f, 1 / o_.change_at_least)};
     if (f >= o_.change_at_least && eps < 1 / s_max_) {
       const double grown = h * std::min(f, o_.growth_at_most);
       return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
     }
-    if (f <= 1 / o_.change_at_least) return {true, h * std::max(f, kPaperShrinkAtMost.value)};
+    if (f <= 1 / o_.change_at_least) return {true, h * f};
     return {true, h};
   }
   // The paper does not say what follows a Newton failure. Sizes from the failed one on are barred for kBarredSteps
@@ -127,10 +127,6 @@ class PredictiveController final : public StepController {
       return {false, h * std::clamp(factor, kShrinkAtMost.value, kSafety.value)};
     }
     if (last_h_ > 0) factor *= std::min(1.0, h / last_h_ * last_root_ / now);
-    // If smaller steps did not reduce the error, the next one will not either. Without this rule an error of round-off,
-    // or of the step's start, would shrink the steps without end.
-    futile_ = last_h_ > h && now >= kFutile * last_root_ ? futile_ + 1 : 0;
-    if (futile_ >= kFutileSteps) factor = std::max(factor, 1.0);
     last_h_ = h;
     last_root_ = std::max(now, least_root_);
     factor = std::clamp(factor, kShrinkAtMost.value, rejected_ ? 1.0 : kGrowAtMost.value);
@@ -143,13 +139,12 @@ class PredictiveController final : public StepController {
     failed_h_ = h;
     barred_ = kBarredSteps.whole();
     const bool far_off = last_h_ == 0 && first_failures_++ > 0;
-    return far_off ? std::max(h * kFarOff, std::min(h / 2, h_min_)) : h / 2;
+    return far_off ? std::max(h * kShrinkAtMost, std::min(h / 2, h_min_)) : h / 2;
   }
   void forget() override {
     last_h_ = 0;
     first_failures_ = 0;
     barred_ = 0;
-    futile_ = 0;
     rejected_ = false;
   }
   // If steps could grow by the ratio 1 + r each and the size is kept up to a growth of k, the cost per unit of time is
@@ -173,7 +168,6 @@ class PredictiveController final : public StepController {
   double failed_h_ = 0;
   int first_failures_ = 0;
   int barred_ = 0;
-  int futile_ = 0;
   bool rejected_ = false;
 };
 

@@ -13,19 +13,19 @@ namespace {
 constexpr double kTinyError = 1e-300;
 
 /// Chooses the member with the most progress per work. Every kMinStay accepted steps it determines the errors e_q of
-/// the member below and of up to two members above. The error below comes from the estimate; those above assume that
+/// the member below and of the member above. The error below comes from the estimate; that above assumes that
 /// the ratio of errors stays the same, as the coefficients of a smooth solution decay. From e_q follows the step
 /// h_q ~ e_q^(-1/(q+1)), from the step Newton's contraction, which grows with it, and from the contraction the
 /// iterations and the work. No member is chosen if Newton would contract badly with its step (Hairer & Wanner, J.
 /// Comput. Appl. Math. 111, 1999, decide by the contraction alone). After two failures of Newton in a row the member
-/// below is tried, whose equations have less round-off; in the first step, whose size is a guess, after thirteen.
+/// below is tried, whose equations have less round-off, but not in the first step, whose size is a guess.
 class LeastWork final : public OrderController {
  public:
   explicit LeastWork(OrderSetup setup) : setup_(std::move(setup)) {}
 
   void begin() override { since_change_ = 0; }
   std::size_t afterFailure(std::size_t at, int failures, bool solved) override {
-    if (failures <= (solved ? 1 : kFirstStepFailures.whole()) || at == 0) return at;
+    if (!solved || failures <= 1 || at == 0) return at;
     since_change_ = 0;
     return at - 1;
   }
@@ -54,13 +54,13 @@ class LeastWork final : public OrderController {
     const double wish = kSafety * trend * std::pow(std::max(error, kTinyError), -1.0 / (m.order + 1));
     const double ratio = std::clamp(wish, kShrinkAtMost.value, kGrowAtMost.value);
     Plan plan{now.h * ratio, error, 0};
-    // Newton's contraction grows with the step.
-    const double before = std::max(now.theta, kLeastContraction.value);
+    // Newton's contraction grows with the step. Below that with which Jacobians are kept one iteration does.
+    const double before = std::max(now.theta, NewtonOptions{}.keep_jacobian_below);
     const double theta = before * ratio;
     if (theta > kMostContraction) return plan;
     const double decades = now.newton_iterations * std::log(1 / before);
     const double iterations = now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
-    const double work = (iterations + kCostPerStage + setup_.unknowns / kUnknownsPerCost) * s + kCostPerStep;
+    const double work = (iterations + setup_.unknowns / kUnknownsPerCost) * s + kCostPerStep;
     plan.progress = plan.h / work;
     return plan;
   }
@@ -73,7 +73,7 @@ class LeastWork final : public OrderController {
     const double trend = std::min(1.0, facts.h_next / untrended);
     const double estimate = error / members[at].strictness;
     Plan best = plan(estimate, members[at], facts, trend);
-    best.progress *= kOrderGain;
+    best.progress *= kKeepUpTo;
     std::size_t next = at;
     const auto consider = [&](std::size_t i, double e) {
       const Plan p = plan(e, setup_.members[i], facts, trend);
@@ -83,9 +83,9 @@ class LeastWork final : public OrderController {
     const double s = members[at].stages;
     const double below = at > 0 ? members[at - 1].stages : s - 1;
     const double ratio = at > 0 ? std::min(estimate / facts.lower, 1.0) : 0.1;
-    for (std::size_t i = at + 1; i < members.size() && i <= at + static_cast<std::size_t>(kOrdersAbove.value); ++i) {
-      const double more = (members[i].stages - s) / (s - below);
-      consider(i, estimate * std::pow(ratio, kDecayAbove * more) * weight(i) / weight(at));
+    if (at + 1 < members.size()) {
+      const double more = (members[at + 1].stages - s) / (s - below);
+      consider(at + 1, estimate * std::pow(ratio, more) * weight(at + 1) / weight(at));
     }
     return {next, best.h, best.error};
   }

@@ -82,7 +82,8 @@ std::string constraintViolation(const System<Real>& system, const State<Real>& s
 // below 30 tolerances drifted by more than ten.
 double allowedDrift(const Tolerances& tolerances) {
   const double tolerance = std::max(tolerances.rtol, tolerances.atol);
-  return std::min(kAllowedDrift * std::max(1.0, kFinestDrift / tolerance), kCoarsestDrift / tolerance);
+  return std::min(kAllowedDrift * std::max(1.0, kStagnationUnits * std::numeric_limits<double>::epsilon() / tolerance),
+                  kCoarsestDrift / tolerance);
 }
 
 template <class Real>

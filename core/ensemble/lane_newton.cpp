@@ -128,7 +128,7 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
     if (m == 0) {
       const Lanes eta = largest(eta_, roundOff<double>());
       const LaneMask small = lessOrEqual(power(eta, 4) * power(norm / c.kappa, 5), 1.0);
-      done = (done | (small & lessOrEqual(norm, kTrustedFirst.value))) & running;
+      done = (done | (small & lessOrEqual(norm, kTrustedIncrement.value))) & running;
       if (done.any()) eta_ = select(done, pow(eta, 0.8), eta_);
     } else {
       const Lanes theta = select(less(0.0, previous), norm / previous, 0.0);

@@ -66,7 +66,7 @@ double LaneRun::firstStep() const {
   const double y = start_.u.norm() + start_.v.norm() + start_.x.norm();
   const double dy = start_.v.norm() + start_.a().norm() + start_.k().norm();
   const double h = y > 1e-5 && dy > 1e-5 ? kFirstChange * y / dy : 1e-4 * length_;
-  return std::min(h, kFirstPart * length_);
+  return std::min(h, kShrinkAtMost * length_);
 }
 
 // Below this size t + c_i h does not resolve the stages (16 eps t).

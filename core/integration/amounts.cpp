@@ -59,7 +59,7 @@ template <class Real>
 void Amounts<Real>::begin(const State<Real>& state, ErrorNorm<Real>& norm) {
   norm.update(State<Real>(sizes_));
   least_ = norm.weights().head(least_.size());
-  round_off_ = kZeroUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
+  round_off_ = kRoundOffUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
   small_.clear();
   never_.clear();
   negative_.clear();

@@ -230,13 +230,13 @@ class Integrator<Real>::Run {
     const double y = size(s.u) + size(s.v) + size(s.x);
     const double dy = size(s.v) + size(s.a()) + size(s.k());
     const double h = y > 1e-5 && dy > 1e-5 ? kFirstChange * y / dy : 1e-4 * length_;
-    return std::min(h, kFirstPart * length_);
+    return std::min(h, kShrinkAtMost * length_);
   }
 
   // After a rejection with a switch in the step, the next step ends just before the switch. The step over the switch is
   // then so small that the mode may be wrong in it.
   static double beforeSwitch(const AttemptResult& result, double step, double h, double least) {
-    const double before = kJustBefore * result.switch_at * step;
+    const double before = kSafety * result.switch_at * step;
     return before > least ? before : h;
   }
 

@@ -13,7 +13,9 @@
 namespace irk {
 namespace {
 
-const double kNear = std::sqrt(kNearCosine);
+// The way is looked at in pieces in which the gradients turn by less than 30 degrees, so that one of them ends in the
+// arc of 45 degrees in which the rest shows.
+const double kNear = std::sqrt(0.75);
 // A failed run looks ahead from this part of its largest step, by pieces that grow by a tenth.
 constexpr double kFirstLook = 1e-3, kLooks = 1.1;
 

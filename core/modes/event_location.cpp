@@ -197,9 +197,9 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
       slope = (g - last_g) / (step - last_step);
     }
     const Real lasts = slope > Real(0) ? Real(noise / slope) : Real(0);  // the round-off
-    resolution = least + Real(kNoise.value) * lasts;
+    resolution = least + lasts;
     result.resolution = static_cast<double>(resolution);
-    result.time_error = static_cast<double>(Real(least + Real(kNoise / kLastDigits) * lasts));
+    result.time_error = static_cast<double>(Real(least + lasts / Real(2)));
     if (due >= 0) {
       high = step;
       due_at_high = true;

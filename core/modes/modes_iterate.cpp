@@ -48,7 +48,7 @@ class IteratedInStep final : public ModesInStep<Real> {
       result.outcome = report.outcome;
       if (report.outcome != Outcome::kSuccess) return false;
       if (done_.size() == before) return true;
-      if (i == kModeIterations.whole()) {
+      if (i == kSwitchRounds.whole()) {
         result.outcome = Outcome::kChattering;
         return false;
       }

@@ -18,7 +18,7 @@ enum class AtRoundOff { kEnd, kGoOn };
 ///
 /// Fixed steps have no tolerance that says what tol is good for: what the rule leaves would be a part of the error that
 /// they show. From eps(i) <= tol eps(0) on their iteration therefore goes on to round-off: until an increment is at
-/// round-off, or two iterations together shrink eps by less than the paper asks for (kContracts).
+/// round-off, or two iterations together shrink eps by less than the paper asks for (contractivity_limit).
 template <class Real>
 class ResidualNewton : public NewtonBase<Real> {
  public:
@@ -39,7 +39,7 @@ class ResidualNewton : public NewtonBase<Real> {
     double eps = eps0, before_previous = eps0;
     if (eps0 == 0) return result;
     bool reached = false;
-    const double contracts = std::max(kContracts.value, o.contractivity_limit);
+    const double contracts = std::max(NewtonOptions{}.contractivity_limit, o.contractivity_limit);
     const int limit = o.max_iterations * (to_round_off_ ? kFixedStepFactor.whole() : 1);
     for (int i = 1; i <= limit; ++i) {
       ++result.iterations;

@@ -98,7 +98,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double kappa = limit_.after(c.counters.steps_accepted);
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
-    double first = 0, previous = 0, before_previous = 0;
+    double previous = 0, before_previous = 0;
     if (updates_) updates_->begin(theta_ > kWorthUpdates, this->row_weights_);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
@@ -119,7 +119,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
         const bool slow =
             adaptive_ && !(eta * norm <= kappa && theta < 1) && power(theta, limit - 1 - m) * eta * norm > kappa;
-        const bool stuck = theta >= kStuck && (patience == Patience::kNone || norm > kLost * first);
+        const bool stuck = theta >= kStuck && patience == Patience::kNone;
         if (!may_stagnate && (stuck || slow)) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
@@ -131,12 +131,11 @@ class SimplifiedNewton : public NewtonBase<Real> {
       } else if (std::min(last, 1.0) * norm <= kappa || norm <= kRoundOffUnits * this->round_off_) {
         eta = of_step = std::pow(last, 0.8);  // if min(last, 1) is too large, so is this
       }
-      const bool trusted = norm <= (m == 0 ? kTrustedFirst : kTrustedIncrement).value;
+      const bool trusted = norm <= kTrustedIncrement;
       if ((trusted && eta * norm <= kappa) || norm <= kRoundOffUnits * this->round_off_) {
         eta_ = std::isfinite(eta) ? eta : of_step;
         return result;
       }
-      if (m == 0) first = norm;
       before_previous = previous;
       previous = norm;
       if (updates_) updates_->learn(this->implicit());

@@ -11,6 +11,9 @@
 namespace irk {
 namespace {
 
+// Next to an end of the step the peak at a corner does not show in the parabola; a probe at this part of the distance
+// of samples finds it.
+constexpr double kProbe = 1e-3;
 // Limits of the search for a maximum: bits of theta, and evaluations.
 constexpr int kPeakBits = 20;
 constexpr std::uintmax_t kPeakEvaluations = 40;
@@ -87,14 +90,14 @@ void SwitchScan<Real>::lookForCorner(Index i, Index end, Index inwards) {
   const Real g0 = g_(i, end), g1 = g_(i, end + inwards), g2 = g_(i, end + 2 * inwards);
   const Real bend = 2 * g1 - g0 - g2, third = g_(i, end + 3 * inwards) - 3 * g2 + 3 * g1 - g0;
   if (!(bend > Real(0)) || !(g0 > g1) || !(abs(third) > Real(kCorner.value) * bend)) return;
-  const Real rise = value(partOf<Real>(end) + Real(kProbe.value) * partOf<Real>(inwards), i) - g0;
-  if (!(g0 + rise / Real(kProbe.value) > Real(0))) return;
-  lookForPeak(i, std::min(end, end + inwards), std::max(end, end + inwards), g0, rise / Real(kProbe.value));
+  const Real rise = value(partOf<Real>(end) + Real(kProbe) * partOf<Real>(inwards), i) - g0;
+  if (!(g0 + rise / Real(kProbe) > Real(0))) return;
+  lookForPeak(i, std::min(end, end + inwards), std::max(end, end + inwards), g0, rise / Real(kProbe));
 }
 
 template <class Real>
 void SwitchScan<Real>::lookForPeak(Index i, Index left, Index right, const Real& g, const Real& bend) {
-  if (!(g + Real(kCaution / 8) * bend > Real(0)) || g > Real(0)) return;
+  if (!(g + bend > Real(0)) || g > Real(0)) return;
   std::uintmax_t most = kPeakEvaluations;
   const auto peak = boost::math::tools::brent_find_minima([&](const Real& theta) { return Real(-value(theta, i)); },
                                                           partOf<Real>(left), partOf<Real>(right), kPeakBits, most);

@@ -24,18 +24,20 @@ struct SwitchReport {
 /// Detects chattering: switches that follow each other while time (almost) stands still.
 class ChatterDetector {
  public:
-  /// Call after each accepted step if switches are not located. Returns true when kChatterRun steps in succession have
-  /// ended with a switch; once for each such sequence.
+  /// Call after each accepted step if switches are not located. Returns true when kSwitchRounds steps in succession
+  /// have ended with a switch; once for each such sequence.
   bool step(bool switched) {
     steps_ = switched ? steps_ + 1 : 0;
-    return steps_ == kChatterRun.whole();
+    return steps_ == kSwitchRounds.whole();
   }
   /// Call after a switch located at t, with accuracy `resolution`, in an integration over an interval of this length.
-  /// Returns true when kChatterRun switches in succession had practically no time between them.
+  /// Returns true when kSwitchRounds switches in succession had practically no time between them.
   bool event(double t, double length, double resolution) {
-    events_ = t - last_ <= std::max(kNoTime * length, 4 * resolution) ? events_ + 1 : 0;
+    events_ = t - last_ <= std::max(kStagnationUnits * std::numeric_limits<double>::epsilon() * length, 4 * resolution)
+                  ? events_ + 1
+                  : 0;
     last_ = t;
-    return events_ == kChatterRun.whole();
+    return events_ == kSwitchRounds.whole();
   }
 
  private:

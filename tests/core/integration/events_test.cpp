@@ -221,15 +221,15 @@ TEST(Iterate, SeesAModeThatComesAndGoes) {
   }
 }
 
-// After a rejection because of a switch the next step ends at 0.98 of the way to it: the remaining distance shrinks
-// by 50 each time.
+// After a rejection because of a switch the next step ends at 0.9 of the way to it: the remaining distance shrinks by
+// 10 each time.
 TEST(Iterate, ComesCloseToASwitchInFewSteps) {
   const Kink problem;
   IntegratorOptions options = located(1e-6);
   options.step.h = 1;
   const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
-  EXPECT_LE(r.solution.counters.steps_rejected_error, 6);
+  EXPECT_LE(r.solution.counters.steps_rejected_error, 8);
   EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-4);
 }
 
