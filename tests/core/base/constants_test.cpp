@@ -64,6 +64,7 @@ TEST(Constants, NoOthersDecide) {
                                     "kDenseUnknowns",
                                     "kUnknownFloor",
                                     "kUnknownTheta",
+                                    "kProbe",
                                     "kWorthUpdates",
                                     "kNothing"};
   const std::regex number("constexpr double (k[A-Z][A-Za-z]*)");
