@@ -47,7 +47,7 @@ inline constexpr Constant kStuck{0.99, "newton.stuck", "An iteration that contra
 inline constexpr Constant kStagnates{0.5, "newton.stagnates",
                                      "Round-off shows where increments fall by no more than this.", "chosen"};
 inline constexpr Constant kFixedStepFactor{4, "newton.fixed_iterations", "Fixed steps: so many times max_iterations.",
-                                           "as newton.fixed_lost"};
+                                           "chosen: a shorter step, which other controls take, is not to be had"};
 
 // Error estimates.
 inline constexpr Constant kStagesAtOne{2.51, "order.stages_at_1",
@@ -107,9 +107,10 @@ inline constexpr Constant kMinStay{7, "order.stay", "The order is reconsidered a
 inline constexpr Constant kMostContraction{
     0.5, "order.most_contraction", "No order is planned whose step would contract worse.",
     "chosen; Hairer & Wanner, J. Comput. Appl. Math. 111 (1999), decide by it alone"};
-inline constexpr Constant kUnknownsPerCost{16, "order.cost_factors",
-                                           "... of a stage's factors: the unknowns over this ...", "measured"};
-inline constexpr Constant kCostPerStep{8, "order.cost_step", "... and of a step.",
+inline constexpr Constant kUnknownsPerCost{
+    16, "order.cost_factors", "The cost of a stage's factors, in stages of an iteration: the unknowns over this ...",
+    "measured"};
+inline constexpr Constant kCostPerStep{8, "order.cost_step", "... and of a step beside its stages.",
                                        "measured: Jacobian, estimate, control"};
 
 // Switches.

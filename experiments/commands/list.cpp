@@ -58,7 +58,7 @@ void listNumbers(std::ostream& out) {
 
 void listConstants(std::ostream& out) {
   for (const Constant* one : kConstants) {
-    fmt::print(out, "{:<24} {:<8g} {}\n{:<33} {}\n", one->name, one->value, one->decides, "", one->source);
+    fmt::print(out, "{:<26} {:<8g} {}\n{:<35} {}\n", one->name, one->value, one->decides, "", one->source);
   }
 }
 
