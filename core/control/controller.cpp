@@ -10,8 +10,6 @@ namespace irk {
 
 namespace {
 
-constexpr double kTinyError = 1e-300;  // an estimate of zero divides nothing
-
 /// Paper, section 6, with the error in units of the tolerance:
 ///   f = gamma (1 / (s_min eps))^(1/(p+1))                                        (6.1)
 ///   gamma = (eps_i / eps_{i-1}) (h_{i-1} / h_i)^p, after every change of step     (6.3)

@@ -11,6 +11,9 @@
 
 namespace irk {
 
+/// An estimate of zero counts as this: it divides.
+inline constexpr double kTinyError = 1e-300;
+
 struct StepDecision {
   bool accept = true;
   double h = 0;  ///< size of the next attempt

@@ -5,12 +5,11 @@
 #include <utility>
 
 #include "core/base/constants.h"
+#include "core/control/controller.h"
 
 namespace irk {
 
 namespace {
-
-constexpr double kTinyError = 1e-300;
 
 /// Chooses the member with the most progress per work. Every kMinStay accepted steps it determines the errors e_q of
 /// the member below and of the member above. The error below comes from the estimate; that above assumes that
