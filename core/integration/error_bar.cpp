@@ -43,6 +43,8 @@ void weigh(const State<Real>& second, const Tolerances& t, const Vec<double>& sc
   add(bar.x, second.x);
 }
 
+}  // namespace
+
 // What errors in the times of located switches may have changed in u, v and x, all in all.
 template <class Real>
 struct SwitchErrors {
@@ -57,8 +59,6 @@ struct SwitchErrors {
     x += at.time_error * distances<Real>(at.before.k(), at.behind.k());
   }
 };
-
-}  // namespace
 
 template <class Real>
 IntegratorOptions independentOptions(const IntegratorOptions& first) {
