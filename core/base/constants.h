@@ -44,8 +44,10 @@ inline constexpr Constant kTrustedIncrement{
     "a contraction of 1e-13 from the step before, or of start values far off, hides errors of 5e4 and 1e6 tolerances"};
 inline constexpr Constant kStuck{0.99, "newton.stuck", "An iteration that contracts by no more than this diverges.",
                                  "RADAU: THETA < 0.99"};
-inline constexpr Constant kStagnates{0.5, "newton.stagnates",
-                                     "Round-off shows where increments fall by no more than this.", "chosen"};
+inline constexpr Constant kSlowContraction{
+    0.5, "newton.slow",
+    "Newton is slow from this contraction on: its increments may be round-off, and no order is planned.",
+    "chosen; Hairer & Wanner, J. Comput. Appl. Math. 111 (1999), choose orders by it alone"};
 inline constexpr Constant kFixedStepFactor{4, "newton.fixed_iterations", "Fixed steps: so many times max_iterations.",
                                            "chosen: a shorter step, which other controls take, is not to be had"};
 
@@ -104,9 +106,6 @@ inline constexpr Constant kStallFactor{10, "step.stall_factor", "... the rest ne
 // Order.
 inline constexpr Constant kMinStay{7, "order.stay", "The order is reconsidered after so many steps.",
                                    "chosen: an error below is known only in such steps"};
-inline constexpr Constant kMostContraction{
-    0.5, "order.most_contraction", "No order is planned whose step would contract worse.",
-    "chosen; Hairer & Wanner, J. Comput. Appl. Math. 111 (1999), decide by it alone"};
 inline constexpr Constant kUnknownsPerCost{
     16, "order.cost_factors", "The cost of a stage's factors, in stages of an iteration: the unknowns over this ...",
     "measured"};
@@ -128,6 +127,9 @@ inline constexpr Constant kSwitchRounds{
     "chosen: two are usual, then the modes repeat in a circle"};
 
 // Starts, constraints, ends.
+inline constexpr Constant kFollows{
+    0.1, "start.follows", "The first step after a restart follows the rates there to this part of their change.",
+    "stiff contacts: balls that stay on a floor of 1e10 N/m without it, 2 of 96 runs, in one rounding of two"};
 inline constexpr Constant kEightDigits{1e-7, "start.violation",
                                        "A start, a fixed row or a repeated residual is wrong beyond this part.",
                                        "what is given with eight digits is no mistake"};
@@ -144,12 +146,12 @@ inline constexpr Constant kSingularPivot{1e-15, "singular.pivot", "A ratio of pi
 /// All of them.
 inline constexpr const Constant* kConstants[] = {
     &kRoundOffUnits,   &kStagnationUnits,    &kLargestRoundOff, &kLastDigits,      &kNewtonPart,      &kHiddenPart,
-    &kManySteps,       &kTrustedIncrement,   &kStuck,           &kStagnates,       &kFixedStepFactor, &kStagesAtOne,
+    &kManySteps,       &kTrustedIncrement,   &kStuck,           &kSlowContraction, &kFixedStepFactor, &kStagesAtOne,
     &kStagesPerDecade, &kMemberStrictness,   &kBarStricter,     &kBarLeast,        &kBarOfFixedSteps, &kBarLooks,
     &kLargestBar,      &kLargestBarRoundOff, &kSafety,          &kShrinkAtMost,    &kGrowAtMost,      &kErrorFloor,
     &kKeepUpTo,        &kKeepAtMost,         &kBarredSteps,     &kGammaMin,        &kFirstChange,     &kSmallestStep,
-    &kStallWindow,     &kStallFactor,        &kMinStay,         &kMostContraction, &kUnknownsPerCost, &kCostPerStep,
-    &kCorner,          &kTimeTolerance,      &kMostSolves,      &kSwitchRounds,    &kEightDigits,     &kAllowedDrift,
+    &kStallWindow,     &kStallFactor,        &kMinStay,         &kUnknownsPerCost, &kCostPerStep,     &kCorner,
+    &kTimeTolerance,   &kMostSolves,         &kSwitchRounds,    &kFollows,         &kEightDigits,     &kAllowedDrift,
     &kCoarsestDrift,   &kNewtonRest,         &kSingularPivot,
 };
 

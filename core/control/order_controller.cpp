@@ -56,7 +56,7 @@ class LeastWork final : public OrderController {
     // Newton's contraction grows with the step. Below that with which Jacobians are kept one iteration does.
     const double before = std::max(now.theta, NewtonOptions{}.keep_jacobian_below);
     const double theta = before * ratio;
-    if (theta > kMostContraction) return plan;
+    if (theta > kSlowContraction) return plan;
     const double decades = now.newton_iterations * std::log(1 / before);
     const double iterations = now.theta > 0 ? std::max(1.0, decades / std::log(1 / theta)) : now.newton_iterations;
     const double work = (iterations + setup_.unknowns / kUnknownsPerCost) * s + kCostPerStep;

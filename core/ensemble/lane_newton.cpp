@@ -133,7 +133,8 @@ void LaneNewton::iterate(Context& c, const LaneMask& which) {
     } else {
       const Lanes theta = select(less(0.0, previous), norm / previous, 0.0);
       theta_ = select(running, theta, theta_);
-      ends = running & lessOrEqual(kStagnates.value, theta) & lessOrEqual(norm, kStagnationUnits.value * round_off_);
+      ends =
+          running & lessOrEqual(kSlowContraction.value, theta) & lessOrEqual(norm, kStagnationUnits.value * round_off_);
       Lanes eta = etaOf(theta);
       const LaneMask slow = less(c.kappa, power(theta, limit_ - 1 - m) * eta * norm);
       const LaneMask hopeless = running & ~ends & (lessOrEqual(kStuck.value, theta) | slow);

@@ -71,6 +71,7 @@ class Doubling : public StepAttempt<Real> {
     const auto& past = interpolate_ ? whole_.stages() : half_.stages();
     if (!done(half_.attempt(past, from, half, middle_, JacobianUse::kKeep))) return result;
     if (keeps_pieces_) first_half_ = half_.stages();
+    const double start_defect = watches_start_ && has(guards_, Guard::kRestart) ? half_.startDefect(from) : 0;
     Between between{};
     if (looks_) between = look(from, middle_);
     if (!done(half_.attempt(past, middle_, half, to, JacobianUse::kKeep))) return result;
@@ -83,6 +84,8 @@ class Doubling : public StepAttempt<Real> {
     }
     // Doubling sees no error where the whole step and its halves err alike: in the wrong mode, ...
     if (has(guards_, Guard::kSwitchEffect)) result.error = worse(result.error, order_, result.mode_error, 1);
+    // ... in a fast motion that both damp ...
+    result.error = worse(result.error, order_, start_defect, 1);
     // ... between the stages of both, and where the halves do not show the order p of 2^p - 1.
     if (looks_) result.error = worse(result.error, order_, unresolved(between), 1);
     return result;
@@ -94,6 +97,16 @@ class Doubling : public StepAttempt<Real> {
   void begin(double length) override {
     forget();
     if (looks_) looks_->defect.begin(length);
+    restarted_ = watches_start_ = false;
+  }
+  void restart() override {
+    forget();
+    restarted_ = watches_start_ = true;
+  }
+  NextStep accepted(const AttemptResult& result, double h, double h_next) override {
+    // If this step ended with a restart, restart() was called before: the next step is the first one after it.
+    if (!std::exchange(restarted_, false)) watches_start_ = false;
+    return StepAttempt<Real>::accepted(result, h, h_next);
   }
   int order() const override { return order_; }
   Index worstComponent() const override { return worst_; }
@@ -168,6 +181,8 @@ class Doubling : public StepAttempt<Real> {
     Defect<Real> defect;
   };
   std::unique_ptr<Looks> looks_;  // null for the paper's estimates, and without a filter
+  bool watches_start_ = false;    // in the first step after a restart
+  bool restarted_ = false;        // since the last accepted step
   Index worst_ = -1;
   Guards guards_;
   int order_;

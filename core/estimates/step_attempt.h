@@ -45,6 +45,8 @@ class StepAttempt {
   /// Forgets the last solved step, which is a bad prediction after a failure of Newton's method or a change of mode.
   /// (A step with too large an error is a good prediction of a shorter one.)
   virtual void forget() = 0;
+  /// After a restart from a consistent (a, k), which the first step has to follow.
+  virtual void restart() { forget(); }
   /// Reports that the step of size h attempted last was accepted and that the controller asks for `h_next`. Returns the
   /// size of the next step, which differs from `h_next` if the order changes.
   virtual NextStep accepted(const AttemptResult& result, double h, double h_next) {

@@ -112,6 +112,9 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
     result.outcome = between.outcome;
     result.error = std::max(result.error, between.error);
   }
+  if (watches_start_ && guards(Guard::kRestart)) {
+    result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
+  }
   lower_error_ = kUnknown;
   const bool good = result.outcome == Outcome::kSuccess && result.error <= 1;
   if (good && at_ > 0 && order_control_->needsLower()) {
@@ -132,7 +135,7 @@ void VariableOrder<Real>::begin(double length) {
   if (order_control_) order_control_->begin();
   past_ = &member().stepper.stages();
   past_at_ = at_;
-  solved_ = false;
+  solved_ = restarted_ = watches_start_ = false;
   for (auto& m : members_) {
     if (m) m->defect.begin(length);
   }
@@ -151,6 +154,8 @@ void VariableOrder<Real>::forget() {
 
 template <class Real>
 NextStep VariableOrder<Real>::accepted(const AttemptResult& result, double h, double h_next) {
+  // If this step ended with a restart, restart() was called before: the next step is the first one after it.
+  if (!std::exchange(restarted_, false)) watches_start_ = false;
   if (!order_control_) return {h_next, result.error};
   const auto decision =
       order_control_->decide({at_, result.error, lower_error_, result.theta, result.newton_iterations, h, h_next});

@@ -27,6 +27,10 @@ class VariableOrder final : public StepAttempt<Real> {
   AttemptResult attempt(const State<Real>& from, const Real& h, State<Real>& to) override;
   void begin(double length) override;
   void forget() override;
+  void restart() override {
+    forget();
+    restarted_ = watches_start_ = true;
+  }
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   int order() const override;
   Index worstComponent() const override { return member().estimate.worstComponent(); }
@@ -69,6 +73,8 @@ class VariableOrder final : public StepAttempt<Real> {
   int epoch_ = 0;                            // members not in use forget when they are next used
   bool again_ = true;                        // filter twice: after a start and a rejection
   double length_ = 0;                        // of the integration
+  bool watches_start_ = false;               // in the first step after a restart
+  bool restarted_ = false;                   // since the last accepted step
   double lower_error_;                       // estimate for the member below, NaN if not known
 };
 

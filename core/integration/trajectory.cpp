@@ -81,6 +81,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   start_.forgetPattern();
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
+  if (!switches_.none() && report.determined) attempt_->restart();
   if (positions_) positions_->begin(state_);
   if (controller_) amounts_.begin(state_, norm_);
   return report.outcome;
@@ -212,6 +213,9 @@ Outcome Trajectory<Real>::restartAtSwitch() {
       start_detail_ = fixedRowViolation(system_, state_, norm_.weights(), allowedInFixedRows(options_));
       if (!start_detail_.empty()) return Outcome::kInconsistentStart;
     }
+    // In index 3 the stages' accelerations are of low order, and their difference at the start shows nothing. If D0 is
+    // singular, (a, k) are not known, and the first step may change them: it has no rates to follow.
+    if (report.determined && !projection_) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
     blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;

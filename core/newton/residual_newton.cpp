@@ -58,7 +58,7 @@ class ResidualNewton : public NewtonBase<Real> {
       before_previous = previous;
       if (at_round_off_ == AtRoundOff::kEnd) {
         if (norm <= kRoundOffUnits * this->round_off_) return result;
-        if (theta >= kStagnates && norm <= kStagnationUnits * this->round_off_) return result;
+        if (theta >= kSlowContraction && norm <= kStagnationUnits * this->round_off_) return result;
       }
       if (reached) continue;
       // Paper (3.4). Full Newton is the last resort and may use all iterations.

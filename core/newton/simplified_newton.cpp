@@ -112,8 +112,8 @@ class SimplifiedNewton : public NewtonBase<Real> {
         const bool is_bound = m > 1 && norm <= kRoundOffUnits * this->round_off_;
         if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
         // Increments at round-off no longer contract; above round-off this is divergence.
-        const bool may_stagnate = theta >= kStagnates && norm <= kStagnationUnits * this->round_off_;
-        if (may_stagnate && (norm >= kStagnates * before_previous || norm <= kRoundOffUnits * floor(c, W)))
+        const bool may_stagnate = theta >= kSlowContraction && norm <= kStagnationUnits * this->round_off_;
+        if (may_stagnate && (norm >= kSlowContraction * before_previous || norm <= kRoundOffUnits * floor(c, W)))
           return result;
         eta = of_step = etaOf(theta);
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.

@@ -9,6 +9,7 @@ namespace irk {
 enum class Guard {
   kDefect,        ///< core/estimates/defect.h
   kSmoothness,    ///< Stepper::roughness of a step and its halves
+  kRestart,       ///< Stepper::startDefect
   kSwitchEffect,  ///< core/modes/switch_effect.h
 };
 
@@ -23,6 +24,8 @@ constexpr bool has(Guards set, Guard guard) {
       return guard != Guard::kDefect;
     case Guards::kWithoutSmoothness:
       return guard != Guard::kSmoothness;
+    case Guards::kWithoutRestart:
+      return guard != Guard::kRestart;
     case Guards::kWithoutSwitchEffect:
       return guard != Guard::kSwitchEffect;
   }

@@ -48,6 +48,7 @@ constexpr Named<Guards> kGuards[] = {
     {Guards::kWithoutDefect, "no_defect", "without looks between the stages: h mu |filtered residual| <= 1 tolerance"},
     {Guards::kWithoutSmoothness, "no_smoothness",
      "richardson without the fall of the highest Legendre coefficients from a step to its halves"},
+    {Guards::kWithoutRestart, "no_restart", "without the rates at the start of the first step after a restart"},
     {Guards::kWithoutSwitchEffect, "no_switch_effect",
      "without the effect of a switch in a step that goes on over it (ignore, iterate, smooth)"}};
 

@@ -4,11 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/constants.h"
 #include "core/base/small_product.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 namespace {
+
+template <class Real>
+bool hasHiddenUnknowns(const System<Real>& system) {
+  const auto& powers = system.errorPowers().z;
+  const auto multipliers = static_cast<std::ptrdiff_t>(system.sizes().constraints);
+  return std::any_of(powers.begin() + multipliers, powers.end(), [](int power) { return power > 0; });
+}
 
 // The sum of the stages with these weights.
 template <class Real, class Weights>
@@ -47,7 +55,8 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, c
       W_(system.sizes().n(), scheme.s),
       modes_(modesOf(system, options, norm, counters)),
       rate_norm_(system.sizes(), norm),
-      rates_(system.sizes().n()) {
+      rates_(system.sizes().n()),
+      has_hidden_unknowns_(hasHiddenUnknowns(system)) {
   stages_.scheme = &scheme;
   stages_.W.setZero(system.sizes().n(), scheme.s);
   if (system.projectsVelocity()) {
@@ -101,6 +110,18 @@ StepResult Stepper<Real>::attempt(const StagePolynomial<Real>& past, const State
   }
   stages_.valid = result.outcome == Outcome::kSuccess;
   return result;
+}
+
+template <class Real>
+double Stepper<Real>::startDefect(const State<Real>& from) {
+  // Rates that index 2 hides are not known at a restart: (a, k) are then those of the mode before.
+  if (has_hidden_unknowns_) return 0;
+  addStages(W_, eq_.scheme().start, rates_);
+  rates_ -= from.w;
+  const double missed = rate_norm_(rates_, stages_.h);
+  const double changed = rate_norm_.largestChange(W_, from.w, stages_.h);
+  // In index 3 a start within the allowed drift changes velocities by as much, at any step size.
+  return missed > kAllowedDrift && missed > kFollows * changed ? missed : 0;
 }
 
 template <class Real>

@@ -23,6 +23,12 @@ class Stepper final : private StepRepeater<Real> {
   [[nodiscard]] StepResult attempt(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h,
                                    State<Real>& to, JacobianUse use = JacobianUse::kRefreshIfStale);
 
+  /// For the step solved last, after a restart from a known `from.w`: the norm of h times the difference between (a, k)
+  /// at the start and the stages' polynomial there; 0 if the polynomial follows the motion, and where index 2 hides the
+  /// rates. L-stable methods damp a fast motion that starts at a switch, in the whole step and in its halves alike, and
+  /// so does the filter of the defect: no other estimate is sure to show it.
+  double startDefect(const State<Real>& from);
+
   /// For the step solved last, in the error norm: h times the two highest Legendre coefficients (the highest one up to
   /// two stages) of (a, k) in the stages' polynomial. It falls with h^decay() where the step resolves the motion, and
   /// is then above what the polynomial misses.
@@ -58,7 +64,8 @@ class Stepper final : private StepRepeater<Real> {
   std::unique_ptr<VelocityProjection<Real>> projection_;
   std::unique_ptr<ModesInStep<Real>> modes_;  // null: no treatment after a solved step
   RateNorm<Real> rate_norm_;
-  Vec<Real> rates_;  // n
+  Vec<Real> rates_;           // n
+  bool has_hidden_unknowns_;  // algebraic, of index 2, and no multipliers of position constraints
   // Arguments of the attempt, for `repeat`.
   const StagePolynomial<Real>* past_ = nullptr;
   State<Real>* to_ = nullptr;

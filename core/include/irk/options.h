@@ -142,6 +142,7 @@ enum class Guards {
   kNone,
   kWithoutDefect,        ///< no looks between the stages
   kWithoutSmoothness,    ///< `richardson`: 2^p - 1 divides also where the half steps do not show the order p
+  kWithoutRestart,       ///< the first step after a restart need not follow the rates at its start
   kWithoutSwitchEffect,  ///< `ignore`, `iterate`, `smooth`: a step over a switch is judged by its estimate alone
 };
 
