@@ -173,6 +173,33 @@ TEST(Defect, OfAStepIsTheLargestOfItsPoints) {
   }
 }
 
+// Gauss has no stage at the step's end. There the defect is as large as at the start, which is left out here, and
+// larger than at any point between the stages.
+TEST(Defect, LooksAtTheEndWhereNoStageIs) {
+  const double h = 0.4;
+  SolvedStepOf<ForcedPair> step({}, "gauss_3", 1);
+  State<double> start(ForcedPair{}.sizes());
+  start.u[0] = 0.3, start.v[0] = -0.2, start.x[0] = 0.7;
+  step.solve(start, h);
+  const Mat<double>& W = step.stepper.stages().W;
+  Vec<double> w = Vec<double>::Zero(2);
+  for (Index j = 0; j < 3; ++j) w += lagrangeAt(step.scheme.c, j, 1) * W.col(j);
+  const double mu = step.estimate.mu();
+  const double x = (-3 * step.to.x[0] + std::pow(h, 4) - w[1]) / (1 + 3 * h * mu);
+  const double a = (-9 * step.to.u[0] + std::pow(h, 3) - w[0]) / (1 + 9 * h * h * mu * mu);
+  const auto weight = [](double y) { return 1 + std::abs(y); };
+  const double du = h * h * mu * mu * a / weight(start.u[0]), dv = h * mu * a / weight(start.v[0]),
+               dx = h * mu * x / weight(start.x[0]);
+  const double at_end = std::sqrt((du * du + dv * dv + dx * dx) / 3);
+  double inside = 0;
+  for (std::int64_t i = 0; i < step.points.period(); ++i) {
+    inside = std::max(inside, step.defect.at(i, step.from, step.stepper.stages()).error);
+  }
+  ASSERT_GT(at_end, 1.01 * inside) << "the test shows nothing";
+  const auto result = step.defect.largest(step.from, step.stepper.stages(), step.to);
+  EXPECT_NEAR(result.error, at_end, 1e-6 * at_end);
+}
+
 /// x' = -x + 20 while |t - centre| < width / 2, which nobody declares.
 struct UndeclaredPulse {
   double centre, width;
