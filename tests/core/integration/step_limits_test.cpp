@@ -12,6 +12,7 @@
 #include "core/estimates/step_attempt.h"
 #include "core/stages/error_norm.h"
 #include "tests/core/support.h"
+#include "tests/core/trusted.h"
 #include "tests/core/watched.h"
 
 namespace irk::test {
