@@ -12,8 +12,8 @@ namespace irk {
 namespace {
 
 /// Chooses the member with the most progress per work. Every kMinStay accepted steps it determines the errors e_q of
-/// the member below and of the member above. The error below comes from the estimate; that above assumes that
-/// the ratio of errors stays the same, as the coefficients of a smooth solution decay. From e_q follows the step
+/// the member below and of the member above. The error below comes from the estimate; for the one above it is assumed
+/// that the ratio of errors stays the same, as the coefficients of a smooth solution decay. From e_q follows the step
 /// h_q ~ e_q^(-1/(q+1)), from the step Newton's contraction, which grows with it, and from the contraction the
 /// iterations and the work. No member is chosen if Newton would contract badly with its step (Hairer & Wanner, J.
 /// Comput. Appl. Math. 111, 1999, decide by the contraction alone). After two failures of Newton in a row the member

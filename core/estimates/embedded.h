@@ -47,7 +47,8 @@ class EmbeddedEstimate {
   /// those of the continuous solution: the defect there (core/estimates/defect.h). One above the tolerance is filtered
   /// a second time, HW II (IV.8.21), so that a transient that the step damps does not count. Counts u, v, x; rows of
   /// constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at the points before it in this step; a
-  /// point whose residual is larger in no row shows nothing new: it has the error 0 and is not filtered.
+  /// point whose residual is larger in no row has the error 0 and is not filtered. That is exact where the filter
+  /// couples no rows; in other systems the parts of an earlier residual may have cancelled in the filter.
   [[nodiscard]] Result filtered(const State<Real>& at, const Real& h, Vec<Real>& most);
 
   /// Allocates what the next evaluation would, where the pattern is known.

@@ -13,6 +13,7 @@ namespace irk {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 // The factor >= 1 by which a member's estimate is multiplied. A solution of order 2s - 1 is much better than its
 // estimate of order s + 1, the more so the larger s is. With equal estimates nearly all of the error would come from
 // the steps of the lower members (kepler, tolerance 1e-8: 300 times the error of nine stages throughout). Members err

@@ -15,7 +15,7 @@ struct Location {
   Index index = -1;       ///< of the switching function, or of one that is not finite
   Real h{};               ///< size of the step that ends at `next`
   double resolution = 0;  ///< to which the time of the switch can be known
-  double time_error = 0;  ///< of the switch, by one unit of round-off of the state; below `resolution`
+  double time_error = 0;  ///< of the switch, by two units of round-off of the state; below `resolution`
   AttemptResult attempt;  ///< of that step
 };
 

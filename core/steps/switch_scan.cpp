@@ -95,6 +95,7 @@ void SwitchScan<Real>::lookForCorner(Index i, Index end, Index inwards) {
   lookForPeak(i, std::min(end, end + inwards), std::max(end, end + inwards), g0, rise / Real(kProbe));
 }
 
+// `bend`: the second difference of the samples, eight times the height of their parabola above the largest one.
 template <class Real>
 void SwitchScan<Real>::lookForPeak(Index i, Index left, Index right, const Real& g, const Real& bend) {
   if (!(g + bend > Real(0)) || g > Real(0)) return;
