@@ -118,7 +118,7 @@ double LaneRun::newTime(double t_by_lanes) {
 Solution<double> LaneRun::success(State<double> state) {
   const System<double>& system = *member_.system;
   tools_->norm.update(state);
-  const EndCheck end = checkEnd<double>(tools_->system, state, tools_->norm, options_.tolerances);
+  const EndCheck end = finish<double>(tools_->system, options_, tools_->norm, state, counters_);
   if (end.outcome != Outcome::kSuccess) return {end.outcome, end.detail, system.toScene(state), counters_};
   std::string note;
   if (options_.multipliers == Multipliers::kConsistent && system.sizes().nz > 0) {

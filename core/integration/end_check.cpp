@@ -3,14 +3,19 @@
 #include <sstream>
 
 #include "core/derivatives/constraint_check.h"
+#include "core/derivatives/projection.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
 
 template <class Real>
-EndCheck checkEnd(const System<Real>& system, const State<Real>& state, const ErrorNorm<Real>& norm,
-                  const Tolerances& tolerances) {
-  const std::string violated = constraintViolation(system, state, norm.weights(), allowedDrift(tolerances));
+EndCheck finish(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm,
+                State<Real>& state, Counters& counters) {
+  if (isIndex3(system)) {
+    const Outcome projected = VelocityProjection<Real>(system, options.derivatives, counters).apply(state);
+    if (projected != Outcome::kSuccess) return {projected, "at the end: velocities cannot be projected on dg/dt = 0"};
+  }
+  const std::string violated = constraintViolation(system, state, norm.weights(), allowedDrift(options.tolerances));
   return violated.empty() ? EndCheck{} : EndCheck{Outcome::kDrift, violated};
 }
 
@@ -22,11 +27,12 @@ std::string roundOffRemark(double size) {
   return text.str();
 }
 
-#define IRK_CHECK(Real) \
-  template EndCheck checkEnd(const System<Real>&, const State<Real>&, const ErrorNorm<Real>&, const Tolerances&);
-IRK_CHECK(double)
-IRK_CHECK(mp50)
-IRK_CHECK(mp100)
-#undef IRK_CHECK
+#define IRK_FINISH(Real)                                                                                        \
+  template EndCheck finish(const System<Real>&, const IntegratorOptions&, const ErrorNorm<Real>&, State<Real>&, \
+                           Counters&);
+IRK_FINISH(double)
+IRK_FINISH(mp50)
+IRK_FINISH(mp100)
+#undef IRK_FINISH
 
 }  // namespace irk

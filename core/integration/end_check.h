@@ -5,6 +5,7 @@
 
 #include "core/stages/error_norm.h"
 #include "irk/outcome.h"
+#include "irk/statistics.h"
 
 namespace irk {
 
@@ -14,11 +15,12 @@ struct EndCheck {
   std::string detail;
 };
 
-/// Checks the position constraints (core/derivatives/constraint_check.h). The norm has the weights of this state. Its
-/// evaluations are not counted.
+/// Ends a run with variable steps: projects the velocities of the index-3 formulation, then checks the position
+/// constraints (core/derivatives/constraint_check.h). The norm has the weights of `state`. The evaluations of the check
+/// are not counted.
 template <class Real>
-EndCheck checkEnd(const System<Real>& system, const State<Real>& state, const ErrorNorm<Real>& norm,
-                  const Tolerances& tolerances);
+EndCheck finish(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm,
+                State<Real>& state, Counters& counters);
 
 /// The remark on a success whose Newton corrections ended in round-off of the residual, of up to `size` tolerances;
 /// empty for 0.

@@ -15,12 +15,6 @@
 namespace irk {
 namespace {
 
-template <class Real>
-bool isIndex3(const System<Real>& system) {
-  const auto& powers = system.errorPowers().v;
-  return std::any_of(powers.begin(), powers.end(), [](int p) { return p > 0; });
-}
-
 // Errors of multipliers do not count if the method does not determine them and they are computed anew at the end.
 template <class Real>
 ErrorNorm<Real> normOf(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
@@ -276,7 +270,7 @@ template <class Real>
 Solution<Real> Trajectory<Real>::success() {
   if (controller_) {
     norm_.update(state_);
-    const EndCheck end = checkEnd(system_, state_, norm_, options_.tolerances);
+    const EndCheck end = finish(system_, options_, norm_, state_, counters_);
     if (end.outcome != Outcome::kSuccess) return solution(end.outcome, end.detail);
   }
   const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
