@@ -153,7 +153,9 @@ auto Defect<Real>::largest(const State<Real>& from, const StagePolynomial<Real>&
   const std::int64_t looks = looksInStep(looks_, static_cast<double>(stages.h), length_, points_.period());
   Result largest = among(next_, looks, from, stages);
   next_ += looks;
+  most_.setZero();  // a filtered residual may be larger than that of another point and smaller in each row
   if (looks_at_start_) add(largest, atEnd(from, from.t, from.d, scheme_.start, stages));
+  most_.setZero();
   if (looks_at_end_) add(largest, atEnd(to, from.t + stages.h, from.d, scheme_.end, stages));
   return largest;
 }

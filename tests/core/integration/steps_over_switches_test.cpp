@@ -146,12 +146,15 @@ struct ThereAndBack {
 };
 
 TEST(Ignore, SeesAModeThatComesAndGoesInsideAStep) {
-  IntegratorOptions options = located(1e-6);
-  options.step.h = 1;
-  const Result r =
-      run(ThereAndBack{}, State<double>(ThereAndBack{}.sizes()), 1, Discontinuity::kIgnore, options, "radau_iia_3");
-  ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
-  EXPECT_NEAR(r.solution.state.x[0], 1.07, 1e-4) << "a step over it: 1";
+  for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
+    IntegratorOptions options = located(1e-6);
+    options.step.estimate = estimate;
+    options.step.h = 1;
+    const Result r =
+        run(ThereAndBack{}, State<double>(ThereAndBack{}.sizes()), 1, Discontinuity::kIgnore, options, "radau_iia_3");
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(estimate) << ": " << r.solution.detail;
+    EXPECT_NEAR(r.solution.state.x[0], 1.07, 1e-4) << idOf(estimate) << ", a step over it: 1";
+  }
 }
 
 }  // namespace
