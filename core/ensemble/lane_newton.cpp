@@ -29,7 +29,7 @@ Lanes etaOf(const Lanes& theta) {
 LaneNewton::LaneNewton(const Scheme<double>& scheme, const Sizes& sizes, const std::vector<int>& row_powers,
                        const IntegratorOptions& options, double mu)
     : s_(scheme.s),
-      stop_(incrementLimit<double>(options, scheme.s)),
+      stop_(incrementLimit<double>(options)),
       round_off_(unitRoundOff<double>(options)),
       keep_below_(options.newton.keep_jacobian_below),
       limit_(options.newton.max_iterations),

@@ -37,15 +37,12 @@ struct IncrementLimit {
     return steps <= kManySteps ? kappa : std::max(least, kappa * kManySteps / steps);
   }
 };
-/// kappa shrinks with s: at high order an inaccurate solution of the stage equations spoils the step.
 template <class Real>
-IncrementLimit incrementLimit(const IntegratorOptions& options, Index stages) {
+IncrementLimit incrementLimit(const IntegratorOptions& options) {
   const double floor = kRoundOffUnits * unitRoundOff<Real>(options);
-  const double s = static_cast<double>(stages);
-  const double rtol = std::max(options.tolerances.rtol, options.tolerances.atol);
   const double kappa = options.newton.kappa;
   const double part = options.step.estimate == ErrorEstimate::kRichardson ? kHiddenPart.value : 1;
-  const double wanted = kappa > 0 ? kappa : part * std::min(kNewtonPart.value, std::pow(rtol, (s - 1) / (s + 1)));
+  const double wanted = kappa > 0 ? kappa : part * kNewtonPart;
   const double limit = std::max(floor, wanted);
   return {limit, floor > wanted, kappa > 0 ? limit : floor};
 }

@@ -52,7 +52,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
  public:
   SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
       : Base(options, sizes, scheme),
-        limit_(incrementLimit<Real>(options, scheme.s)),
+        limit_(incrementLimit<Real>(options)),
         adaptive_(!hasFixedSteps(options.step)) {}
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {

@@ -110,8 +110,8 @@ std::span<const OptionField> optionFields() {
              "The Jacobian is kept for the next step while Newton's method contracts by less than this factor.",
              ofContraction),
       number("kappa", IRK_MEMBER(newton.kappa), Range::from(0),
-             "Newton's method stops when its error falls below this part of the tolerance; 0 = by order, rtol and "
-             "number of steps.",
+             "Newton's method stops when its error falls below this part of the tolerance; 0 = by the estimate, "
+             "round-off and the number of steps.",
              ofKappa),
       number("looks", IRK_MEMBER(step.looks), Range::integers(1, kMaxLooks),
              "Points over the interval at which the defect between the stages is looked at.", noLooks),
@@ -126,7 +126,7 @@ std::span<const OptionField> optionFields() {
              "The step size is kept unless it would change by this factor.", ofPaperControls),
       number("growth_at_most", IRK_MEMBER(step.growth_at_most), Range::above(1),
              "The step size grows at most by this factor.", ofPaperControls),
-      number("rtol", IRK_MEMBER(tolerances.rtol), Range::from(0).below(1),
+      number("rtol", IRK_MEMBER(tolerances.rtol), Range::from(0),
              "Tolerance of a step's error relative to the solution.", noTolerance),
       number("atol", IRK_MEMBER(tolerances.atol), Range::above(0),
              "Tolerance of a step's error relative to the scale of the component.", noTolerance),
