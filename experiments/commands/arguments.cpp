@@ -68,9 +68,8 @@ int integer(std::string_view name, std::string_view text, const Range& range) {
 }
 
 void addSolveOptions(CLI::App& sub, SolveOptions& run) {
-  sub.add_option(
-         "--tol", run.tol,
-         "Sets both rtol and atol. A list of values, of this or of any option, makes all combinations. [0 < x < 1]")
+  sub.add_option("--tol", run.tol,
+                 "Sets both rtol and atol. A list of values, of this or of any option, makes all combinations. [0 < x]")
       ->type_name("NUMBER");
   sub.add_flag("--json", run.json, "Print one JSON object.");
   sub.add_option("--plot", run.plot, "Draw the solution to FILE.svg and FILE.png, in a folder that exists.")
@@ -84,10 +83,12 @@ void addSolveOptions(CLI::App& sub, SolveOptions& run) {
          "--points", run.points,
          "So many equally spaced times in --out, both ends included [2 .. 1000000; default: the accepted steps]")
       ->type_name("INTEGER");
+  sub.add_flag("--bars", run.bars,
+               "Adds to each point in --out its error bars, from one more integration of another method.");
 }
 
 void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble) {
-  sub.add_option("--tol", run.tol, "Sets both rtol and atol. [0 < x < 1]")->type_name("NUMBER");
+  sub.add_option("--tol", run.tol, "Sets both rtol and atol. [0 < x]")->type_name("NUMBER");
   sub.add_option(
          "--start", ensemble.starts,
          "component=VALUES: a component of u, v or x at the start. VALUES, also of --set: items with ',' between; "

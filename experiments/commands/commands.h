@@ -25,6 +25,7 @@ struct SolveOptions {
   std::string plot;                   ///< a file for the figure, in a folder that exists; .svg or .png is cut off
   std::string out;                    ///< a file for the solution over time, see solutionFile
   std::string points;                 ///< its equally spaced times; empty: the accepted steps
+  bool bars = false;                  ///< whether each of its rows has error bars
   bool json = false;
 };
 /// Whether the user gave this field of the spec.

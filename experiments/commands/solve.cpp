@@ -11,6 +11,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/out_file.h"
 #include "experiments/reference/library.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/report.h"
@@ -19,7 +20,6 @@
 #include "experiments/runs/peers/loaded/load_method.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/unused_options.h"
-#include "experiments/solution/file.h"
 #include "experiments/solution/trajectory.h"
 #include "experiments/tables/environment.h"
 
@@ -135,50 +135,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-constexpr Range kPoints = Range::integers(2, 1'000'000);
 // With this many points a curve shows no corners.
 constexpr int kPlotPoints = 1000;
-
-/// The user's output file of a run. It is created with the first row, so that a refused run does not change an older
-/// file.
-class OutFile {
- public:
-  OutFile(const SolveOptions& options, const RunSpec& spec)
-      : path_(options.out), rows_(times(options, spec), spec.t_end, [this, &spec](const SolutionRow& row) {
-          if (!file_) file_ = solutionFile(path_, spec);
-          file_->append(row);
-          t_ = row.t;
-        }) {
-    if (asked()) requireSolutionPath(path_);
-  }
-
-  void addTo(Watch& watch) {
-    if (asked()) rows_.addTo(watch);
-  }
-  void finish(const RunRecord& record, std::ostream& err) {
-    if (!asked()) return;
-    rows_.finish(record);
-    if (record.succeeded() || !file_) return;
-    printErrorLine(err, fmt::format("{} holds the solution up to t = {:.15g}: {}", path_, t_, record.outcome));
-  }
-
- private:
-  bool asked() const { return !path_.empty(); }
-  static RowTimes times(const SolveOptions& options, const RunSpec& spec) {
-    if (options.points.empty()) return {};
-    if (options.out.empty()) throw Misuse("--points belongs to --out, which is not given");
-    if (findPeer(spec.method)) {
-      throw Misuse(fmt::format(
-          "--points: method '{}' gives the solution at the ends of its steps only; leave --points out", spec.method));
-    }
-    return {static_cast<int>(parseInteger("points", options.points, kPoints)), false};
-  }
-
-  std::string path_;
-  SolutionRows rows_;
-  std::unique_ptr<SolutionFile> file_;
-  double t_ = 0;
-};
 
 // Records the solution in a temporary folder and draws it.
 RunRecord solveAndPlot(const RunSpec& spec, const Watch& watch, const std::string& plot, std::ostream& err,
@@ -295,7 +253,7 @@ int solveCommand(const SolveOptions& options, Streams streams) {
   bool drawn = true;
   const RunRecord record =
       options.plot.empty() ? execute(spec, watch) : solveAndPlot(spec, watch, options.plot, streams.err, drawn);
-  out.finish(record, streams.err);
+  out.finish(record, watch, streams.err);
   if (options.json) {
     streams.out << solveJson(record) << '\n';
   } else {

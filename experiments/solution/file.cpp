@@ -24,7 +24,8 @@ constexpr std::string_view kStepColumns[] = {"t", "h", "error", "newton_iteratio
 
 class CsvFile final : public SolutionFile {
  public:
-  CsvFile(const std::filesystem::path& path, const RunSpec& spec) : writer_(path, solutionTable(spec)) {}
+  CsvFile(const std::filesystem::path& path, const RunSpec& spec, RowBars bars)
+      : writer_(path, solutionTable(spec, bars)) {}
   void append(const SolutionRow& row) override { writer_.append(solutionCells(row)); }
 
  private:
@@ -49,7 +50,11 @@ class JsonLinesFile final : public SolutionFile {
     Json line{{"t", row.t}, {"h", row.h}, {"error", row.error}, {"newton_iterations", row.newton_iterations}};
     line["switches"] = row.switches;
     std::size_t i = 0;
-    for (const auto& [name, unit] : namesAndUnits(scene_)) line["values"][name] = row.values[i++];
+    for (const auto& [name, unit] : namesAndUnits(scene_)) {
+      line["values"][name] = row.values[i];
+      if (i < row.bars.size()) line["bars"][name] = row.bars[i];
+      ++i;
+    }
     write(line);
   }
 
@@ -68,10 +73,11 @@ TableRow solutionCells(const SolutionRow& row) {
   TableRow cells{numberText(row.t), numberText(row.h), numberText(row.error), std::to_string(row.newton_iterations),
                  row.switches};
   for (const double value : row.values) cells.push_back(numberText(value));
+  for (const double bar : row.bars) cells.push_back(numberText(bar));
   return cells;
 }
 
-Table solutionTable(const RunSpec& spec) {
+Table solutionTable(const RunSpec& spec, RowBars bars) {
   const auto scene = sceneOf<double>(spec);
   Table table{
       environmentHead("trajectory of " + spec.scene, 1), {std::begin(kStepColumns), std::end(kStepColumns)}, {}};
@@ -81,6 +87,12 @@ Table solutionTable(const RunSpec& spec) {
   for (const auto& [name, unit] : namesAndUnits(scene)) {
     table.columns.push_back(name);
     units.push_back(unit);
+  }
+  if (bars == RowBars::kWritten) {
+    for (const auto& [name, unit] : namesAndUnits(scene)) {
+      table.columns.push_back("bar " + name);
+      units.push_back(unit);
+    }
   }
   table.head.emplace_back("units", csvLine(units));
   return table;
@@ -98,9 +110,9 @@ void requireSolutionPath(const std::filesystem::path& path) {
   requireRegularFile(path);
 }
 
-std::unique_ptr<SolutionFile> solutionFile(const std::filesystem::path& path, const RunSpec& spec) {
+std::unique_ptr<SolutionFile> solutionFile(const std::filesystem::path& path, const RunSpec& spec, RowBars bars) {
   requireSolutionPath(path);
-  if (path.extension() == ".csv") return std::make_unique<CsvFile>(path, spec);
+  if (path.extension() == ".csv") return std::make_unique<CsvFile>(path, spec, bars);
   return std::make_unique<JsonLinesFile>(path, spec);
 }
 

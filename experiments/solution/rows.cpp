@@ -1,10 +1,37 @@
 #include "experiments/solution/rows.h"
 
+#include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "irk/misuse.h"
 
 namespace irk {
+
+std::vector<KeptRow> barred(std::vector<KeptRow> rows, const std::vector<KeptRow>& strict) {
+  std::map<double, const KeptRow*> at;
+  for (const KeptRow& row : strict) {
+    if (row.row.switches.empty()) at[row.row.t] = &row;
+  }
+  for (KeptRow& row : rows) {
+    row.bars.assign(row.values.size(), std::numeric_limits<double>::quiet_NaN());
+    const auto other = at.find(row.row.t);
+    if (other == at.end() || !row.row.switches.empty()) continue;
+    for (std::size_t i = 0; i < row.bars.size(); ++i) row.bars[i] = std::abs(row.values[i] - other->second->values[i]);
+  }
+  return rows;
+}
+
+RunRecord executeWithRows(const RunSpec& spec, const Watch& watch, const RowTimes& times, std::vector<KeptRow>& rows) {
+  const auto run = prepare(spec);
+  SolutionRows solution(times, resolved(spec).t_end, [&rows](const SolutionRow& row) { rows.emplace_back(row); });
+  Watch recording = watch;
+  solution.addTo(recording);
+  const RunRecord record = run->execute(recording);
+  solution.finish(record);
+  return record;
+}
 
 SolutionRows::SolutionRows(RowTimes times, double t_end, std::function<void(const SolutionRow&)> take)
     : times_(times), t_end_(t_end), take_(std::move(take)) {}
@@ -41,7 +68,7 @@ void SolutionRows::fill(const AcceptedStep& step) {
     }
     const double t = time(next_);
     const auto values = step.inside->at(t);
-    take_({t, step.h, step.error, step.newton_iterations, "", values});
+    take_({t, step.h, step.error, step.newton_iterations, "", values, {}});
   }
 }
 
@@ -50,7 +77,7 @@ void SolutionRows::accepted(const AcceptedStep& step) {
   fill(step);
   bool is_point = false;
   for (; next_ < times_.points && time(next_) == step.t; ++next_) is_point = true;
-  last_ = {step.t, step.h, step.error, step.newton_iterations, std::exchange(inside_, ""), {}};
+  last_ = {step.t, step.h, step.error, step.newton_iterations, std::exchange(inside_, ""), {}, {}};
   values_.assign(step.values.begin(), step.values.end());
   shown_ = false;
   if (times_.steps || is_point || !last_.switches.empty()) show();

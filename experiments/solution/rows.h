@@ -21,8 +21,30 @@ struct SolutionRow {
   double h, error;        ///< of the step that ends at t or contains it, see AcceptedStep
   int newton_iterations;  ///< likewise
   std::string switches;   ///< that lead to this row's state, or are in its step: names with "; " between; mostly empty
-  std::span<const double> values;  ///< see AcceptedStep
+  std::span<const double> values;     ///< see AcceptedStep
+  std::span<const double> bars = {};  ///< the measured errors of the values, NaN: unknown; empty: not asked for
 };
+
+/// A row with values of its own.
+struct KeptRow {
+  explicit KeptRow(const SolutionRow& r)
+      : row(r), values(r.values.begin(), r.values.end()), bars(r.bars.begin(), r.bars.end()) {}
+  /// Valid as long as this object.
+  SolutionRow view() const {
+    SolutionRow view = row;
+    view.values = values;
+    view.bars = bars;
+    return view;
+  }
+
+  SolutionRow row;  ///< its spans are not valid
+  std::vector<double> values, bars;
+};
+
+/// The rows with their bars: the distance, value by value, from the row of `strict` at the same time. Both are those of
+/// the same equally spaced points. Rows at switches, whose times differ, and rows beyond the end of `strict` have
+/// unknown bars.
+std::vector<KeptRow> barred(std::vector<KeptRow> rows, const std::vector<KeptRow>& strict);
 
 /// Listens to a run and makes the rows. One object per run; it must outlive the run.
 class SolutionRows {
@@ -53,5 +75,8 @@ class SolutionRows {
   std::vector<double> values_;
   std::string inside_;  // switches inside the next step
 };
+
+/// Runs the spec and keeps its rows at `times`. Throws Misuse as `prepare` and SolutionRows.
+RunRecord executeWithRows(const RunSpec& spec, const Watch& watch, const RowTimes& times, std::vector<KeptRow>& rows);
 
 }  // namespace irk

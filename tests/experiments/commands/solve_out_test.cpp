@@ -73,6 +73,27 @@ TEST_F(SolveOut, AlsoInFiftyDigits) {
   EXPECT_TRUE(std::isfinite(cell(rows, 5, rows.columns.back())));
 }
 
+// Kepler's motion is known: x = cos E - e, with Kepler's equation t = E - e sin E. Bars say how far each row is off.
+TEST_F(SolveOut, BarsAreTheErrorsOfTheRows) {
+  for (const char* tolerance : {"1e-4", "1e-7"}) {
+    const Table rows =
+        table({"kepler", "--set", "e=0.3", "--tol", tolerance, "--t-end", "6", "--points", "31", "--bars"});
+    ASSERT_EQ(rows.rows.size(), 31u);
+    const std::string x = rows.columns[5];
+    double largest = 0;
+    for (std::size_t i = 1; i < rows.rows.size(); ++i) {
+      const double t = cell(rows, i, "t");
+      double E = t;
+      for (int k = 0; k < 100; ++k) E -= (E - 0.3 * std::sin(E) - t) / (1 - 0.3 * std::cos(E));
+      const double error = std::abs(cell(rows, i, x) - (std::cos(E) - 0.3)), bar = cell(rows, i, "bar " + x);
+      EXPECT_LE(error, 3 * bar + std::stod(tolerance)) << tolerance << " " << t;
+      EXPECT_LE(bar, 3 * error + std::stod(tolerance)) << tolerance << " " << t;
+      largest = std::max(largest, error);
+    }
+    EXPECT_GT(largest, 3 * std::stod(tolerance)) << "errors are too small to tell a bar from none";
+  }
+}
+
 // A switch has a row before and one after it; between them the state may jump.
 TEST_F(SolveOut, SwitchesHaveARowBeforeAndAfter) {
   const Table rows = table({"stick_slip", "--tol", "1e-8", "--points", "101"});
@@ -158,6 +179,8 @@ TEST_F(SolveOut, RefusesIllegalOptions) {
     std::vector<std::string> message;
   };
   const Bad inputs[] = {
+      {{"--bars"}, {"--bars", "--out"}},
+      {{"--bars", "--out", file("run.csv")}, {"--bars", "--points"}},
       {{"--points", "10"}, {"--points", "--out"}},
       {{"--out", file("run.txt")}, {"run.txt", ".csv", ".jsonl"}},
       {{"--out", file("none/run.csv")}, {"no folder", "none"}},
