@@ -96,8 +96,8 @@ succeeded(dummy) = strcol("outcome") eq "success"
 hasColumn(file, name) = strlen(system("grep -m1 -v '^#' '".file."' | tr ',' '\\n' | grep -x '".name."'")) > 0
 
 # `eval errors(file, at_end)` defines the error of a run: the largest at its reference times, if the table has it and
-# at_end is 0, else that at the end; the number of these times; and which successes are wrong by the bar of the audit
-# (experiments/audit/judge.h): an error of u, v or x at the end above 1000 tolerances + 1e-9. Fixed steps have no
+# at_end is 0, else that at the end; the number of these times; and which successes are wrong: an error of
+# u, v or x at the end above 1000 tolerances + 1e-9, the bar of the audit (experiments/audit/judge.h) for all methods alike. Fixed steps have no
 # tolerance.
 errors(file, at_end) = sprintf("has_times = !%d && hasColumn('%s', 'error_over_time'); ", at_end, file) \
   .sprintf("has_control = hasColumn('%s', 'control'); has_accuracy = hasColumn('%s', 'reference_accuracy'); ", file, file) \
@@ -115,7 +115,7 @@ isFixed(d) = has_control ? is("control", 'fixed') : 0
 isVague(d) = has_accuracy ? (absent("reference_accuracy") ? 0 : column("reference_accuracy") > 0.1 * bar(0)) : 0
 isAbove(name) = absent(name) ? 0 : column(name) > bar(0)
 isWrong(d) = succeeded(0) && !isFixed(0) && !isVague(0) ? isAbove("error_u") || isAbove("error_v") || isAbove("error_x") : 0
-wrong_point = 6; ring_size = 1.25; ring_width = 0.9; wrong_title = 'wrong success'
+wrong_point = 6; ring_size = 1.25; ring_width = 0.9; wrong_title = 'error above 1000 tolerances'
 errorTitle(name, times) = name eq 'invariant_change' ? 'largest change of an invariant' \
   : (name eq 'error' ? 'error' : name eq 'error_u' ? 'error of the positions' \
   : name eq 'error_v' ? 'error of the velocities' : name eq 'error_z' ? 'error of the multipliers' : 'error of the states') \

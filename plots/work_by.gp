@@ -1,6 +1,7 @@
 # Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error, the
 # largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at the tolerance
-# that was requested; with fixed steps, at the left. A ring marks a success that is wrong by the bar of the audit.
+# that was requested; with fixed steps, at the left. A ring marks a success with an error above 1000
+# tolerances.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
 #   variant (columns; each combination of their values is a curve), variants (the values to show, in this order),

@@ -1,6 +1,6 @@
 # Work against accuracy: CPU time or counters over the error reached, one line per number of stages (and method).
 # The error, the largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at
-# the tolerance that was requested; a ring marks a success that is wrong by the bar of the audit.
+# the tolerance that was requested; a ring marks a success with an error above 1000 tolerances.
 #   gnuplot -e "data='results/cpu_time'; out='work'; block='crank'; family='radau_iia'" work_precision.gp
 # Reads runs.csv. Options: block or scene and settings, family, formulation, stages_shown,
 # only (quoted words column=value that all rows must have), quantity (error, error_u, error_v, error_x, error_z), at_end
@@ -64,7 +64,7 @@ lines = (n + columns - 1) / columns
 # The names of twins need room beside the panels.
 longest = 0
 do for [k = 1 : count] { length = strlen(methodTitle(curves, k)); longest = length > longest ? length : longest }
-longest = W_sum > 0 && longest < 15 ? 15 : longest   # 'wrong success'
+longest = W_sum > 0 && longest < strlen(wrong_title) + 2 ? strlen(wrong_title) + 2 : longest
 room = longest > 6 ? 7.5 * (longest - 6) : 0
 usual = n == 1 ? 640.0 : 1080.0
 width = usual + room
