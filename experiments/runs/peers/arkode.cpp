@@ -15,24 +15,33 @@ constexpr int kOrder = 5;
 // does.
 constexpr int kArkodeIterations = 10;
 
+// Since version 7.1 what all steppers of ARKODE have in common is named after ARKODE.
+#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
+#define IRK_ARKODE_API IRK_SUNDIALS_API(ARKode, ARKLsJacFn, ARKRootFn)
+#define IRK_ARKODE(function) ARKode##function
+#else
+#define IRK_ARKODE_API IRK_SUNDIALS_API(ARKStep, ARKLsJacFn, ARKRootFn)
+#define IRK_ARKODE(function) ARKStep##function
+#endif
+
 struct Arkode {
-  IRK_SUNDIALS_API(ARKStep, ARKLsJacFn, ARKRootFn)
+  IRK_ARKODE_API
   // After the first interpolation, which needs right-hand sides, ARKODE evaluates them in every later step.
   static constexpr bool kRemembers = true;
   static void* create(SUNContext context, ARKRhsFn rates, N_Vector y) {
     return ARKStepCreate(nullptr, rates, 0, y, context);
   }
   static void set(void* memory) {
-    IRK_SUNDIALS(ARKStepSetOrder(memory, kOrder));
-    IRK_SUNDIALS(ARKStepSetInterpolantDegree(memory, kOrder));
-    IRK_SUNDIALS(ARKStepSetDeduceImplicitRhs(memory, SUNTRUE));
-    IRK_SUNDIALS(ARKStepSetMaxNonlinIters(memory, kArkodeIterations));
+    IRK_SUNDIALS(IRK_ARKODE(SetOrder)(memory, kOrder));
+    IRK_SUNDIALS(IRK_ARKODE(SetInterpolantDegree)(memory, kOrder));
+    IRK_SUNDIALS(IRK_ARKODE(SetDeduceImplicitRhs)(memory, SUNTRUE));
+    IRK_SUNDIALS(IRK_ARKODE(SetMaxNonlinIters)(memory, kArkodeIterations));
   }
   static int reInit(void* memory, ARKRhsFn rates, double t, N_Vector y) {
     return ARKStepReInit(memory, nullptr, rates, t, y);
   }
   static int advance(void* memory, double t_end, N_Vector y, double* t) {
-    return ARKStepEvolve(memory, t_end, y, t, sundials::kOneStep);
+    return IRK_ARKODE(Evolve)(memory, t_end, y, t, sundials::kOneStep);
   }
 };
 

@@ -11,8 +11,14 @@
 #include <stdexcept>
 
 namespace irk::sundials {
+namespace {
 
-Workspace::Workspace(Index n) : y_(N_VNew_Serial(n, context_)) {
+// SUNDIALS is built with 32 or with 64 bits per index.
+sunindextype indexOf(Index n) { return static_cast<sunindextype>(n); }
+
+}  // namespace
+
+Workspace::Workspace(Index n) : y_(N_VNew_Serial(indexOf(n), context_)) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* to, SUNContext) {
     *static_cast<std::string*>(to) = text ? text : "";
@@ -46,16 +52,16 @@ bool samePattern(const PeerPattern& a, const PeerPattern& b) {
 bool Workspace::choose(const std::shared_ptr<const PeerPattern>& pattern) {
   if (pattern_ && (pattern_ == pattern || samePattern(*pattern_, *pattern))) return false;
   pattern_ = pattern;
-  const Index n = pattern->n;
+  const sunindextype n = indexOf(pattern->n);
   solver_.reset();
   if (pattern->full) {
     matrix_.reset(SUNDenseMatrix(n, n, context_));
     solver_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
   } else if (isBanded(*pattern)) {
-    matrix_.reset(SUNBandMatrix(n, pattern->upper, pattern->lower, context_));
+    matrix_.reset(SUNBandMatrix(n, indexOf(pattern->upper), indexOf(pattern->lower), context_));
     solver_.reset(SUNLinSol_Band(y_.get(), matrix_.get(), context_));
   } else {
-    matrix_.reset(SUNSparseMatrix(n, n, static_cast<sunindextype>(pattern->row.size()), CSC_MAT, context_));
+    matrix_.reset(SUNSparseMatrix(n, n, indexOf(static_cast<Index>(pattern->row.size())), CSC_MAT, context_));
     solver_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_));
   }
   return true;

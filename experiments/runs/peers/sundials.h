@@ -2,10 +2,13 @@
 #pragma once
 
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
-#include <sundials/sundials_version.h>
+#if SUNDIALS_VERSION_MAJOR >= 7
+#include <sundials/sundials_context.hpp>
+#endif
 
 #include <algorithm>
 #include <memory>
