@@ -16,43 +16,50 @@
 namespace irk {
 namespace {
 
-// Whether D0 at acceleration level is regular, so that y' = f(t, y) exists.
-bool isDetermined(const Scene<double>& scene, const RunSpec& spec) {
+using SystemPointer = std::shared_ptr<const System<double>>;
+
+// The scene as y' = f(t, y), if D0 at acceleration level is regular; else null. `start` gets the scene's start in its
+// unknowns.
+SystemPointer explicitSystem(const Scene<double>& scene, const RunSpec& spec, State<double>& start) {
+  auto system = scene.system({Formulation::kFirstOrder, spec.scaling, spec.discontinuity});
   try {
-    (void)scene.system({Formulation::kFirstOrder, spec.scaling, spec.discontinuity})->fromScene(scene.start);
-    return true;
+    start = system->fromScene(scene.start);
+    return system;
   } catch (const Misuse&) {
-    return false;
+    return nullptr;
   }
 }
 
-// A peer that takes a mass matrix gets y' = f(t, y) where no unknown is algebraic.
-PeerForm formOf(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec) {
+// ODE codes always get y' = f(t, y): without constraints all formulations are equal. So does a peer that takes a mass
+// matrix where no unknown is algebraic.
+PeerForm formOf(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec, bool determined) {
   if (entry.form != PeerForm::kMass) return entry.form;
   const bool explicit_form = spec.formulation == Formulation::kFirstOrder ||
                              spec.formulation == Formulation::kFirstOrderPerStep || scene.sizes().nz == 0;
-  return explicit_form && isDetermined(scene, spec) ? PeerForm::kOde : PeerForm::kMass;
+  return explicit_form && determined ? PeerForm::kOde : PeerForm::kMass;
 }
 
-// ODE codes always get y' = f(t, y): without constraints all formulations are equal.
-SystemOptions systemOptions(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec) {
-  const bool ode = formOf(entry, scene, spec) == PeerForm::kOde;
-  return {ode ? Formulation::kFirstOrder : spec.formulation, spec.scaling, spec.discontinuity};
-}
-
+// The system in the form that the peer takes, and the problem made of it.
 std::unique_ptr<SceneProblem> problemOf(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec,
-                                        const System<double>& system) {
+                                        SystemPointer& system) {
   refuseIllegal(entry, spec, scene.sizes());
   const auto refuse = [&](std::string_view reason) {
     throw Misuse(fmt::format("illegal combination: method '{}' with scene '{}': {}", entry.id, scene.id, reason));
   };
-  const bool determined = isDetermined(scene, spec);
+  State<double> start;
+  system = explicitSystem(scene, spec, start);
+  const bool determined = system != nullptr;
   if (!determined && !entry.takesConstraints()) {
     refuse("it solves y' = f(t, y), and the scene's index is above 1: D0 is singular");
   }
+  const PeerForm form = formOf(entry, scene, spec, determined);
+  if (form != PeerForm::kOde) {
+    system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
+    start = system->fromScene(scene.start);
+  }
   auto problem = makeProblem(
-      formOf(entry, scene, spec), system, system.fromScene(scene.start),
-      {spec.options.derivatives, spec.options.storage, determined, toleranceScale(scene, spec, system.sizes())});
+      form, *system, start,
+      {spec.options.derivatives, spec.options.storage, determined, toleranceScale(scene, spec, system->sizes())});
   const auto& index = problem->layout().index;
   if (std::any_of(index.begin(), index.end(), [&entry](int i) { return i > entry.max_index; })) {
     refuse(fmt::format("it solves up to index {}", entry.max_index));
@@ -75,9 +82,8 @@ PeerSetup setupOf(const Scene<double>& scene, const RunSpec& spec, const Sizes& 
 }  // namespace
 
 PeerIntegrator::PeerIntegrator(const PeerEntry& entry, const Scene<double>& scene, const RunSpec& spec)
-    : system_(scene.system(systemOptions(entry, scene, spec))),
-      max_steps_(spec.options.step.max_steps),
-      problem_(problemOf(entry, scene, spec, *system_)),
+    : max_steps_(spec.options.step.max_steps),
+      problem_(problemOf(entry, scene, spec, system_)),
       peer_(entry.make(setupOf(scene, spec, system_->sizes(), *problem_))),
       state_(system_->sizes()),
       switches_(*system_),
@@ -159,12 +165,16 @@ StartReport PeerIntegrator::leg(bool new_run, double t_end, const Monitor<double
   return state_.t >= t_end ? StartReport{} : failed(Outcome::kStepTooSmall, "the method returned before the end");
 }
 
+// After most steps nothing has to be told: reports, which hold a text, are kept only if they end the run.
 PeerNext PeerIntegrator::accepted(const PeerStep& step, double t_end, const Monitor<double>& monitor) {
+  const auto goes_on = [this](StartReport report) {
+    if (report.outcome == Outcome::kSuccess) return true;
+    stopped_ = std::move(report);
+    return false;
+  };
   if (stopped_.outcome != Outcome::kSuccess || restarts_) return PeerNext::kReturn;
-  stopped_ = take(step, t_end, monitor);
-  const bool on = stopped_.outcome == Outcome::kSuccess && !restarts_ && state_.t < t_end;
-  if (on) stopped_ = mayGoOn(monitor);
-  return on && stopped_.outcome == Outcome::kSuccess ? PeerNext::kContinue : PeerNext::kReturn;
+  if (!goes_on(take(step, t_end, monitor)) || restarts_ || state_.t >= t_end) return PeerNext::kReturn;
+  return goes_on(mayGoOn(monitor)) ? PeerNext::kContinue : PeerNext::kReturn;
 }
 
 StartReport PeerIntegrator::take(const PeerStep& step, double t_end, const Monitor<double>& monitor) {

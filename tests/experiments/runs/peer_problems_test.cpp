@@ -8,6 +8,7 @@
 #include "experiments/runs/peers/problem/make_problem.h"
 #include "experiments/runs/run.h"
 #include "irk/integrator.h"
+#include "irk/problem.h"
 #include "irk/tableaus.h"
 #include "tests/experiments/heat.h"
 
@@ -74,6 +75,51 @@ TEST(PeerProblems, JacobiansAreThoseOfDifferences) {
       EXPECT_LT((full(J) - expected).norm(), 1e-6 * (1 + expected.norm())) << id << " " << static_cast<int>(form);
     }
   }
+}
+
+// The rates of the system in first-order form, which solves for them, to the last bit. slider_crank: its mass depends
+// on the state, so that there is no other way.
+TEST(PeerProblems, RatesAreThoseOfTheFirstOrderForm) {
+  for (const char* id : {"kepler", "slider_crank", "van_der_pol", "beam_chain", "hires", "stick_slip"}) {
+    const Made made = make(PeerForm::kOde, makeScene<double>(id), Formulation::kIndex1, Storage::kAutomatic);
+    const Index n = made.problem->layout().n;
+    State<double> at = made.state;
+    at.x.array() += 0.01;
+    at.w.setZero();
+    Vec<double> rates(n), expected(n);
+    ASSERT_EQ(made.problem->rates(at.t, at.x.data(), rates.data()), Evaluated::kDone) << id;
+    made.system->evaluate(Level::kFormulated, pointOf(at), {expected.data(), n});
+    EXPECT_EQ(rates, expected) << id;
+    EXPECT_GT(rates.norm(), 0) << id;
+  }
+}
+
+// x' = -x, with a factor before x' that is another one far from the start.
+struct HeavyFarAway {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const double factor = p.x[0] > T(10.0) ? 4 : 1;
+    r.x[0] = -p.x[0] - factor * p.k[0];
+  }
+};
+
+// The Jacobian notices a mass that is no longer the one at the start; from then on it is solved for.
+TEST(PeerProblems, AMassThatChangesLaterIsNoticed) {
+  const auto system = makeSystem<double>(HeavyFarAway{}, {Formulation::kFirstOrder});
+  State<double> start(system->sizes());
+  start.x[0] = 1;
+  start = system->fromScene(start);
+  const auto problem = makeProblem(PeerForm::kOde, *system, start, {});
+  PeerValues at;
+  ASSERT_EQ(problem->begin(start, true, at).outcome, Outcome::kSuccess);
+  const double far = 20;
+  PeerJacobian J;
+  double rate = 0;
+  ASSERT_EQ(problem->jacobian(0, &far, nullptr, 0, J, nullptr), Evaluated::kDone);
+  EXPECT_DOUBLE_EQ(J.values[0], -0.25);
+  ASSERT_EQ(problem->rates(0, &far, &rate), Evaluated::kDone);
+  EXPECT_DOUBLE_EQ(rate, -5);
 }
 
 // The start satisfies M y' = f(t, y). Accelerations are unknowns where their factor depends on the state: on the mass

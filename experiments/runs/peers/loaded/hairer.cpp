@@ -239,8 +239,9 @@ class Hairer final : public Peer {
 
   static void jac(int* n, double* x, double* y, double* dfy, int* ldfy, double* rpar, int*) {
     Hairer& self = of(rpar);
-    std::fill_n(dfy, static_cast<std::ptrdiff_t>(*ldfy) * *n, 0);
     static_cast<void>(self.problem_.jacobian(*x, y, nullptr, 0, self.J_));
+    if (self.J_.pattern->full && self.shape_.m1 == 0) return self.J_.writeFull(dfy, *ldfy);
+    std::fill_n(dfy, static_cast<std::ptrdiff_t>(*ldfy) * *n, 0);
     self.J_.forEach([&](Index i, Index j, double value) {
       const bool placed =
           self.shape_.place(i, j, false, [&](Index row, Index column) { dfy[row + column * *ldfy] = value; });

@@ -10,7 +10,7 @@ ImplicitProblem::ImplicitProblem(const System<double>& system, const ProblemOpti
       determined_(options.determined),
       scale_(options.scale),
       dense_(isDense(options.storage, sizes_.n())),
-      differentiator_(system_, options.derivatives, JacobianTerms::kFull, options.storage) {}
+      differentiator_(counting_, options.derivatives, JacobianTerms::kFull, options.storage) {}
 
 int ImplicitProblem::indexOf(Index i) const {
   return std::max(1 + system_.errorPowers().z[static_cast<std::size_t>(i)], determined_ ? 1 : 2);
@@ -43,7 +43,7 @@ void ImplicitProblem::setLayout(bool rates) {
 
 StartReport ImplicitProblem::makeConsistent(State<double>& state, bool new_run) {
   const auto check = new_run ? StartCheck::kConstraints : StartCheck::kNone;
-  const StartReport report = ConsistentStart<double>(system_, derivatives_, true, nullptr, scale_).apply(state, check);
+  const StartReport report = ConsistentStart<double>(counting_, derivatives_, true, nullptr, scale_).apply(state, check);
   d_ = state.d;
   if (new_run) differentiator_.forgetPattern();
   return report;
@@ -71,7 +71,11 @@ std::vector<AssembledColumn> daeColumns(const Sizes& n) {
 
 }  // namespace
 
-DaeProblem::DaeProblem(const System<double>& system, const ProblemOptions& options) : ImplicitProblem(system, options) {
+DaeProblem::DaeProblem(const System<double>& system, const ProblemOptions& options)
+    : ImplicitProblem(system, options),
+      at_once_(dense_ && options.derivatives == DerivativeSource::kAutomatic),
+      dual_(sizes_),
+      dual_residual_(sizes_.n()) {
   setLayout(false);
   assembly_ = Assembly(sizes_.nu, daeColumns(sizes_));
   pattern_ = fullPattern(layout_.n);
@@ -93,32 +97,73 @@ StartReport DaeProblem::begin(State<double>& state, bool new_run, PeerValues& to
 }
 
 void DaeProblem::read(const PeerStep& step, State<double>& state) const {
-  const auto p = at(step.t, step.y, step.yp);
+  const Index nu = sizes_.nu, nx = sizes_.nx;
   state.t = step.t;
-  state.u = p.u;
-  state.v = p.v;
-  state.x = p.x;
-  state.w << p.a, p.k, p.z;
+  copyTo(state.u, step.y);
+  copyTo(state.v, step.y + nu);
+  copyTo(state.x, step.y + 2 * nu);
+  copyTo(state.w.head(nu + nx), step.yp + nu);
+  copyTo(state.w.tail(sizes_.nz), step.y + 2 * nu + nx);
 }
 
 Point<double> DaeProblem::at(double t, const double* y, const double* yp) const {
   return point(t, y, yp + sizes_.nu, yp + 2 * sizes_.nu, y + 2 * sizes_.nu + sizes_.nx);
 }
 
-bool DaeProblem::evaluateRates(double, const double*, double*) { return false; }
-
-bool DaeProblem::evaluateResidual(double t, const double* y, const double* yp, double* r) {
-  const Index nu = sizes_.nu;
-  VecView<double>(r, nu) = ConstVec<double>(yp, nu) - ConstVec<double>(y + nu, nu);
-  VecView<double> rest(r + nu, sizes_.n());
-  system_.evaluate(Level::kFormulated, at(t, y, yp), rest);
-  return rest.allFinite();
+Evaluated DaeProblem::residual(double t, const double* y, const double* yp, double* r) {
+  if (over()) return Evaluated::kStop;
+  const Index nu = sizes_.nu, n = sizes_.n();
+  for (Index i = 0; i < nu; ++i) r[i] = yp[i] - y[nu + i];
+  system_.evaluate(Level::kFormulated, at(t, y, yp), {r + nu, n});
+  return evaluated(areFinite(r + nu, n));
 }
 
 bool DaeProblem::evaluateJacobian(double t, const double* y, const double* yp, double c, PeerJacobian& J, double*) {
+  if (at_once_) {
+    if (J.pattern != pattern_) J.pattern = pattern_;
+    J.values.resize(layout_.n * layout_.n);
+    return differentiate(t, y, yp, c, J.values.data());
+  }
   differentiator_.evaluate(Level::kFormulated, at(t, y, yp), D_);
   const bool finite = assembly_.assemble(D_, c, J);
   pattern_ = J.pattern;
+  return finite;
+}
+
+// One direction per column of dF/dy + c dF/dy': along v_j and x_j those of a_j and k_j move by c.
+bool DaeProblem::differentiate(double t, const double* y, const double* yp, double c, double* J) {
+  const Index nu = sizes_.nu, nx = sizes_.nx, rows = sizes_.n(), n = layout_.n, chunk = static_cast<Index>(kChunk);
+  const Index differential = 2 * nu + nx;
+  const auto lift = [](const double* from, auto&& to) {
+    for (Index i = 0; i < to.size(); ++i) to[i].value = from[i];
+  };
+  dual_.t.value = t;
+  lift(y, dual_.u);
+  lift(y + nu, dual_.v);
+  lift(y + 2 * nu, dual_.x);
+  lift(yp + nu, dual_.w.head(nu + nx));
+  lift(y + differential, dual_.w.tail(sizes_.nz));
+  lift(d_.data(), dual_.d);
+  const auto move = [&](Index j, std::size_t direction, double by) {
+    if (j < nu) dual_.u[j].d[direction] = by;
+    if (j >= nu && j < 2 * nu) dual_.v[j - nu].d[direction] = by;
+    if (j >= 2 * nu && j < differential) dual_.x[j - 2 * nu].d[direction] = by;
+    if (j >= nu) dual_.w[j - nu].d[direction] = j < differential ? c * by : by;
+  };
+  bool finite = true;
+  for (Index first = 0; first < n; first += chunk) {
+    const Index count = std::min(chunk, n - first);
+    for (Index k = 0; k < count; ++k) move(first + k, static_cast<std::size_t>(k), 1);
+    counting_.evaluate(Level::kFormulated, pointOf(dual_), {dual_residual_.data(), rows});
+    for (Index k = 0; k < count; ++k) {
+      const Index j = first + k;
+      double* const column = J + j * n;
+      for (Index i = 0; i < nu; ++i) column[i] = j == i ? c : j == nu + i ? -1 : 0;
+      for (Index i = 0; i < rows; ++i) column[nu + i] = dual_residual_[i].d[static_cast<std::size_t>(k)];
+      finite = areFinite(column + nu, rows) && finite;
+      move(j, static_cast<std::size_t>(k), 0);
+    }
+  }
   return finite;
 }
 

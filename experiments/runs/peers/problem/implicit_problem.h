@@ -38,14 +38,18 @@ class DaeProblem final : public ImplicitProblem {
   StartReport begin(State<double>& state, bool new_run, PeerValues& to) override;
   void read(const PeerStep& step, State<double>& state) const override;
   void switching(double t, const double* y, const double* yp, double* g) override;
+  Evaluated residual(double t, const double* y, const double* yp, double* r) override;
 
  protected:
-  bool evaluateRates(double t, const double* y, double* f) override;
-  bool evaluateResidual(double t, const double* y, const double* yp, double* r) override;
   bool evaluateJacobian(double t, const double* y, const double* yp, double c, PeerJacobian& J, double* dfdt) override;
 
  private:
   Point<double> at(double t, const double* y, const double* yp) const;
+  bool differentiate(double t, const double* y, const double* yp, double c, double* J);
+
+  bool at_once_;              // a full Jacobian, with c as part of the directions
+  State<Dual<double>> dual_;  // between two calls its directions are 0
+  Vec<Dual<double>> dual_residual_;
 };
 
 /// M y' = f(t, y). If the residual is D (a, k) + r(t; u, v, x, z) with a constant D: y = (u, v, x, z), M contains
@@ -59,10 +63,9 @@ class MassProblem final : public ImplicitProblem {
   StartReport begin(State<double>& state, bool new_run, PeerValues& to) override;
   void read(const PeerStep& step, State<double>& state) const override;
   void switching(double t, const double* y, const double* yp, double* g) override;
+  Evaluated rates(double t, const double* y, double* f) override;
 
  protected:
-  bool evaluateRates(double t, const double* y, double* f) override;
-  bool evaluateResidual(double t, const double* y, const double* yp, double* r) override;
   bool evaluateJacobian(double t, const double* y, const double* yp, double c, PeerJacobian& J, double* dfdt) override;
 
  private:

@@ -129,16 +129,15 @@ Point<double> MassProblem::at(double t, const double* y) const {
                    : point(t, y, no_rates_.data(), no_rates_.data() + nu, rest);
 }
 
-bool MassProblem::evaluateRates(double t, const double* y, double* f) {
-  const Index nu = sizes_.nu, nx = sizes_.nx;
+Evaluated MassProblem::rates(double t, const double* y, double* f) {
+  if (over()) return Evaluated::kStop;
+  const Index nu = sizes_.nu, nx = sizes_.nx, n = sizes_.n();
   std::copy_n(y + nu, nu, f);
   if (extended_) std::copy_n(y + 2 * nu + nx, nu + nx, f + nu);
-  VecView<double> rest(f + layout_.n - sizes_.n(), sizes_.n());
-  system_.evaluate(Level::kFormulated, at(t, y), rest);
-  return rest.allFinite();
+  double* const rest = f + layout_.n - n;
+  system_.evaluate(Level::kFormulated, at(t, y), {rest, n});
+  return evaluated(areFinite(rest, n));
 }
-
-bool MassProblem::evaluateResidual(double, const double*, const double*, double*) { return false; }
 
 bool MassProblem::evaluateJacobian(double t, const double* y, const double*, double, PeerJacobian& J, double*) {
   differentiator_.evaluate(Level::kFormulated, at(t, y), D_);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/derivatives/first_order.h"
+
 namespace irk {
 namespace {
 
@@ -12,15 +14,21 @@ std::vector<AssembledColumn> columns(Index n) {
   return all;
 }
 
+const System<double>& withoutForm(const System<double>& system) {
+  const auto* form = dynamic_cast<const FirstOrderForm<double>*>(&system);
+  return form ? form->inner() : system;
+}
+
 }  // namespace
 
 OdeProblem::OdeProblem(const System<double>& system, const ProblemOptions& options)
     : SceneProblem(system),
       no_rates_(Vec<double>::Zero(sizes_.nx)),
       dense_(isDense(options.storage, sizes_.nx)),
+      direct_(withoutForm(system)),
       dual_(sizes_),
       f_(sizes_.nx),
-      differentiator_(system_, DerivativeSource::kAutomatic, JacobianTerms::kFull, options.storage),
+      differentiator_(counting_, DerivativeSource::kAutomatic, JacobianTerms::kFull, options.storage),
       assembly_(0, columns(sizes_.nx)) {
   const auto n = static_cast<std::size_t>(sizes_.nx);
   const Index nu = system.sceneSizes().nu;
@@ -38,6 +46,7 @@ StartReport OdeProblem::begin(State<double>& state, bool new_run, PeerValues& to
   d_ = state.d;
   to.y = state.x;
   to.yp.resize(0);
+  direct_.look(state.t, to.y.data(), d_);
   if (dense_) return {};
   if (new_run) differentiator_.forgetPattern();
   differentiator_.evaluate(Level::kFormulated, point(state.t, to.y.data()), D_);
@@ -47,7 +56,7 @@ StartReport OdeProblem::begin(State<double>& state, bool new_run, PeerValues& to
 
 void OdeProblem::read(const PeerStep& step, State<double>& state) const {
   state.t = step.t;
-  state.x = ConstVec<double>(step.y, sizes_.nx);
+  copyTo(state.x, step.y);
 }
 
 // The residual is f - k; at k = 0 it equals f.
@@ -56,32 +65,47 @@ Point<double> OdeProblem::point(double t, const double* y) const {
   return {t, none, none, {y, sizes_.nx}, none, {no_rates_.data(), sizes_.nx}, none, {d_.data(), sizes_.discrete}};
 }
 
-bool OdeProblem::evaluateRates(double t, const double* y, double* f) {
+void OdeProblem::setDiscrete(const Vec<double>& d) {
+  SceneProblem::setDiscrete(d);
+  direct_.forget();
+}
+
+bool OdeProblem::evaluateForm(double t, const double* y, double* f) {
   VecView<double> rows(f, sizes_.nx);
   system_.evaluate(Level::kFormulated, point(t, y), rows);
   return rows.allFinite();
 }
 
-bool OdeProblem::evaluateResidual(double t, const double* y, const double* yp, double* r) {
-  if (!evaluateRates(t, y, r)) return false;
+Evaluated OdeProblem::residual(double t, const double* y, const double* yp, double* r) {
+  const Evaluated evaluated = rates(t, y, r);
+  if (evaluated != Evaluated::kDone) return evaluated;
   for (Index i = 0; i < sizes_.nx; ++i) r[i] -= yp[i];
-  return true;
+  return Evaluated::kDone;
 }
 
 bool OdeProblem::evaluateJacobian(double t, const double* y, const double*, double, PeerJacobian& J, double* dfdt) {
   if (pattern_->full) {
-    J.pattern = pattern_;
+    if (J.pattern != pattern_) J.pattern = pattern_;
     J.values.resize(sizes_.nx * sizes_.nx);
     return differentiate(t, y, J.values.data(), dfdt);
   }
+  if (direct_.known()) direct_.check(t, y);
   differentiator_.evaluate(Level::kFormulated, point(t, y), D_);
   const bool finite = assembly_.assemble(D_, 0, J);
   pattern_ = J.pattern;
   return (!dfdt || differentiate(t, y, nullptr, dfdt)) && finite;
 }
 
-// The directions of differentiation are y, unless `dfdy` is null, and, last, t, unless `dfdt` is null.
 bool OdeProblem::differentiate(double t, const double* y, double* dfdy, double* dfdt) {
+  if (direct_.known()) {
+    const bool finite = direct_.differentiate(t, y, dfdy, dfdt, evaluations_.dual_residuals);
+    if (direct_.known()) return finite;
+  }
+  return differentiateForm(t, y, dfdy, dfdt);
+}
+
+// The directions of differentiation are y, unless `dfdy` is null, and, last, t, unless `dfdt` is null.
+bool OdeProblem::differentiateForm(double t, const double* y, double* dfdy, double* dfdt) {
   const Index n = sizes_.nx, chunk = static_cast<Index>(kChunk), end = n + (dfdt ? 1 : 0);
   dual_.t = Dual<double>(t);
   for (Index i = 0; i < n; ++i) dual_.x[i] = Dual<double>(y[i]);
@@ -92,7 +116,7 @@ bool OdeProblem::differentiate(double t, const double* y, double* dfdy, double* 
   for (Index first = dfdy ? 0 : n; first < end; first += chunk) {
     const Index count = std::min(chunk, end - first);
     for (Index c = 0; c < count; ++c) variable(first + c).d[static_cast<std::size_t>(c)] = 1;
-    system_.evaluate(Level::kFormulated, pointOf(dual_), {f_.data(), n});
+    counting_.evaluate(Level::kFormulated, pointOf(dual_), {f_.data(), n});
     for (Index c = 0; c < count; ++c) {
       VecView<double> to(column(first + c), n);
       for (Index i = 0; i < n; ++i) to[i] = f_[i].d[static_cast<std::size_t>(c)];

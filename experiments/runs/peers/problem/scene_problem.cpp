@@ -3,33 +3,16 @@
 #include <algorithm>
 
 namespace irk {
-namespace {
-
-// Evaluations between two readings of the clock. A reading costs as much as a small residual.
-constexpr std::int64_t kEvaluationsPerStop = 64;
-
-Evaluated evaluated(bool finite) { return finite ? Evaluated::kDone : Evaluated::kNotFinite; }
-
-}  // namespace
 
 void PeerJacobian::writeFull(double* to, Index leading) const {
   const Index n = pattern->n;
-  if (!pattern->full) {
-    for (Index j = 0; j < n; ++j) std::fill_n(to + j * leading, n, 0);
+  const double* from = values.data();
+  for (Index j = 0; j < n; ++j) {
+    double* const column = to + j * leading;
+    for (Index i = 0; i < n; ++i) column[i] = pattern->full ? *from++ : 0;
   }
+  if (pattern->full) return;
   forEach([to, leading](Index i, Index j, double value) { to[j * leading + i] = value; });
-}
-
-bool SceneProblem::over() { return asked_ % kEvaluationsPerStop == 0 && stopped(); }
-
-Evaluated SceneProblem::rates(double t, const double* y, double* f) {
-  ++asked_;
-  return over() ? Evaluated::kStop : evaluated(evaluateRates(t, y, f));
-}
-
-Evaluated SceneProblem::residual(double t, const double* y, const double* yp, double* r) {
-  ++asked_;
-  return over() ? Evaluated::kStop : evaluated(evaluateResidual(t, y, yp, r));
 }
 
 Evaluated SceneProblem::jacobian(double t, const double* y, const double* yp, double c, PeerJacobian& J, double* dfdt) {
@@ -37,8 +20,10 @@ Evaluated SceneProblem::jacobian(double t, const double* y, const double* yp, do
   return evaluated(evaluateJacobian(t, y, yp, c, J, dfdt));
 }
 
+bool SceneProblem::stopped() { return stop_ && stop_(); }
+
 void SceneProblem::count(Counters& counters) const {
-  counters.residuals += evaluations_.residuals;
+  counters.residuals += asked_ + evaluations_.residuals;
   counters.dual_residuals += evaluations_.dual_residuals;
   counters.jacobians += jacobians_;
 }
