@@ -25,7 +25,7 @@ do for [i = 1 : columns] {
 if (tried == 0) { eval absence(collection.', '.targets." in ".file) }
 # The legend lists only solvers with a curve.
 in_data = ""
-do for [w in (words(integrators) == 0 ? collected : integrators)] { in_data = in_data.(position(collected, w) ? " ".w : "") }
+do for [w in (withGiven(integrators, collected))] { in_data = in_data.(position(collected, w) ? " ".w : "") }
 integrators = in_data
 count = words(integrators)
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000 0x7FB800"

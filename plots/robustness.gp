@@ -16,7 +16,7 @@ undefine N_*
 stats file using (single(0) ? (collect(strcol("integrator")), 1) : NaN) name "N" nooutput
 if (!exists("N_records") || N_records == 0) { eval absence(collections." in ".file) }
 solvers = ""
-do for [w in (words(integrators) == 0 ? collected : integrators)] { solvers = solvers.(position(collected, w) ? " ".w : "") }
+do for [w in (withGiven(integrators, collected))] { solvers = solvers.(position(collected, w) ? " ".w : "") }
 collected = ""
 stats file using (single(0) ? (collect(sprintf("%.6f", log10(column("tolerance")))), 1) : NaN) name "N" nooutput
 levels = sorted(collected)

@@ -131,6 +131,15 @@ ascending(list, above, n) = n == 0 ? "" : \
   sprintf("%.10g ", smallest(list, above)).ascending(list, smallest(list, above), n - 1)
 sorted(list) = ascending(list, -1e300, words(list))
 
+# --- Integrators of other libraries. One that the program does not have is the user's (irk run --peers): a figure that names
+# curves of other libraries shows it as well, if it is in the data.
+program_peers = 'arkode_dirk cvode_bdf gsl_bsimp gsl_msbdf gsl_rk4imp ida_bdf'
+isGiven(w) = !strstrt(w, ':') && !position('default embedded paper variable', w) && !position(program_peers, w)
+namesPeers(list) = sum [i = 1 : words(program_peers)] (position(list, word(program_peers, i)) > 0)
+given(list, found, k) = k == 0 ? '' : given(list, found, k - 1) \
+  .(isGiven(word(found, k)) && !position(list, word(found, k)) ? ' '.word(found, k) : '')
+withGiven(list, found) = namesPeers(list) ? list.given(list, found, words(found)) : words(list) == 0 ? found : list
+
 # --- Methods. A tableau file's method is its path, and its family what the file says: two of them can have the same
 # family and number of stages. A word of a list has no blanks.
 oneWord(text) = strstrt(text, ' ') ? text[1 : strstrt(text, ' ') - 1].'_'.oneWord(text[strstrt(text, ' ') + 1 : *]) : text

@@ -27,7 +27,8 @@ cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'New
 inCase(case) = isCase(case) && allowed(only)
 valueFrom(i) = i > words(variant) ? '' : (i > 1 ? ':' : '').oneWord(strcol(word(variant, i))).valueFrom(i + 1)
 curveOf(d) = valueFrom(1)
-shown(d) = words(variants) == 0 || position(variants, curveOf(0))
+shown(d) = words(variants) == 0 || position(variants, curveOf(0)) \
+  || (variant eq 'integrator' && namesPeers(variants) && isGiven(curveOf(0)))
 chosen(case) = inCase(case) && shown(0)
 error(d) = errorOf(quantity)
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
@@ -78,7 +79,7 @@ do for [i = 1 : panels] {
     ? (wrong = wrong || isWrong(0), times = timesOf(0) > times ? timesOf(0) : times) : 0) nooutput
 }
 in_data = ""
-do for [w in (words(variants) == 0 ? drawn : variants)] { in_data = in_data.(position(drawn, w) ? " ".w : "") }
+do for [w in (withGiven(variants, drawn))] { in_data = in_data.(position(drawn, w) ? " ".w : "") }
 variants = in_data
 count = words(variants)
 name(k) = word(variants, k)

@@ -67,6 +67,14 @@ int integer(std::string_view name, std::string_view text, const Range& range) {
   return static_cast<int>(parseInteger(name, text, range));
 }
 
+void addPeersOption(CLI::App& sub, std::vector<std::string>& peers) {
+  sub.add_option("--peers", peers,
+                 "Your solvers, which run where ida_bdf (index 2) or cvode_bdf does: PATH.so, CODE@PATH.so, PATH.cpp. "
+                 "Name them again with the next run of the study: its tables hold what was asked for last.")
+      ->delimiter(',')
+      ->type_name("LIST");
+}
+
 void addSolveOptions(CLI::App& sub, SolveOptions& run) {
   sub.add_option("--tol", run.tol,
                  "Sets both rtol and atol. A list of values, of this or of any option, makes all combinations. [0 < x]")

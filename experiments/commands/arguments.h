@@ -30,6 +30,8 @@ std::string numberHelp(std::string_view meaning, const Range& range, std::string
 /// Reads an integer; throws Misuse as parseInteger.
 int integer(std::string_view name, std::string_view text, const Range& range);
 
+/// The option --peers of the verbs that read a study.
+void addPeersOption(CLI::App& sub, std::vector<std::string>& peers);
 /// The options of `irk solve` that are not fields of a run.
 void addSolveOptions(CLI::App& sub, SolveOptions& run);
 /// The same for `irk ensemble`.

@@ -112,6 +112,7 @@ class Program {
     RunOptions options;
     options.study = study_;
     options.variant = variant();
+    options.peers = peers_;
     options.runner.results = results();
     options.runner.jobs = parseJobs();
     options.runner.store = storeOptions();
@@ -130,6 +131,7 @@ class Program {
     sub->add_option("study", study_, "id or TOML file")->required();
     sub->add_option("--shard", shard_,
                     "Make part i of n only: i/n, or in an array job auto/n; see merge. [default: all]");
+    addPeersOption(*sub, peers_);
     addRunnerOptions(*sub);
     auto* slurm = verb(app_, "slurm", "print a job script of Slurm: a study in n parts", [this](Streams s) {
       return slurmCommand({study_, shard_, variant(), results_, std::max(1, parseJobs())}, s);
@@ -143,6 +145,7 @@ class Program {
                         [this](Streams s) { return statusCommand(runOptions(), s); });
     status->add_option("study", study_, "id or TOML file")->required();
     status->add_option("--shard", shard_, "Count part i of n only: i/n or auto/n. [default: all]");
+    addPeersOption(*status, peers_);
     addQuick(*status);
     addResults(*status);
   }
@@ -318,7 +321,7 @@ class Program {
   std::string stale_ = "keep", times_ = "all";
   std::string study_, shard_, what_, collection_, method_, shell_, out_ = "stability";
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
-  std::vector<std::string> folders_, methods_, load_;
+  std::vector<std::string> folders_, methods_, load_, peers_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
   EnsembleArguments ensemble_;

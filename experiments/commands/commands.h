@@ -84,6 +84,7 @@ struct RunOptions {
   std::string study;  ///< id or file
   StudyVariant variant = StudyVariant::kFull;
   RunnerOptions runner;
+  std::vector<std::string> peers = {};  ///< integrators besides those that the study names
 };
 int runCommand(const RunOptions& options, Streams streams);
 

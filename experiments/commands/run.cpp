@@ -235,7 +235,7 @@ StudiesProgress paperProgress(StudyVariant variant) {
 }  // namespace
 
 int runCommand(const RunOptions& options, Streams streams) {
-  const Study study = loadStudy(options.study, options.variant);
+  const Study study = loadStudy(options.study, options.variant, options.peers);
   const FigureTables figures = figuresOfStudy(study, options.study);
   const auto ranks = joinRanks();
   if (ranks->count() == 1) {

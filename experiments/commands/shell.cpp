@@ -246,7 +246,9 @@ std::string examplesOf(const std::string& verb) {
        "  irk solve van_der_pol --method radau_iia_9 --tol 1e-6 --plot vdp\n"
        "  irk solve bouncing_mass --out run.csv --points 500\n"
        "  irk solve kepler --set e=0.1,0.3 --tol 1e-4,1e-6         all combinations, a line per run"},
-      {"run", "  irk run order --quick\n  irk run my_study.toml --jobs 4"},
+      {"run",
+       "  irk run order --quick\n  irk run my_study.toml --jobs 4\n"
+       "  irk run work_precision --peers radau@libhairer.so,rodas@libhairer.so"},
       {"paper", "  irk paper --quick"},
       {"ensemble",
        "  irk ensemble van_der_pol --set eps=1e-6..1e-3:1000:log --tol 1e-6 --out vdp.csv\n"

@@ -14,7 +14,7 @@
 namespace irk {
 
 int statusCommand(const RunOptions& options, Streams streams) {
-  const Study study = loadStudy(options.study, options.variant);
+  const Study study = loadStudy(options.study, options.variant, options.peers);
   (void)figuresOfStudy(study, options.study);  // its mistakes are found before the runs are made
   const auto folder = studyFolder(study, options.runner);
   const store::Store store(folder, study.id, store::Use::kRead, options.runner.store, streams.err);

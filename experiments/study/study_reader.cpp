@@ -20,6 +20,7 @@
 #include "experiments/study/study_file.h"
 #include "experiments/study/study_rules.h"
 #include "experiments/study/toml/block_series.h"
+#include "experiments/study/toml/given_peers.h"
 #include "experiments/study/toml/own_files.h"
 #include "experiments/study/toml/scene_lists.h"
 #include "experiments/study/toml/values.h"
@@ -183,12 +184,14 @@ void refuseTakenName(const std::filesystem::path& file, std::string_view toml) {
 
 }  // namespace
 
-Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant) {
+Study parseStudy(std::string_view toml, const std::string& file, StudyVariant variant,
+                 const std::vector<std::string>& peers) {
   StudyFile text = parseStudyFile(toml, file, variant);
   // Also parse the other variant, so that its mistakes are found now.
   static_cast<void>(
       parseStudyFile(toml, file, variant == StudyVariant::kQuick ? StudyVariant::kFull : StudyVariant::kQuick));
   loadOwnFiles(text, file);
+  addPeers(peers, text);
   Study study;
   study.id = std::filesystem::path(file).stem();
   if (const auto* title = find(text.study, "title")) study.title = single("title", *title);
@@ -213,10 +216,10 @@ Study parseStudy(std::string_view toml, const std::string& file, StudyVariant va
   return study;
 }
 
-Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
+Study loadStudy(std::string_view id_or_file, StudyVariant variant, const std::vector<std::string>& peers) {
   std::vector<std::string> known;
   for (const auto& study : builtinStudies()) {
-    if (study.id == id_or_file) return parseStudy(study.toml, fmt::format("{}.toml", study.id), variant);
+    if (study.id == id_or_file) return parseStudy(study.toml, fmt::format("{}.toml", study.id), variant, peers);
     known.emplace_back(study.id);
   }
   const std::filesystem::path path(id_or_file);
@@ -227,7 +230,7 @@ Study loadStudy(std::string_view id_or_file, StudyVariant variant) {
   }
   const std::string toml = readInputFile(path);
   refuseTakenName(path, toml);
-  return parseStudy(toml, path.string(), variant);
+  return parseStudy(toml, path.string(), variant, peers);
 }
 
 }  // namespace irk

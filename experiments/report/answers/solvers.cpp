@@ -6,13 +6,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "experiments/analyses/costs/cost_at_error.h"
 #include "experiments/audit/row_judgement.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
-#include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/configurations.h"
 #include "experiments/runs/run_table.h"
 
 namespace irk::report {
@@ -97,7 +98,23 @@ struct Choice {
   Outcomes outcomes = {};
 };
 
-bool isPeer(const std::string& solver) { return findPeer(solver) != nullptr; }
+// Solvers of the suite are named configuration:method, or after a configuration with variable order. What a user gave a
+// study to compare with (irk run --peers) is in its tables only, not in the catalogue of peers.
+bool isPeer(const std::string& solver) {
+  const auto all = configurations();
+  return solver.find(':') == solver.npos &&
+         std::none_of(all.begin(), all.end(), [&](const Configuration& one) { return one.id == solver; });
+}
+
+// `a`, `b` and `c`: the solvers of other libraries in the table.
+std::string peersOf(const Table& costs) {
+  std::set<std::string> found;
+  for (const auto& row : costs.rows) {
+    const auto& solver = textAt(costs, row, "integrator");
+    if (isPeer(solver)) found.insert("`" + solver + "`");
+  }
+  return fmt::format("{}", fmt::join(found, ", "));
+}
 
 Choice choiceOf(const Table& costs, const Table& runs, const std::string& kind, double error) {
   Choice choice{.kind = kind, .error = error};
@@ -145,7 +162,7 @@ std::string clauseOf(const Choice& c) {
 }
 
 // The sentence for all choices at the same error.
-std::string sentenceOf(const std::vector<Choice>& choices) {
+std::string sentenceOf(const std::vector<Choice>& choices, const std::string& peers) {
   constexpr double kMiddle = 1e-8;
   double error = choices.front().error;
   for (const auto& choice : choices) {
@@ -155,8 +172,10 @@ std::string sentenceOf(const std::vector<Choice>& choices) {
   for (const auto& choice : choices) {
     if (choice.error == error) parts.push_back(clauseOf(choice));
   }
-  return fmt::format("For an error of {}: {}. In brackets: against the best solver of the other libraries.",
-                     errorText(error), fmt::join(parts, "; "));
+  const std::string compared =
+      peers.empty() ? "No solver of another library took part"
+                    : "In brackets: against the best of the other libraries' solvers that took part, " + peers;
+  return fmt::format("For an error of {}: {}. {}.", errorText(error), fmt::join(parts, "; "), compared);
 }
 
 void appendRow(const Choice& c, Answer& answer) {
@@ -211,7 +230,7 @@ Answer solverAnswer(const claims::ResultTables& tables) {
       for (const double error : errorsOf(costs)) choices.push_back(choiceOf(costs, runs, kind, error));
     }
     if (choices.empty()) return answer;
-    answer.sentences = {sentenceOf(choices)};
+    answer.sentences = {sentenceOf(choices, peersOf(costs))};
     answer.table = {costs.head,
                     {"kind", "target_error", "problems", "solver", "solved", "as_good", "library", "library_solved",
                      "over_library", "runs", "failed", "wrong"},

@@ -73,7 +73,7 @@ TEST(Ranking, ComparesTheSecondBest) {
 }
 
 // Two solvers of the suite and one of another library on one stiff and one switched problem.
-claims::ResultTables solverTables(double library_time = 4) {
+claims::ResultTables solverTables(double library_time = 4, const char* library = "cvode_bdf") {
   const std::vector<std::string> columns{"scene", "settings", "integrator", "target_error", "cpu_s", "cause", "block"};
   const auto cost = [](const char* scene, const char* solver, const char* error, const std::string& time,
                        const char* block, const char* cause = "") {
@@ -85,7 +85,7 @@ claims::ResultTables solverTables(double library_time = 4) {
       "work_precision", "cpu_at_error",
       tableOf(columns, {cost("robertson", "variable", "1e-8", "1", "ivp_variable"),
                         cost("robertson", "embedded:radau_iia_5", "1e-8", "2", "ivp_embedded"),
-                        cost("robertson", "cvode_bdf", "1e-8", std::to_string(library_time), "ivp_peers"),
+                        cost("robertson", library, "1e-8", std::to_string(library_time), "ivp_peers"),
                         cost("robertson", "ida_bdf", "1e-8", "nan", "ivp_peers", "not accurate enough"),
                         cost("hires", "cvode_bdf", "1e-8", "nan", "ivp_peers", "no reference"),
                         cost("stick_slip", "variable", "1e-8", "nan", "switching_variable", "no success: timeout"),
@@ -127,6 +127,15 @@ TEST(SolverAnswer, NamesAnotherLibraryIfThatIsFaster) {
   const Answer answer = solverAnswer(solverTables(0.5));
   EXPECT_EQ(cell(answer.table, 0, "solver"), "cvode_bdf");
   EXPECT_EQ(cell(answer.table, 0, "library"), "") << "it is the best one itself";
+}
+
+// A solver that the user gave to the study is in no catalogue when the page is made.
+TEST(SolverAnswer, ComparesWithSolversThatWereGiven) {
+  const Answer answer = solverAnswer(solverTables(3, "my_radau"));
+  EXPECT_EQ(cell(answer.table, 0, "library"), "my_radau");
+  EXPECT_TRUE(containsAll(answer.sentences.at(0), {"3.0 times as fast as `my_radau`", "that took part, `cvode_bdf`, ",
+                                                   "`ida_bdf`, `my_radau`."}));
+  EXPECT_EQ(cell(solverAnswer(solverTables(0.5, "my_radau")).table, 0, "library"), "") << "it is the best one itself";
 }
 
 // Times that differ by less than 15 % are equal.

@@ -146,5 +146,23 @@ TEST(FigureLabels, ManySwitchesAreMarkedByShortLines) {
   EXPECT_EQ(many.occurrences("short lines: contact"), 1);
 }
 
+// irk run --peers: the user's solver is drawn where the figure names curves of other libraries, and only there.
+TEST(FigureLabels, WorkByShowsSolversThatWereGiven) {
+  Drawing drawing;
+  auto columns = kRunColumns;
+  columns.emplace_back("integrator");
+  std::vector<Cells> rows;
+  for (const auto* solver : {"variable", "cvode_bdf", "my_radau", "paper:radau_iia_5"}) {
+    for (int i = 1; i < 4; ++i) rows.push_back(run(i, {{"scene", "pendulum"}, {"integrator", solver}, {"rtol", "1"}}));
+  }
+  drawing.put("runs.csv", columns, rows);
+  const std::string options = "variant='integrator'; cases='pendulum'; variants=";
+  const Svg with = drawing.draw("work_by.gp", options + "'variable cvode_bdf'");
+  EXPECT_EQ(with.occurrences("<text>my_radau</text>"), 1);
+  EXPECT_EQ(with.occurrences("<text>cvode_bdf</text>"), 1);
+  EXPECT_EQ(with.occurrences("radau_iia_5"), 0) << "not named";
+  EXPECT_EQ(drawing.draw("work_by.gp", options + "'variable paper:radau_iia_5'").occurrences("<text>my_radau"), 0);
+}
+
 }  // namespace
 }  // namespace irk

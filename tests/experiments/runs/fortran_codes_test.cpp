@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "experiments/own/shared_library.h"
 #include "experiments/runs/fields.h"
@@ -10,6 +12,7 @@
 #include "experiments/runs/peers/loaded/load_method.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"
+#include "experiments/study/study_reader.h"
 #include "tests/experiments/heat.h"
 #include "tests/experiments/support.h"
 
@@ -126,6 +129,22 @@ TEST(FortranCodes, GetTheIndexOfTheirUnknowns) {
     static_cast<void>(execute(spec(code, "scene=pendulum;t_end=0.01;formulation=index3")));
     EXPECT_EQ(seen(kIndex3), 1) << code;
   }
+}
+
+// irk run work_precision --peers radau@...,rodas@...: RADAU solves index 2, as ida_bdf does, RODAS does not.
+TEST(FortranCodes, TakePartInAStudyThatDoesNotNameThem) {
+  const auto study = loadStudy("work_precision", StudyVariant::kQuick, {at("radau"), at("rodas")});
+  std::map<std::string, std::set<std::string>> blocks;
+  for (const auto& series : study.series) blocks[series.runs[0].method].insert(series.block);
+  EXPECT_EQ(blocks["radau"], blocks["ida_bdf"]);
+  EXPECT_EQ(blocks["rodas"], blocks["cvode_bdf"]);
+  EXPECT_EQ(blocks["radau"].size(), 4u) << "one for each collection";
+  const auto refused = [](const char* id, const std::vector<std::string>& peers) {
+    return misuseOf([&] { loadStudy(id, StudyVariant::kQuick, peers); });
+  };
+  EXPECT_TRUE(containsAll(refused("work_precision", {"gauss_3"}), {"--peers", "'gauss_3'", "CODE@PATH.so"}));
+  EXPECT_TRUE(containsAll(refused("work_precision", {at("radau"), at("radau")}), {"--peers", "'radau' twice"}));
+  EXPECT_TRUE(containsAll(refused("order", {at("radau")}), {"--peers", "'radau'", "'ida_bdf'", "no block"}));
 }
 
 TEST(FortranCodes, UnsupportedRunsAreRefused) {
