@@ -1,10 +1,12 @@
 #include "experiments/tables/environment.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
 #include <gsl/gsl_version.h>
 #include <omp.h>
 #include <sundials/sundials_config.h>
+#include <sundials/sundials_version.h>
 #if __has_include(<suitesparse/klu.h>)
 #include <suitesparse/klu.h>
 #endif
@@ -15,7 +17,9 @@
 #include <boost/version.hpp>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "experiments/base/numbers.h"
 #include "experiments/tables/build_info.h"
@@ -61,10 +65,28 @@ std::string kluVersion() {
 #endif
 }
 
+// `6.4.1, /usr/lib/x86_64-linux-gnu/libsundials_cvode.so.6.4.1`: the library that is in use, which need not be that of
+// the headers; since version 7 also what it was compiled with. A library from Debian and one of the user's own can
+// differ by a factor of three in time.
+std::string sundialsVersion() {
+  char version[64] = "unknown";
+  SUNDIALSGetVersion(version, sizeof version);
+  std::string text = version;
+#if defined(SUN_C_COMPILER) && defined(SUN_BUILD_TYPE)
+  text += fmt::format(", {} {} {}", SUN_C_COMPILER, SUN_C_COMPILER_VERSION, SUN_BUILD_TYPE);
+  if (*SUN_C_COMPILER_FLAGS) text += fmt::format(" {}", SUN_C_COMPILER_FLAGS);
+#endif
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&SUNDIALSGetVersion), &info) == 0 || !info.dli_fname) return text;
+  std::error_code none;
+  const auto file = std::filesystem::canonical(info.dli_fname, none);
+  return none ? text : fmt::format("{}, {}", text, file.string());
+}
+
 std::string libraryVersions() {
   return fmt::format("{}; glibc {}; Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}; KLU {}; fmt {}.{}.{}",
                      operatingSystem(), gnu_get_libc_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, SUNDIALS_VERSION, kluVersion(),
+                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, sundialsVersion(), kluVersion(),
                      FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
