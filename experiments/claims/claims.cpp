@@ -36,8 +36,9 @@ Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
   }
   finding.judged = judge(part, finding.measured);
   if (tables.areQuick()) {
-    finding.judged.verdict = Verdict::kNotMeasurable;
-    if (finding.judged.cases > 0) finding.judged.reason = std::string(kPreliminary);
+    const bool measured = finding.judged.cases > 0;
+    finding.judged.verdict = measured ? Verdict::kNoVerdict : Verdict::kNotMeasurable;
+    if (measured) finding.judged.reason = std::string(kPreliminary);
   }
   return finding;
 }

@@ -10,8 +10,10 @@
 namespace irk::claims {
 namespace {
 
+// `no verdict (quick)` has the class no_verdict.
 std::string verdictClass(Verdict verdict) {
   std::string name(verdictText(verdict));
+  name = name.substr(0, name.find(" ("));
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }

@@ -85,6 +85,8 @@ std::string_view verdictText(Verdict verdict) {
       return "undecided";
     case Verdict::kNotMeasurable:
       return "not measurable";
+    case Verdict::kNoVerdict:
+      return "no verdict (quick)";
     case Verdict::kReported:
       return "reported";
     case Verdict::kDoesNotApply:
@@ -144,8 +146,8 @@ std::string numberText(const Part& part, const Judgement& judgement) {
 }
 
 Verdict combined(const std::vector<Verdict>& parts) {
-  for (const Verdict verdict : {Verdict::kContradicted, Verdict::kNotMeasurable, Verdict::kUndecided,
-                                Verdict::kConfirmed, Verdict::kReported}) {
+  for (const Verdict verdict : {Verdict::kContradicted, Verdict::kNotMeasurable, Verdict::kNoVerdict,
+                                Verdict::kUndecided, Verdict::kConfirmed, Verdict::kReported}) {
     if (std::find(parts.begin(), parts.end(), verdict) != parts.end()) return verdict;
   }
   return Verdict::kDoesNotApply;

@@ -12,9 +12,17 @@
 
 namespace irk::claims {
 
-enum class Verdict { kConfirmed, kContradicted, kUndecided, kNotMeasurable, kReported, kDoesNotApply };
+enum class Verdict {
+  kConfirmed,
+  kContradicted,
+  kUndecided,
+  kNotMeasurable,
+  kNoVerdict,  ///< measured, but on the small studies of --quick
+  kReported,
+  kDoesNotApply,
+};
 
-/// `confirmed`, `contradicted`, `undecided`, `not measurable`, `reported`, `does not apply`.
+/// `confirmed`, `contradicted`, `undecided`, `not measurable`, `no verdict (quick)`, `reported`, `does not apply`.
 std::string_view verdictText(Verdict verdict);
 
 /// `12 cases of 3 scenes`.
@@ -48,8 +56,8 @@ Judgement judge(const Part& part, const Measurement& measured, const Sample& lea
 std::string numberText(const Part& part, const Judgement& judgement);
 
 /// The verdict on a claim by the verdicts on its parts: contradicted if one part is; otherwise not measurable if one
-/// is; otherwise undecided if one is; otherwise confirmed. Parts that are only reported or do not apply do not count.
-/// If no part counts, the claim is reported or does not apply.
+/// is; otherwise without verdict if one is; otherwise undecided if one is; otherwise confirmed. Parts that are only
+/// reported or do not apply do not count. If no part counts, the claim is reported or does not apply.
 Verdict combined(const std::vector<Verdict>& parts);
 
 }  // namespace irk::claims

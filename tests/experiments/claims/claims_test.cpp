@@ -45,7 +45,9 @@ TEST(Claims, QuickResultsGiveNoVerdict) {
   one.multibody_only = true;
   EXPECT_EQ(found(one, ResultTables("results")).judged.verdict, Verdict::kConfirmed);
   const auto quick = found(one, ResultTables("results/quick"));
-  EXPECT_EQ(quick.judged.verdict, Verdict::kNotMeasurable);
+  EXPECT_EQ(quick.judged.verdict, Verdict::kNoVerdict);
+  EXPECT_EQ(verdictText(quick.judged.verdict), "no verdict (quick)");
+  EXPECT_EQ(found(one, ResultTables("results/quick"), missing).judged.verdict, Verdict::kNotMeasurable);
   EXPECT_EQ(quick.judged.value, 1);
   EXPECT_TRUE(containsAll(quick.judged.reason, {"preliminary", "--quick"}));
   EXPECT_TRUE(sensitivityLines(one, quick).empty());
