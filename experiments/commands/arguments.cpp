@@ -21,9 +21,34 @@ void refuseEmpty(const std::vector<std::string>& arguments) {
   }
 }
 
+void replaceHelpVerb(std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front() != "help") return;
+  arguments.erase(arguments.begin());
+  arguments.emplace_back("--help");
+}
+
+namespace {
+
+// What follows a verb: a misspelt option gets the nearest name. CLI11 would only say that it did not expect it.
+void requireKnownOptionsOf(const CLI::App& verb, const std::vector<std::string>& arguments, std::size_t first) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options({})) {
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (std::size_t i = first; i < arguments.size(); ++i) {
+    const std::string name = arguments[i].substr(0, arguments[i].find('='));
+    if (!name.starts_with("--") || name == "--" || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw Misuse("unknown option '" + name + "' of irk " + verb.get_name() + "; did you mean '" +
+                 nearestName(name, known) + "'? All options: " + helpOf(arguments));
+  }
+}
+
+}  // namespace
+
 void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments, std::size_t i) {
   const auto verbs = parent.get_subcommands({});
-  if (verbs.empty() || i == arguments.size() || arguments[i].starts_with('-')) return;
+  if (verbs.empty()) return requireKnownOptionsOf(parent, arguments, i);
+  if (i == arguments.size() || arguments[i].starts_with('-')) return;
   std::vector<std::string> known;
   for (auto* sub : verbs) {
     known.push_back(sub->get_name());

@@ -14,10 +14,12 @@ namespace irk {
 /// Throws Misuse for empty values. No option or argument may be empty, and CLI11 would read `--method= x` as `--method
 /// x`.
 void refuseEmpty(const std::vector<std::string>& arguments);
+/// `help solve` becomes `solve --help`, and `help` becomes `--help`.
+void replaceHelpVerb(std::vector<std::string>& arguments);
 /// Throws Misuse if argument i is not one of the parent's verbs, then checks the next argument with that verb's own
-/// ones.
+/// ones; of the last verb it checks the names of options. The messages name the nearest verb or option.
 void requireKnownVerb(CLI::App& parent, const std::vector<std::string>& arguments, std::size_t i);
-/// Throws Misuse for an unknown option before the verb; CLI11 reports those after it.
+/// Throws Misuse for an unknown option before the verb.
 void requireKnownOption(const std::vector<std::string>& arguments);
 /// The command that prints the help of the verb: "irk solve --help".
 std::string helpOf(const std::vector<std::string>& arguments);

@@ -48,6 +48,7 @@ class Program {
 
   int run(std::vector<std::string> arguments, Streams streams) {
     refuseEmpty(arguments);
+    replaceHelpVerb(arguments);
     requireKnownVerb(app_, arguments, 0);
     requireKnownOption(arguments);
     const std::string help = helpOf(arguments);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <tuple>
@@ -16,6 +18,7 @@
 #include "core/options/option_fields.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/configurations.h"
+#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/loaded/load_method.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
@@ -85,6 +88,16 @@ Field<RunSpec> configurationField() {
   return field;
 }
 
+// Ids are written `radau_iia_5`. The nearest name to `Radau-IIA-5` by letters alone would be that of another family.
+void refuseOtherSpelling(std::string_view method) {
+  std::string id(method);
+  for (char& c : id) c = c == '-' || c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto number = id.find_last_not_of("0123456789") + 1;
+  if (id == method || number < 2 || std::filesystem::exists(method)) return;
+  const bool known = findPeer(id) || isFamily(id) || isFamily(id.substr(0, number - 1));
+  if (known) throw Misuse(fmt::format("unknown method '{}'; did you mean '{}'?", method, id));
+}
+
 Field<RunSpec> methodField() {
   return {.name = "method",
           .meaning = "The integration method.",
@@ -95,6 +108,7 @@ Field<RunSpec> methodField() {
           .set =
               [](RunSpec& s, std::string_view value) {
                 requirePlain("method", value, ";\n");
+                refuseOtherSpelling(value);
                 s.method = loadMethod(value);
               }};
 }

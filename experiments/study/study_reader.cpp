@@ -226,7 +226,9 @@ Study loadStudy(std::string_view id_or_file, StudyVariant variant, const std::ve
   std::error_code error;
   const auto kind = std::filesystem::status(path, error).type();
   if (kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none) {
-    throw Misuse(unknownName("study or file", id_or_file, known));
+    const bool named_file = path.has_parent_path() || path.extension() == ".toml";
+    throw Misuse(named_file ? fmt::format("{}: there is no such file", id_or_file)
+                            : unknownName("study or file", id_or_file, known));
   }
   const std::string toml = readInputFile(path);
   refuseTakenName(path, toml);

@@ -154,7 +154,9 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
       {{"solve", "kepler", "--jacobian", "no_mas"}, {"jacobian", "no_mas", "'no_mass'"}},
       {{"solve", "kepler", "--step", "-0.1"}, {"h", "-0.1", ">= 0"}},
       {{"solve", "kepler", "--step", "0"}, {"step", "0", "> 0"}},
-      {{"solve", "kepler", "--tol", "2"}, {"tol", "2", "0 <= x < 1"}},
+      {{"solve", "kepler", "--tol", "2"}, {"--tol", "2", "0 < x < 1"}},
+      {{"solve", "kepler", "--tol", "1e-8s"}, {"--tol", "'1e-8s'", "0 < x < 1"}},
+      {{"solve", "kepler", "--method", "Radau-IIA-5"}, {"'Radau-IIA-5'", "did you mean 'radau_iia_5'?"}},
       {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
       {{"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, {"step", "tol"}},
       {{"solve", "kepler", "--control", "fixed"}, {"step", "> 0"}},
@@ -164,7 +166,12 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
       {{"solve", "kepler", "--set", "k"}, {"'k'", "name=value"}},
       {{"solve", "pendulum", "--method", "lobatto_iiib_3"}, {"lobatto_iiib_3", "algebraic"}},
       {{"solve", "kepler", "--newton", "full", "--solver", "schur"}, {"full", "schur"}},
-      {{"solve", "kepler", "--methd", "gauss_2"}, {"--methd"}},
+      {{"solve", "kepler", "--methd", "gauss_2"}, {"'--methd'", "'--method'", "irk solve --help"}},
+      {{"solve", "kepler", "--newtn=full"}, {"'--newtn'", "'--newton'"}},
+      {{"tableau", "show", "gauss_2", "--digit", "3"}, {"'--digit'", "'--digits'"}},
+      {{"help", "slove"}, {"slove", "'solve'"}},
+      {{"run", "nosuch.toml"}, {"nosuch.toml", "no such file"}},
+      {{"run", "no_such_folder/order"}, {"no_such_folder/order", "no such file"}},
       {{"solve"}, {"scene"}},
       {{"slove", "kepler"}, {"slove", "'solve'"}},
       {{}, {"subcommand"}},
@@ -257,6 +264,13 @@ TEST(Cli, ListsNameEverything) {
   EXPECT_EQ(all.status, 0);
   EXPECT_TRUE(containsAll(all.out, {"slider_crank", "radau_iia_S", "cpu_time", "coupled_dense"}));
   EXPECT_EQ(program({"--help"}).status, 0);
+}
+
+TEST(Cli, HelpIsAVerb) {
+  EXPECT_EQ(program({"help"}).out, program({"--help"}).out);
+  EXPECT_EQ(program({"help", "solve"}).out, program({"solve", "--help"}).out);
+  EXPECT_EQ(program({"help", "tableau", "show"}).out, program({"tableau", "show", "--help"}).out);
+  EXPECT_NE(program({"help"}).out.find("solve"), std::string::npos);
 }
 
 TEST(Cli, ListsTheScenesOfACollection) {
