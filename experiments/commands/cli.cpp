@@ -11,7 +11,6 @@
 #include "experiments/base/freed_memory.h"
 #include "experiments/commands/arguments.h"
 #include "experiments/commands/commands.h"
-#include "experiments/commands/list_scenes.h"
 #include "experiments/commands/shell.h"
 #include "experiments/own/crash.h"
 #include "experiments/own/files.h"
@@ -219,14 +218,14 @@ class Program {
   void addList() {
     auto* sub = verb(app_, "list", "scenes, methods, studies and options with their values", [this](Streams s) {
       loadFiles();
-      if (collection_.empty() && !solve_.json) return listCommand(what_, s);
-      if (what_ != "scenes") throw Misuse("--collection and --json belong to: irk list scenes");
-      return printScenes(collection_, solve_.json, s.out), 0;
+      return listCommand(what_, scenes_, s);
     });
     addLoad(*sub);
     sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies, numbers or constants");
-    sub->add_option("--collection", collection_, "The scenes of: ivp, multibody, switching or probes.");
-    sub->add_flag("--json", solve_.json, "Print the scenes as a JSON array.");
+    sub->add_option("scene", scenes_.scene, "one scene, with its parameters");
+    sub->add_option("--collection", scenes_.collection, "The scenes of: ivp, multibody, switching or probes.");
+    sub->add_flag("--long", scenes_.long_form, "Each scene with its kind, unknowns, source and parameters.");
+    sub->add_flag("--json", scenes_.json, "Print the scenes as a JSON array.");
   }
 
   void addTableau() {
@@ -320,13 +319,14 @@ class Program {
   Action action_;
   bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false, sensitivity_ = false;
   std::string stale_ = "keep", times_ = "all";
-  std::string study_, shard_, what_, collection_, method_, shell_, out_ = "stability";
+  std::string study_, shard_, what_, method_, shell_, out_ = "stability";
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::vector<std::string> folders_, methods_, load_, peers_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;
   EnsembleArguments ensemble_;
   CompareOptions compare_;
+  SceneList scenes_;
   ReferenceOptions reference_;
 };
 

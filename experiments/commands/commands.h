@@ -10,6 +10,7 @@
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
 #include "experiments/base/streams.h"
+#include "experiments/commands/list_scenes.h"
 #include "experiments/reference/library.h"
 #include "experiments/runner/runner.h"
 #include "experiments/runs/run.h"
@@ -91,8 +92,9 @@ int runCommand(const RunOptions& options, Streams streams);
 /// Runs every study of the paper, then draws figures and report. Ignores `options.study`.
 int paperCommand(const RunOptions& options, Streams streams);
 
-/// `what`: scenes, methods, studies, strategies, numbers, or empty for all. Throws Misuse.
-int listCommand(const std::string& what, Streams streams);
+/// `what`: scenes, methods, studies, analyses, strategies, numbers, constants, or empty for all. `scenes`
+/// belongs to the first. Throws Misuse.
+int listCommand(const std::string& what, const SceneList& scenes, Streams streams);
 
 /// Writes the file `file` for a scene of the user's own, which runs as it is. `kind`: scene. Throws Misuse if the file
 /// exists.

@@ -15,7 +15,7 @@
 namespace irk {
 namespace {
 
-void listScenes(std::ostream& out) { printScenes("", false, out); }
+void listScenes(std::ostream& out) { printScenes({}, out); }
 
 void listMethods(std::ostream& out) {
   for (const auto& family : familyCatalogue()) {
@@ -66,13 +66,18 @@ struct List {
   const char* id;
   void (*print)(std::ostream&);
 };
-constexpr List kLists[] = {{"scenes", listScenes},      {"methods", listMethods},       {"studies", listStudies},
-                           {"analyses", listAnalyses},  {"strategies", listStrategies}, {"numbers", listNumbers},
+constexpr List kLists[] = {{"scenes", listScenes},       {"methods", listMethods},       {"studies", listStudies},
+                           {"analyses", listAnalyses},   {"strategies", listStrategies}, {"numbers", listNumbers},
                            {"constants", listConstants}};
 
 }  // namespace
 
-int listCommand(const std::string& what, Streams streams) {
+int listCommand(const std::string& what, const SceneList& scenes, Streams streams) {
+  if (what == "scenes") return printScenes(scenes, streams.out), 0;
+  if (!scenes.scene.empty()) throw Misuse("irk list " + what + " takes no name: '" + scenes.scene + "'");
+  if (!scenes.collection.empty() || scenes.long_form || scenes.json) {
+    throw Misuse("--collection, --long and --json belong to: irk list scenes");
+  }
   std::vector<std::string> known;
   bool printed = false;
   for (const auto& list : kLists) {

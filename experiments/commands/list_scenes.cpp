@@ -13,11 +13,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// All scenes, or those of a collection.
-std::vector<const SceneEntry*> scenesWanted(const std::string& collection) {
+std::vector<const SceneEntry*> scenesWanted(const SceneList& wanted) {
   std::vector<const SceneEntry*> scenes;
-  if (!collection.empty()) {
-    for (const auto& id : scenesOf(collection)) scenes.push_back(&findScene(id));
+  if (!wanted.scene.empty()) {
+    scenes.push_back(&findScene(wanted.scene));
+  } else if (!wanted.collection.empty()) {
+    for (const auto& id : scenesOf(wanted.collection)) scenes.push_back(&findScene(id));
   } else {
     for (const auto& scene : sceneCatalogue()) scenes.push_back(&scene);
   }
@@ -85,15 +86,22 @@ Json sceneObject(const SceneEntry& scene) {
 
 }  // namespace
 
-void printScenes(const std::string& collection, bool json, std::ostream& out) {
-  const auto scenes = scenesWanted(collection);
-  if (!json) {
-    for (const auto* scene : scenes) printScene(*scene, out);
+void printScenes(const SceneList& wanted, std::ostream& out) {
+  const auto scenes = scenesWanted(wanted);
+  if (wanted.json) {
+    Json all = Json::array();
+    for (const auto* scene : scenes) all.push_back(sceneObject(*scene));
+    out << all.dump(2) << '\n';
     return;
   }
-  Json all = Json::array();
-  for (const auto* scene : scenes) all.push_back(sceneObject(*scene));
-  out << all.dump(2) << '\n';
+  const bool long_form = wanted.long_form || !wanted.scene.empty();
+  for (const auto* scene : scenes) {
+    if (long_form) {
+      printScene(*scene, out);
+    } else {
+      fmt::print(out, "{:<22} {}\n", scene->id, scene->title);
+    }
+  }
 }
 
 }  // namespace irk

@@ -6,8 +6,14 @@
 
 namespace irk {
 
-/// Prints the scenes of a collection (empty: all) with kind, unknowns, collections, source and parameters, as text or
-/// as a JSON array. Throws Misuse for an unknown collection.
-void printScenes(const std::string& collection, bool json, std::ostream& out);
+struct SceneList {
+  std::string collection;  ///< empty: all scenes
+  std::string scene;       ///< this one only; empty: all of the collection
+  bool long_form = false;  ///< with kind, unknowns, source and parameters; so is a single scene
+  bool json = false;
+};
+
+/// Prints one line per scene, the long form, or a JSON array. Throws Misuse for an unknown collection or scene.
+void printScenes(const SceneList& wanted, std::ostream& out);
 
 }  // namespace irk

@@ -95,7 +95,7 @@ Values valuesOf(const CLI::Option& option) {
       {"--study", {studies(), true}},
       {"shell", {{"bash", "fish", "zsh"}}},
       {"kind", {{"scene"}}},
-      {"what", {{"analyses", "methods", "numbers", "scenes", "strategies", "studies"}}},
+      {"what", {{"analyses", "constants", "methods", "numbers", "scenes", "strategies", "studies"}}},
   };
   const std::string name = nameOf(option);
   const auto found = named.find(name);
@@ -253,7 +253,7 @@ std::string examplesOf(const std::string& verb) {
       {"ensemble",
        "  irk ensemble van_der_pol --set eps=1e-6..1e-3:1000:log --tol 1e-6 --out vdp.csv\n"
        "  irk ensemble robertson --start y2=0,1e-6 --start y1=0.5..1:50   all combinations, a row per run"},
-      {"list", "  irk list scenes\n  irk list methods"},
+      {"list", "  irk list scenes\n  irk list scenes kepler\n  irk list methods"},
       {"status", "  irk status order"},
       {"plot", "  irk plot order"},
       {"slurm", "  irk slurm order -n 16 > order.sh"},

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "experiments/runs/run_spec.h"
+#include "irk/scene.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
@@ -179,6 +180,9 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
       {{"run", "order", "--jobs", "-2"}, {"jobs", "-2", "0"}},
       {{"run", "order", "--shard", "3/2"}, {"shard", "3", "2"}},
       {{"list", "scene"}, {"scene", "'scenes'"}},
+      {{"list", "scenes", "keplr"}, {"keplr", "'kepler'"}},
+      {{"list", "methods", "kepler"}, {"list methods", "'kepler'"}},
+      {{"list", "methods", "--long"}, {"--long", "list scenes"}},
       {{"tableau", "check", "no_such_file.txt"}, {"no_such_file.txt"}},
       {{"merge", "no_such_folder"}, {"no_such_folder"}},
       {{"compare", "no_such_folder", "neither"}, {"no_such_folder"}},
@@ -273,8 +277,21 @@ TEST(Cli, HelpIsAVerb) {
   EXPECT_NE(program({"help"}).out.find("solve"), std::string::npos);
 }
 
+// A line per scene; parameters only in the long form, or of one scene.
+TEST(Cli, ListsScenesShortAndLong) {
+  const auto lines = [](const Ended& run) { return std::count(run.out.begin(), run.out.end(), '\n'); };
+  const auto all = program({"list", "scenes"});
+  EXPECT_EQ(lines(all), static_cast<std::ptrdiff_t>(sceneCatalogue().size()));
+  EXPECT_TRUE(containsAll(all.out, {"\nkepler ", "two-body problem\n"}));
+  EXPECT_EQ(all.out.find("--set"), std::string::npos);
+  EXPECT_GT(lines(program({"list", "scenes", "--long"})), 5 * lines(all));
+  const auto one = program({"list", "scenes", "kepler"});
+  EXPECT_TRUE(containsAll(one.out, {"kepler\n", "--set e="}));
+  EXPECT_EQ(one.out.find("slider_crank"), std::string::npos);
+}
+
 TEST(Cli, ListsTheScenesOfACollection) {
-  const auto ivp = program({"list", "scenes", "--collection", "ivp"});
+  const auto ivp = program({"list", "scenes", "--collection", "ivp", "--long"});
   EXPECT_EQ(ivp.status, 0) << ivp.err;
   EXPECT_TRUE(containsAll(ivp.out, {"andrews\n", "unknowns: 7 second-order, 0 first-order, 6 algebraic", "index: 3",
                                     "in: ivp, multibody", "from: IVP test set, ANDREWS"}));
