@@ -124,7 +124,8 @@ std::string solveJson(const RunRecord& record, int indent) {
                       {"factorizations", c.factorizations},
                       {"mass_factorizations", c.mass_factorizations},
                       {"solves", c.solves},
-                      {"newton_iterations", c.newton_iterations}};
+                      {"newton_iterations", c.newton_iterations},
+                      {"newton_restarts", c.newton_restarts}};
   addSwitches(record, json);
   for (const auto& [name, unit, start, change] : record.invariants)
     json["invariants"][name] = {{"change", change}, {"start", start}, {"unit", unit}};

@@ -1,79 +1,19 @@
 // The JSON of `irk solve` against its schema, and what it says of the components.
 #include <gtest/gtest.h>
-#include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "irk/statistics.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/solve_schema.h"
 
 namespace irk {
 namespace {
 
 using Json = nlohmann::json;
-
-Json schema() {
-  std::ifstream file(IRK_SOURCE_DIR "/experiments/commands/solve.schema.json");
-  return Json::parse(file);
-}
-
-bool isOfType(const Json& value, const std::string& type) {
-  if (type == "object") return value.is_object();
-  if (type == "array") return value.is_array();
-  if (type == "string") return value.is_string();
-  if (type == "integer") return value.is_number_integer();
-  if (type == "number") return value.is_number();
-  return type == "null" && value.is_null();
-}
-
-std::vector<std::string> typesOf(const Json& schema) {
-  const Json& type = schema.at("type");
-  return type.is_array() ? type.get<std::vector<std::string>>() : std::vector<std::string>{type.get<std::string>()};
-}
-
-// The part of JSON Schema that the file uses; another keyword is an error. Appends what is wrong.
-void validate(const Json& value, const Json& schema, const std::string& place, std::vector<std::string>& wrong) {
-  const Json known{"$schema",    "title", "description", "type", "required", "additionalProperties",
-                   "properties", "items", "const"};
-  for (const auto& [keyword, content] : schema.items()) {
-    if (std::find(known.begin(), known.end(), keyword) == known.end()) wrong.push_back("keyword " + keyword);
-  }
-  if (schema.contains("const") && value != schema["const"]) wrong.push_back(place + ": another constant");
-  if (schema.contains("type")) {
-    const auto types = typesOf(schema);
-    if (std::none_of(types.begin(), types.end(), [&](const auto& type) { return isOfType(value, type); })) {
-      wrong.push_back(place + ": of another type, " + value.dump());
-      return;
-    }
-  }
-  for (const auto& key : schema.value("required", Json::array())) {
-    if (!value.contains(key.get<std::string>())) wrong.push_back(place + ": no " + key.get<std::string>());
-  }
-  if (value.is_array() && schema.contains("items")) {
-    for (const auto& item : value) validate(item, schema["items"], place + "[]", wrong);
-  }
-  if (!value.is_object()) return;
-  const Json properties = schema.value("properties", Json::object());
-  const Json others = schema.value("additionalProperties", Json(true));
-  for (const auto& [key, content] : value.items()) {
-    if (properties.contains(key)) {
-      validate(content, properties[key], place + '.' + key, wrong);
-    } else if (others.is_object()) {
-      validate(content, others, place + '.' + key, wrong);
-    } else if (others == false) {
-      wrong.push_back(place + ": unknown key " + key);
-    }
-  }
-}
-
-std::vector<std::string> validated(const Json& value) {
-  std::vector<std::string> wrong;
-  validate(value, schema(), "", wrong);
-  return wrong;
-}
 
 Json solved(std::vector<std::string> arguments, int status = 0) {
   arguments.insert(arguments.begin(), "solve");
@@ -105,7 +45,7 @@ TEST(SolveJson, EveryKindOfRunFollowsTheSchema) {
   for (const Run& run : runs) {
     SCOPED_TRACE(run.arguments[0] + (run.arguments.size() > 2 ? ' ' + run.arguments[2] : ""));
     const Json json = solved(run.arguments, run.status);
-    EXPECT_EQ(validated(json), std::vector<std::string>{});
+    EXPECT_EQ(againstSolveSchema(json), std::vector<std::string>{});
     for (const char* group : {"u", "v", "x", "z"}) {
       EXPECT_EQ(json["names"][group].size(), json[group].size()) << group;
       EXPECT_EQ(json["units"][group].size(), json[group].size()) << group;
@@ -120,14 +60,23 @@ TEST(SolveJson, TheSchemaRefusesOthers) {
   for (const auto& place : places) {
     Json bad = good;
     bad[place] = 1.5;
-    EXPECT_FALSE(validated(bad).empty()) << place.to_string();
+    EXPECT_FALSE(againstSolveSchema(bad).empty()) << place.to_string();
     bad = good;
     bad[place.parent_pointer()].erase(place.back());
-    EXPECT_FALSE(validated(bad).empty()) << place.to_string();
+    EXPECT_FALSE(againstSolveSchema(bad).empty()) << place.to_string();
   }
   Json more = good;
   more["unknown"] = 1;
-  EXPECT_FALSE(validated(more).empty());
+  EXPECT_FALSE(againstSolveSchema(more).empty());
+}
+
+// A new counter is not forgotten.
+TEST(SolveJson, EveryCounterIsPrinted) {
+  const Json json = solved({"bouncing_mass", "--tol", "1e-4"});
+  Counters{}.forEach([&](const std::string& name, std::int64_t) {
+    const bool of_steps = name.starts_with("steps_");
+    EXPECT_TRUE(json[of_steps ? "steps" : "counters"].contains(of_steps ? name.substr(6) : name)) << name;
+  });
 }
 
 TEST(SolveJson, NamesAndUnitsAreThoseOfTheScene) {

@@ -217,10 +217,16 @@ TEST_F(ReferenceLibraryTest, OnlyATerminalSeesHowFarItIs) {
 }
 
 TEST_F(ReferenceLibraryTest, SolveReportsErrorsThatAreNotMeasurable) {
-  const auto run = program({"solve", "mechanical_dae", "--t-end", "0.02", "--scalar", "mp50", "--method",
-                            "radau_iia_16", "--tol", "1e-30", "--reference"});
+  std::vector<std::string> arguments{"solve",    "mechanical_dae", "--t-end", "0.02",  "--scalar",   "mp50",
+                                     "--method", "radau_iia_16",   "--tol",   "1e-30", "--reference"};
+  const auto run = program(arguments);
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(containsAll(run.out, {"error below ", "ten times the reference's accuracy: not measurable"}));
+  const std::vector<std::string> parts{"error below ", "ten times the reference's accuracy: not measurable"};
+  EXPECT_TRUE(containsAll(run.out, parts));
+  arguments.emplace_back("--json");
+  const auto json = nlohmann::json::parse(program(arguments).out);
+  EXPECT_TRUE(json["error"].is_null());
+  EXPECT_TRUE(containsAll(json["error_remark"].get<std::string>(), parts));
 }
 
 constexpr std::string_view kLibraryStudy = R"(
