@@ -40,7 +40,7 @@ struct SvgPanel {
   std::vector<SvgLabel> x, y;
 };
 
-enum class Axis { kLinear, kLogarithmic };
+enum class AxisScale { kLinear, kLogarithmic };
 
 /// The value of a label such as `0.5`, `10^-3`, `2·10^-3`, `25 %`; NaN for words.
 inline double labelNumber(std::string text) {
@@ -82,17 +82,17 @@ class Svg {
   }
 
   /// Converts pixels of a panel to numbers on its axes. A panel without labels uses those of the previous one.
-  std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, Axis x, Axis y) const {
+  std::vector<SvgPoint> numbers(char letter, const std::vector<SvgPoint>& pixels, AxisScale x, AxisScale y) const {
     std::vector<SvgPoint> all;
     for (const auto& p : pixels) {
       all.push_back({onAxis(labels(letter, &SvgPanel::x), p.x, x), onAxis(labels(letter, &SvgPanel::y), p.y, y)});
     }
     return all;
   }
-  std::vector<SvgPoint> marks(char letter, int number, Axis x, Axis y) const {
+  std::vector<SvgPoint> marks(char letter, int number, AxisScale x, AxisScale y) const {
     return numbers(letter, curve(letter, number).marks, x, y);
   }
-  std::vector<SvgPoint> line(char letter, int number, Axis x, Axis y) const {
+  std::vector<SvgPoint> line(char letter, int number, AxisScale x, AxisScale y) const {
     return numbers(letter, curve(letter, number).line, x, y);
   }
 
@@ -115,18 +115,18 @@ class Svg {
     return panel(letter).*axis;
   }
 
-  static double onAxis(const std::vector<SvgLabel>& labels, double pixel, Axis axis) {
+  static double onAxis(const std::vector<SvgLabel>& labels, double pixel, AxisScale axis) {
     std::vector<std::pair<double, double>> known;
     for (const auto& label : labels) {
       const double number = labelNumber(label.text);
-      if (std::isnan(number) || (axis == Axis::kLogarithmic && number <= 0)) continue;
-      known.emplace_back(label.pixel, axis == Axis::kLogarithmic ? std::log10(number) : number);
+      if (std::isnan(number) || (axis == AxisScale::kLogarithmic && number <= 0)) continue;
+      known.emplace_back(label.pixel, axis == AxisScale::kLogarithmic ? std::log10(number) : number);
     }
     if (known.size() < 2) return std::nan("");
     const auto [p0, v0] = known.front();
     const auto [p1, v1] = known.back();
     const double v = v0 + (v1 - v0) * (pixel - p0) / (p1 - p0);
-    return axis == Axis::kLogarithmic ? std::pow(10, v) : v;
+    return axis == AxisScale::kLogarithmic ? std::pow(10, v) : v;
   }
 
   static std::string nearest(const std::vector<SvgLabel>& labels, double pixel) {

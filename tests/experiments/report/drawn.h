@@ -17,7 +17,7 @@
 
 namespace irk {
 
-inline constexpr Axis kLog = Axis::kLogarithmic, kLin = Axis::kLinear;
+inline constexpr AxisScale kLog = AxisScale::kLogarithmic, kLin = AxisScale::kLinear;
 
 using Cells = std::map<std::string, std::string>;
 
