@@ -221,7 +221,7 @@ class Program {
       return listCommand(what_, scenes_, s);
     });
     addLoad(*sub);
-    sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies, numbers or constants");
+    sub->add_option("what", what_, "scenes, methods, studies, analyses, strategies, numbers, constants or columns");
     sub->add_option("scene", scenes_.scene, "one scene, with its parameters");
     sub->add_option("--collection", scenes_.collection, "The scenes of: ivp, multibody, switching or probes.");
     sub->add_flag("--long", scenes_.long_form, "Each scene with its kind, unknowns, source and parameters.");

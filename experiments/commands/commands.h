@@ -92,7 +92,7 @@ int runCommand(const RunOptions& options, Streams streams);
 /// Runs every study of the paper, then draws figures and report. Ignores `options.study`.
 int paperCommand(const RunOptions& options, Streams streams);
 
-/// `what`: scenes, methods, studies, analyses, strategies, numbers, constants, or empty for all. `scenes`
+/// `what`: scenes, methods, studies, analyses, strategies, numbers, constants, columns, or empty for all. `scenes`
 /// belongs to the first. Throws Misuse.
 int listCommand(const std::string& what, const SceneList& scenes, Streams streams);
 

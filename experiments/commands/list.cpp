@@ -3,6 +3,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/text.h"
+#include "experiments/commands/columns/column_texts.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/list_scenes.h"
 #include "experiments/runs/fields.h"
@@ -68,7 +69,7 @@ struct List {
 };
 constexpr List kLists[] = {{"scenes", listScenes},       {"methods", listMethods},       {"studies", listStudies},
                            {"analyses", listAnalyses},   {"strategies", listStrategies}, {"numbers", listNumbers},
-                           {"constants", listConstants}};
+                           {"constants", listConstants}, {"columns", printColumns}};
 
 }  // namespace
 

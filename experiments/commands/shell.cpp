@@ -95,7 +95,7 @@ Values valuesOf(const CLI::Option& option) {
       {"--study", {studies(), true}},
       {"shell", {{"bash", "fish", "zsh"}}},
       {"kind", {{"scene"}}},
-      {"what", {{"analyses", "constants", "methods", "numbers", "scenes", "strategies", "studies"}}},
+      {"what", {{"analyses", "columns", "constants", "methods", "numbers", "scenes", "strategies", "studies"}}},
   };
   const std::string name = nameOf(option);
   const auto found = named.find(name);
