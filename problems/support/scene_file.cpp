@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "core/base/text.h"
 #include "core/derivatives/consistent_start.h"
@@ -16,6 +17,7 @@
 #include "irk/lanes.h"
 #include "irk/misuse.h"
 #include "irk/system_check.h"
+#include "problems/support/row_check.h"
 
 namespace irk {
 namespace {
@@ -236,6 +238,7 @@ void solveRates(const System<Real>& system, State<Real>& state) {
 template <class Real>
 void completeStart(Scene<Real>& scene) {
   const auto system = scene.system({});
+  if constexpr (std::is_same_v<Real, double>) requireRowsInside(*system, scene.start);
   requireStart(*system, scene.start, scene.start.t);  // a residual may read beyond the end of a short vector
   ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true, nullptr, scene.scale);
   StartReport report = consistent.apply(scene.start);
@@ -296,6 +299,7 @@ Real correct(const Mat<Real>& G, const Vec<Real>& r, const std::vector<Index>& c
 template <class Real>
 void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) {
   const auto system = scene.system({});
+  if constexpr (std::is_same_v<Real, double>) requireRowsInside(*system, scene.start);
   requireStart(*system, scene.start, scene.start.t);
   const Index nu = system->sizes().nu;
   std::vector<std::string> known(scene.names.begin(),

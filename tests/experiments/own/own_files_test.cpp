@@ -100,6 +100,8 @@ TEST_F(OwnFiles, MistakesAreNamed) {
   write("jump.cpp", replaced("lift.cpp", "  void start", "  void jump(Index, T*, T*) const {}\n  void start"));
   write("jump.cpp", replaced("jump.cpp", "  void jump", "  template <class T>\n  void jump"));
   write("bound.cpp", replaced("lift.cpp", "  void start", "  bool nonNegative() const { return true; }\n  void start"));
+  write("rows.cpp", replaced("lift.cpp", "r.u[1] = ", "r.u[2] = "));
+  write("rows.cpp", replaced("rows.cpp", "\"lift\"", "\"rows\""));
   write("empty.cpp", "int unused = 0;\n");
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
       {"broken.cpp", {"broken.cpp:", "velocity", "irk: broken.cpp:", ": it does not compile: "}},
@@ -112,6 +114,7 @@ TEST_F(OwnFiles, MistakesAreNamed) {
       {"start.cpp", {"irk: start.cpp:", "it does not compile", "start(State<Real>& s) const is expected"}},
       {"jump.cpp", {"irk: jump.cpp:", "jump(Index i, const Point<T>& p, T* u, T* v, T* x) const is expected"}},
       {"bound.cpp", {"irk: bound.cpp:", "bool nonNegative(Index i) const is expected"}},
+      {"rows.cpp", {"irk: scene rows: its residual writes behind the last row, to r.u[2]", "nu = 2, nx = 0, nz = 0"}},
       {"empty.cpp", {"empty.cpp: it registers nothing"}},
       {"missing.cpp", {"'missing.cpp' cannot be read"}}};
   for (const auto& [file, parts] : cases) {
