@@ -49,7 +49,7 @@ void applyStep(const SolveOptions& options, RunSpec& spec) {
 
 void applyTolerance(const SolveOptions& options, RunSpec& spec) {
   if (options.tol.empty()) return;
-  static_cast<void>(parseNumber("--tol", options.tol, Range::above(0).below(1)));
+  static_cast<void>(parseNumber("--tol", options.tol, Range::above(0)));
   for (const auto* field : {"rtol", "atol"}) findField(field).set(spec, options.tol);
 }
 
