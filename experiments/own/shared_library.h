@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace irk {
@@ -27,6 +28,9 @@ class SharedLibrary {
     if (auto* const function = find<Function>(name)) return function;
     refuse(std::string("it has no function '") + name + "'");
   }
+  /// To be held while functions run that keep numbers in static storage, as Fortran codes do in COMMON blocks. The
+  /// codes of one library share some of them.
+  std::mutex& oneAtATime() const { return *one_at_a_time_; }
   /// Throws Misuse with the path.
   [[noreturn]] void refuse(const std::string& reason) const;
 
@@ -36,6 +40,7 @@ class SharedLibrary {
   std::filesystem::path path_;
   std::string hash_;
   std::shared_ptr<void> library_;  // of Boost.DLL
+  std::shared_ptr<std::mutex> one_at_a_time_ = std::make_shared<std::mutex>();
 };
 
 }  // namespace irk

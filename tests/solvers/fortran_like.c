@@ -9,6 +9,13 @@
 
 enum { kBanded, kLower, kUpper, kM1, kMass, kMassBanded, kIndex2, kIndex3, kCalls, kSeen };
 int standin_seen[kSeen];
+/* Calls of radau5_ or rodas_ that began while another one ran. */
+int standin_overlaps;
+static int running;
+static void enter(void) {
+  if (__atomic_add_fetch(&running, 1, __ATOMIC_SEQ_CST) > 1) __atomic_add_fetch(&standin_overlaps, 1, __ATOMIC_SEQ_CST);
+}
+static void leave(void) { __atomic_sub_fetch(&running, 1, __ATOMIC_SEQ_CST); }
 
 typedef void fcn_t(int* n, double* x, double* y, double* f, double* rpar, int* ipar);
 typedef void jac_t(int* n, double* x, double* y, double* dfy, int* ldfy, double* rpar, int* ipar);
@@ -148,8 +155,10 @@ end:
 #define REST int *iout, double *work, int *lwork, int *iwork, int *liwork, double *rpar, int *ipar, int *idid
 
 void radau5_(HEAD, START, JAC, MAS, solout_t* solout, REST) {
+  enter();
   code(n, fcn, x, y, xend, h, rtol, atol, itol, jac, ijac, mljac, mujac, mas, imas, mlmas, mumas, solout, NULL, iout,
        work[6], iwork[1], lwork, iwork, liwork, rpar, ipar, idid);
+  leave();
 }
 void radau_(HEAD, START, JAC, MAS, solout_t* solout, REST) {
   radau5_(n, fcn, x, y, xend, h, rtol, atol, itol, jac, ijac, mljac, mujac, mas, imas, mlmas, mumas, solout, iout, work,
@@ -158,8 +167,10 @@ void radau_(HEAD, START, JAC, MAS, solout_t* solout, REST) {
 void rodas_(HEAD, int* ifcn, START, JAC, fcn_t* dfx, int* idfx, MAS, solout_t* solout, REST) {
   *idid = -1;
   if (*ifcn != 1 || *idfx != 0 || !dfx) return;
+  enter();
   code(n, fcn, x, y, xend, h, rtol, atol, itol, jac, ijac, mljac, mujac, mas, imas, mlmas, mumas, solout, NULL, iout,
        work[1], iwork[0], lwork, iwork, liwork, rpar, ipar, idid);
+  leave();
 }
 void seulex_(HEAD, int* ifcn, START, JAC, MAS, seulex_solout_t* solout, REST) {
   *idid = -1;

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include "experiments/own/shared_library.h"
 #include "experiments/runs/fields.h"
@@ -145,6 +146,20 @@ TEST(FortranCodes, TakePartInAStudyThatDoesNotNameThem) {
   EXPECT_TRUE(containsAll(refused("work_precision", {"gauss_3"}), {"--peers", "'gauss_3'", "CODE@PATH.so"}));
   EXPECT_TRUE(containsAll(refused("work_precision", {at("radau"), at("radau")}), {"--peers", "'radau' twice"}));
   EXPECT_TRUE(containsAll(refused("order", {at("radau")}), {"--peers", "'radau'", "'ida_bdf'", "no block"}));
+}
+
+// The codes of a library share COMMON blocks: no two of them run at the same time.
+TEST(FortranCodes, OfOneLibraryRunOneAtATime) {
+  std::vector<RunSpec> runs;
+  for (const char* code : {"radau5", "rodas"}) runs.push_back(spec(code, "scene=riccati_tracking", 1e-4));
+  std::vector<std::thread> threads;
+  for (const auto& run : runs) {
+    threads.emplace_back([&run] {
+      for (int i = 0; i < 20; ++i) EXPECT_TRUE(execute(run).succeeded());
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(*SharedLibrary(kLibrary).get<int>("standin_overlaps"), 0);
 }
 
 TEST(FortranCodes, UnsupportedRunsAreRefused) {

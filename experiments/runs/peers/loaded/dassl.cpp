@@ -30,8 +30,7 @@ struct LoadedDassl {
   std::shared_ptr<const SharedLibrary> library;
   std::string id;
   Dassl* dassl;
-  Daspk* daspk;                               // one of the two
-  std::shared_ptr<std::mutex> one_at_a_time;  // the codes keep numbers in COMMON blocks
+  Daspk* daspk;  // one of the two
 };
 
 class DasslPeer final : public Peer {
@@ -44,7 +43,7 @@ class DasslPeer final : public Peer {
     yp_ = ConstVec<double>(start.yp, n_);
     double t = start.t;
     counts_ = {};
-    std::unique_lock lock(*loaded_.one_at_a_time);
+    const std::unique_lock lock(loaded_.library->oneAtATime());
     begin(t_end);
     while (t < t_end) {
       call(t, t_end);
@@ -190,7 +189,7 @@ class DasslPeer final : public Peer {
 }  // namespace
 
 PeerEntry dasslPeer(const std::shared_ptr<const SharedLibrary>& library, std::string_view code) {
-  LoadedDassl loaded{library, std::string(code), nullptr, nullptr, std::make_shared<std::mutex>()};
+  LoadedDassl loaded{library, std::string(code), nullptr, nullptr};
   if (code == "ddassl") {
     loaded.dassl = library->get<Dassl>("ddassl_");
   } else if (code == "ddaspk") {

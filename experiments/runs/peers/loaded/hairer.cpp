@@ -57,7 +57,6 @@ struct LoadedHairer {
   std::shared_ptr<const SharedLibrary> library;
   const Code* code;
   void (*function)();
-  std::shared_ptr<std::mutex> one_at_a_time;  // the codes keep numbers in COMMON blocks
 };
 
 // The part of a matrix that a code wants: all of it, or with M1 > 0 the rows from M1 on; full or by diagonals.
@@ -95,7 +94,7 @@ class Hairer final : public Peer {
     y_ = ConstVec<double>(start.y, problem_.layout().n);
     counts_ = {};
     returned_ = false;
-    std::unique_lock lock(*loaded_.one_at_a_time);
+    const std::unique_lock lock(loaded_.library->oneAtATime());
     do {
       outgrown_ = false;
       choose();
@@ -297,7 +296,7 @@ class Hairer final : public Peer {
 PeerEntry hairerPeer(const std::shared_ptr<const SharedLibrary>& library, std::string_view code) {
   const auto at = std::find_if(std::begin(kCodes), std::end(kCodes), [code](const Code& c) { return c.id == code; });
   if (at == std::end(kCodes)) return {};
-  const LoadedHairer loaded{library, at, library->get<void()>(at->symbol.data()), std::make_shared<std::mutex>()};
+  const LoadedHairer loaded{library, at, library->get<void()>(at->symbol.data())};
   return {.id = std::string(code),
           .title = std::string(at->title),
           .form = PeerForm::kMass,

@@ -25,9 +25,16 @@ std::map<std::string, std::string>& libraries() {
   return all;
 }
 
+// All codes of a library share one object, since they share what they keep in static storage.
+std::shared_ptr<const SharedLibrary> libraryAt(const std::filesystem::path& path) {
+  static std::map<std::filesystem::path, std::shared_ptr<const SharedLibrary>> all;
+  auto made = std::make_shared<const SharedLibrary>(path);
+  return all.try_emplace(std::filesystem::canonical(path), std::move(made)).first->second;
+}
+
 PeerEntry entryOf(std::string_view given) {
   const auto at = given.find('@');
-  const auto library = std::make_shared<const SharedLibrary>(at == given.npos ? given : given.substr(at + 1));
+  const auto library = libraryAt(at == given.npos ? given : given.substr(at + 1));
   const std::string file = library->path().filename().string();
   PeerEntry entry;
   if (at == given.npos) {

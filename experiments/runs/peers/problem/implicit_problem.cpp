@@ -43,7 +43,8 @@ void ImplicitProblem::setLayout(bool rates) {
 
 StartReport ImplicitProblem::makeConsistent(State<double>& state, bool new_run) {
   const auto check = new_run ? StartCheck::kConstraints : StartCheck::kNone;
-  const StartReport report = ConsistentStart<double>(counting_, derivatives_, true, nullptr, scale_).apply(state, check);
+  const StartReport report =
+      ConsistentStart<double>(counting_, derivatives_, true, nullptr, scale_).apply(state, check);
   d_ = state.d;
   if (new_run) differentiator_.forgetPattern();
   return report;
