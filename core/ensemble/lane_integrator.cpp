@@ -132,7 +132,8 @@ class LaneIntegrator::Run {
     norm.update(from, h);
     stages.begin(from, h);
     stages.predict(past_, W);
-    const Lanes kappa = Lanes::each([&, &n = newton](std::size_t i) { return n.kappa(runs_[i]->stepsAccepted()); });
+    const Lanes kappa =
+        Lanes::each([&, &n = newton](std::size_t i) { return n.kappa(runs_[i]->stepsAccepted(), norm.index3()); });
     const LaneSolved solved = newton.solve(stages, norm, from, h, active_, kappa, W, counters_);
     stages.finish(W, to);
     stages.keep(solved.solved, W);

@@ -30,7 +30,7 @@ class LaneNewton {
   void forget(const LaneMask& which);
 
   /// The bound for increments after `accepted` accepted steps, in tolerances.
-  double kappa(std::int64_t accepted) const { return stop_.after(accepted); }
+  double kappa(std::int64_t accepted, bool index3) const { return stop_.after(accepted, index3); }
 
   /// Solves one step of size h from the states `from`, in the lanes of `which`. W holds start values on entry and
   /// solutions on return.

@@ -21,17 +21,15 @@ void LaneNorm::update(const LaneState& from, const Lanes& h) {
   const std::size_t nu = count(sizes_.nu), nx = count(sizes_.nx), nz = count(sizes_.nz);
   const std::size_t known = 2 * nu + nx;
   for (std::size_t i = 0; i < known; ++i) inverse_[i] = 1.0 / (atol_[i] + tolerances_.rtol * abs(from.y[i]));
-  for (std::size_t i = 0; i < nu; ++i) inverse_[nu + i] *= powerOf(h, powers_.v[i]);
-  for (std::size_t i = 0; i < nx; ++i) inverse_[2 * nu + i] *= powerOf(h, powers_.x[i]);
   for (std::size_t i = 0; i < nz; ++i) {
     const Lanes weight = atol_[known + i] + tolerances_.rtol * abs(from.w[nu + nx + i]);
     inverse_[known + i] = powerOf(h, powers_.z[i]) / weight;
   }
   const auto square = [](const Lanes& x) { return x * x; };
   for (std::size_t i = 0; i < nu; ++i) {
-    squares_[i] = square(h * inverse_[nu + i]) + square(h * h * inverse_[i]);
+    squares_[i] = square(powerOf(h, powers_.v[i] + 1) * inverse_[nu + i]) + square(h * h * inverse_[i]);
   }
-  for (std::size_t i = 0; i < nx; ++i) squares_[nu + i] = square(h * inverse_[2 * nu + i]);
+  for (std::size_t i = 0; i < nx; ++i) squares_[nu + i] = square(powerOf(h, powers_.x[i] + 1) * inverse_[2 * nu + i]);
   for (std::size_t i = 0; i < nz; ++i) squares_[nu + nx + i] = square(inverse_[known + i]);
 }
 

@@ -17,6 +17,7 @@ class LaneNorm {
   /// Sets the weights from the magnitudes of the states, and those of Newton's increments for a step h.
   void update(const LaneState& from, const Lanes& h);
 
+  bool index3() const { return !powers_.v.empty() && powers_.v.front() > 0; }
   /// The norm of an error of (u, v, x) and of z.
   Lanes magnitude(const Lanes* y, const Lanes* z) const;
   /// The norm of Newton's increments of (a, k, z) in s stages.

@@ -79,13 +79,12 @@ LaneStages::LaneStages(const Scheme<double>& scheme, const Sizes& sizes, const s
       error_(at_.size() + nz_),
       e_(count(n_)),
       most_(count(n_)),
-      constrained_(nz_) {}
+      z_powers_(nz_) {}
 
 void LaneStages::use(const System<Lanes>& system) {
   system_ = &system;
   uses_velocity_ = system.usesVelocity();
-  const auto& powers = system.errorPowers().z;
-  for (std::size_t i = 0; i < nz_; ++i) constrained_[i] = powers[i] > 0;
+  z_powers_ = system.errorPowers().z;
   if (!uses_velocity_) std::fill(V_.begin(), V_.end(), Lanes(std::numeric_limits<double>::quiet_NaN()));
 }
 
@@ -266,10 +265,9 @@ void LaneStages::evaluate(const Lanes& t, Between between) {
                         {defect_.data() + nu_ + nx_, sizes_.nz}};
   system_->evaluate(Level::kFormulated, at, VecView<Lanes>(e_.data(), n_));
   scaleRows(e_.data());
-  if (between == Between::kStages) {  // see EmbeddedEstimate::filtered
-    for (std::size_t i = 0; i < nz_; ++i) {
-      if (constrained_[i]) e_[nu_ + nx_ + i] = 0.0;
-    }
+  const int least = between == Between::kStages ? 1 : 2;  // see EmbeddedEstimate::evaluateAt
+  for (std::size_t i = 0; i < nz_; ++i) {
+    if (z_powers_[i] >= least) e_[nu_ + nx_ + i] = 0.0;
   }
 }
 
@@ -281,7 +279,7 @@ void LaneStages::filter(LaneMatrix& matrix) {
     error_[i] = slip_[i] + step * error_[nu_ + i];
   }
   for (std::size_t i = 0; i < nx_; ++i) error_[2 * nu_ + i] = -(step * e_[nu_ + i]);
-  for (std::size_t i = 0; i < nz_; ++i) error_[at_.size() + i] = -e_[nu_ + nx_ + i];
+  for (std::size_t i = 0; i < nz_; ++i) error_[at_.size() + i] = z_powers_[i] == 2 ? Lanes(0.0) : -e_[nu_ + nx_ + i];
 }
 
 Lanes LaneStages::estimate(const std::vector<Lanes>& W, const LaneNorm& norm, LaneMatrix& matrix,

@@ -86,7 +86,7 @@ class LaneStages {
   PointBuffers<Dual<Lanes>> dual_;
   std::vector<Lanes> defect_, slip_, at_, error_, e_;  // of the estimate
   std::vector<Lanes> most_;                            // the largest residuals of the step's points
-  std::vector<bool> constrained_;                      // whether z_i has a higher index than 1
+  std::vector<int> z_powers_;                          // index of z_i, minus 1
 };
 
 }  // namespace irk

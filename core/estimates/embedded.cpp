@@ -113,17 +113,20 @@ Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
   return outcome;
 }
 
-// Sets e_ to the residual at `p`.
+// Sets e_ to the residual at `p`, without what is no error of the step's end. Inside, these are the rows of constraints
+// of index 2 and 3, which the continuous solution satisfies at the stages only. At the start it is g(u0) of index 3:
+// what Newton's method leaves in it, delta, is delta / h^2 in the accelerations across the constraint and would be
+// delta / h in the estimate of velocities, at any step size. Without this row the estimate is that of the motion along
+// the constraint.
 template <class Real>
 Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at) {
   system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
   if (scaled_) e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
-  if (at == EquationsAt::kInside) {
-    const auto& powers = system_.errorPowers().z;
-    for (Index i = 0; i < sizes_.nz; ++i) {
-      if (powers[static_cast<std::size_t>(i)] > 0) e_(sizes_.nu + sizes_.nx + i, 0) = Real(0);
-    }
+  const int least = at == EquationsAt::kInside ? 1 : 2;
+  const auto& powers = system_.errorPowers().z;
+  for (Index i = 0; i < sizes_.nz; ++i) {
+    if (powers[static_cast<std::size_t>(i)] >= least) e_(sizes_.nu + sizes_.nx + i, 0) = Real(0);
   }
   return Outcome::kSuccess;
 }
@@ -140,7 +143,10 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h) {
     error_.u[i] = slip_[i] + step * error_.v[i];
   }
   for (Index i = 0; i < sizes_.nx; ++i) error_.x[i] = -step * e[sizes_.nu + i];
-  for (Index i = sizes_.nu + sizes_.nx; i < sizes_.n(); ++i) error_.w[i] = -e[i];
+  const auto& powers = system_.errorPowers().z;
+  for (Index i = 0; i < sizes_.nz; ++i) {
+    error_.z()[i] = powers[static_cast<std::size_t>(i)] == 2 ? Real(0) : Real(-e[sizes_.nu + sizes_.nx + i]);
+  }
   return Outcome::kSuccess;
 }
 

@@ -32,9 +32,12 @@ struct IncrementLimit {
   /// kappa after `accepted` steps. The remaining error of Newton's method has the same sign in step after step, and no
   /// error estimate shows it: N steps would leave N kappa tolerances. From kManySteps on kappa therefore falls as
   /// kManySteps / N.
-  double after(std::int64_t accepted) const {
+  /// In index 3 accelerations are second differences of positions, and what is left in them enters the error estimate
+  /// as h^-1: there it is kHiddenPart of that, unless the caller has chosen kappa.
+  double after(std::int64_t accepted, bool index3) const {
     const auto steps = static_cast<double>(accepted);
-    return steps <= kManySteps ? kappa : std::max(least, kappa * kManySteps / steps);
+    const double first = index3 ? std::max(least, kHiddenPart * kappa) : kappa;
+    return steps <= kManySteps ? first : std::max(least, first * kManySteps / steps);
   }
 };
 template <class Real>

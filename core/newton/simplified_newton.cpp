@@ -95,7 +95,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     result.outcome = c.matrix.prepare(c.eq.h());
     if (result.outcome != Outcome::kSuccess) return result;
     const int limit = this->options_.newton.max_iterations * (adaptive_ ? 1 : kFixedStepFactor.whole());
-    const double kappa = limit_.after(c.counters.steps_accepted);
+    const double kappa = limit_.after(c.counters.steps_accepted, c.norm.index3());
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
     double previous = 0, before_previous = 0;

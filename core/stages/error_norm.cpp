@@ -1,5 +1,6 @@
 #include "core/stages/error_norm.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -18,10 +19,6 @@ double powerOf(double h, int power) {
   double f = 1;
   for (int i = 0; i < power; ++i) f *= h;
   return f;
-}
-
-bool hasPower(const std::vector<int>& powers) {
-  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
 }
 
 // sum of f(i), i < n. Eight sums at a time: one sum alone would make each addition wait for the one before.
@@ -64,8 +61,7 @@ template <class Real>
 ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale)
     : sizes_(system.sizes()),
       powers_(system.errorPowers()),
-      v_has_index_(hasPower(powers_.v)),
-      x_has_index_(hasPower(powers_.x)),
+      index3_(std::any_of(powers_.v.begin(), powers_.v.end(), [](int power) { return power > 0; })),
       tolerances_(tolerances),
       scale_(componentScale(sizes_, scale)),
       weight_(Vec<double>::Ones(sizes_.components())) {}
@@ -96,21 +92,8 @@ void ErrorNorm<Real>::update(const State<Real>& y) {
 }
 
 template <class Real>
-template <class F>
-void ErrorNorm<Real>::forEachBlock(double h, F&& f) const {
-  const auto byPower = [h](const std::vector<int>& powers) {
-    return [&powers, h](Index i) { return powerOf(h, powers[static_cast<std::size_t>(i)]); };
-  };
-  const auto one = [](Index) { return 1.0; };
-  const Index nu = sizes_.nu, nx = sizes_.nx;
-  const auto u = [](const State<Real>& y) -> const auto& { return y.u; };
-  const auto v = [](const State<Real>& y) -> const auto& { return y.v; };
-  const auto x = [](const State<Real>& y) -> const auto& { return y.x; };
-  f(Index(0), u, one);
-  v_has_index_ ? f(nu, v, byPower(powers_.v)) : f(nu, v, one);
-  x_has_index_ ? f(2 * nu, x, byPower(powers_.x)) : f(2 * nu, x, one);
-  f(
-      2 * nu + nx, [](const State<Real>& y) { return y.z(); }, byPower(powers_.z));
+double ErrorNorm<Real>::zFactor(double h, Index i) const {
+  return powerOf(h, powers_.z[static_cast<std::size_t>(i)]);
 }
 
 // Calls f(component, its weighted difference) for all components of u, v, x, z.
@@ -118,14 +101,17 @@ template <class Real>
 template <class F>
 void ErrorNorm<Real>::forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor,
                                   F&& f) const {
-  forEachBlock(h, [&](Index offset, const auto& part, const auto& weigh) {
-    const auto& a = part(p);
-    const auto& b = part(q);
+  const auto add = [&](Index offset, const auto& a, const auto& b, const auto& weigh) {
     for (Index i = 0; i < a.size(); ++i) {
       const double e = static_cast<double>(Real(a[i] - b[i]));
       f(offset + i, factor[offset + i] * weigh(i) * e / weight_[offset + i]);
     }
-  });
+  };
+  const auto one = [](Index) { return 1.0; };
+  add(0, p.u, q.u, one);
+  add(sizes_.nu, p.v, q.v, one);
+  add(2 * sizes_.nu, p.x, q.x, one);
+  add(2 * sizes_.nu + sizes_.nx, p.z(), q.z(), [&](Index i) { return zFactor(h, i); });
 }
 
 template <class Real>
@@ -149,11 +135,15 @@ Index ErrorNorm<Real>::worst(const State<Real>& p, const State<Real>& q, double 
 template <class Real>
 double ErrorNorm<Real>::magnitude(const State<Real>& e, double h) const {
   double sum = 0;
-  forEachBlock(h, [&](Index offset, const auto& part, const auto& weigh) {
-    const auto& a = part(e);
+  const auto add = [&](Index offset, const auto& a, const auto& weigh) {
     const double* const weight = weight_.data() + offset;
     sum += sumOf(a.size(), [&](Index i) { return square(weigh(i) * static_cast<double>(a[i]) / weight[i]); });
-  });
+  };
+  const auto one = [](Index) { return 1.0; };
+  add(0, e.u, one);
+  add(sizes_.nu, e.v, one);
+  add(2 * sizes_.nu, e.x, one);
+  add(2 * sizes_.nu + sizes_.nx, e.z(), [&](Index i) { return zFactor(h, i); });
   return total(sum);
 }
 
@@ -178,9 +168,7 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
     const double f = powerOf(h, powers_.x[static_cast<std::size_t>(i)]);
     squares[nu + i] = square(f * h / wx[i]);
   }
-  for (Index i = 0; i < nz; ++i) {
-    squares[nu + nx + i] = square(powerOf(h, powers_.z[static_cast<std::size_t>(i)]) / wz[i]);
-  }
+  for (Index i = 0; i < nz; ++i) squares[nu + nx + i] = square(zFactor(h, i) / wz[i]);
 }
 
 template <class Real>

@@ -9,9 +9,8 @@
 namespace irk {
 
 /// Weights sc_i = atol scale_i + rtol |y_i|, so that a norm of 1 is the tolerance. HW I (II.4.10-11).
-/// Errors of unknowns of index i are multiplied by h^(i-1), HW II (VII.7): those of multipliers in index 3 by h^2,
-/// those of velocities there by h. An estimate of such an error does not shrink with h, and a norm that demands it
-/// rejects steps of any size. Norms are doubles for every scalar, since they only serve for decisions.
+/// Errors of algebraic unknowns of index i are multiplied by h^(i-1), HW II (VII.7). Norms are doubles for every
+/// scalar, since they only serve for decisions.
 template <class Real>
 class ErrorNorm {
  public:
@@ -28,6 +27,8 @@ class ErrorNorm {
 
   /// The weights sc of (u, v, x, z); 2 nu + nx + nz numbers.
   const Vec<double>& weights() const { return weight_; }
+  /// Whether velocities have index 2: the system is in index 3.
+  bool index3() const { return index3_; }
   /// The larger one of rtol and atol.
   double tolerance() const { return std::max(tolerances_.rtol, tolerances_.atol); }
   /// Index of the component of (u, v, x, z) that contributes most to `difference`.
@@ -41,23 +42,21 @@ class ErrorNorm {
   double magnitude(const State<Real>& e, double h) const;
 
   /// Writes n squared weights of (a, k, z) for `increment`. A change of (a, k, z) counts by its effect on
-  /// (u, v, x, z): h^2 da, h da, h dk, dz, and by the power of its index: Newton corrects components of higher index
-  /// later, and its contraction is that of the others.
+  /// (u, v, x, z): h^2 da, h da, h dk, dz. Components of index i, here of u, v, x as well, are multiplied by
+  /// h^(i-1): Newton corrects those of higher index later, and its contraction is that of the others.
   void rowWeights(double h, Vec<double>& squares) const;
   /// Norm of a Newton increment dW (n x s), columns from `first` on. Always an RMS norm, whatever the error norm is.
   double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const;
 
  private:
   double total(double sum_of_squares) const;
-  // Calls f(offset, part, weigh) for u, v, x, z: part(y) is that of a state, weigh(i) = h^(index - 1) of component i.
-  template <class F>
-  void forEachBlock(double h, F&& f) const;
+  double zFactor(double h, Index i) const;
   template <class F>
   void forEachPart(const State<Real>& p, const State<Real>& q, double h, const Vec<double>& factor, F&& f) const;
 
   Sizes sizes_;
   const ErrorPowers& powers_;
-  bool v_has_index_, x_has_index_;  // whether a power of v, x is above 0
+  bool index3_;
   Tolerances tolerances_;
   Vec<double> scale_;   // of u, v, x, z
   Vec<double> weight_;  // of u, v, x, z

@@ -135,7 +135,9 @@ inline constexpr Discontinuity Discontinuity::kSmooth{{"smooth"}, ModeSeen::kReg
 enum class Level { kFormulated, kPosition, kVelocity, kAcceleration };
 
 /// Index minus 1 of each component: the error of a variable of index i is larger by a factor O(h^-(i-1)), HW II
-/// (VII.7). The error norm multiplies errors and Newton's increments by h^power. Sizes: nu, nu, nx, nz.
+/// (VII.7). The error norm multiplies the errors of algebraic unknowns by h^power. It does not do so for u, v and x,
+/// which are results: a method that does not determine them must fail. Newton's increments are multiplied by h^power in
+/// all components. Sizes: nu, nu, nx, nz.
 struct ErrorPowers {
   std::vector<int> u, v, x, z;
 };

@@ -98,8 +98,8 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   const double h = 0.5;
   ErrorNorm<double> mixed(*system, {0.01, 0.1, NormKind::kMixed}, scale);
   mixed.update(y);
-  // v has index 2 and is multiplied by h, z by h^2.
-  const double e[] = {1 / (0.1 + 0.1), 2 / (0.2 + 0.2), 1.5 / (0.3 + 0.3), 2 / (0.4 + 0.4), 1.25 / (0.5 + 0.5)};
+  // z is multiplied by h^2; v is integrated, but has index 2 all the same.
+  const double e[] = {1 / (0.1 + 0.1), 2 / (0.2 + 0.2), 3 / (0.3 + 0.3), 4 / (0.4 + 0.4), 1.25 / (0.5 + 0.5)};
   double sum = 0;
   for (const double one : e) sum += one * one;
   EXPECT_NEAR(mixed.difference(p, q, h, ones), std::sqrt(sum / 5), 1e-13);
@@ -109,7 +109,7 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   EXPECT_NEAR(mixed.difference(p, q, h, factor), std::sqrt(2.5 * 2.5 / 5), 1e-13);
   ErrorNorm<double> absolute(*system, {0.01, 0.1, NormKind::kAbsolute}, scale);
   absolute.update(y);
-  EXPECT_NEAR(absolute.difference(p, q, h, ones), std::sqrt(1 + 4 + 1.5 * 1.5 + 4 + 1.25 * 1.25) / 0.1, 1e-12);
+  EXPECT_NEAR(absolute.difference(p, q, h, ones), std::sqrt(1 + 4 + 9 + 16 + 1.25 * 1.25) / 0.1, 1e-12);
 }
 
 TEST(ErrorNorms, WeighEveryComponentByItself) {

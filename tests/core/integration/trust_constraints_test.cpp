@@ -67,8 +67,8 @@ TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
   EXPECT_EQ(radau.outcome, Outcome::kSuccess) << radau.detail;
 }
 
-// An estimate of velocities in index 3 does not shrink with the step, so that a norm that demands it rejects steps of
-// any size: HW II (VII.7) weighs it by h. The velocities of the result satisfy their constraint all the same.
+// What Newton's method leaves in g = 0 must not enter the estimate of velocities, where it would be divided by h: no
+// step size would be small enough. The velocities of the result satisfy their constraint all the same.
 TEST(Success, Index3ReachesItsEndAtEveryTolerance) {
   for (int digits = 2; digits <= 11; ++digits) {
     const double tol = std::pow(10.0, -digits);
@@ -104,7 +104,7 @@ TEST(Success, DriftAboveTheToleranceIsAnOutcome) {
     const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), t_end, makeTableau<double>(method),
                                      embedded(1e-2), Formulation::kIndex1);
     ASSERT_EQ(s.outcome, Outcome::kDrift) << method << s.detail;
-    EXPECT_GT(s.state.u.norm(), 2) << method << ": this motion does not drift, the test tests nothing";
+    EXPECT_GT(s.state.u.norm(), 1.5) << method << ": this motion does not drift, the test tests nothing";
     EXPECT_NE(s.detail.find("constraint"), std::string::npos) << s.detail;
     EXPECT_NE(s.detail.find("allowed"), std::string::npos) << s.detail;
   }

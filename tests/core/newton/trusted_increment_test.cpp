@@ -71,7 +71,7 @@ TEST(TrustedIncrement, ItCountsInNoLaneEither) {
   std::vector<Lanes> W(static_cast<std::size_t>(sizes.n()));
   stages.predict({}, W);
   LaneCounters counters;
-  const LaneSolved solved = newton.solve(stages, norm, from, h, all, Lanes(newton.kappa(0)), W, counters);
+  const LaneSolved solved = newton.solve(stages, norm, from, h, all, Lanes(newton.kappa(0, false)), W, counters);
   EXPECT_FALSE(solved.solved.any()) << W[1][0];
   for (const Outcome outcome : solved.outcome) EXPECT_EQ(outcome, Outcome::kNewtonFailed);
 }
