@@ -51,9 +51,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
 
  public:
   SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : Base(options, sizes, scheme),
-        limit_(incrementLimit<Real>(options)),
-        adaptive_(!hasFixedSteps(options.step)) {}
+      : Base(options, sizes, scheme), limit_(incrementLimit<Real>(options)), adaptive_(!hasFixedSteps(options.step)) {}
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     auto& shared = c.matrix.shared();
