@@ -138,7 +138,7 @@ TEST_F(Lines, ValuesOutOfRange) {
                  {2, {"solve", "kepler", "--method", "a\nb"}, "a\\nb"},
                  {2, {"solve", "kepler", "--method", "a\x1b[31mb"}, "\\x1b"},
                  {2, {"solve", "kepler", "--newton", "simple"}, "simple"},
-                 {2, {"solve", "kepler", "--tol", "2"}, "2"},
+                 {2, {"solve", "kepler", "--tol", "-2"}, "-2"},
                  {2, {"solve", "kepler", "--tol", "nan"}, "nan"},
                  {2, {"solve", "kepler", "--tol", " "}, "tol"},
                  {2, {"solve", "kepler", "--tol", "1e-400"}, "1e-400"},
