@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "experiments/base/failure.h"
 #include "experiments/runs/error_bar.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -55,8 +57,12 @@ void OutFile::finish(const RunRecord& record, const Watch& watch, std::ostream& 
     Watch second{watch.stop, {}, {}, {}};
     std::vector<KeptRow> strict;
     const RunRecord measured = executeWithRows(independentSpec(spec_), second, times_, strict);
-    const auto with_bars = solutionFile(path_, spec_, RowBars::kWritten);
+    // Written beside the file and put in its place, so that no row is lost if the disk is full.
+    const std::filesystem::path file = path_;
+    const auto beside = file.parent_path() / (file.stem().string() + ".with_bars" + file.extension().string());
+    const auto with_bars = solutionFile(beside, spec_, RowBars::kWritten);
     for (const KeptRow& row : barred(kept_, strict)) with_bars->append(row.view());
+    std::filesystem::rename(beside, file);
     if (!measured.succeeded()) {
       printErrorLine(err, fmt::format("{}: bars are unknown beyond t = {:.15g}: the second integration ended as {}",
                                       path_, measured.t, measured.outcome));

@@ -192,9 +192,9 @@ struct NewtonOptions {
   /// A solve fails after this many iterations (`simplified`, `broyden` with fixed steps: four times as many). Paper,
   /// section 3: 25.
   int max_iterations = 25;
-  /// `simplified`, `broyden`: converged when eta |dw| <= kappa in the error norm, HW II (IV.8.10). 0 means 0.01 (0.001
-  /// with the estimate `richardson`), but not below 10 eps/rtol; from 1000 accepted steps on it falls with their
-  /// number, down to 10 eps/rtol.
+  /// `simplified`, `broyden`: converged when eta |dw| <= kappa in the error norm, HW II (IV.8.10). 0 means 0.01
+  /// (with the estimate `richardson` a tenth of it, in index 3 another tenth), but not below 10 eps/rtol; from 1000
+  /// accepted steps on it falls with their number, down to 10 eps/rtol.
   double kappa = 0;
   /// `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
   double keep_jacobian_below = 1e-3;
