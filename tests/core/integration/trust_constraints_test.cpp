@@ -3,6 +3,7 @@
 
 #include "core/control/stall_detector.h"
 #include "core/steps/switch_scan.h"
+#include "irk/scene.h"
 #include "tests/core/switching_run.h"
 #include "tests/core/trusted.h"
 
@@ -69,17 +70,21 @@ TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
 
 // What Newton's method leaves in g = 0 must not enter the estimate of velocities, where it would be divided by h: no
 // step size would be small enough. The velocities of the result satisfy their constraint all the same.
+// (andrews failed at 7 of 9 tolerances; a pendulum never did.)
 TEST(Success, Index3ReachesItsEndAtEveryTolerance) {
-  for (int digits = 2; digits <= 11; ++digits) {
+  const auto scene = makeScene<double>("andrews");
+  const auto system = scene.system({Formulation::kIndex3});
+  for (int digits = 2; digits <= 10; ++digits) {
     const double tol = std::pow(10.0, -digits);
     IntegratorOptions variable = embedded(tol);
     variable.order = OrderControl::kVariable;
     variable.step.control = StepControl::kPredictive;
     const auto family = makeMethods<double>("radau_iia_5", 13, 5);
-    Integrator<double> integrator(makeSystem<double>(CartesianPendulum{}, {Formulation::kIndex3}), family, variable);
-    const auto s = integrator.integrate(pendulumStart<double>(), 1);
+    const auto s = Integrator<double>(system, family, variable, scene.scale).integrate(scene.start, scene.t_end);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << tol << s.detail;
-    EXPECT_LT(std::abs(s.state.u.dot(s.state.v)), 1e-13) << tol;
+    Vec<double> rates(system->sizes().n());
+    system->evaluate(Level::kVelocity, pointOf(s.state), VecView<double>(rates.data(), rates.size()));
+    EXPECT_LT(rates.tail(system->sizes().constraints).cwiseAbs().maxCoeff(), 1e-10) << tol;
   }
 }
 
