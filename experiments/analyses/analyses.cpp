@@ -3,9 +3,9 @@
 namespace irk {
 
 // In the order of execution, each a function of the file of its name. This line declares them, the array calls them.
-#define IRK_ANALYSES                                                                                                \
-  ordersAnalysis(), costAnalysis(), profileAnalysis(), ratiosAnalysis(), robustnessAnalysis(), estimatesAnalysis(), \
-      scalingAnalysis(), energyAnalysis(), phasesAnalysis(), contractionsAnalysis()
+#define IRK_ANALYSES                                                                                           \
+  ordersAnalysis(), costAnalysis(), profileAnalysis(), ratiosAnalysis(), robustnessAnalysis(), gapsAnalysis(), \
+      estimatesAnalysis(), scalingAnalysis(), energyAnalysis(), phasesAnalysis(), contractionsAnalysis()
 
 Analysis IRK_ANALYSES;
 

@@ -15,6 +15,24 @@
 #include "irk/collections.h"
 
 namespace irk {
+
+SolverNames::SolverNames(const RunFile& runs) : names_(runs.names()) {
+  std::map<std::string, std::set<std::string>> formulations;
+  if (!names_.hasColumn("formulation")) return;
+  runs.forEachRow([&](const TableRow& row) {
+    if (textAt(names_, row, "outcome") == "refused") return;
+    formulations[textAt(names_, row, "integrator")].insert(textAt(names_, row, "formulation"));
+  });
+  for (const auto& [integrator, used] : formulations) {
+    if (used.size() > 1) several_.insert(integrator);
+  }
+}
+
+std::string SolverNames::of(const TableRow& row) const {
+  const std::string& integrator = textAt(names_, row, "integrator");
+  return several_.contains(integrator) ? integrator + ":" + textAt(names_, row, "formulation") : integrator;
+}
+
 namespace {
 
 struct Counts {
@@ -37,6 +55,7 @@ std::string failuresText(const std::map<std::string, int>& failures) {
 
 void writeRobustness(const RunFile& runs, const std::filesystem::path& file) {
   const Table& names = runs.names();
+  const SolverNames solvers(runs);
   std::map<GroupKey, Counts> groups;
   runs.forEachRow([&](const TableRow& row) {
     const double tolerance = audit::toleranceOf(names, row);
@@ -47,7 +66,7 @@ void writeRobustness(const RunFile& runs, const std::filesystem::path& file) {
     collections.emplace_back("all");
     for (const auto& collection : collections) {
       for (const double part : {-1.0, tolerance}) {
-        Counts& counts = groups[{collection, textAt(names, row, "integrator"), part}];
+        Counts& counts = groups[{collection, solvers.of(row), part}];
         ++counts.judged[judgement];
         if (judgement == audit::Judgement::kFailed) ++counts.failures[outcome];
       }

@@ -117,7 +117,7 @@ constexpr ColumnText kRatios[] = {
 };
 constexpr ColumnText kRobustness[] = {
     {"collection", "", "The collection of scenes; all: every scene."},
-    {"integrator", "", "The solver."},
+    {"integrator", "", "The solver; with its formulation where the study has several of it."},
     {"tolerance", "", "The larger one of rtol and atol; all: every one."},
     {"runs", "", "The number of runs, refused ones left out."},
     {"right", "", "Successes with an error up to 1000 tolerances + 1e-9."},
@@ -125,6 +125,17 @@ constexpr ColumnText kRobustness[] = {
     {"wrong", "", "Successes with a larger error."},
     {"unjudged", "", "Successes without a reference that is accurate enough."},
     {"outcomes", "", "The failed ones by outcome."},
+};
+constexpr ColumnText kGaps[] = {
+    {"scene", "", "The scene."},
+    {"settings", "", "Its settings that are not the default ones."},
+    {"tolerance", "", "The larger one of rtol and atol."},
+    {"solver", "", "The solver; with its formulation where the study has several of it."},
+    {"judgement", "",
+     "failed: the run reports a failure; wrong: a success with an error above 1000 tolerances + 1e-9."},
+    {"outcome", "", "How the run ended."},
+    {"detail", "", "Why."},
+    {"right", "", "The solvers whose runs of the same problem are right."},
 };
 constexpr ColumnText kEstimates[] = {
     {"rtol", "", "Tolerance of the run from which the step begins."},
@@ -207,6 +218,7 @@ constexpr TableText kRunTables[] = {
     {"profile.csv", "a point of a performance profile (Dolan and Moré, 2002)", SharedColumns::kNone, kProfile},
     {"ratios.csv", "what one choice costs over the block's first one at equal errors", SharedColumns::kNone, kRatios},
     {"robustness.csv", "how the runs of a solver at one tolerance end", SharedColumns::kNone, kRobustness},
+    {"gaps.csv", "a run that is not right although another solver's is", SharedColumns::kNone, kGaps},
     {"estimates.csv", "estimated and true error of a step", SharedColumns::kSeries, kEstimates},
     {"contractions.csv", "one solve of the paper's Newton method", SharedColumns::kSeries, kContractions},
     {"energy.csv", "the energy at one time of a run with constant steps", SharedColumns::kSeries, kEnergy},
