@@ -1,5 +1,6 @@
 # How runs end: for each collection a panel, for each solver a row, for each tolerance a bar with the shares of right
-# runs, honest failures, wrong successes and runs that cannot be judged. A number in a bar counts the wrong ones; the
+# runs, honest failures, successes with an error above 1000 tolerances, and runs that cannot be judged. A number in a
+# bar counts those above; the
 # number beside a row says of how many runs each of its bars is made.
 #   gnuplot -e "data='results/robustness'; out='robustness'" robustness.gp
 # Reads robustness.csv. Options: collections (panels in this order), integrators (rows in this order).
@@ -8,7 +9,7 @@ if (!exists("collections")) collections = 'ivp multibody switching probes'
 if (!exists("integrators")) integrators = ''
 file = data.'/robustness.csv'
 parts = "right failed wrong unjudged"
-part_titles = "'right' 'honest failure' 'wrong success (number: how many)' 'not judged'"
+part_titles = "'right' 'honest failure' 'success, but error above 1000 tolerances (number: how many)' 'not judged'"
 part_colours = "0x9CCFE7 0xE6C27A 0xC8102E 0xC9C9C9"
 colour(k) = int(word(part_colours, k))
 single(d) = strcol("tolerance") ne 'all' && position(collections, strcol("collection"))
@@ -37,8 +38,10 @@ line(i) = single(0) && strcol("collection") eq word(shown, i) ? position(solvers
 width = 0.84
 left(i, x) = line(i) > 0 ? place(0) - width / 2 + width * x : outside
 number_place = many + 0.75
-# On a bar that is red from its left end the number is white.
-numberColour(d) = below(3) < 0.15 ? 0xFFFFFF : colour(3)
+# The number of wrong successes stands in their part of the bar, or where that is too narrow beside it.
+isWide(d) = share(3) >= 0.2
+numberPlace(d) = isWide(0) ? below(3) + share(3) / 2 : below(3) > 0.2 ? below(3) - 0.12 : upTo(3) + 0.12
+numberColour(d) = isWide(0) ? 0xFFFFFF : colour(3)
 # A row's number of runs is that of its largest tolerance.
 isFirst(i) = line(i) > 0 && place(0) == 1
 levelText(x) = sprintf("10^{%d}", floor(x + 0.5))
@@ -52,7 +55,9 @@ solver_tics = solver_tics.") nomirror scale 0 noenhanced textcolor rgb ink"
 columns = panels == 1 ? 1 : 2
 lines = (panels + columns - 1) / columns
 height = 116 + lines * (60 + 22 * words(solvers))
-margin_left = columns == 1 ? 0.3 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = 100.0 / height
+longest = 0   # letters of the longest name, about 6.6 px each
+do for [w in solvers] { longest = longest > strlen(w) ? longest : strlen(w) }
+margin_left = columns == 1 ? (20 + 6.6 * longest) / 640 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = 100.0 / height
 gap_x = 0.03; gap_y = 50.0 / height
 do for [format in formats] {
   eval open(format, columns == 1 ? 640 : 1080, height)
@@ -67,7 +72,7 @@ do for [format in formats] {
     set xlabel when(i > panels - columns, 'tolerance') offset 0,0.3
     plot for [k = 1 : 4] file using (left(i, below(k))):(line(i)):(left(i, below(k))):(left(i, upTo(k))):(line(i) - 0.38):(line(i) + 0.38) \
         with boxxyerror fs solid noborder lc rgb colour(k) notitle, \
-      file using (column("wrong") > 0 ? left(i, 0.06) : outside):(line(i)):(sprintf("%d", column("wrong"))):(numberColour(0)) \
+      file using (column("wrong") > 0 ? left(i, numberPlace(0)) : outside):(line(i)):(sprintf("%d", column("wrong"))):(numberColour(0)) \
         with labels textcolor rgb variable font ',11' notitle, \
       file using (isFirst(i) ? number_place : outside):(line(i)):(sprintf("%d", column("runs"))) \
         with labels textcolor rgb ink font ',11' notitle

@@ -13,7 +13,7 @@ if (!exists("out")) out = 'figure'
 formats = "svg png"
 open(format, width, height) = sprintf( \
   format eq "svg" ? "set terminal svg size %d,%d font 'sans-serif,12' enhanced background 'white'" \
-                  : "set terminal pngcairo size 2*%d,2*%d font 'sans-serif,12' fontscale 2 " \
+                  : "set terminal pngcairo size 2*%d,2*%d font 'sans-serif,12' fontscale 1.5 " \
                     ."linewidth 2 pointscale 2 enhanced background 'white'", width, height) \
   . sprintf("; set output '%s.%s'", out, format) . quick_mark
 
