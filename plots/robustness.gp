@@ -1,7 +1,6 @@
 # How runs end: for each collection a panel, for each solver a row, for each tolerance a bar with the shares of right
 # runs, honest failures, successes with an error above 1000 tolerances, and runs that cannot be judged. A number in a
-# bar counts those above; the
-# number beside a row says of how many runs each of its bars is made.
+# bar counts those above; the number beside a row says of how many runs each of its bars is made.
 #   gnuplot -e "data='results/robustness'; out='robustness'" robustness.gp
 # Reads robustness.csv. Options: collections (panels in this order), integrators (rows in this order).
 load system('dirname "'.ARG0.'"')."/style.gp"
