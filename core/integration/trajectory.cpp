@@ -64,6 +64,8 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   note_.clear();
   round_off_ = 0;
   last_rejection_ = nullptr;
+  last_h_ = Real(0);
+  satisfies_constraints_ = true;
   attempt_->begin(length);
   attempt_->keepPieces(monitor.inside);
   jacobian_.forgetPattern();
@@ -81,9 +83,27 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   return report.outcome;
 }
 
+// In index 3 Newton's method leaves at most kappa tolerances in g(u), of which the next step makes a change of
+// velocities by kappa last_h / h tolerances: too much where h is shorter than this.
+template <class Real>
+bool Trajectory<Real>::isShortAfterLast(const Real& h) const {
+  return projection_ && controller_ && !satisfies_constraints_ && h < Real(kNewtonPart.value) * last_h_;
+}
+
+// Projects positions and velocities to their constraints. False if that cannot be done; the state is then as before.
+template <class Real>
+bool Trajectory<Real>::satisfyConstraints() {
+  satisfies_constraints_ = true;
+  next_ = state_;
+  if (projection_->applyToPositions(next_) != Outcome::kSuccess) return false;
+  std::swap(state_, next_);
+  return true;
+}
+
 template <class Real>
 AttemptResult Trajectory<Real>::attempt(const Real& h) {
   norm_.update(state_);
+  if (isShortAfterLast(h)) satisfyConstraints();
   const AttemptResult result = attempt_->attempt(state_, h, next_);
   blamed_ = -1;
   if (result.outcome != Outcome::kSuccess) {
@@ -127,6 +147,8 @@ void Trajectory<Real>::followOrder(double error, double h) {
 template <class Real>
 Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, const Real& end) {
   const CommittedStep<Real> step = modes_->accept(*attempt_, result, state_, h, next_);
+  // The step has to be repeated from the projected state.
+  if (step.shortened && isShortAfterLast(step.h) && satisfyConstraints()) return Outcome::kNewtonFailed;
   if (step.outcome != Outcome::kSuccess) {
     blamed_ = step.index;
     return step.outcome;
@@ -165,6 +187,8 @@ template <class Real>
 void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   const AttemptResult& attempt = step.attempt;
   std::swap(state_, next_);
+  last_h_ = step.h;
+  satisfies_constraints_ = false;
   ++counters_.steps_accepted;
   if (controller_) amounts_.look(next_, state_);
   round_off_ = std::max(round_off_, attempt.round_off);
@@ -195,6 +219,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     if (modes != Outcome::kSuccess) return modes;
     restart();
     if (projection_) {
+      satisfies_constraints_ = true;
       const Outcome projected = projection_->applyToPositions(state_);
       if (projected != Outcome::kSuccess) return projected;
     }

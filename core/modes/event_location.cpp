@@ -156,7 +156,30 @@ Real nextSize(const Bracket<Real>& at, const Real& secant, bool beside_low, bool
   return beside_low && nudge < at.high ? nudge : Real((at.low + at.high) / Real(2));
 }
 
+// Only the dense output has a root where the solved step has g < 0. Where g is nearly zero the switch is a little
+// further on. A step that ended here would leave one so short that what Newton's method leaves spoils it in index 3
+// (see Trajectory), and round-off in general (see LastSteps). Returns how far beyond to look, after having looked
+// `before` beyond in vain; h if the step goes on from here.
+template <class Real>
+Real further(const Real& before, const Real& g, const Real& slope, const Real& resolution, const Real& h) {
+  if (!(slope > Real(0))) return h;
+  const Real beyond = std::max(Real(4) * before, Real(resolution - Real(2) * g / slope));
+  return beyond < Real(kNewtonPart.value) * h ? beyond : h;
+}
+
 }  // namespace
+
+// Solves the step of size h and evaluates the switching functions at its end.
+template <class Real>
+void EventLocator<Real>::solveStep(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
+                                   State<Real>& next, Location<Real>& result) {
+  result.attempt = attempt.attempt(from, h, next);
+  result.outcome = result.attempt.outcome;
+  if (result.outcome != Outcome::kSuccess) return;
+  result.outcome = switches_.evaluate(next).outcome;
+  result.h = h;
+  result.found = switches_.due() >= 0;
+}
 
 template <class Real>
 Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
@@ -169,16 +192,13 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
   Real low(0), high = std::min(h, std::max(root.high, resolution));
   Real step = std::min(high, std::max(root.step, resolution));
   bool due_at_high = false;
+  Real beyond(0);  // how far beyond the root of the dense output the switch is looked for
   Real slope = root.slope, noise(-1), last_step(0), last_g(0);
   result.index = root.index;
   for (int solves = 0; solves < kMostSolves; ++solves) {
     const bool settled = high - low <= resolution;
     if (settled) step = high;
-    result.attempt = attempt.attempt(from, step, next);
-    result.outcome = result.attempt.outcome;
-    if (result.outcome != Outcome::kSuccess) return result;
-    const SwitchReport report = switches_.evaluate(next);
-    result.outcome = report.outcome;
+    solveStep(attempt, from, step, next, result);
     if (result.outcome != Outcome::kSuccess) return result;
     const Index due = switches_.due();
     const bool other = due >= 0 && due != result.index;
@@ -189,10 +209,14 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     }
     const Real g = switches_.g()[result.index];
     if (noise < Real(0)) noise = noiseOf(next, result.index);
-    result.h = step;
-    result.found = due >= 0;
-    // Only the dense output has this root: the step goes on from there.
-    if (step == high && due < 0) return result;
+    if (step == high && due < 0) {
+      beyond = further(beyond, g, slope, resolution, h);
+      if (!(step + beyond < h)) return result;
+      low = last_step = step;
+      last_g = g;
+      step = high = step + beyond;
+      continue;
+    }
     if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
       slope = (g - last_g) / (step - last_step);
     }

@@ -44,6 +44,8 @@ class EventLocator {
   bool first(StepAttempt<Real>& attempt, const State<Real>& from, const State<Real>& next,
              typename SwitchScan<Real>::EndSample end, Location<Real>& result, Root& root);
   Root refined(const DueInside<Real>& due, const Real& offset, const Real& h);
+  void solveStep(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h, State<Real>& next,
+                 Location<Real>& result);
   Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h, State<Real>& next,
                          const Root& root);
   Real resolution(const State<Real>& from, const Real& h) const;

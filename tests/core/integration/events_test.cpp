@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "irk/scene.h"
 #include "tests/core/located.h"
 #include "tests/core/switching_run.h"
 
@@ -231,6 +232,27 @@ TEST(Iterate, ComesCloseToASwitchInFewSteps) {
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   EXPECT_LE(r.solution.counters.steps_rejected_error, 8);
   EXPECT_NEAR(r.solution.state.x[0], 0.55 + 5 * 0.45, 1e-4);
+}
+
+// The root of the dense output may lie a little before that of the solved step. A step that ended there would leave a
+// tiny one.
+TEST(Events, NoStepEndsJustBeforeASwitch) {
+  const auto scene = makeScene<double>("mechatronic_crank");
+  for (const double tol : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    IntegratorOptions options = located(tol);
+    options.step.estimate = ErrorEstimate::kEmbedded;
+    Integrator<double> integrator(scene.system({}), makeTableau<double>("radau_iia_3"), options, scene.scale);
+    Monitor<double> monitor;
+    double last = 0, least = 1;
+    monitor.accepted = [&](const StepRecord<double>& step) {
+      if (last > 0) least = std::min(least, step.h / last);
+      last = step.h;
+    };
+    const auto s = integrator.integrate(scene.start, scene.t_end, monitor);
+    ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+    EXPECT_GT(s.counters.located_events, 10);
+    EXPECT_GT(least, 1e-3) << tol;
+  }
 }
 
 }  // namespace
