@@ -135,4 +135,13 @@ void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ens
                "A loop of single runs instead of eight in the lanes of a vector register.");
 }
 
+void addCompareOptions(CLI::App& sub, CompareOptions& options) {
+  sub.add_option("first", options.first, "folder of a study, of results, or of a publication")->required();
+  sub.add_option("second", options.second, "another one")->required();
+  sub.add_option("--errors", options.errors, "Errors differ from this factor on.")->capture_default_str();
+  sub.add_option("--times", options.times, "Ratios of times up to this percentage are noise.")->capture_default_str();
+  sub.add_option("--alpha", options.alpha, "How probably noise alone makes a time differ.")->capture_default_str();
+  sub.add_option("--counters", options.counters, "Counters differ from this percentage on.")->capture_default_str();
+}
+
 }  // namespace irk

@@ -38,5 +38,7 @@ void addPeersOption(CLI::App& sub, std::vector<std::string>& peers);
 void addSolveOptions(CLI::App& sub, SolveOptions& run);
 /// The same for `irk ensemble`.
 void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble);
+/// The options of `irk compare`.
+void addCompareOptions(CLI::App& sub, CompareOptions& options);
 
 }  // namespace irk

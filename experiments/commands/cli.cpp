@@ -260,6 +260,13 @@ class Program {
                         [this](Streams s) { return reportCommand(results(), s); });
     addQuick(*report);
     addResults(*report);
+    auto* publish =
+        verb(app_, "publish", "answers, figures and small tables of a full run, for readers", [this](Streams s) {
+          return publishCommand({out_, results(), variant()}, s);
+        });
+    publish->add_option("folder", out_, "a new folder, or that of a former publication: plots/results")->required();
+    addQuick(*publish);
+    addResults(*publish);
     auto* judged = verb(app_, "claims", "the paper's claims and what the results say about them",
                         [this](Streams s) { return claimsCommand(results(), sensitivity_, s); });
     judged->add_flag("--sensitivity", sensitivity_, "Intervals, thresholds halved and doubled, each scene left out.");
@@ -278,17 +285,9 @@ class Program {
     addQuick(*merge);
     merge->add_option("--study", study_, "The study's id or TOML file, if the tables' own is not built in.");
     addResults(*merge);
-    auto* compare = verb(app_, "compare", "what differs between two studies or trees of results",
+    auto* compare = verb(app_, "compare", "what differs between two studies, trees of results or publications",
                          [this](Streams s) { return compareCommand(compare_, s); });
-    compare->add_option("first", compare_.first, "folder of a study or of results")->required();
-    compare->add_option("second", compare_.second, "another one")->required();
-    compare->add_option("--errors", compare_.errors, "Errors differ from this factor on.")->capture_default_str();
-    compare->add_option("--times", compare_.times, "Ratios of times up to this percentage are noise.")
-        ->capture_default_str();
-    compare->add_option("--alpha", compare_.alpha, "How probably noise alone makes a time differ.")
-        ->capture_default_str();
-    compare->add_option("--counters", compare_.counters, "Counters differ from this percentage on.")
-        ->capture_default_str();
+    addCompareOptions(*compare, compare_);
   }
 
   void addReference() {

@@ -92,6 +92,20 @@ int runCommand(const RunOptions& options, Streams streams);
 /// Runs every study of the paper, then draws figures and report. Ignores `options.study`.
 int paperCommand(const RunOptions& options, Streams streams);
 
+/// The studies of irk paper, in the order in which they are run.
+std::vector<std::string> paperStudies();
+
+struct PublishOptions {
+  std::string into;                 ///< the folder of the publication
+  std::string results = "results";  ///< with `quick`
+  StudyVariant variant = StudyVariant::kFull;
+};
+/// Writes the results of all studies of the paper and of the audit for readers (report/publish/publish.h). Throws
+/// Failure if a study is missing, not finished, or made by code with other numbers than this program's; Misuse for
+/// results of quick runs without the variant quick. Returns 1 for a figure that is missing or figures that are too
+/// large.
+int publishCommand(const PublishOptions& options, Streams streams);
+
 /// `what`: scenes, methods, studies, analyses, strategies, numbers, constants, columns, or empty for all. `scenes`
 /// belongs to the first. Throws Misuse.
 int listCommand(const std::string& what, const SceneList& scenes, Streams streams);
@@ -150,7 +164,7 @@ struct MergeOptions {
 int mergeCommand(MergeOptions options, Streams streams);
 
 struct CompareOptions {
-  std::string first, second;  ///< folders of a study, or of results
+  std::string first, second;  ///< folders of a study, of results, or of publications
   std::string errors = "2", times = "5%", alpha = "0.05", counters = "0%";
 };
 /// Returns 0 if there is no difference beyond noise, else 1.

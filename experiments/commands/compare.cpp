@@ -5,6 +5,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/compare/compare.h"
 #include "experiments/compare/folders.h"
+#include "experiments/compare/publications.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -28,10 +29,25 @@ compare::Limits limitsOf(const CompareOptions& options) {
           .counters = percentage("counters", options.counters)};
 }
 
+// Publications have no runs.csv. Two of them are compared by their small tables.
+bool arePublications(const CompareOptions& options) {
+  const bool first = compare::isPublication(options.first), second = compare::isPublication(options.second);
+  if (first == second) return first;
+  throw Misuse(
+      fmt::format("{} is a publication (published.csv), {} is not: compare two publications, or two folders "
+                  "of results",
+                  first ? options.first : options.second, first ? options.second : options.first));
+}
+
 }  // namespace
 
 int compareCommand(const CompareOptions& options, Streams streams) {
   const compare::Limits limits = limitsOf(options);
+  if (arePublications(options)) {
+    const auto found = compare::comparePublications(options.first, options.second, limits);
+    streams.out << found.text;
+    return found.count == 0 ? 0 : 1;
+  }
   const auto first = compare::runsIn(options.first), second = compare::runsIn(options.second);
   std::size_t differences = 0;
   const auto tellMissing = [&](const auto& from, const auto& in, const char* which) {

@@ -14,9 +14,15 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/own_figures.h"
+#include "experiments/report/publish/publish.h"
+#include "experiments/report/publish/published_runs.h"
+#include "experiments/report/report.h"
 #include "experiments/runner/merge.h"
 #include "experiments/runner/shard_plan.h"
+#include "experiments/runner/status.h"
 #include "experiments/study/study_reader.h"
+#include "experiments/tables/environment.h"
+#include "irk/misuse.h"
 
 namespace irk {
 namespace {
@@ -88,6 +94,23 @@ std::string commandsOf(const MergeOptions& options, const Study& made, const sto
   return text;
 }
 
+// The first study with runs that are still to be made or timed.
+void requireFinished(const std::vector<std::string>& studies, const PublishOptions& options, std::ostream& err) {
+  RunnerOptions runner;
+  runner.results = options.results;
+  for (const auto& id : studies) {
+    const Study study = loadStudy(id, options.variant);
+    const store::Store store(studyFolder(study, runner), id, store::Use::kRead, runner.store, err);
+    const StudyStatus status = statusOf(study, runner, store);
+    const std::size_t missing = status.all.planned - status.all.finished;
+    if (missing == 0 && status.to_time == 0) continue;
+    throw Failure(fmt::format(
+        "'{}' cannot be published: of the study {} {} runs are missing and {} lack times; irk run "
+        "{}{} goes on with it",
+        options.results, id, missing, status.to_time, id, options.variant == StudyVariant::kQuick ? " --quick" : ""));
+  }
+}
+
 }  // namespace
 
 int mergeCommand(MergeOptions options, Streams streams) {
@@ -134,6 +157,24 @@ int mergeCommand(MergeOptions options, Streams streams) {
   for (const auto& line : doubts) streams.err << line << '\n';
   tellDrift(study.id, folder / "runs.csv", streams.err);
   return doubts.empty() ? 0 : 1;
+}
+
+int publishCommand(const PublishOptions& options, Streams streams) {
+  const ReportOptions report{options.results, homeFolder()};
+  requireResultsFolder(report.results);
+  if (areQuick(report) && options.variant == StudyVariant::kFull) {
+    throw Misuse(
+        fmt::format("--results '{}': these are results of quick runs; irk publish --quick publishes them, "
+                    "marked as such",
+                    options.results));
+  }
+  auto studies = paperStudies();
+  studies.emplace_back("audit");
+  (void)report::publishedRuns(report, studies);
+  requireFinished(studies, options, streams.err);
+  const int doubts = report::publish(report, studies, options.into, streams.err);
+  fmt::print(streams.out, "published: {}\n", (std::filesystem::path(options.into) / "README.md").string());
+  return doubts == 0 ? 0 : kFailedStatus;
 }
 
 }  // namespace irk

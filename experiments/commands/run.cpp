@@ -268,6 +268,12 @@ int runCommand(const RunOptions& options, Streams streams) {
   return status;
 }
 
+std::vector<std::string> paperStudies() {
+  std::vector<std::string> ids;
+  for (const auto& study : kPaperStudies) ids.emplace_back(study.id);
+  return ids;
+}
+
 int paperCommand(const RunOptions& options, Streams streams) {
   const auto alone = joinRanks();
   if (alone->count() > 1) throw Misuse("paper under mpirun: its ranks share the runs of one study, irk run STUDY");

@@ -258,6 +258,7 @@ std::string examplesOf(const std::string& verb) {
       {"plot", "  irk plot order"},
       {"slurm", "  irk slurm order -n 16 > order.sh"},
       {"merge", "  irk merge shard1/order shard2/order --results joined"},
+      {"publish", "  irk publish plots/results"},
       {"compare", "  irk compare results other_results"},
       {"reference", "  irk reference kepler --check"},
       {"tableau show", "  irk tableau show radau_iia_3 --digits 30"},

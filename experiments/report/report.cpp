@@ -158,6 +158,12 @@ int drawFigures(const std::string& study, const ReportOptions& options, std::ost
   return failures + drawAll(wanted, options, err);
 }
 
+int drawFigures(const std::vector<Figure>& figures, const ReportOptions& options, std::ostream& err) {
+  requirePlainPath("--results", options.results.string());
+  std::filesystem::create_directories(figureFolder(options));
+  return drawAll(figures, options, err);
+}
+
 std::filesystem::path writeReport(const ReportOptions& options) {
   auto path = options.results / "report" / "index.html";
   std::filesystem::create_directories(path.parent_path());

@@ -24,6 +24,10 @@ bool drawFigure(const std::string& script, const std::string& commands, const st
 /// results.
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err);
 
+/// Draws these figures; returns how many of them failed, each with a message on `err`. Throws Misuse for a path that
+/// gnuplot would interpret.
+int drawFigures(const std::vector<Figure>& figures, const ReportOptions& options, std::ostream& err);
+
 /// Writes results/report/index.html (page.h) with the tables of its answers, answers_*.csv, and returns its path.
 std::filesystem::path writeReport(const ReportOptions& options);
 

@@ -168,6 +168,34 @@ constexpr ColumnText kPaperAnswer[] = {
     {"best_claims", "", "The number in the suite's best setting."},
     {"best_ids", "", "Which ones."},
 };
+constexpr ColumnText kClaims[] = {
+    {"claim", "", "The claim."},
+    {"part", "", "The part of it: each has a number of its own."},
+    {"setting", "", "paper: as the paper describes its program; best: the suite's own configurations."},
+    {"title", "", "The claim in a few words."},
+    {"measured", "", "What is measured of each case."},
+    {"condition", "", "When the part is confirmed."},
+    {"verdict", "", "As in answers_paper.csv."},
+    {"value", "in the column unit", "The median, or the share; nan: no cases."},
+    {"low", "in the column unit", "The lower end of its 90 % interval."},
+    {"high", "in the column unit", "The upper end."},
+    {"unit", "", "The unit of the value."},
+    {"cases", "", "How many cases it comes from."},
+    {"scenes", "", "Of how many scenes these are."},
+    {"reason", "", "Why there is no verdict."},
+};
+constexpr ColumnText kPublished[] = {
+    {"study", "", "The study."},
+    {"runs", "", "Its number of runs."},
+    {"code", "", "A fingerprint of the sources that decide numbers."},
+    {"version", "", "The program's version."},
+    {"commit", "", "The commit from which it was built."},
+    {"date", "", "The first and the last run, in UTC."},
+    {"compiler", "", "As in environments.csv."},
+    {"flags", "", "As in environments.csv."},
+    {"libraries", "", "As in environments.csv."},
+    {"cpu", "", "As in environments.csv."},
+};
 
 constexpr TableText kSummaryTables[] = {
     {"audit.csv", "a run that was drawn at random, with its judgement", SharedColumns::kNone, kAudit},
@@ -182,6 +210,8 @@ constexpr TableText kSummaryTables[] = {
     {"report/answers_orders.csv", "the order of one component for one family", SharedColumns::kNone, kOrderAnswer},
     {"report/answers_failures.csv", "a solver", SharedColumns::kNone, kFailureAnswer},
     {"report/answers_paper.csv", "a verdict", SharedColumns::kNone, kPaperAnswer},
+    {"claims.csv", "a part of a claim in a setting; irk publish writes it", SharedColumns::kNone, kClaims},
+    {"published.csv", "a study of a publication; irk publish writes it", SharedColumns::kNone, kPublished},
 };
 
 }  // namespace
