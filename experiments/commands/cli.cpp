@@ -192,7 +192,7 @@ class Program {
     }
   }
   void addLoad(CLI::App& sub) {
-    sub.add_option("--load", load_, "Your scenes, integrators, strategies: FILE.cpp, or LIBRARY.so, an integrator.")
+    sub.add_option("--load", load_, "Your scenes, integrators, strategies: FILE.cpp or LIBRARY.so.")
         ->take_all()
         ->expected(1)
         ->type_name("FILE");

@@ -12,6 +12,7 @@
 
 #include "experiments/own/compiler.h"
 #include "experiments/own/crash.h"
+#include "experiments/own/foreign/scene_library.h"
 #include "experiments/own/shared_library.h"
 #include "irk/options.h"
 #include "irk/registration.h"
@@ -139,6 +140,16 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
   return loaded.scene;
 }
 
+// A scene that is compiled already.
+std::string loadCompiled(const std::filesystem::path& given, const std::filesystem::path& file) {
+  LibraryScene loaded = sceneOfLibrary(given);
+  const std::string id = loaded.entry.id;
+  loadedFiles()[file] = {id, loaded.hash};
+  registerSceneOf(std::move(loaded.entry), given);
+  hashes()[{"scene", id}] = loaded.hash;
+  return id;
+}
+
 }  // namespace
 
 bool isFile(std::string_view text) { return text.ends_with(".cpp"); }
@@ -152,7 +163,7 @@ std::string loadFile(const std::filesystem::path& file) {
   const auto known = loadedFiles().find(path);
   if (!error && known != loadedFiles().end()) return known->second.scene;
   try {
-    return loadNew(file, path);
+    return isFile(file.string()) ? loadNew(file, path) : loadCompiled(file, path);
   } catch (...) {
     loadedFiles().erase(path);
     throw;

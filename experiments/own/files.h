@@ -20,8 +20,9 @@ class ReportTo {
   ReportTo& operator=(const ReportTo&) = delete;
 };
 
-/// Compiles and loads a file once, and runs its registrations. Returns the id of its scene, empty if it has none.
-/// Numbers of 50 and 100 digits are compiled when a run asks for them. Throws as `compile`, and Misuse for a file that
+/// Loads a file once: compiles a file of C++ and runs its registrations, or takes the scene of a shared library
+/// (irk/scene_c.h). Returns the id of its scene, empty if it has none. Numbers of 50 and 100 digits are compiled when a
+/// run asks for them; a library has double only. Throws as `compile` and sceneOfLibrary, and Misuse for a file that
 /// registers nothing, for an id that is taken, and for an object that cannot be loaded.
 std::string loadFile(const std::filesystem::path& file);
 

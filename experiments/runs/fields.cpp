@@ -42,7 +42,7 @@ void setFields(RunSpec& spec, std::string_view text) {
 Field<RunSpec> sceneField() {
   return {.name = "scene",
           .meaning = "The system to integrate.",
-          .form = "irk list scenes, or a file of your own: scene.cpp",
+          .form = "irk list scenes, or a file of your own: scene.cpp, or a library with a scene: scene.so",
           .get = [](const RunSpec& s) { return s.scene; },
           .set = [](RunSpec& s, std::string_view id) { s.scene = sceneNamed(std::string(id)); }};
 }
@@ -203,7 +203,7 @@ std::vector<SpecField> makeFields() {
 }  // namespace
 
 std::string sceneNamed(const std::string& id_or_file) {
-  if (!own::isFile(id_or_file)) return findScene(id_or_file).id;
+  if (!own::isFile(id_or_file) && !isLibrary(id_or_file)) return findScene(id_or_file).id;
   const std::string id = own::loadFile(id_or_file);
   if (id.empty()) throw Misuse(id_or_file + ": it holds no scene: IRK_SCENE(...) is expected");
   return id;

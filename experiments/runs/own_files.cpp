@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/own/files.h"
+#include "experiments/own/foreign/scene_library.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/loaded/load_method.h"
@@ -41,7 +42,8 @@ std::string fileOfMethod(const std::string& method) {
 
 void loadOwn(const std::string& file) {
   if (!isLoaded(file)) throw Misuse("'" + file + "' cannot be loaded: FILE.cpp or LIBRARY.so is expected");
-  if (own::isFile(file)) {
+  const bool is_code = file.find('@') != file.npos;  // of a library with Fortran codes
+  if (own::isFile(file) || (!is_code && own::holdsScene(file))) {
     own::loadFile(file);
   } else {
     static_cast<void>(loadMethod(file));
