@@ -12,6 +12,7 @@
 
 #include "experiments/own/compiler.h"
 #include "experiments/own/crash.h"
+#include "experiments/own/fmu/scene.h"
 #include "experiments/own/foreign/scene_library.h"
 #include "experiments/own/shared_library.h"
 #include "irk/options.h"
@@ -23,6 +24,8 @@ namespace {
 
 std::ostream* report = nullptr;
 std::ostream& log() { return report ? *report : std::cerr; }
+
+bool isFmu(std::string_view text) { return text.ends_with(".fmu"); }
 
 // Objects are never unloaded, not even at the program's end: what they have registered is destroyed later.
 const SharedLibrary& load(const std::filesystem::path& object, const std::filesystem::path& source) {
@@ -142,7 +145,7 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
 
 // A scene that is compiled already.
 std::string loadCompiled(const std::filesystem::path& given, const std::filesystem::path& file) {
-  LibraryScene loaded = sceneOfLibrary(given);
+  LibraryScene loaded = isFmu(given.string()) ? sceneOfFmu(given) : sceneOfLibrary(given);
   const std::string id = loaded.entry.id;
   loadedFiles()[file] = {id, loaded.hash};
   registerSceneOf(std::move(loaded.entry), given);
@@ -152,7 +155,7 @@ std::string loadCompiled(const std::filesystem::path& given, const std::filesyst
 
 }  // namespace
 
-bool isFile(std::string_view text) { return text.ends_with(".cpp"); }
+bool isFile(std::string_view text) { return text.ends_with(".cpp") || isFmu(text); }
 
 ReportTo::ReportTo(std::ostream& log) { report = &log; }
 ReportTo::~ReportTo() { report = nullptr; }
@@ -163,7 +166,7 @@ std::string loadFile(const std::filesystem::path& file) {
   const auto known = loadedFiles().find(path);
   if (!error && known != loadedFiles().end()) return known->second.scene;
   try {
-    return isFile(file.string()) ? loadNew(file, path) : loadCompiled(file, path);
+    return file.extension() == ".cpp" ? loadNew(file, path) : loadCompiled(file, path);
   } catch (...) {
     loadedFiles().erase(path);
     throw;

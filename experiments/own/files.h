@@ -8,7 +8,7 @@
 
 namespace irk::own {
 
-/// Whether a text names a file of C++: it ends with `.cpp`.
+/// Whether a text names a file of C++ or an FMU: it ends with `.cpp` or `.fmu`.
 bool isFile(std::string_view text);
 
 /// As long as an object exists, loadFile reports on `log` that it compiles; otherwise on standard error.
@@ -21,9 +21,10 @@ class ReportTo {
 };
 
 /// Loads a file once: compiles a file of C++ and runs its registrations, or takes the scene of a shared library
-/// (irk/scene_c.h). Returns the id of its scene, empty if it has none. Numbers of 50 and 100 digits are compiled when a
-/// run asks for them; a library has double only. Throws as `compile` and sceneOfLibrary, and Misuse for a file that
-/// registers nothing, for an id that is taken, and for an object that cannot be loaded.
+/// (irk/scene_c.h) or an FMU. Returns the id of its scene, empty if it has none. Numbers of 50 and 100 digits are
+/// compiled when a run asks for them; libraries and FMUs have double only. Throws as `compile`, sceneOfLibrary and
+/// sceneOfFmu, and Misuse for a file that registers nothing, for an id that is taken, and for an object that cannot be
+/// loaded.
 std::string loadFile(const std::filesystem::path& file);
 
 /// The hash of the loaded file that has registered `id`, for `kind` scene or the name of an axis; empty for what

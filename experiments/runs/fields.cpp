@@ -42,7 +42,7 @@ void setFields(RunSpec& spec, std::string_view text) {
 Field<RunSpec> sceneField() {
   return {.name = "scene",
           .meaning = "The system to integrate.",
-          .form = "irk list scenes, or a file of your own: scene.cpp, or a library with a scene: scene.so",
+          .form = "irk list scenes, or a file of your own: scene.cpp, scene.so or model.fmu",
           .get = [](const RunSpec& s) { return s.scene; },
           .set = [](RunSpec& s, std::string_view id) { s.scene = sceneNamed(std::string(id)); }};
 }

@@ -41,7 +41,7 @@ std::string fileOfMethod(const std::string& method) {
 }  // namespace
 
 void loadOwn(const std::string& file) {
-  if (!isLoaded(file)) throw Misuse("'" + file + "' cannot be loaded: FILE.cpp or LIBRARY.so is expected");
+  if (!isLoaded(file)) throw Misuse("'" + file + "' cannot be loaded: FILE.cpp, MODEL.fmu or LIBRARY.so is expected");
   const bool is_code = file.find('@') != file.npos;  // of a library with Fortran codes
   if (own::isFile(file) || (!is_code && own::holdsScene(file))) {
     own::loadFile(file);

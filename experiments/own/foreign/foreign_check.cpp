@@ -115,8 +115,7 @@ class FunctionCheck {
         if (!(std::abs(own[i] - differences[i]) > allowed)) continue;
         throw Misuse(fmt::format(
             "{}: row {}, column {} is {:.6g}, but differences of the rows give {:.6g} (t = {:g}, beside the start)",
-            model_.functions().jacobian ? "irk_scene_jacobian" : "irk_scene_product", i, j, own[i], differences[i],
-            near[0]));
+            model_.source().derivatives, i, j, own[i], differences[i], near[0]));
       }
     }
   }

@@ -44,6 +44,8 @@ struct ForeignSource {
   std::vector<Parameter> parameters;
   /// Held during each call unless the scene is concurrent.
   std::shared_ptr<std::mutex> one_at_a_time = std::make_shared<std::mutex>();
+  /// What derivatives are called in messages.
+  std::string derivatives = {};
   /// Names, units and magnitudes of v where they are not those of u' (setComponents): an FMU names its states.
   std::vector<Component> velocities = {};
 };

@@ -79,6 +79,7 @@ SceneEntry entryIn(const Library& library) {
   ForeignSource source;
   source.functions = functionsOf(*library);
   requireConsistent(source.functions);
+  source.derivatives = source.functions.jacobian ? "irk_scene_jacobian" : "irk_scene_product";
   source.parameters = parametersOf(*library);
   source.one_at_a_time = {library, &library->oneAtATime()};
   auto* const open = library->find<decltype(irk_scene_open)>("irk_scene_open");

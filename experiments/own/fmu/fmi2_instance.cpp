@@ -1,0 +1,113 @@
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+
+#include "experiments/own/fmu/instance_base.h"
+
+namespace irk::own {
+namespace {
+
+class Fmi2Instance final : public CommonInstance {
+ public:
+  explicit Fmi2Instance(const FmuLibrary& fmu) : CommonInstance(fmu, "fmi2", "GetDerivatives") {
+    callbacks_ = {.logger = &Fmi2Instance::log,
+                  .allocateMemory = [](size_t count, size_t size) { return std::calloc(count, size); },
+                  .freeMemory = [](void* memory) { std::free(memory); },
+                  .stepFinished = nullptr,
+                  .environment = this};
+    const std::string resources = "file://" + fmu.resources;
+    instance_ = get<fmi2InstantiateTYPE>("fmi2Instantiate")(
+        fmu.description.name.c_str(), 0, fmu.description.token.c_str(), resources.c_str(), &callbacks_, 0, 0);
+    if (!instance_) throw Misuse("fmi2Instantiate fails" + (message_.empty() ? "" : ": " + message_));
+  }
+  ~Fmi2Instance() override {
+    if (!instance_) return;
+    forgetStart();
+    get<fmi2FreeInstanceTYPE>("fmi2FreeInstance")(instance_);
+  }
+
+  FmuEvent begin(const std::vector<FmuValue>& values, double start, double stop) override {
+    require(get<fmi2SetupExperimentTYPE>("fmi2SetupExperiment")(instance_, 0, 0, start, 1, stop),
+            "fmi2SetupExperiment");
+    for (const auto& [variable, value] : values) set(*variable, value);
+    require(get<fmi2EnterInitializationModeTYPE>("fmi2EnterInitializationMode")(instance_),
+            "fmi2EnterInitializationMode");
+    require(get<fmi2ExitInitializationModeTYPE>("fmi2ExitInitializationMode")(instance_), "fmi2ExitInitializationMode");
+    const FmuEvent event = settle();
+    keepStart();
+    return event;
+  }
+  FmuEvent event() override {
+    int wants_event = 0, terminates = 0;
+    if (fmu_.description.steps_completed) {
+      require(step_(instance_, 1, &wants_event, &terminates), "fmi2CompletedIntegratorStep");
+    }
+    require(enter_event_(instance_), "fmi2EnterEventMode");
+    FmuEvent event = settle();
+    event.terminates = event.terminates || terminates != 0;
+    return event;
+  }
+  bool product(const double* seed, double* to) override {
+    return good(get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, to));
+  }
+  bool values(const std::vector<unsigned>& references, double* to) override {
+    return good(get_real_(instance_, references.data(), references.size(), to));
+  }
+
+ private:
+  static void log(void* self, const char*, fmiStatus status, const char*, const char* format, ...) {
+    char text[1000] = "";
+    va_list values;
+    va_start(values, format);
+    if (format) std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    static_cast<Fmi2Instance*>(self)->keepMessage(status, text);
+  }
+
+  void set(const FmuVariable& variable, double value) {
+    const unsigned reference = variable.reference;
+    const int whole = static_cast<int>(value);
+    fmiStatus status = fmiOK;
+    if (variable.type == FmuType::kReal) {
+      status = get<fmi2SetRealTYPE>("fmi2SetReal")(instance_, &reference, 1, &value);
+    } else if (variable.type == FmuType::kInteger) {
+      status = get<fmi2SetIntegerTYPE>("fmi2SetInteger")(instance_, &reference, 1, &whole);
+    } else {
+      status = get<fmi2SetBooleanTYPE>("fmi2SetBoolean")(instance_, &reference, 1, &whole);
+    }
+    require(status, ("setting " + variable.name).c_str());
+  }
+
+  FmuEvent settle() {
+    FmuEvent event;
+    fmi2EventInfo info{};
+    for (int pass = 0; pass == 0 || (info.newDiscreteStatesNeeded && !info.terminateSimulation); ++pass) {
+      if (pass == kMaxEventPasses) refuseEndless();
+      info = {};
+      require(new_states_(instance_, &info), "fmi2NewDiscreteStates");
+      event.states_changed = event.states_changed || info.valuesOfContinuousStatesChanged != 0;
+    }
+    event.terminates = info.terminateSimulation != 0;
+    event.has_next_time = info.nextEventTimeDefined != 0;
+    event.next_time = info.nextEventTime;
+    if (!event.terminates) require(enter_continuous_(instance_), "fmi2EnterContinuousTimeMode");
+    return event;
+  }
+
+  fmi2CallbackFunctions callbacks_{};
+  fmi2EnterEventModeTYPE* enter_event_ = get<fmi2EnterEventModeTYPE>("fmi2EnterEventMode");
+  fmi2NewDiscreteStatesTYPE* new_states_ = get<fmi2NewDiscreteStatesTYPE>("fmi2NewDiscreteStates");
+  fmi2EnterContinuousTimeModeTYPE* enter_continuous_ =
+      get<fmi2EnterContinuousTimeModeTYPE>("fmi2EnterContinuousTimeMode");
+  fmi2CompletedIntegratorStepTYPE* step_ = get<fmi2CompletedIntegratorStepTYPE>("fmi2CompletedIntegratorStep");
+  fmi2GetRealTYPE* get_real_ = get<fmi2GetRealTYPE>("fmi2GetReal");
+  fmi2GetDirectionalDerivativeTYPE* get_product_ =
+      fmu_.description.directional_derivatives ? get<fmi2GetDirectionalDerivativeTYPE>("fmi2GetDirectionalDerivative")
+                                               : nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<FmuInstance> makeFmi2(const FmuLibrary& fmu) { return std::make_unique<Fmi2Instance>(fmu); }
+
+}  // namespace irk::own

@@ -1,0 +1,97 @@
+#include "experiments/own/fmu/instance_base.h"
+
+namespace irk::own {
+namespace {
+
+class Fmi3Instance final : public CommonInstance {
+ public:
+  explicit Fmi3Instance(const FmuLibrary& fmu) : CommonInstance(fmu, "fmi3", "GetContinuousStateDerivatives") {
+    const std::string resources = fmu.resources + "/";
+    const auto log = [](void* self, fmiStatus status, const char*, const char* text) {
+      static_cast<Fmi3Instance*>(self)->keepMessage(status, text);
+    };
+    instance_ = get<fmi3InstantiateModelExchangeTYPE>("fmi3InstantiateModelExchange")(
+        fmu.description.name.c_str(), fmu.description.token.c_str(), resources.c_str(), false, false, this, log);
+    if (!instance_) throw Misuse("fmi3InstantiateModelExchange fails" + (message_.empty() ? "" : ": " + message_));
+  }
+  ~Fmi3Instance() override {
+    if (!instance_) return;
+    forgetStart();
+    get<fmi3FreeInstanceTYPE>("fmi3FreeInstance")(instance_);
+  }
+
+  FmuEvent begin(const std::vector<FmuValue>& values, double start, double stop) override {
+    for (const auto& [variable, value] : values) set(*variable, value);
+    require(get<fmi3EnterInitializationModeTYPE>("fmi3EnterInitializationMode")(instance_, false, 0, start, true, stop),
+            "fmi3EnterInitializationMode");
+    require(get<fmi3ExitInitializationModeTYPE>("fmi3ExitInitializationMode")(instance_), "fmi3ExitInitializationMode");
+    const FmuEvent event = settle();
+    keepStart();
+    return event;
+  }
+  FmuEvent event() override {
+    bool wants_event = false, terminates = false;
+    if (fmu_.description.steps_completed) {
+      require(step_(instance_, true, &wants_event, &terminates), "fmi3CompletedIntegratorStep");
+    }
+    require(enter_event_(instance_), "fmi3EnterEventMode");
+    FmuEvent event = settle();
+    event.terminates = event.terminates || terminates;
+    return event;
+  }
+  bool product(const double* seed, double* to) override {
+    return good(
+        get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, n_, to, n_));
+  }
+  bool values(const std::vector<unsigned>& references, double* to) override {
+    return good(get_real_(instance_, references.data(), references.size(), to, references.size()));
+  }
+
+ private:
+  void set(const FmuVariable& variable, double value) {
+    const unsigned reference = variable.reference;
+    const auto whole = static_cast<std::int32_t>(value);
+    const bool truth = value != 0;
+    fmiStatus status = fmiOK;
+    if (variable.type == FmuType::kReal) {
+      status = get<fmi3SetFloat64TYPE>("fmi3SetFloat64")(instance_, &reference, 1, &value, 1);
+    } else if (variable.type == FmuType::kInteger) {
+      status = get<fmi3SetInt32TYPE>("fmi3SetInt32")(instance_, &reference, 1, &whole, 1);
+    } else {
+      status = get<fmi3SetBooleanTYPE>("fmi3SetBoolean")(instance_, &reference, 1, &truth, 1);
+    }
+    require(status, ("setting " + variable.name).c_str());
+  }
+
+  FmuEvent settle() {
+    FmuEvent event;
+    bool again = true;
+    for (int pass = 0; again && !event.terminates; ++pass) {
+      if (pass == kMaxEventPasses) refuseEndless();
+      bool nominals_changed = false, states_changed = false;
+      again = event.has_next_time = false;
+      require(update_(instance_, &again, &event.terminates, &nominals_changed, &states_changed, &event.has_next_time,
+                      &event.next_time),
+              "fmi3UpdateDiscreteStates");
+      event.states_changed = event.states_changed || states_changed;
+    }
+    if (!event.terminates) require(enter_continuous_(instance_), "fmi3EnterContinuousTimeMode");
+    return event;
+  }
+
+  fmi3EnterEventModeTYPE* enter_event_ = get<fmi3EnterEventModeTYPE>("fmi3EnterEventMode");
+  fmi3UpdateDiscreteStatesTYPE* update_ = get<fmi3UpdateDiscreteStatesTYPE>("fmi3UpdateDiscreteStates");
+  fmi3EnterContinuousTimeModeTYPE* enter_continuous_ =
+      get<fmi3EnterContinuousTimeModeTYPE>("fmi3EnterContinuousTimeMode");
+  fmi3CompletedIntegratorStepTYPE* step_ = get<fmi3CompletedIntegratorStepTYPE>("fmi3CompletedIntegratorStep");
+  fmi3GetFloat64TYPE* get_real_ = get<fmi3GetFloat64TYPE>("fmi3GetFloat64");
+  fmi3GetDirectionalDerivativeTYPE* get_product_ =
+      fmu_.description.directional_derivatives ? get<fmi3GetDirectionalDerivativeTYPE>("fmi3GetDirectionalDerivative")
+                                               : nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<FmuInstance> makeFmi3(const FmuLibrary& fmu) { return std::make_unique<Fmi3Instance>(fmu); }
+
+}  // namespace irk::own

@@ -1,0 +1,102 @@
+// What instances of both versions of the standard have in common.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "experiments/own/fmu/instance.h"
+#include "irk/misuse.h"
+
+namespace irk::own {
+
+/// Passes of event mode after which an FMU is said not to settle.
+inline constexpr int kMaxEventPasses = 1000;
+
+/// The functions that both versions have under the names fmi2NAME and fmi3NAME, and the messages of the FMU.
+class CommonInstance : public FmuInstance {
+ public:
+  CommonInstance(const FmuLibrary& fmu, const std::string& prefix, const char* derivatives)
+      : fmu_(fmu),
+        n_(fmu.description.states.size()),
+        set_time_(get<fmiSetTimeTYPE>(prefix + "SetTime")),
+        set_states_(get<fmiSetContinuousStatesTYPE>(prefix + "SetContinuousStates")),
+        get_states_(get<fmiGetContinuousStatesTYPE>(prefix + "GetContinuousStates")),
+        get_nominals_(get<fmiGetNominalsOfContinuousStatesTYPE>(prefix + "GetNominalsOfContinuousStates")),
+        get_derivatives_(get<fmiGetDerivativesTYPE>(prefix + derivatives)),
+        get_indicators_(get<fmiGetEventIndicatorsTYPE>(prefix + "GetEventIndicators")) {
+    if (fmu.description.states_kept) {
+      const std::string state = prefix == "fmi2" ? "FMUstate" : "FMUState";
+      keep_state_ = get<fmiGetFMUStateTYPE>(prefix + "Get" + state);
+      set_state_ = get<fmiSetFMUStateTYPE>(prefix + "Set" + state);
+      free_state_ = get<fmiFreeFMUStateTYPE>(prefix + "Free" + state);
+    }
+    for (const auto& state : fmu.description.states) references_.push_back(state.reference);
+  }
+
+  bool returnToStart() final { return start_ && good(set_state_(instance_, start_)); }
+
+  bool setPoint(double t, const double* states) final {
+    return good(set_time_(instance_, t)) && good(set_states_(instance_, states, n_));
+  }
+  bool states(double* to) final { return good(get_states_(instance_, to, n_)); }
+  bool nominals(double* to) final { return good(get_nominals_(instance_, to, n_)); }
+  bool derivatives(double* to) final { return good(get_derivatives_(instance_, to, n_)); }
+  bool indicators(double* to) final {
+    const std::size_t count = fmu_.description.indicators;
+    return count == 0 || good(get_indicators_(instance_, to, count));
+  }
+
+ protected:
+  // Sources put the name of the model before those of the functions.
+  template <class Function>
+  Function* get(const std::string& name) const {
+    const std::string with_model = fmu_.description.identifier + "_" + name;
+    if (auto* const function = fmu_.library->find<Function>(with_model.c_str())) return function;
+    return fmu_.library->get<Function>(name.c_str());
+  }
+  static bool good(fmiStatus status) { return status == fmiOK || status == fmiWarning; }
+  /// Throws Misuse unless the call has worked.
+  void require(fmiStatus status, const char* function) const {
+    if (good(status)) return;
+    throw Misuse(fmt::format("{} fails with status {}{}{}", function, static_cast<int>(status),
+                             message_.empty() ? "" : ": ", message_));
+  }
+  [[noreturn]] static void refuseEndless() {
+    throw Misuse(fmt::format("event mode does not settle in {} passes", kMaxEventPasses));
+  }
+  /// To be called at the end of `begin`, and before the instance is freed.
+  void keepStart() {
+    if (keep_state_ && !good(keep_state_(instance_, &start_))) start_ = nullptr;
+  }
+  void forgetStart() {
+    if (start_) free_state_(instance_, &start_);
+    start_ = nullptr;
+  }
+  void keepMessage(fmiStatus status, const char* text) {
+    if (status < fmiWarning || !text) return;
+    message_ = text;
+    for (char& letter : message_) letter = letter == '\n' || letter == '\r' ? ' ' : letter;
+    while (!message_.empty() && message_.back() == ' ') message_.pop_back();
+  }
+
+  const FmuLibrary& fmu_;
+  std::size_t n_;
+  fmiInstance instance_ = nullptr;
+  std::vector<unsigned> references_;  // of the states
+  std::string message_;               // the FMU's last one about a failure
+
+ private:
+  fmiSetTimeTYPE* set_time_;
+  fmiSetContinuousStatesTYPE* set_states_;
+  fmiGetContinuousStatesTYPE* get_states_;
+  fmiGetNominalsOfContinuousStatesTYPE* get_nominals_;
+  fmiGetDerivativesTYPE* get_derivatives_;
+  fmiGetEventIndicatorsTYPE* get_indicators_;
+  fmiGetFMUStateTYPE* keep_state_ = nullptr;
+  fmiSetFMUStateTYPE* set_state_ = nullptr;
+  fmiFreeFMUStateTYPE* free_state_ = nullptr;
+  void* start_ = nullptr;  // the FMU's state after `begin`
+};
+
+}  // namespace irk::own
