@@ -60,19 +60,47 @@ std::vector<Figure> readFigures(const std::filesystem::path& file) {
   return figures;
 }
 
+namespace {
+
+// Throws Misuse for damage.
+std::vector<Figure> figuresKeptOf(const std::string& study, const ReportOptions& options) {
+  requirePlainPath("study", study);
+  const FigureTables kept = keptFigures(options.results, study);
+  std::vector<Figure> figures;
+  for (const auto& figure : kept.figures) {
+    checkFigure(figure, options.home, {});
+    figures.push_back({study, figure.script + ".gp", study + "_" + figure.name,
+                       figure.title.empty() ? kept.title : figure.title, figure.caption, assignmentsOf(figure.options),
+                       true});
+  }
+  return figures;
+}
+
+}  // namespace
+
 std::vector<Figure> allFigures(const ReportOptions& options) {
   auto figures = readFigures(options.home / "plots" / "figures.txt");
   for (const auto& study : ownStudies(options.results)) {
-    requirePlainPath("study", study);
-    const FigureTables kept = keptFigures(options.results, study);
-    for (const auto& figure : kept.figures) {
-      checkFigure(figure, options.home, {});
-      figures.push_back({study, figure.script + ".gp", study + "_" + figure.name,
-                         figure.title.empty() ? kept.title : figure.title, figure.caption,
-                         assignmentsOf(figure.options), true});
+    try {
+      const auto own = figuresKeptOf(study, options);
+      figures.insert(figures.end(), own.begin(), own.end());
+    } catch (const Misuse&) {
+      // brokenFigures tells it; the figures of all others are drawn
     }
   }
   return figures;
+}
+
+std::map<std::string, std::string> brokenFigures(const ReportOptions& options) {
+  std::map<std::string, std::string> broken;
+  for (const auto& study : ownStudies(options.results)) {
+    try {
+      (void)figuresKeptOf(study, options);
+    } catch (const Misuse& misuse) {
+      broken[study] = misuse.what();
+    }
+  }
+  return broken;
 }
 
 std::vector<std::string> studiesOf(const std::vector<Figure>& figures) {

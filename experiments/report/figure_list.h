@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,11 @@ bool areQuick(const ReportOptions& options);
 
 /// Throws Misuse with file and line for a line of any other form.
 std::vector<Figure> readFigures(const std::filesystem::path& file);
-/// The figures of plots/figures.txt, then those of own studies, whose names begin with the study's.
+/// The figures of plots/figures.txt, then those of own studies, whose names begin with the study's. Studies whose
+/// figures cannot be read are left out.
 std::vector<Figure> allFigures(const ReportOptions& options);
+/// Own studies whose figures cannot be read, with the reasons.
+std::map<std::string, std::string> brokenFigures(const ReportOptions& options);
 /// The studies of these figures, in order of appearance.
 std::vector<std::string> studiesOf(const std::vector<Figure>& figures);
 

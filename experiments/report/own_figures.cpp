@@ -3,18 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 
 #include "core/base/input_file.h"
-#include "experiments/base/failure.h"
 #include "experiments/report/default_figures.h"
 #include "experiments/report/scripts.h"
 #include "experiments/study/analysis.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/tables/environment.h"
+#include "experiments/tables/new_file.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -91,13 +88,9 @@ FigureTables figuresOfStudy(const Study& study, const std::string& id_or_file) {
 
 void keepFigures(const FigureTables& figures, const std::filesystem::path& folder) {
   if (figures.figures.empty()) return;
-  const auto path = folder / kFiguresFile, beside = folder / (std::string(kFiguresFile) + ".new");
-  std::ofstream out(beside, std::ios::binary);
-  if (!(out << figureTablesText(figures)).flush()) {
-    throw Failure(fmt::format("cannot write {}: {}", beside.string(), std::strerror(errno)));
-  }
-  out.close();
-  std::filesystem::rename(beside, path);
+  NewFile file(folder / kFiguresFile);
+  file.out() << figureTablesText(figures);
+  file.close();
 }
 
 std::vector<std::string> ownStudies(const std::filesystem::path& results) {
@@ -114,6 +107,14 @@ std::vector<std::string> ownStudies(const std::filesystem::path& results) {
 FigureTables keptFigures(const std::filesystem::path& results, const std::string& study) {
   const auto path = results / study / kFiguresFile;
   return parseFigureTables(readInputFile(path), path.string());
+}
+
+std::string ownTitle(const std::filesystem::path& results, const std::string& study) {
+  try {
+    return keptFigures(results, study).title;
+  } catch (const Misuse&) {
+    return study;
+  }
 }
 
 }  // namespace irk

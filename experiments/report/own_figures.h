@@ -27,5 +27,7 @@ std::vector<std::string> ownStudies(const std::filesystem::path& results);
 
 /// Reads the figures that keepFigures has written. Throws Misuse with file and line for damage.
 FigureTables keptFigures(const std::filesystem::path& results, const std::string& study);
+/// The title of an own study; its id if the file of its figures is damaged.
+std::string ownTitle(const std::filesystem::path& results, const std::string& study);
 
 }  // namespace irk

@@ -49,7 +49,7 @@ StudyTexts textsOf(const std::string& id, const ReportOptions& options) {
     };
     return {text("title"), text("question")};
   }
-  return {keptFigures(options.results, id).title, {}};
+  return {ownTitle(options.results, id), {}};
 }
 
 // How the clock rate changed while the times of `runs` were measured; empty if there are no doubts.

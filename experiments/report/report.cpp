@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <ostream>
@@ -25,6 +24,7 @@
 #include "experiments/report/drawn_rows.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/page.h"
+#include "experiments/tables/new_file.h"
 #include "experiments/tables/table.h"
 #include "irk/misuse.h"
 
@@ -142,9 +142,16 @@ bool drawFigure(const std::string& script, const std::string& commands, const st
 
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
   const auto figures = allFigures(options);
+  const auto broken = brokenFigures(options);
+  if (const auto its = broken.find(study); its != broken.end()) throw Misuse(its->second);
   requireResults(study, figures, options);
   std::filesystem::create_directories(figureFolder(options));
   int failures = 0;
+  for (const auto& [of, reason] : broken) {
+    if (!study.empty()) continue;
+    ++failures;
+    fmt::print(err, "figures of {} are not drawn: {}\n", of, reason);
+  }
   for (const auto& of : studiesOf(figures)) {
     const auto refusal = refusedTimes(options.results / of / "runs.csv");
     if (refusal.empty() || (!study.empty() && of != study)) continue;
@@ -173,10 +180,9 @@ std::filesystem::path writeReport(const ReportOptions& options) {
       writeTable(path.parent_path() / fmt::format("answers_{}.csv", answer.id), answer.table);
   }
   const std::string page = pageHtml(options, answers);
-  std::ofstream out(path, std::ios::binary);
-  if (!(out << page).flush()) {
-    throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-  }
+  NewFile file(path);
+  file.out() << page;
+  file.close();
   return path;
 }
 

@@ -14,6 +14,7 @@
 
 #include "core/base/input_file.h"
 #include "experiments/base/failure.h"
+#include "experiments/tables/new_file.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -163,9 +164,9 @@ Table readTable(const std::filesystem::path& path) {
 }
 
 TableWriter::TableWriter(std::filesystem::path file, const TableHead& head, const std::vector<std::string>& columns)
-    : file_(std::move(file)), beside_(file_.string() + ".new") {
-  requireRegularFile(file_);  // renaming would put the table in the place of a device
+    : file_(std::move(file)) {
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
+  beside_ = newBeside(file_);
   out_.open(beside_, std::ios::binary);
   for (const auto& [key, value] : head) out_ << "# " << key << ": " << value << '\n';
   add(columns);

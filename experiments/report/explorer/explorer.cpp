@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <ostream>
 
 #include "core/base/input_file.h"
-#include "experiments/base/failure.h"
 #include "experiments/base/html.h"
 #include "experiments/report/explorer/explorer_data.h"
 #include "experiments/tables/environment.h"
+#include "experiments/tables/new_file.h"
 
 namespace irk {
 namespace {
@@ -57,15 +54,11 @@ std::optional<std::filesystem::path> writeExplorer(const ReportOptions& options,
   const std::string_view data = "@DATA@";
   const auto at = page.find(data);
   std::filesystem::create_directories(path.parent_path());
-  const std::filesystem::path beside = path.string() + ".new";
-  std::ofstream out(beside, std::ios::binary);
-  out << page.substr(0, at);
-  writeExplorerData(options.results, out);
-  if (!(out << page.substr(at + data.size())).flush()) {
-    throw Failure(fmt::format("cannot write {}: {}", beside.string(), std::strerror(errno)));
-  }
-  out.close();
-  std::filesystem::rename(beside, path);
+  NewFile file(path);
+  file.out() << page.substr(0, at);
+  writeExplorerData(options.results, file.out());
+  file.out() << page.substr(at + data.size());
+  file.close();
   return path;
 }
 

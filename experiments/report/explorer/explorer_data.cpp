@@ -98,7 +98,7 @@ void write(const Object& object, std::ostream& out) {
 
 std::string titleOf(const std::filesystem::path& results, const std::string& study) {
   const auto own = ownStudies(results);
-  if (std::find(own.begin(), own.end(), study) != own.end()) return keptFigures(results, study).title;
+  if (std::find(own.begin(), own.end(), study) != own.end()) return ownTitle(results, study);
   return loadStudy(study, StudyVariant::kQuick).title;
 }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iostream>
 #include <set>
 
 #include "experiments/report/default_figures.h"
 #include "experiments/report/own_figures.h"
+#include "experiments/report/report.h"
 #include "experiments/report/scripts.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
@@ -224,6 +226,23 @@ TEST(OwnTableaus, OfOneFamilyAreTwoPanels) {
   EXPECT_NEAR(height('c'), 3, 0.05);
   const Svg steps = drawing.draw("error_vs_step.gp", "scene='kepler'; families='sdirk'");
   EXPECT_TRUE(says(steps, {"2 one: 2.00", "2 two: 3.00"}));
+}
+
+// One damaged file costs the figures of its study only.
+TEST_F(OwnFigures, DamagedOnesDoNotStopTheOthers) {
+  const ReportOptions options{folder_.path() / "results", IRK_SOURCE_DIR};
+  for (const char* study : {"broken", "whole"}) std::filesystem::create_directories(options.results / study);
+  keepFigures(figures(kBlock), options.results / "whole");
+  std::ofstream(options.results / "broken" / kFiguresFile) << "[[figure]]\nscript = 3\n";
+  const auto broken = brokenFigures(options);
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_TRUE(containsAll(broken.at("broken"), {"broken/figures.toml"}));
+  EXPECT_EQ(ownTitle(options.results, "broken"), "broken");
+  std::set<std::string> drawn;
+  for (const auto& figure : allFigures(options)) drawn.insert(figure.study);
+  EXPECT_TRUE(drawn.contains("whole"));
+  EXPECT_FALSE(drawn.contains("broken"));
+  EXPECT_TRUE(containsAll(misuseOf([&] { drawFigures("broken", options, std::cerr); }), {"broken/figures.toml"}));
 }
 
 }  // namespace
