@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/tables/table.h"
+#include "experiments/tables/timing_class.h"
 #include "irk/misuse.h"
 
 namespace irk::compare {
@@ -75,8 +76,12 @@ Runs runsOf(const std::filesystem::path& file) {
   const auto environments = file.parent_path() / "environments.csv";
   if (!std::filesystem::is_regular_file(environments)) return runs;
   const Table table = readTable(environments);
-  const auto id = table.column("environment"), cpu = table.column("cpu");
-  for (const auto& row : table.rows) runs.processors[row[id]] = row[cpu];
+  const auto id = table.column("environment");
+  for (const auto& row : table.rows) {
+    for (const std::string library : {"", "SUNDIALS", "GSL"}) {
+      runs.processors[row[id] + library] = timingClass(table.columns, row, library);
+    }
+  }
   return runs;
 }
 

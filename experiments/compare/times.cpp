@@ -9,6 +9,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/compare/ratio.h"
+#include "experiments/tables/timing_class.h"
 
 namespace irk::compare {
 namespace {
@@ -53,6 +54,7 @@ double Spread::middle() const {
 
 TimeComparer::Columns::Columns(const Runs& its, const Table& names)
     : processors(its.processors),
+      method(placeOf(names, "method")),
       environment(placeOf(names, "cpu_environment")),
       seconds(placeOf(names, "cpu_s")),
       runs(placeOf(names, "cpu_runs")),
@@ -66,8 +68,11 @@ TimeComparer::Columns::Columns(const Runs& its, const Table& names)
 
 std::string TimeComparer::Columns::processorOf(const TableRow& row) const {
   if (environment < row.size()) {
-    const auto found = processors.find(row[environment]);
-    if (found != processors.end()) return found->second;
+    const std::string library(method < row.size() ? libraryOfMethod(row[method]) : "");
+    for (const auto& id : {row[environment] + library, row[environment]}) {
+      const auto found = processors.find(id);
+      if (found != processors.end()) return found->second;
+    }
   }
   return processor;
 }

@@ -58,7 +58,7 @@ class TimeComparer {
 
     const std::map<std::string, std::string>& processors;
     std::string processor = "unknown";  ///< of the whole table
-    std::size_t environment, seconds, runs, all;
+    std::size_t method, environment, seconds, runs, all;
   };
   /// The repetitions of a run in both tables, or only their minima if one table has too few.
   struct Timed {

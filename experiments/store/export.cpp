@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "experiments/base/failure.h"
+#include "experiments/store/facts.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/calibration.h"
@@ -59,37 +60,36 @@ struct Store::Origins {
   };
   std::map<std::uint16_t, std::size_t> codes, environments;  // rows of each
   std::uint32_t first_date = ~0u, last_date = 0;
-  std::map<std::string, Measured> measured;  // by processor
+  std::map<std::string, Measured> measured;  // by timing class
 
   // The reason why their times are not joined; empty if they are.
   std::string refusalOfTimes() const {
     if (measured.size() < 2) return {};
-    std::string text = fmt::format("times of {} processors are not joined:", measured.size());
-    for (const auto& [processor, its] : measured) {
-      text += fmt::format(" '{}' ({} rows, environments {}),", processor, its.rows, fmt::join(its.environments, " "));
+    std::string text = fmt::format("times of {} timing classes (processor, compiler, flags, libraries) are not joined:",
+                                   measured.size());
+    for (const auto& [timing_class, its] : measured) {
+      text +=
+          fmt::format(" '{}' ({} rows, environments {}),", timing_class, its.rows, fmt::join(its.environments, " "));
     }
     return text +
-           " so runs.csv has none. Either --times here, which keeps those of this processor and measures the others "
+           " so runs.csv has none. Either --times here, which keeps those of this one and measures the others "
            "again if the study has a timing pass, or --fresh";
   }
 };
 
 Store::Origins Store::originsOf(const RunKeys& keys) const {
   Origins origins;
-  std::map<std::string, std::string> processors;  // by environment
+  TimingClasses classes(runs_, environments_);
   forEachRun(keys, [&](const Entry& entry, const std::string&) {
     ++origins.codes[entry.code];
     ++origins.environments[entry.environment];
     origins.first_date = std::min(origins.first_date, entry.date);
     origins.last_date = std::max(origins.last_date, entry.date);
     if (runs_.name(entry.outcome) != name(Outcome::kSuccess)) return;
-    const auto& environment = runs_.name(entry.cpu_environment);
-    const auto [at, added] = processors.try_emplace(environment);
-    if (added) at->second = processor(environment);
-    if (options_.times == Times::kHere && at->second != processorName()) return;
-    auto& here = origins.measured[at->second];
+    if (options_.times == Times::kHere && !timedHere(entry)) return;
+    auto& here = origins.measured[classes.of(entry)];
     ++here.rows;
-    here.environments.insert(environment);
+    here.environments.insert(runs_.name(entry.cpu_environment));
   });
   return origins;
 }

@@ -1,6 +1,7 @@
 #include "experiments/store/facts.h"
 
 #include "experiments/runs/run_table.h"
+#include "experiments/tables/timing_class.h"
 
 namespace irk::store {
 
@@ -12,6 +13,19 @@ RunFacts factsOf(const Rows& runs, const Entry& entry, bool planned) {
   const auto error = [&](const char* name) { return numberAt(names, row, name); };
   facts.errors = {error("error_u"), error("error_v"), error("error_x"), error("error_z")};
   return facts;
+}
+
+TimingClasses::TimingClasses(const Rows& runs, const Rows& environments)
+    : runs_(runs), environments_(environments), method_(Table{{}, runs.columns(), {}}.column("method")) {}
+
+const std::string& TimingClasses::of(const Entry& entry) {
+  const bool is_one = environments_.size() <= 1;
+  const std::string library(is_one ? "" : libraryOfMethod(runs_.row(entry)[method_]));
+  const auto [at, added] = known_.try_emplace({entry.cpu_environment, library}, "unknown");
+  if (!added) return at->second;
+  const auto environment = environments_.find(keyNumber(runs_.name(entry.cpu_environment)));
+  if (environment) at->second = timingClass(environments_.columns(), environments_.row(*environment), library);
+  return at->second;
 }
 
 }  // namespace irk::store

@@ -15,6 +15,8 @@
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 
+#include "experiments/tables/new_file.h"
+#include "experiments/tables/timing_class.h"
 namespace irk::store {
 namespace {
 
@@ -163,8 +165,14 @@ void Store::forEachRun(const RunKeys& keys, const TakeRun& take) const {
 }
 
 bool Store::timedHere(const Entry& entry) const {
-  const auto& environment = runs_.name(entry.cpu_environment);
-  return environment == thisEnvironment().front() || processor(environment) == processorName();
+  if (runs_.name(entry.cpu_environment) == thisEnvironment().front()) return true;
+  const auto environment = environments_.find(keyNumber(runs_.name(entry.cpu_environment)));
+  if (!environment) return false;
+  const Table names{{}, runs_.columns(), {}};
+  const auto library = libraryOfMethod(textAt(names, runs_.row(entry), "method"));
+  const auto columns = environmentColumns();
+  return timingClass(columns, environments_.row(*environment), library) ==
+         timingClass(columns, thisEnvironment(), library);
 }
 
 }  // namespace irk::store
