@@ -143,7 +143,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
     return 1;
   }
   for (const auto& store : stores) merged.takeOver(*store);
-  merged.exportTables(keys);
+  merged.exportTables(keys, streams.err);
   keepFigures(figures, folder);
   const RunFile runs(folder / "runs.csv");
   const auto doubts = writeSummaries(study, runs, folder, streams.err);

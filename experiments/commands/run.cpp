@@ -155,7 +155,17 @@ void timeTogether(const Study& study, const RunKeys& keys, const RunnerOptions& 
     store.reset();
     store.emplace(studyFolder(study, options), study.id, store::Use::kWrite, options.store, err);
   }
-  store->exportTables(keys);
+  store->exportTables(keys, err);
+}
+
+// What other ranks have made must be where this one reads.
+void requireRowsOfAll(const Study& study, const RunKeys& keys, const store::Store& store) {
+  const auto report = store::reportOf(study, keys, {&store});
+  if (report.missing == 0 || interruptFlag()) return;
+  throw Failure(fmt::format(
+      "{}: {} of {} runs are missing after all ranks have ended. Results must be in a folder that all hosts "
+      "share: --results {}",
+      study.id, report.missing, report.expected, store.folder().string()));
 }
 
 // Makes the runs on all ranks, then reads the store again.
@@ -172,8 +182,11 @@ RunKeys makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ran
     fmt::print(err, "{}: {} ranks; what another one gets counts as done\n", study.id, ranks.count());
   auto keys = makeRuns(study, options, *store, ranks, err);
   ranks.meet();
-  if (ranks.count() > 1) open();  // includes the rows of the other ranks
-  store->exportTables(keys);
+  if (ranks.count() > 1) {
+    open();  // includes the rows of the other ranks
+    requireRowsOfAll(study, keys, *store);
+  }
+  store->exportTables(keys, err);
   return keys;
 }
 

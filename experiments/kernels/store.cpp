@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
 
@@ -35,8 +34,6 @@ class Folder {
   std::filesystem::path path_;
 };
 
-std::uint64_t keyOf(std::int64_t i) { return fnv1a(std::to_string(i)); }
-
 RunRecord record() {
   RunRecord made;
   made.spec.scene = sceneCatalogue().front().id;
@@ -49,17 +46,19 @@ RunRecord record() {
   return made;
 }
 
-void fill(const std::filesystem::path& folder, std::int64_t rows) {
+// The keys of the rows, which differ in their tolerances, as those of a series.
+std::vector<std::uint64_t> fill(const std::filesystem::path& folder, std::int64_t rows) {
   std::ostringstream quiet;
   store::Store store(folder, "benchmark", store::Use::kWrite, {}, quiet);
-  const RunRecord made = record();
-  for (std::int64_t i = 0; i < rows; ++i) store.addRun(runRow(hexText(keyOf(i)), "benchmark", made));
-}
-
-std::vector<std::uint64_t> keys(std::int64_t rows) {
-  std::vector<std::uint64_t> all;
-  for (std::int64_t i = 0; i < rows; ++i) all.push_back(keyOf(i));
-  return all;
+  RunRecord made = record();
+  std::vector<std::uint64_t> keys;
+  for (std::int64_t i = 0; i < rows; ++i) {
+    made.spec.options.tolerances.rtol = 1e-3 / static_cast<double>(i + 1);
+    const std::string key = specKey(made.spec);
+    store.addRun(runRow(key, "benchmark", made));
+    keys.push_back(store::keyNumber(key));
+  }
+  return keys;
 }
 
 double heldBytes() { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); }
@@ -84,8 +83,7 @@ void append(benchmark::State& state) {
 
 void resume(benchmark::State& state) {
   const Folder folder(state.range(0));
-  fill(folder.path(), state.range(0));
-  const auto all = keys(state.range(0));
+  const auto all = fill(folder.path(), state.range(0));
   std::ostringstream quiet;
   for ([[maybe_unused]] auto _ : state) {
     const double before = heldBytes();
@@ -102,12 +100,11 @@ void resume(benchmark::State& state) {
 
 void exportRuns(benchmark::State& state) {
   const Folder folder(state.range(0));
-  fill(folder.path(), state.range(0));
-  const auto all = keys(state.range(0));
+  const auto all = fill(folder.path(), state.range(0));
   std::ostringstream quiet;
   store::Store store(folder.path(), "benchmark", store::Use::kWrite, {}, quiet);
   const store::RunKeys runs(all);
-  for ([[maybe_unused]] auto _ : state) store.exportTables(runs);
+  for ([[maybe_unused]] auto _ : state) store.exportTables(runs, quiet);
   countRows(state);
 }
 

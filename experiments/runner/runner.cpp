@@ -287,7 +287,7 @@ Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& p
   store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
   const auto alone = aloneRank();
   const auto keys = makeRuns(study, options, store, *alone, progress);
-  store.exportTables(keys);
+  store.exportTables(keys, progress);
   return readTable(store.folder() / "runs.csv");
 }
 

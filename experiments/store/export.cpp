@@ -1,36 +1,30 @@
 // Exports tables from the rows of a store.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "experiments/base/failure.h"
-#include "experiments/store/facts.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/calibration.h"
+#include "experiments/store/facts.h"
 #include "experiments/store/store.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
+#include "experiments/tables/new_file.h"
 
 namespace irk::store {
 namespace {
 
-// Writes to a file beside the target and renames it, so that readers never see a partial table.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
-  const std::filesystem::path beside = file.string() + ".new";
-  std::ofstream out(beside, std::ios::binary);
-  write(out);
-  if (!out.flush()) throw Failure(fmt::format("cannot write {}: {}", beside.string(), std::strerror(errno)));
-  out.close();
-  std::filesystem::rename(beside, file);
+  NewFile whole(file);
+  write(whole.out());
+  whole.close();
 }
 
 std::string startOf(const TableHead& head, const std::vector<std::string>& columns) {
@@ -41,14 +35,7 @@ std::string startOf(const TableHead& head, const std::vector<std::string>& colum
 
 std::string joined(const std::set<std::string>& texts) { return fmt::format("{}", fmt::join(texts, " | ")); }
 
-std::string textOf(std::uint32_t seconds) {
-  const std::time_t time = seconds;
-  std::tm utc{};
-  gmtime_r(&time, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
+std::string textOf(std::uint32_t seconds) { return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time_t{seconds})); }
 
 }  // namespace
 
@@ -124,18 +111,26 @@ TableHead Store::head(const Origins& origins, const std::string& refusal) const 
   return head;
 }
 
-void Store::exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const {
+void Store::exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused, std::ostream& messages) {
   const Table names{{}, runs_.columns(), {}};
+  RowKeys keys_of_settings(runs_.columns());
+  std::vector<std::string_view> cells;
   writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
     auto columns = runs_.columns();
     if (keys.hasBlocks()) columns.emplace_back(kBlockColumn);
     out << startOf(head, columns);
     forEachRun(keys, [&](const Entry& entry, const std::string& blocks) {
+      const std::string text = runs_.csv(entry, cells);
+      if (!runs_.isOwn(entry) && keys_of_settings.keyOf(cells) != entry.key) {
+        runs_.setAside(entry, "its key is not that of its settings", messages);
+        wrong_keys_.insert(entry.key);
+        return;
+      }
       const bool times_count = !times_refused && (options_.times == Times::kAll || timedHere(entry));
       if (times_count) {
-        out << runs_.csv(entry);
+        out << text;
       } else {
-        TableRow row = runs_.row(entry);
+        TableRow row = plainRow(cells);
         forgetTiming(names, row);
         out << csvLine(row);
       }
@@ -149,7 +144,7 @@ void Store::exportStates(const RunKeys& keys) const {
   writeWhole(folder_ / "states.csv", [&](std::ostream& out) {
     out << startOf({{"study", study_}}, states_.columns());
     keys.forEach([&](std::uint64_t key, const std::string&) {
-      if (const auto entry = states_.find(key)) out << states_.line(*entry) << '\n';
+      if (const auto entry = states_.find(key)) out << states_.csv(*entry) << '\n';
     });
   });
 }
@@ -161,14 +156,18 @@ void Store::exportAll(const Rows& rows, const std::string& name) const {
             [](const Entry& a, const Entry& b) { return std::pair(a.part, a.offset) < std::pair(b.part, b.offset); });
   writeWhole(folder_ / (name + ".csv"), [&](std::ostream& out) {
     out << startOf({{"study", study_}}, rows.columns());
-    for (const auto& entry : all) out << rows.line(entry) << '\n';
+    for (const auto& entry : all) out << rows.csv(entry) << '\n';
   });
 }
 
-std::string Store::exportTables(const RunKeys& keys) {
-  const Origins origins = originsOf(keys);
-  const auto refusal = origins.refusalOfTimes();
-  exportRuns(keys, head(origins, refusal), !refusal.empty());
+std::string Store::exportTables(const RunKeys& keys, std::ostream& messages) {
+  std::string refusal;
+  for (auto wrong = wrong_keys_.size() + 1; wrong != wrong_keys_.size();) {  // once more without rows found to be wrong
+    wrong = wrong_keys_.size();
+    const Origins origins = originsOf(keys);
+    refusal = origins.refusalOfTimes();
+    exportRuns(keys, head(origins, refusal), !refusal.empty(), messages);
+  }
   exportAll(environments_, "environments");
   if (calibrations_.size() > 0) exportAll(calibrations_, "calibrations");
   if (states_.size() > 0) exportStates(keys);

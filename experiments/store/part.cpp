@@ -12,6 +12,7 @@
 
 #include "experiments/base/failure.h"
 #include "experiments/runs/block_names.h"
+#include "experiments/store/checksum.h"
 
 namespace irk::store {
 namespace {
@@ -37,8 +38,55 @@ std::string oneLine(const TableRow& row) {
       if (c == '\n' || c == '\r') c = ' ';
     }
   }
-  return csvLine(cells) + '\n';
+  return csvLine(cells);
 }
+
+[[noreturn]] void cannotReadPart(const std::filesystem::path& file) {
+  throw Failure(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+}
+
+[[noreturn]] void cannotWritePart(const std::filesystem::path& file) {
+  throw Failure(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
+}
+
+/// Reads the lines of one part.
+class PartLines {
+ public:
+  PartLines(const std::vector<std::string>& columns, const std::function<std::string(const WrittenRow&)>& take)
+      : columns_(columns), take_(take) {}
+
+  /// Sets the reading's `names`, and `sealed`.
+  void readNames(std::string_view text, bool cut) {
+    const Seal seal = checkNames(text);
+    reading.sealed = seal != Seal::kNone;
+    using Names = PartReading::Names;
+    if (seal == Seal::kWrong || cut || !splitLine(text, cells_)) {
+      reading.names = Names::kDamaged;
+      return;
+    }
+    TableRow header = plainRow(cells_);
+    width_ = header.size();
+    if (header.back() == kBlockColumn) header.pop_back();  // the table was exported
+    reading.names = header == columns_ ? Names::kThese : Names::kOthers;
+  }
+
+  /// Why the line is not read; empty if it is.
+  std::string readRow(std::string_view text, bool cut, std::uint64_t offset) {
+    if (cut) return "it has no line end";
+    if (reading.sealed && checkRow(text) != Seal::kRight) return "its checksum is wrong";
+    if (!splitLine(text, cells_)) return "a quote is unbalanced";
+    if (cells_.size() != width_) return fmt::format("it has {} cells, the columns are {}", cells_.size(), width_);
+    return take_({cells_, offset, reading.sealed});
+  }
+
+  PartReading reading;
+
+ private:
+  const std::vector<std::string>& columns_;
+  const std::function<std::string(const WrittenRow&)>& take_;
+  std::size_t width_ = 0;
+  std::vector<std::string_view> cells_;
+};
 
 }  // namespace
 
@@ -71,12 +119,11 @@ TableRow plainRow(const std::vector<std::string_view>& cells) {
 }
 
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                     const std::function<bool(const std::vector<std::string_view>&, std::uint64_t)>& take) {
+                     const std::function<std::string(const WrittenRow& row)>& take) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Failure(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
-  PartReading reading;
-  std::size_t width = 0;
-  std::vector<std::string_view> cells;
+  if (!in) cannotReadPart(file);
+  PartLines lines(columns, take);
+  PartReading& reading = lines.reading;
   std::string line;
   std::uint64_t offset = 0;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
@@ -85,19 +132,29 @@ PartReading readPart(const std::filesystem::path& file, const std::vector<std::s
     offset += line.size() + 1;
     std::string_view text = line;
     if (text.ends_with('\r')) text.remove_suffix(1);
-    const bool whole = splitLine(text, cells) && !cut;
-    if (!reading.columns_match) {
-      if (text.starts_with('#')) continue;
-      TableRow header = plainRow(cells);
-      width = header.size();
-      if (!header.empty() && header.back() == kBlockColumn) header.pop_back();  // the table was exported
-      if (!whole || header != columns) return reading;
-      reading.columns_match = true;
-    } else if (!whole || cells.size() != width || !take(cells, start)) {
-      reading.damaged.push_back({number, line});
+    if (reading.names == PartReading::Names::kMissing) {
+      if (!text.starts_with('#')) lines.readNames(text, cut);
+      continue;
     }
+    if (reading.names != PartReading::Names::kThese) break;
+    std::string why = lines.readRow(text, cut, start);
+    if (!why.empty()) reading.damaged.push_back({number, line, std::move(why)});
   }
-  return reading;
+  return std::move(reading);
+}
+
+void writeSealed(const std::filesystem::path& table, const std::vector<std::string>& columns,
+                 const std::filesystem::path& part) {
+  std::ofstream out(part, std::ios::binary);
+  out << sealedNames(csvLine(columns)) << '\n';
+  readPart(table, columns, [&](const WrittenRow& row) {
+    std::string_view text = row.text();
+    const bool has_blocks = row.cells.size() > columns.size();
+    if (has_blocks) text.remove_suffix(row.cells.back().size() + 1);
+    out << sealedRow(text) << '\n';
+    return std::string();
+  });
+  if (!out.flush()) cannotWritePart(part);
 }
 
 PartWriter::PartWriter(std::filesystem::path folder, std::string name, std::vector<std::string> columns)
@@ -115,10 +172,10 @@ void PartWriter::open() {
     file_ = folder_ / (i == 1 ? name_ + ".csv" : fmt::format("{}_{}.csv", name_, i));
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) {
-      throw Failure(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
+      cannotWritePart(file_);
     }
   }
-  write(csvLine(columns_) + '\n');
+  write(sealedNames(csvLine(columns_)) + '\n');
 }
 
 void PartWriter::write(const std::string& text) {
@@ -131,14 +188,14 @@ void PartWriter::write(const std::string& text) {
       failed_ = true;
     }
   }
-  if (failed_) throw Failure(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
+  if (failed_) cannotWritePart(file_);
   size_ += text.size();
 }
 
 std::uint64_t PartWriter::append(const TableRow& row) {
   if (descriptor_ < 0) open();
   const std::uint64_t offset = size_;
-  write(oneLine(row));
+  write(sealedRow(oneLine(row)) + '\n');
   return offset;
 }
 

@@ -20,25 +20,47 @@ bool splitLine(std::string_view line, std::vector<std::string_view>& cells);
 std::string plainCell(std::string_view written);
 TableRow plainRow(const std::vector<std::string_view>& cells);
 
-/// A line that cannot be read: an unbalanced quote, a wrong number of cells, or a last line without a line end.
+/// A line that is not read, and why: its checksum is wrong, a quote is unbalanced, the number of cells is wrong, the
+/// last line has no line end, or `take` has refused its row.
 struct DamagedLine {
   std::size_t line;  ///< counts from 1
   std::string text;
+  std::string why;  ///< `its checksum is wrong`
 };
 
 struct PartReading {
-  bool columns_match = false;  ///< false: written by another version; none of its rows are read
+  /// What the line of column names says; none of the rows are read unless it is kThese.
+  enum class Names { kMissing, kThese, kOthers, kDamaged };
+  Names names = Names::kMissing;
+  bool sealed = false;  ///< its lines have checksums (checksum.h)
   std::vector<DamagedLine> damaged;
 };
 
-/// Calls `take(cells, offset)` for every row in order; `offset` is the number of bytes before the row. A table that
-/// was exported has one cell more, its blocks. Each row is one line, so damage never spreads to other rows. Throws
-/// Failure if the file cannot be read.
-PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                     const std::function<bool(const std::vector<std::string_view>& cells, std::uint64_t offset)>& take);
+/// A row of a part as it is written, without its checksum.
+struct WrittenRow {
+  const std::vector<std::string_view>& cells;  ///< quotes included; of one text, so that commas stand between them
+  std::uint64_t offset;                        ///< the bytes before the row
+  bool sealed;                                 ///< its checksum was right; otherwise the part has none
 
-/// Appends rows to a file that belongs to this process and is created with the first row. Each row is one write at
-/// the end of the file: a killed process leaves complete rows and at most one that is cut short. Not thread-safe.
+  std::string_view text() const {
+    return {cells.front().data(),
+            static_cast<std::size_t>(cells.back().data() + cells.back().size() - cells[0].data())};
+  }
+};
+
+/// Calls `take` for every row in order; it returns why it refuses the row, or an empty text. A table that was exported
+/// has one cell more, its blocks. Each row is one line, so damage never spreads to other rows. Throws Failure if the
+/// file cannot be read.
+PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                     const std::function<std::string(const WrittenRow& row)>& take);
+
+/// Writes a table without checksums as a part; lines that readPart does not read are left out. Throws Failure.
+void writeSealed(const std::filesystem::path& table, const std::vector<std::string>& columns,
+                 const std::filesystem::path& part);
+
+/// Appends rows with checksums to a file that belongs to this process and is created with the first row. Each row is
+/// one write at the end of the file: a killed process leaves complete rows and at most one that is cut short. Not
+/// thread-safe.
 class PartWriter {
  public:
   /// The file is `name`.csv; if that exists, `name`_2.csv and so on.

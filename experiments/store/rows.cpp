@@ -8,16 +8,18 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <ostream>
+#include <set>
+#include <sstream>
 #include <tuple>
 
 #include "core/base/input_file.h"
 #include "experiments/base/failure.h"
+#include "experiments/store/checksum.h"
 #include "experiments/tables/environment.h"
 
 namespace irk::store {
@@ -38,6 +40,49 @@ bool parseKey(std::string_view text, std::uint64_t& key) {
 std::string contentsOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::filesystem::path asideOf(std::filesystem::path part) { return part.replace_extension(".damaged"); }
+
+std::string asideLine(std::size_t number, std::string_view line) { return fmt::format("line {}: {}\n", number, line); }
+
+std::string asideText(const std::vector<DamagedLine>& damaged) {
+  std::string text;
+  for (const auto& line : damaged) text += asideLine(line.line, line.text);
+  return text;
+}
+
+void writeAside(const std::filesystem::path& file, const std::string& text, std::ios::openmode mode) {
+  std::ofstream out(file, std::ios::binary | std::ios::out | mode);
+  if (!(out << text).flush()) throw Failure(fmt::format("cannot write {}", file.string()));
+}
+
+// The rows that a file of lines set aside contains, without their checksums.
+std::set<std::string> rowsIn(const std::string& aside) {
+  std::set<std::string> rows;
+  std::istringstream in(aside);
+  for (std::string line; std::getline(in, line);) {
+    std::string_view row = line;
+    const auto number_end = row.find(": ");
+    if (number_end == row.npos) continue;
+    row.remove_prefix(number_end + 2);
+    checkRow(row);
+    rows.emplace(row);
+  }
+  return rows;
+}
+
+// `3, 6 and 10: its checksum is wrong; 12: it has no line end`: the lines by their reasons, up to kShownLines of them.
+std::string placesOf(const std::vector<DamagedLine>& damaged) {
+  constexpr std::size_t kShownLines = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShownLines, damaged.size()); ++i) {
+    const bool same = i > 0 && damaged[i].why == damaged[i - 1].why;
+    const bool last = i + 1 == std::min(kShownLines, damaged.size()) || damaged[i + 1].why != damaged[i].why;
+    text += fmt::format("{}{}", i == 0 ? "" : same ? ", " : "; ", damaged[i].line);
+    if (last) text += ": " + damaged[i].why;
+  }
+  return damaged.size() > kShownLines ? text + "; ..." : text;
 }
 
 }  // namespace
@@ -61,17 +106,6 @@ struct Rows::Columns {
 
 std::uint64_t keyNumber(std::string_view key) { return numberOf<std::uint64_t>(key, 16); }
 
-std::uint32_t secondsOf(std::string_view date) {
-  constexpr std::size_t kLength = 20;
-  if (date.size() != kLength || date.back() != 'Z') return 0;
-  const auto part = [date](std::size_t at, std::size_t length) { return numberOf<unsigned>(date.substr(at, length)); };
-  const std::chrono::sys_days day =
-      std::chrono::year(static_cast<int>(part(0, 4))) / std::chrono::month(part(5, 2)) / std::chrono::day(part(8, 2));
-  const auto seconds = day.time_since_epoch() / std::chrono::seconds(1) + std::int64_t{part(11, 2)} * 3600 +
-                       std::int64_t{part(14, 2)} * 60 + part(17, 2);
-  return static_cast<std::uint32_t>(seconds);
-}
-
 std::string writerName() {
   std::string date = dateText();
   std::erase_if(date, [](char c) { return c == ':' || c == '-'; });
@@ -84,6 +118,7 @@ Rows::Rows(const std::filesystem::path& folder, std::string name, std::vector<st
       name_(std::move(name)),
       columns_(std::move(columns)),
       at_(std::make_unique<Columns>(columns_)),
+      kinds_(columns_),
       names_(1),
       current_(idOf(at_->code < columns_.size() ? code : "")),
       index_([this](const Entry& a, const Entry& b) { return better(a, b); }),
@@ -127,36 +162,46 @@ std::optional<Entry> Rows::entryOf(const std::vector<std::string_view>& cells) {
   return entry;
 }
 
+std::string Rows::add(const WrittenRow& row, std::uint32_t part) {
+  if (!row.sealed) {
+    auto problem = kinds_.problemOf(row.cells);
+    if (!problem.empty()) return problem;
+  }
+  auto entry = entryOf(row.cells);
+  if (!entry) return fmt::format("'{}' is no key of 16 hexadecimal digits", row.cells.front());
+  entry->part = part;
+  entry->offset = row.offset;
+  index_.add(*entry);
+  return {};
+}
+
 void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages) {
-  const PartReading reading = readPart(file, columns_, [&](const auto& cells, std::uint64_t offset) {
-    auto entry = entryOf(cells);
-    if (!entry) return false;
-    entry->part = part;
-    entry->offset = offset;
-    index_.add(*entry);
-    return true;
+  const auto aside = asideOf(file);
+  const std::string known = std::filesystem::exists(aside) ? contentsOf(aside) : "";
+  const auto set_aside = rowsIn(known);
+  const PartReading reading = readPart(file, columns_, [&](const WrittenRow& row) {
+    const bool refused = !set_aside.empty() && set_aside.contains(std::string(row.text()));
+    return refused ? std::string("it was set aside") : add(row, part);
   });
-  if (!reading.columns_match) {
+  sealed_[part] = reading.sealed;
+  using Names = PartReading::Names;
+  if (reading.names == Names::kOthers) {
     fmt::print(messages, "{}: its columns are not those of this version; it is kept, its rows are not used\n",
                file.string());
-    return;
+  } else if (reading.names == Names::kDamaged) {
+    fmt::print(messages,
+               "{}: the line of its column names is damaged; it is kept, its rows are not used and are made again\n",
+               file.string());
   }
   damaged_ += reading.damaged.size();
   if (reading.damaged.empty()) return;
-  std::string text, lines;
-  for (const auto& line : reading.damaged) {
-    text += fmt::format("line {}: {}\n", line.line, line.text);
-    lines += fmt::format("{}{}", lines.empty() ? "" : ", ", line.line);
-  }
-  std::filesystem::path aside = file;
-  aside.replace_extension(".damaged");
-  const auto what = fmt::format("{}: {} rows cannot be read (lines {})", file.string(), reading.damaged.size(), lines);
+  const auto text = asideText(reading.damaged);
+  const auto what = fmt::format("{}: {} rows cannot be read (lines {})", file.string(), reading.damaged.size(),
+                                placesOf(reading.damaged));
   if (damage == Damage::kReport) {
     fmt::print(messages, "{}\n", what);
-  } else if (contentsOf(aside) != text) {
-    if (!(std::ofstream(aside, std::ios::binary) << text).flush()) {
-      throw Failure(fmt::format("cannot write {}", aside.string()));
-    }
+  } else if (known != text) {
+    writeAside(aside, text, std::ios::trunc);
     fmt::print(messages, "{}: they are set aside in {}; all other rows count\n", what, aside.filename().string());
   }
 }
@@ -173,6 +218,7 @@ void Rows::read(Damage damage, std::ostream& messages) {
   const auto exported = folder_.parent_path() / (name_ + ".csv");
   if (parts_.empty() && std::filesystem::exists(exported)) parts_.push_back(exported);
   for (const auto& part : parts_) requireRegularFile(part);
+  sealed_.assign(parts_.size(), false);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     readOne(parts_[i], static_cast<std::uint32_t>(i), damage, messages);
   }
@@ -185,7 +231,10 @@ void Rows::append(const TableRow& row) {
   if (!entry) throw Failure(fmt::format("'{}' is no key of 16 hexadecimal digits", row.front()));
   const bool first = writer_.file().empty();
   entry->offset = writer_.append(row);
-  if (first) parts_.push_back(writer_.file());
+  if (first) {
+    parts_.push_back(writer_.file());
+    sealed_.push_back(true);
+  }
   const auto own = std::find(parts_.begin(), parts_.end(), writer_.file());
   entry->part = static_cast<std::uint32_t>(own - parts_.begin());
   index_.put(*entry);
@@ -237,8 +286,9 @@ std::string Rows::line(const Entry& entry) const {
   return std::string(text);
 }
 
-void Rows::split(const Entry& entry, const std::string& line, std::vector<std::string_view>& cells) const {
-  if (!splitLine(line, cells) || cells.size() < columns_.size()) {
+void Rows::split(const Entry& entry, std::string_view line, std::vector<std::string_view>& cells) const {
+  const bool is_right = !sealed_[entry.part] || checkRow(line) == Seal::kRight;
+  if (!is_right || !splitLine(line, cells) || cells.size() < columns_.size()) {
     throw Failure(fmt::format("{}: a row has changed since it was read", parts_[entry.part].string()));
   }
   cells.resize(columns_.size());  // drops the block column of an exported table
@@ -251,11 +301,24 @@ TableRow Rows::row(const Entry& entry) const {
   return plainRow(cells);
 }
 
-std::string Rows::csv(const Entry& entry) const {
+std::string Rows::csv(const Entry& entry, std::vector<std::string_view>& cells) const {
   std::string text = line(entry);
-  split(entry, text, cells_);
-  text.resize(static_cast<std::size_t>(cells_.back().data() + cells_.back().size() - text.data()));
+  split(entry, text, cells);
+  text.resize(static_cast<std::size_t>(cells.back().data() + cells.back().size() - text.data()));
   return text;
+}
+
+void Rows::setAside(const Entry& entry, const std::string& why, std::ostream& messages) const {
+  const auto& part = parts_[entry.part];
+  const std::string before = contentsOf(part).substr(0, entry.offset);
+  const auto number = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  writeAside(asideOf(part), asideLine(number, line(entry)), std::ios::app);
+  fmt::print(messages, "{}: line {}: {}: it is set aside in {}, and its run is made again by the next irk run\n",
+             part.string(), number, why, asideOf(part).filename().string());
+}
+
+std::size_t Rows::unsealedParts() const {
+  return static_cast<std::size_t>(std::count(sealed_.begin(), sealed_.end(), false));
 }
 
 }  // namespace irk::store

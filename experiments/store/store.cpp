@@ -1,5 +1,6 @@
 #include "experiments/store/store.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
@@ -14,9 +15,9 @@
 #include "experiments/store/calibration.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
-
 #include "experiments/tables/new_file.h"
 #include "experiments/tables/timing_class.h"
+
 namespace irk::store {
 namespace {
 
@@ -32,6 +33,14 @@ std::filesystem::path freeName(const std::filesystem::path& file) {
     to.replace_extension(fmt::format("old{}{}", i == 1 ? "" : std::to_string(i), file.extension().string()));
   }
   return to;
+}
+
+// The date of a request to make runs again: now, or if the clock has been set back, after all former requests.
+std::string afterAllRequests(const Rows& runs) {
+  std::uint32_t last = 0;
+  runs.forEach([&last](const Entry& entry) { last = std::max(last, entry.remade); });
+  const std::time_t next = std::max<std::time_t>(std::time(nullptr), last > 0 ? std::time_t{last} + 1 : 0);
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(next));
 }
 
 // Of runs: a table that is taken in has no part of runs until all its other tables have one.
@@ -61,7 +70,17 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
     adoptFormerTable(messages);
   }
   const auto damage = use == Use::kWrite ? Rows::Damage::kSetAside : Rows::Damage::kReport;
-  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_}) rows->read(damage, messages);
+  std::size_t unsealed = 0;
+  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_}) {
+    rows->read(damage, messages);
+    unsealed += rows->unsealedParts();
+  }
+  if (options_.finished == FinishedRuns::kRunAgain) started_ = afterAllRequests(runs_);
+  if (use != Use::kWrite || unsealed == 0) return;
+  fmt::print(messages,
+             "{}: {} of its parts are of a former version and have no checksums: their rows are checked by their cells "
+             "and keys only. irk merge {} --results OTHER writes them with checksums\n",
+             folder_.string(), unsealed, folder_.string());
 }
 
 // Handles exported tables without parts: they were copied here, or written by a version that had no parts. After an
@@ -70,11 +89,11 @@ void Store::adoptFormerTable(std::ostream& messages) {
   const auto file = folder_ / "runs.csv";
   if (hasParts(folder_) || !std::filesystem::is_regular_file(file)) return;
   std::size_t rows = 0;
-  const auto reading = readPart(file, runColumns(), [&rows](const auto&, std::uint64_t) {
+  const auto reading = readPart(file, runColumns(), [&rows](const WrittenRow&) {
     ++rows;
-    return true;
+    return std::string();
   });
-  if (!reading.columns_match) {
+  if (reading.names != PartReading::Names::kThese) {
     const auto to = freeName(file);
     std::filesystem::rename(file, to);
     fmt::print(messages, "{}: written by another version, its runs are made again; the old table is kept as {}\n",
@@ -83,12 +102,13 @@ void Store::adoptFormerTable(std::ostream& messages) {
   }
   if (rows == 0) return;
   std::filesystem::create_directories(folder_ / "parts");
-  for (const std::string table : {kTables[3], kTables[2], kTables[1], kTables[0]}) {
-    const auto from = folder_ / (table + ".csv");
+  for (const auto* table : {&calibrations_, &environments_, &states_, &runs_}) {
+    const auto from = folder_ / (table->kind() + ".csv");
     if (!std::filesystem::is_regular_file(from)) continue;
-    const auto part = folder_ / "parts" / fmt::format("{}.{}.taken_in.csv", table, writerName());
-    std::filesystem::copy_file(from, part.string() + ".new", std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::rename(part.string() + ".new", part);
+    const auto part = folder_ / "parts" / fmt::format("{}.{}.taken_in.csv", table->kind(), writerName());
+    const auto beside = newBeside(part);
+    writeSealed(from, table->columns(), beside);
+    std::filesystem::rename(beside, part);
   }
   fmt::print(
       messages,
@@ -99,7 +119,7 @@ void Store::adoptFormerTable(std::ostream& messages) {
 
 std::optional<Entry> Store::finished(std::uint64_t key) const {
   const auto entry = runs_.find(key);
-  if (!entry) return {};
+  if (!entry || wrong_keys_.contains(key)) return {};
   if (options_.stale == StaleRows::kRemake && !runs_.isCurrent(*entry)) return {};
   const bool made_before = entry->remade < secondsOf(started_) || !runs_.isCurrent(*entry);
   if (options_.finished == FinishedRuns::kRunAgain && made_before) return {};
@@ -125,6 +145,7 @@ void Store::addCalibration(double seconds) {
 void Store::addRun(TableRow row) {
   addEnvironment();
   if (options_.finished == FinishedRuns::kRunAgain) row.back() = started_;
+  wrong_keys_.erase(keyNumber(row.front()));
   runs_.append(row);
 }
 
@@ -160,7 +181,8 @@ std::string Store::processor(std::string_view environment) const {
 
 void Store::forEachRun(const RunKeys& keys, const TakeRun& take) const {
   keys.forEach([&](std::uint64_t key, const std::string& blocks) {
-    if (const auto entry = runs_.find(key)) take(*entry, blocks);
+    const auto entry = runs_.find(key);
+    if (entry && !wrong_keys_.contains(key)) take(*entry, blocks);
   });
 }
 

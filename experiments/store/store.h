@@ -12,6 +12,7 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -81,8 +82,9 @@ class Store {
 
   /// Writes runs.csv, environments.csv and, if there are any, states.csv and calibrations.csv: the rows of these keys
   /// in this order, with a column of blocks if the keys have them. Each file is written beside its target and renamed.
-  /// Returns the reason if times of several processors are refused, or an empty text.
-  std::string exportTables(const RunKeys& keys);
+  /// A row of runs whose key is not that of its own settings is set aside and left out, with a line on `messages`; its
+  /// run counts as not made. Returns the reason if times of several processors are refused, or an empty text.
+  std::string exportTables(const RunKeys& keys, std::ostream& messages);
 
  private:
   void addEnvironment();
@@ -90,7 +92,7 @@ class Store {
   struct Origins;
   Origins originsOf(const RunKeys& keys) const;
   TableHead head(const Origins& origins, const std::string& refusal) const;
-  void exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const;
+  void exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused, std::ostream& messages);
   void exportStates(const RunKeys& keys) const;
   void exportAll(const Rows& rows, const std::string& name) const;
 
@@ -100,6 +102,7 @@ class Store {
   std::string started_;
   std::optional<Lock> lock_;
   Rows runs_, states_, environments_, calibrations_;
+  std::set<std::uint64_t> wrong_keys_;  // of rows that were set aside
 };
 
 }  // namespace irk::store

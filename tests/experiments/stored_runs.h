@@ -52,9 +52,9 @@ class StoredRuns : public testing::Test {
   void changePart(const std::string& tree, const std::function<void(Table&)>& change) const {
     const auto parts = partsOf(folder(tree));
     ASSERT_EQ(parts.size(), 1u);
-    Table part = readTable(parts.front());
+    Table part = readPartTable(parts.front());
     change(part);
-    writeTable(parts.front(), part);
+    writePartTable(parts.front(), part);
   }
   // Marks the first `rows` rows as made and timed on another machine.
   void moveToOtherMachine(const std::string& tree, std::size_t rows) const {
@@ -68,7 +68,7 @@ class StoredRuns : public testing::Test {
     environments.rows[0][0] = "abc";
     environments.rows[0][environments.column("cpu")] = "Other processor";
     environments.rows[0][environments.column("host")] = "elsewhere";
-    writeTable(folder(tree) / "parts" / "environments.0.csv", environments);
+    writePartTable(folder(tree) / "parts" / "environments.0.csv", environments);
   }
 
   // The number of runs that the last `run` reports as made; 0 if it reports nothing.

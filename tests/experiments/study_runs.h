@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/runner/runner.h"
+#include "experiments/store/checksum.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/support.h"
 
@@ -59,6 +60,23 @@ inline std::ptrdiff_t rowsInParts(const std::filesystem::path& folder) {
     rows += std::max<std::ptrdiff_t>(std::count(text.begin(), text.end(), '\n') - 1, 0);
   }
   return rows;
+}
+
+/// The rows of a part, without their checksums.
+inline Table readPartTable(const std::filesystem::path& part) {
+  Table table = readTable(part);
+  if (!table.columns.back().starts_with("checksum:")) return table;  // of a former version
+  table.columns.pop_back();
+  for (auto& row : table.rows) row.pop_back();
+  return table;
+}
+
+/// Writes a part whose checksums are right.
+inline void writePartTable(const std::filesystem::path& part, const Table& table) {
+  std::filesystem::create_directories(part.parent_path());
+  std::ofstream out(part, std::ios::binary);
+  out << store::sealedNames(csvLine(table.columns)) << '\n';
+  for (const auto& row : table.rows) out << store::sealedRow(csvLine(row)) << '\n';
 }
 
 }  // namespace irk

@@ -186,10 +186,10 @@ TEST_F(SmallAudit, ResumesWhereItWasInterrupted) {
   // A run whose state is missing is made again.
   const auto parts = partsOf(folder(), "states");
   ASSERT_EQ(parts.size(), 1u);
-  Table states = readTable(parts.front());
+  Table states = readPartTable(parts.front());
   const auto lost = states.rows.front();
   states.rows.erase(states.rows.begin());
-  writeTable(parts.front(), states);
+  writePartTable(parts.front(), states);
   run();
   const auto found = readStates(folder() / "states.csv");
   ASSERT_TRUE(found.contains(lost[0]));

@@ -81,12 +81,12 @@ TEST(Runner, FinishedRunsAreNotMadeAgain) {
   const auto parts = partsOf(folder.path() / "small");
   ASSERT_EQ(parts.size(), 1u);
   // A mark on a row shows whether its run was made again; a lost row must be.
-  Table part = readTable(parts.front());
+  Table part = readPartTable(parts.front());
   const std::size_t cpu = part.column("cpu_s");
   for (auto& row : part.rows) row[cpu] = "12345";
   const TableRow lost = part.rows.back();
   part.rows.pop_back();
-  writeTable(parts.front(), part);
+  writePartTable(parts.front(), part);
   std::ofstream(parts.front(), std::ios::app) << csvLine(lost).substr(0, 30);  // killed while writing
 
   std::ostringstream told;
@@ -116,7 +116,7 @@ TEST(Runner, ShardsTogetherAreTheWhole) {
   for (const auto& part : parts) {
     joined.takeOver(store::Store(part, "", store::Use::kRead, {}, quiet));
   }
-  joined.exportTables(runKeys(small(), {}));
+  joined.exportTables(runKeys(small(), {}), quiet);
   const Table merged = readTable(folder.path() / "joined" / "runs.csv");
   const Table whole = runStudy(small(), options(folder, 1), quiet);
   const auto comparison = compared(whole, merged, {.times = 10});
@@ -264,7 +264,7 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
   const RunKeys keys = runKeys(study, {});
   const auto time = [&] {
     timeStudy(study, keys, store, {}, quiet);
-    store.exportTables(keys);
+    store.exportTables(keys, quiet);
     return readTable(file);
   };
   const Table read = time();

@@ -84,7 +84,7 @@ Table timed(const Study& study, store::Store& store, const TimeCall& time_call =
   std::ostringstream quiet;
   const RunKeys keys = runKeys(study, {});
   timeStudy(study, keys, store, {}, quiet, time_call);
-  store.exportTables(keys);
+  store.exportTables(keys, quiet);
   return readTable(store.folder() / "runs.csv");
 }
 
@@ -214,7 +214,7 @@ class MadeUpTimes : public testing::Test {
       return next < seconds.size() ? seconds[next++] : throw std::runtime_error("one time too many");
     });
     EXPECT_EQ(next, seconds.size());
-    store.exportTables(keys);
+    store.exportTables(keys, quiet_);
     const Table table = readTable(folder_.path() / "small/runs.csv");
     return textAt(table, table.rows.front(), "cpu_all");
   }

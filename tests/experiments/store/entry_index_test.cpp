@@ -156,18 +156,18 @@ TEST(LargeStore, FindsAndExportsEveryRow) {
   std::vector<std::uint64_t> keys;
   {
     Store writer(folder.path(), "large", Use::kWrite, {}, quiet);
-    const TableRow row = runRow("0", "large", record);
+    record.spec = resolved(record.spec);
     for (std::size_t i = 0; i < kNewest + 100; ++i) {
-      keys.push_back(keyOf(i));
-      TableRow its = row;
-      its.front() = hexText(keyOf(i));
-      writer.addRun(std::move(its));
+      record.spec.options.tolerances.rtol = 1e-3 / static_cast<double>(i + 1);
+      const std::string key = specKey(record.spec);
+      keys.push_back(keyNumber(key));
+      writer.addRun(runRow(key, "large", record));
     }
   }
   Store store(folder.path(), "large", Use::kWrite, {}, quiet);
   EXPECT_EQ(store.runs().size(), keys.size());
   for (const auto key : keys) ASSERT_TRUE(store.finished(key));
-  store.exportTables(RunKeys(keys));
+  store.exportTables(RunKeys(keys), quiet);
   const Table exported = readTable(folder.path() / "runs.csv");
   ASSERT_EQ(exported.rows.size(), keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) ASSERT_EQ(exported.rows[i].front(), hexText(keys[i]));

@@ -147,7 +147,7 @@ TEST_F(Writers, KilledRunsKeepWhatIsFinished) {
     const Store left = reader("killed");
     EXPECT_GE(left.runs().size(), static_cast<std::size_t>(rows));
     std::set<std::string> now;
-    left.runs().forEach([&](const store::Entry& entry) { now.insert(left.runs().line(entry)); });
+    left.runs().forEach([&](const store::Entry& entry) { now.insert(left.runs().csv(entry)); });
     EXPECT_TRUE(std::includes(now.begin(), now.end(), finished.begin(), finished.end())) << "with their times";
     finished = now;
   }

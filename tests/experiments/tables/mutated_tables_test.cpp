@@ -56,10 +56,10 @@ TEST_F(MutatedTables, PartsGiveWholeRowsOnly) {
   int rows = 0, damaged = 0;
   for (int i = 0; i < 20'000; ++i) {
     const auto file = written(mutations.next());
-    const auto reading = store::readPart(file, columns, [&](const std::vector<std::string_view>& cells, std::uint64_t) {
-      EXPECT_EQ(cells.size(), columns.size());
+    const auto reading = store::readPart(file, columns, [&](const store::WrittenRow& row) {
+      EXPECT_EQ(row.cells.size(), columns.size());
       ++rows;
-      return true;
+      return std::string();
     });
     damaged += static_cast<int>(reading.damaged.size());
   }
