@@ -144,7 +144,8 @@ void setTiming(const Table& table, TableRow& row, const Timing& timing) {
   for (const double seconds : timing.all_s) all += (all.empty() ? "" : " ") + numberText(seconds);
   row[table.column("cpu_all")] = all;
   row[table.column("cpu_environment")] = thisEnvironment().front();
-  row[table.column("date")] = dateText();
+  auto& date = row[table.column("date")];
+  date = std::max(date, dateText());  // the clock may have been set back; these times are the newer ones all the same
 }
 
 void forgetTiming(const Table& table, TableRow& row) {

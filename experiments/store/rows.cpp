@@ -143,7 +143,7 @@ std::uint16_t Rows::idOf(std::string_view name) {
 
 bool Rows::better(const Entry& a, const Entry& b) const {
   const auto rank = [this](const Entry& e) {
-    return std::tuple(isCurrent(e), e.remade, e.repetitions > 0, e.date, e.part, e.offset);
+    return std::tuple(isCurrent(e), e.remade, e.repetitions > 0, e.date, e.repetitions, e.part, e.offset);
   };
   return rank(a) > rank(b);
 }

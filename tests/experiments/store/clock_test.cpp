@@ -1,0 +1,68 @@
+// A clock that is set back changes no decision; and times of other timing classes are not joined.
+#include <gtest/gtest.h>
+
+#include "experiments/analyses/results.h"
+#include "tests/experiments/stored_runs.h"
+
+namespace irk {
+namespace {
+
+class SetBackClock : public StoredRuns {
+ protected:
+  // As if all rows had been written before the clock was set back.
+  void ageBy(const char* column) const {
+    changePart("results", [column](Table& part) {
+      for (auto& row : part.rows) row[part.column(column)] = "2099-01-01T00:00:00Z";
+    });
+  }
+};
+
+TEST_F(SetBackClock, FreshMakesAllRunsAgain) {
+  run();
+  ageBy("remade");
+  run("results", {.finished = store::FinishedRuns::kRunAgain});
+  EXPECT_EQ(made(), 9);
+  const Table names{{}, runColumns(), {}};
+  for (const auto& row : run().rows) EXPECT_EQ(textAt(names, row, "remade").substr(0, 19), "2099-01-01T00:00:01");
+  EXPECT_EQ(made(), 0);
+}
+
+TEST_F(SetBackClock, NewTimesCount) {
+  run();
+  ageBy("date");
+  const Table names{{}, runColumns(), {}};
+  std::uint64_t key = 0;
+  {
+    Store writer(folder(), "small", Use::kWrite, {}, told_);
+    writer.runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
+    for (const std::size_t repetitions : {3u, 5u}) {
+      TableRow row = writer.runs().row(*writer.runs().find(key));
+      setTiming(names, row, {1, 1, 0, std::vector<double>(repetitions, 1.0)});
+      writer.addTimes(row);
+      EXPECT_EQ(writer.runs().find(key)->repetitions, repetitions);
+    }
+  }
+  EXPECT_EQ(reader().runs().find(key)->repetitions, 5);
+}
+
+// The same processor with other flags.
+TEST_F(StoredRuns, TimesOfOtherFlagsAreNotJoined) {
+  run();
+  moveToOtherMachine("results", 4);
+  Table environments{{}, environmentColumns(), {thisEnvironment()}};
+  environments.rows[0][0] = "abc";
+  environments.rows[0][environments.column("flags")] = "-O0";
+  writePartTable(folder() / "parts" / "environments.0.csv", environments);
+  run();
+  const std::string refusal = refusedTimes(folder() / "runs.csv");
+  EXPECT_TRUE(containsAll(refusal, {"2 timing classes", "-O0", "--times here"})) << refusal;
+  environments.rows[0][environments.column("flags")] = thisEnvironment()[environments.column("flags")];
+  environments.rows[0][environments.column("libraries")] =
+      "GSL 9.9; " + thisEnvironment()[environments.column("libraries")];
+  writePartTable(folder() / "parts" / "environments.0.csv", environments);
+  run();
+  EXPECT_EQ(refusedTimes(folder() / "runs.csv"), "") << "no run here uses GSL";
+}
+
+}  // namespace
+}  // namespace irk
