@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -12,11 +11,11 @@
 #include <vector>
 
 #include "core/base/input_file.h"
-#include "experiments/base/cache_folder.h"
 #include "experiments/base/child_process.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/own/command.h"
+#include "experiments/own/compiled_cache.h"
 #include "experiments/own/crash.h"
 #include "experiments/tables/build_info.h"
 #include "irk/misuse.h"
@@ -117,40 +116,38 @@ std::vector<fs::path> userFiles(const std::vector<std::string>& files) {
   return users;
 }
 
-std::string hashOfFiles(const std::vector<fs::path>& files) {
-  std::string text;
-  for (const auto& file : files) text += readInputFile(file.string()) + '\0';
-  return hexText(fnv1a(text));
+// Writes the compiler's messages about `source` to `log`, and throws Misuse.
+[[noreturn]] void refuseSource(const fs::path& given, const fs::path& source, const std::string& messages,
+                               std::ostream& log) {
+  const std::string about = messagesAbout(source.string(), messages);
+  log << (about.empty() ? messages : about);
+  throw Misuse(refusalOf(given, source.string(), messages));
 }
 
-// The record beside an object: the hash of the files that it was made of, then their names, one a line.
-struct Record {
-  std::string hash;
-  std::vector<fs::path> files;
-};
-
-Record readRecord(const fs::path& path) {
-  Record record;
-  std::ifstream in(path);
-  std::getline(in, record.hash);
-  for (std::string line; std::getline(in, line);) record.files.emplace_back(line);
-  return record;
-}
-
-// Whether the files are still the same as when the object was made.
-bool isCurrent(const Record& record) {
-  if (record.hash.empty() || record.files.empty()) return false;
-  try {
-    return hashOfFiles(record.files) == record.hash;
-  } catch (const std::exception&) {
-    return false;  // an included file is gone
+// Compiles `source`, given as `given`, to the cached object.
+void compileTo(const CachedObject& cached, const fs::path& given, const fs::path& source, int digits,
+               std::ostream& log) {
+  std::error_code none;
+  const fs::path made = cached.nameBeside();
+  const fs::path rule = made.string() + ".d";
+  auto command = commandFor(source, digits);
+  command.insert(command.end(), {"-o", made.string(), "-MMD", "-MF", rule.string()});
+  const ChildResult child = runChild(command);
+  if (child.status != 0) {
+    fs::remove(made, none);
+    fs::remove(rule, none);
+    cached.putFailure(child.messages);
+    refuseSource(given, source, child.messages, log);
   }
-}
-
-void moveTo(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw Failure(fmt::format("{}: {}", to.string(), error.message()));
+  const auto all = prerequisites(rule);
+  fs::remove(rule, none);
+  try {
+    requireHeadersOfProgram(all, "/proc/self/exe");
+  } catch (const Misuse&) {
+    fs::remove(made, none);
+    throw;
+  }
+  cached.put(made, userFiles(all));
 }
 
 }  // namespace
@@ -206,45 +203,27 @@ void requireHeadersOfProgram(const std::vector<std::string>& files, const fs::pa
 Compiled compile(const fs::path& source, int digits, std::ostream& log) {
   (void)readInputFile(source.string());  // for its message
   const fs::path file = fs::canonical(source);
-  const fs::path folder = cacheFolder("compiled");
   const std::string name =
       fmt::format("{}_{}_{}", file.stem().string(), hexText(fnv1a(file.string() + identity(file, digits))), digits);
-  const fs::path object = folder / (name + ".so"), record = folder / (name + ".files");
-  const Record known = readRecord(record);
-  std::error_code none;
-  if (isCurrent(known) && fs::exists(object, none)) return {object, known.hash};
+  const CachedObject cached(compiledFolder(), name);
+  Compiled compiled{cached.object(), {}};
+  using State = CachedObject::State;
+  if (cached.look(compiled.hash) == State::kCurrent) return compiled;
 
-  fmt::print(log, "irk: compiling {}{}\n", shortName(source), digits > 16 ? fmt::format(" in {} digits", digits) : "");
+  const CompileLock lock(cached, shortName(source), log);
+  const State state = cached.look(compiled.hash);
+  if (state == State::kCurrent) return compiled;
+  if (const auto messages = lock.waited() ? cached.failure() : std::nullopt) refuseSource(source, file, *messages, log);
+  cached.forgetFailure();
+  fmt::print(log, "irk: compiling {}{}{}\n", shortName(source), digits > 16 ? fmt::format(" in {} digits", digits) : "",
+             state == State::kDamaged ? ": the object in the cache is damaged, or others can write to it" : "");
   log.flush();
-  const fs::path made = folder / fmt::format("{}.{}", name, getpid());
-  const fs::path rule = made.string() + ".d";
-  auto command = commandFor(file, digits);
-  command.insert(command.end(), {"-o", made.string(), "-MMD", "-MF", rule.string()});
-  const ChildResult child = runChild(command);
-  if (child.status != 0) {
-    fs::remove(made, none);
-    fs::remove(rule, none);
-    const std::string about = messagesAbout(file.string(), child.messages);
-    log << (about.empty() ? child.messages : about);
-    throw Misuse(refusalOf(source, file.string(), child.messages));
+  compileTo(cached, source, file, digits, log);
+  if (cached.look(compiled.hash) != State::kCurrent) {
+    throw Failure(
+        fmt::format("{}: its object {} has changed since it was compiled", source.string(), cached.object().string()));
   }
-  const auto all = prerequisites(rule);
-  const auto files = userFiles(all);
-  fs::remove(rule, none);
-  try {
-    requireHeadersOfProgram(all, "/proc/self/exe");
-  } catch (const Misuse&) {
-    fs::remove(made, none);
-    throw;
-  }
-  const std::string hash = hashOfFiles(files);
-  std::ofstream text(made.string() + ".files");
-  text << hash << '\n';
-  for (const auto& one : files) text << one.string() << '\n';
-  text.close();
-  moveTo(made, object);
-  moveTo(made.string() + ".files", record);
-  return {object, hash};
+  return compiled;
 }
 
 }  // namespace irk::own

@@ -15,9 +15,10 @@ struct Compiled {
 };
 
 /// The object of `source` (a .cpp file) for numbers of 16, 50 or 100 digits. It comes from the cache if file, included
-/// files, program and compiler are the same as when it was made; otherwise it is compiled, with a line on `log`. Two
-/// processes may compile it at the same time. Throws Misuse for a file that cannot be read, and for one that does not
-/// compile, after writing the compiler's messages to `log`; Failure if there is no compiler.
+/// files, program and compiler are the same as when it was made, and its bytes are; otherwise it is compiled, with a
+/// line on `log`. One process compiles a file, others wait for it (CompileLock). Throws Misuse for a file that cannot
+/// be read, and for one that does not compile, after writing the compiler's messages to `log`, and for a cache that
+/// others can write to; Failure if there is no compiler.
 Compiled compile(const std::filesystem::path& source, int digits, std::ostream& log);
 
 /// Lines of a compiler's messages about `source`: those that begin with its name, with the lines that belong to them,

@@ -57,14 +57,22 @@ class MoreDigits {
 
   Scene<Real> operator()(const Settings& settings) {
     const std::lock_guard lock(mutex_);
-    if (!made_) {
-      const Compiled compiled = compile(source_, digits_, log());
-      made_ = entryIn(load(compiled.object, source_)).*make_;
-    }
+    if (!refusal_.empty()) throw Misuse(refusal_);
+    if (!made_) compileAndLoad();
     return made_(settings);
   }
 
  private:
+  void compileAndLoad() {
+    try {
+      const Compiled compiled = compile(source_, digits_, log());
+      made_ = entryIn(load(compiled.object, source_)).*make_;
+    }
+    } catch (const Misuse& misuse) {
+      refusal_ = misuse.what();
+      throw;
+  }
+
   std::filesystem::path source_;
   int digits_;
   Make SceneEntry::*make_;
@@ -72,6 +80,7 @@ class MoreDigits {
   Make made_;
 };
 
+  std::string refusal_;  // every run of a study would compile the file again
 template <class Real>
 std::function<Scene<Real>(const Settings&)> whenAsked(const std::filesystem::path& source, int digits,
                                                       std::function<Scene<Real>(const Settings&)> SceneEntry::*make) {
