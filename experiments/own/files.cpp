@@ -10,6 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "core/base/input_file.h"
+#include "experiments/base/numbers.h"
 #include "experiments/own/compiler.h"
 #include "experiments/own/crash.h"
 #include "experiments/own/fmu/scene.h"
@@ -67,10 +69,10 @@ class MoreDigits {
     try {
       const Compiled compiled = compile(source_, digits_, log());
       made_ = entryIn(load(compiled.object, source_)).*make_;
-    }
     } catch (const Misuse& misuse) {
       refusal_ = misuse.what();
       throw;
+    }
   }
 
   std::filesystem::path source_;
@@ -78,9 +80,9 @@ class MoreDigits {
   Make SceneEntry::*make_;
   std::mutex mutex_;
   Make made_;
+  std::string refusal_;  // every run of a study would compile the file again
 };
 
-  std::string refusal_;  // every run of a study would compile the file again
 template <class Real>
 std::function<Scene<Real>(const Settings&)> whenAsked(const std::filesystem::path& source, int digits,
                                                       std::function<Scene<Real>(const Settings&)> SceneEntry::*make) {
@@ -128,11 +130,28 @@ void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
   runRegistrations(source.string());
 }
 
+// The hash of a compiled file and of the files of numbers that it reads (irk/data_files.h). Throws Misuse.
+std::string hashWithData(const Compiled& compiled, const SharedLibrary& object, const std::filesystem::path& source) {
+  auto* const names = object.find<const char* const*()>("irk_data_files");
+  if (!names) return compiled.hash;
+  std::string hash = compiled.hash;
+  for (auto name = names(); *name; ++name) {
+    const auto file = source.parent_path() / *name;
+    try {
+      hash += ' ' + hexText(fnv1a(readInputFile(file)));
+    } catch (const Misuse& misuse) {
+      throw Misuse(fmt::format("{}: IRK_DATA_FILES: {}", source.string(), misuse.what()));
+    }
+  }
+  return hexText(fnv1a(hash));
+}
+
 std::string loadNew(const std::filesystem::path& given, const std::filesystem::path& file) {
   const Compiled compiled = compile(given, 16, log());
   const auto before = knownIds();
   const SharedLibrary& object = load(compiled.object, given);
-  LoadedFile& loaded = loadedFiles()[file] = {"", compiled.hash};  // the hash is needed by what registers
+  // The hash is needed by what registers.
+  LoadedFile& loaded = loadedFiles()[file] = {"", hashWithData(compiled, object, file)};
   const bool registers = runRegistrations(given.string()) > 0;
   if (object.find<void(SceneEntry*)>("irk_scene")) {
     SceneEntry entry = entryIn(object);
@@ -143,7 +162,7 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
   }
   for (const auto& id : knownIds()) {
     if (before.contains(id)) continue;
-    hashes()[id] = compiled.hash;
+    hashes()[id] = loaded.hash;
   }
   if (!registers && loaded.scene.empty()) {
     throw Misuse(
