@@ -4,10 +4,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "experiments/base/failure.h"
 
@@ -36,6 +40,48 @@ ChildResult runChild(std::vector<std::string> words) {
     result.messages.append(buffer, read);
   }
   return result;
+}
+
+namespace {
+
+// $'...' of bash: a line end would end a comment.
+std::string ansiQuoted(const std::string& text) {
+  std::string quoted = "$'";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (std::iscntrl(code) != 0) {
+      const char* digits = "0123456789abcdef";
+      quoted += {'\\', 'x', digits[code / 16], digits[code % 16]};
+    } else {
+      if (c == '\'' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::string shellWord(const std::string& text) {
+  constexpr std::string_view kPlain = "-_./=+:@,%";
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [&](unsigned char c) {
+    return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != kPlain.npos;
+  });
+  if (plain) return text;
+  const bool has_control = std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; });
+  if (has_control) return ansiQuoted(text);
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string programCommand(const std::vector<std::string>& arguments) {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) throw Failure("the program's own path is not known: /proc/self/exe: " + error.message());
+  std::string command = shellWord(program.string());
+  for (const auto& argument : arguments) command += ' ' + shellWord(argument);
+  return command;
 }
 
 }  // namespace irk

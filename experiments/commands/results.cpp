@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "experiments/audit/audit.h"
+#include "experiments/base/child_process.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
@@ -79,8 +80,11 @@ std::string commandsOf(const MergeOptions& options, const Study& made, const sto
   const bool quick = options.variant == StudyVariant::kQuick;
   if (quick) results = std::filesystem::path(results).parent_path().string();  // --quick adds its own folder
   const auto command = [&](const std::string& shard) {
-    return fmt::format("  irk run {}{}{}{}\n", study, quick ? " --quick" : "", shard,
-                       results.empty() ? "" : " --results " + results);
+    std::vector<std::string> words{"run", study};
+    if (quick) words.emplace_back("--quick");
+    if (!shard.empty()) words.insert(words.end(), {"--shard", shard});
+    if (!results.empty()) words.insert(words.end(), {"--results", results});
+    return "  " + programCommand(words) + '\n';
   };
   if (shards == 0) return command("");
   RunnerOptions each;
@@ -90,7 +94,7 @@ std::string commandsOf(const MergeOptions& options, const Study& made, const sto
   std::set<int> missing;
   for (const auto series : report.missing_series) missing.insert(shard_of[series]);
   std::string text;
-  for (const auto shard : missing) text += command(fmt::format(" --shard {}/{}", shard, shards));
+  for (const auto shard : missing) text += command(fmt::format("{}/{}", shard, shards));
   return text;
 }
 

@@ -1,5 +1,9 @@
 #include <fmt/ostream.h>
 
+#include <filesystem>
+#include <vector>
+
+#include "experiments/base/child_process.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/runner/shards.h"
@@ -17,11 +21,20 @@ int slurmCommand(const SlurmOptions& options, Streams streams) {
                              study.series.size(), study.series.size()));
   }
   const bool quick = options.variant == StudyVariant::kQuick;
-  const std::string flags = (quick ? " --quick" : "") + (" --results " + options.results);
-  const auto tree = std::filesystem::path(options.results) / (quick ? "quick" : "");
-  const std::string folders = (tree / study.id / fmt::format("shard_*_of_{}", shards)).string();
-  streams.out << slurmScript(study, "irk run " + options.study + flags,
-                             "irk merge " + folders + " --study " + options.study + flags, shards, options.jobs);
+  // The job may start in another folder.
+  const auto results = std::filesystem::absolute(options.results).lexically_normal();
+  const bool is_file = std::filesystem::is_regular_file(options.study);
+  const std::string named =
+      is_file ? std::filesystem::absolute(options.study).lexically_normal().string() : options.study;
+  std::vector<std::string> flags{"--results", results};
+  if (quick) flags.emplace_back("--quick");
+  std::vector<std::string> run{"run", named}, merge{"merge", "--study", named};
+  for (auto* words : {&run, &merge}) words->insert(words->end(), flags.begin(), flags.end());
+  run.insert(run.end(), {"--shard", fmt::format("auto/{}", shards), "--jobs", std::to_string(options.jobs)});
+  const auto folder = (results / (quick ? "quick" : "") / study.id / "").string();
+  const std::string folders = shellWord(folder) + fmt::format("shard_*_of_{}", shards);  // the star is the shell's
+  streams.out << slurmScript(study, programCommand(run), programCommand(merge) + " -- " + folders, shards,
+                             options.jobs);
   return 0;
 }
 

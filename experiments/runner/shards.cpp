@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <numeric>
 #include <queue>
@@ -81,6 +82,19 @@ std::vector<int> balanced(const std::vector<double>& cost, int shards) {
   return shard;
 }
 
+namespace {
+
+// A word for the lines that sbatch reads: other characters become `_`.
+std::string plainWord(std::string text) {
+  for (char& c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (!plain) c = '_';
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command,
                         int shards, int jobs) {
   return fmt::format(
@@ -92,8 +106,8 @@ std::string slurmScript(const Study& study, const std::string& run_command, cons
       "#SBATCH --ntasks=1\n"
       "#SBATCH --cpus-per-task={2}\n"
       "#SBATCH --output=irk-{0}-%a.log\n"
-      "{3} --shard auto/{1} --jobs {2}\n",
-      study.id, shards, jobs, run_command, merge_command);
+      "{3}\n",
+      plainWord(study.id), shards, jobs, run_command, merge_command);
 }
 
 }  // namespace irk

@@ -23,7 +23,8 @@ Shard parseShard(std::string_view text);
 /// work so far.
 std::vector<int> balanced(const std::vector<double>& costs, int shards);
 
-/// A Slurm job script: an array of `shards` jobs, and the commands that merge their results.
+/// A Slurm job script: an array of `shards` jobs that each run `run_command`, and the command that merges their
+/// results.
 std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command,
                         int shards, int jobs);
 

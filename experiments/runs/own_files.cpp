@@ -1,10 +1,10 @@
 #include "experiments/runs/own_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <vector>
 
+#include "experiments/base/child_process.h"
 #include "experiments/own/files.h"
 #include "experiments/own/foreign/scene_library.h"
 #include "experiments/runs/fields.h"
@@ -78,17 +78,6 @@ std::string methodIn(std::string_view files, const std::string& method) {
   const auto all = items(files);
   const auto tableau = std::find_if(all.begin(), all.end(), [](const auto& file) { return !isLoaded(file); });
   return tableau == all.end() ? method : *tableau;
-}
-
-std::string shellWord(const std::string& text) {
-  constexpr std::string_view kPlain = "-_./=+:@,%";
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [&](unsigned char c) {
-    return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != kPlain.npos;
-  });
-  if (plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 }  // namespace irk

@@ -20,7 +20,4 @@ std::string filesOf(const RunSpec& spec);
 std::string loadOptions(std::string_view files);
 std::string methodIn(std::string_view files, const std::string& method);
 
-/// The text as one word of a shell's command, quoted where that is needed.
-std::string shellWord(const std::string& text);
-
 }  // namespace irk

@@ -1,4 +1,5 @@
 #include "experiments/report/explorer/run_command.h"
+#include "experiments/base/child_process.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "experiments/base/child_process.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/own_files.h"

@@ -10,6 +10,7 @@
 #include "experiments/runner/costs.h"
 #include "experiments/runner/shard_plan.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/program.h"
 #include "tests/experiments/stored_runs.h"
 
 namespace irk {
@@ -85,24 +86,43 @@ TEST(Shards, LongerSeriesCostMore) {
   EXPECT_GT(costOf("gauss_12", "1e-4"), costOf("gauss_6", "1e-4"));
 }
 
-// Runs the printed script as Slurm would, and joins the results with the command that it names.
+// Runs the printed script as Slurm would, from another folder and without a PATH, and joins the results with the
+// command that it names. Names have blanks and what a shell would run.
 TEST(Shards, SlurmScriptRunsAsWritten) {
   const TemporaryFolder folder;
   const std::string path = folder.path().string();
-  std::ofstream(path + "/small.toml") << kToml;
-  const std::string irk = IRK_PROGRAM;
+  const std::string odd = "my $(touch hacked) 'study'";
+  std::filesystem::create_directories(folder.path() / odd);
+  std::ofstream(folder.path() / odd / "small.toml") << kToml;
   const auto bash = [&](const std::string& command) {
-    std::ofstream(path + "/step.sh") << "set -eu\ncd " << path << "\nirk() { " << irk << " \"$@\"; }\nexport -f irk\n"
-                                     << command << '\n';
-    return std::system(("bash " + path + "/step.sh > " + path + "/log 2>&1").c_str());
+    std::ofstream(path + "/step.sh") << "set -eu\ncd " << path << '\n' << command << '\n';
+    return std::system(("env -i /bin/bash " + path + "/step.sh > " + path + "/log 2>&1").c_str());
   };
-  ASSERT_EQ(bash("irk slurm small.toml -n 3 > job.sh"), 0);
-  ASSERT_EQ(bash("for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i bash job.sh; done"), 0);
-  ASSERT_EQ(bash("$(sed -n 's/^#   //p' job.sh)"), 0);
-  ASSERT_EQ(bash("irk run small.toml --results whole"), 0);
-  expectSame(readTable(folder.path() / "results" / "small" / "runs.csv"),
+  const std::string irk = IRK_PROGRAM, in_odd = "cd \"my \\$(touch hacked) 'study'\"; ";
+  ASSERT_EQ(bash(in_odd + irk + " slurm small.toml -n 3 --results 'my results' > ../job.sh"), 0);
+  ASSERT_EQ(bash("for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i /bin/bash job.sh; done"), 0) << contentsOf(path + "/log");
+  ASSERT_EQ(bash("eval \"$(/bin/sed -n 's/^#   //p' job.sh)\""), 0) << contentsOf(path + "/log");
+  ASSERT_EQ(bash(in_odd + irk + " run small.toml --results ../whole"), 0);
+  expectSame(readTable(folder.path() / odd / "my results" / "small" / "runs.csv"),
              readTable(folder.path() / "whole" / "small" / "runs.csv"));
-  EXPECT_NE(bash("irk slurm small.toml -n 400"), 0);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+    EXPECT_NE(entry.path().filename(), "hacked");
+  }
+  EXPECT_NE(bash(in_odd + irk + " slurm small.toml -n 400"), 0);
+}
+
+// The name of a study file stands in comments of the script, too.
+TEST(Shards, NoNameEndsALineOfTheScript) {
+  const TemporaryFolder folder;
+  const std::string name = folder.path() / "a\necho hacked\n'.toml";
+  std::ofstream(name) << kToml;
+  const Ended script = program({"slurm", name, "-n", "2"});
+  ASSERT_EQ(script.status, 0) << script.err;
+  std::istringstream lines(script.out);
+  int commands = 0;
+  for (std::string line; std::getline(lines, line);) commands += line.starts_with('#') ? 0 : 1;
+  EXPECT_EQ(commands, 1) << script.out;
+  EXPECT_TRUE(containsAll(script.out, {"$'", "\\x0aecho hacked\\x0a\\'.toml'"}));
 }
 
 }  // namespace
