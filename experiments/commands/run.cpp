@@ -21,6 +21,7 @@
 #include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/join_ranks.h"
+#include "experiments/runner/merge.h"
 #include "experiments/runner/shard_plan.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"

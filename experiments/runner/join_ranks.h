@@ -5,8 +5,8 @@
 
 namespace irk {
 
-/// The ranks of MPI_COMM_WORLD if mpirun has started this process, else this process alone. Throws Misuse under
-/// mpirun if the program was built without MPI: every rank would make all runs.
+/// The ranks of MPI_COMM_WORLD if mpirun or srun has started this process with others, else this process alone. Throws
+/// Misuse if every rank would make all runs: the program was built without MPI, or srun has started it without MPI.
 std::unique_ptr<Ranks> joinRanks();
 
 }  // namespace irk

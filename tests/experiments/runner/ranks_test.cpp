@@ -113,6 +113,26 @@ TEST_F(RanksOfMpi, FourMakeTheSameTableAsOne) {
   EXPECT_EQ(rowsInParts("four"), 36u) << "there was nothing left to make";
 }
 
+// srun sets these; whether the processes know of each other depends on how Slurm and MPI were built.
+TEST_F(RanksOfMpi, ProcessesThatDoNotKnowOfEachOtherAreRefused) {
+  const std::string srun = "SLURM_STEP_NUM_TASKS=3 SLURM_PROCID=1";
+  EXPECT_EQ(statusOf(command("alone", srun)), 2) << output("alone");
+  EXPECT_TRUE(containsAll(output("alone"), {"SLURM_STEP_NUM_TASKS = 3", "--mpi", "mpirun"}));
+  EXPECT_EQ(statusOf(command("one", "SLURM_STEP_NUM_TASKS=1 SLURM_PROCID=0")), 0) << output("one");
+  EXPECT_EQ(statusOf(command("batch", "SLURM_NTASKS=3 SLURM_PROCID=0")), 0) << "a batch script is no step of srun";
+}
+
+// Each rank has a folder of its own, as with results on a host's own disk.
+TEST_F(RanksOfMpi, RowsThatAreElsewhereAreMissed) {
+  const std::string tree = folder_.path() / "local_";
+  std::ofstream(folder_.path() / "rank.sh") << "exec " IRK_PROGRAM " run " << (folder_.path() / "small.toml").string()
+                                            << " --results " << tree << "$OMPI_COMM_WORLD_RANK\n";
+  const std::string log = folder_.path() / "local.out";
+  const int status = statusOf(IRK_MPIEXEC " -n 2 sh " + (folder_.path() / "rank.sh").string() + " > " + log + " 2>&1");
+  EXPECT_NE(status, 0);
+  EXPECT_TRUE(containsAll(output("local"), {"of 36 runs are missing", "all hosts share", "--results"}));
+}
+
 TEST_F(RanksOfMpi, AKilledRankLosesItsRunOnly) {
   std::ofstream(folder_.path() / "small.toml") << R"(
 [[block]]
