@@ -1,6 +1,19 @@
 # Runs at build time: writes OUT with the current commit, and touches it only when something has changed.
-execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty
-                OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+# The sources may lie in a folder of another project's repository. An archive of the sources carries its commit: git writes
+# it in the place of the format (.gitattributes).
+execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse --show-toplevel
+                OUTPUT_VARIABLE repository OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+file(REAL_PATH ${SOURCE_DIR} sources)
+set(COMMIT "")
+if(repository STREQUAL sources)
+  execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty
+                  OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+else()
+  file(STRINGS ${SOURCE_DIR}/experiments/tables/archived_commit.txt COMMIT LIMIT_COUNT 1)
+  if(COMMIT MATCHES "Format")
+    set(COMMIT "")
+  endif()
+endif()
 if(NOT COMMIT)
   set(COMMIT unknown)
 endif()
