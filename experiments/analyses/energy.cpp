@@ -1,12 +1,11 @@
 #include "experiments/analyses/energy.h"
 
-#include <gsl/gsl_fit.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/options/fixed_steps.h"
+#include "experiments/analyses/line_fit.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -70,9 +69,8 @@ EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
 EnergyDrift energyDrift(const std::vector<double>& t, const std::vector<double>& error) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   if (t.size() < 3) return {kUnknown, kUnknown, kUnknown};
-  double c0 = 0, c1 = 0, cov00 = 0, cov01 = 0, cov11 = 0, sum_of_squares = 0;
-  gsl_fit_linear(t.data(), 1, error.data(), 1, t.size(), &c0, &c1, &cov00, &cov01, &cov11, &sum_of_squares);
-  EnergyDrift result{c1, std::sqrt(sum_of_squares / static_cast<double>(t.size())), 0};
+  const LineFit fit = fitLine(t, error);
+  EnergyDrift result{fit.slope, std::sqrt(fit.sum_of_squares / static_cast<double>(t.size())), 0};
   for (const double e : error) result.largest = std::max(result.largest, std::abs(e));
   return result;
 }

@@ -1,13 +1,11 @@
 #include "experiments/analyses/scaling.h"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_fit.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "experiments/analyses/line_fit.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/median.h"
@@ -62,13 +60,10 @@ struct Points {
 };
 
 TableRow slopeRow(TableRow row, const Points& points) {
-  double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
+  const LineFit fit = fitLine(points.x, points.y);
   const std::size_t count = points.x.size();
-  gsl_fit_linear(points.x.data(), 1, points.y.data(), 1, count, &c0, &slope, &cov00, &cov01, &variance,
-                 &sum_of_squares);
-  const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(count - 2));
-  row.push_back(numberText(slope));
-  row.push_back(numberText(t * std::sqrt(variance)));
+  row.push_back(numberText(fit.slope));
+  row.push_back(numberText(slopeConfidence(fit, count)));
   row.push_back(std::to_string(count));
   return row;
 }

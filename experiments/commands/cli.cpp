@@ -16,7 +16,7 @@
 #include "experiments/own/files.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/own_files.h"
-#include "experiments/tables/build_info.h"
+#include "experiments/tables/licences.h"
 #include "irk/registration.h"
 
 namespace irk {
@@ -31,7 +31,7 @@ class Program {
  public:
   Program() : app_("Benchmark suite for implicit Runge-Kutta schemes of any order", "irk") {
     app_.require_subcommand(1);
-    app_.set_version_flag("--version", std::string(buildInfo().version) + " " + std::string(buildInfo().commit));
+    app_.set_version_flag("--version", versionText());
     addPaper();
     addRun();
     addSolve();

@@ -3,7 +3,9 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
+#ifdef IRK_HAS_GSL
 #include <gsl/gsl_version.h>
+#endif
 #include <omp.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_version.h>
@@ -83,10 +85,18 @@ std::string sundialsVersion() {
   return none ? text : fmt::format("{}, {}", text, file.string());
 }
 
+std::string gslVersion() {
+#ifdef IRK_HAS_GSL
+  return gsl_version;
+#else
+  return "none";
+#endif
+}
+
 std::string libraryVersions() {
   return fmt::format("{}; glibc {}; Eigen {}.{}.{}; Boost {}; GSL {}; SUNDIALS {}; KLU {}; fmt {}.{}.{}",
                      operatingSystem(), gnu_get_libc_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gsl_version, sundialsVersion(), kluVersion(),
+                     EIGEN_MINOR_VERSION, BOOST_LIB_VERSION, gslVersion(), sundialsVersion(), kluVersion(),
                      FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 

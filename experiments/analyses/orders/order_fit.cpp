@@ -1,12 +1,12 @@
 #include "experiments/analyses/orders/order_fit.h"
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_fit.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+
+#include "experiments/analyses/line_fit.h"
 
 namespace irk {
 namespace {
@@ -24,12 +24,8 @@ Slope fitSlope(std::span<const ErrorPoint> window) {
     x.push_back(std::log(p.h));
     y.push_back(std::log(p.error));
   }
-  const std::size_t n = x.size();
-  double c0 = 0, slope = 0, cov00 = 0, cov01 = 0, variance = 0, sum_of_squares = 0;
-  gsl_fit_linear(x.data(), 1, y.data(), 1, n, &c0, &slope, &cov00, &cov01, &variance, &sum_of_squares);
-  if (n == 2) return {c0, slope, 0, INFINITY};
-  const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 2));
-  return {c0, slope, std::sqrt(variance), t * std::sqrt(variance)};
+  const LineFit fit = fitLine(x, y);
+  return {fit.offset, fit.slope, x.size() == 2 ? 0 : fit.deviation, slopeConfidence(fit, x.size())};
 }
 
 double centre(std::span<const ErrorPoint> window) { return std::sqrt(window.front().h * window.back().h); }

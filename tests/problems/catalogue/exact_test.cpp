@@ -1,5 +1,4 @@
 // Exact solutions satisfy their equations and give the reference values.
-#include <gsl/gsl_sf_elljac.h>
 #include <gtest/gtest.h>
 
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
@@ -129,11 +128,11 @@ TEST(Exact, EllipticFunctionsAgreeWithBoostToFortyFiveDigits) {
   }
 }
 
-TEST(Exact, EllipticFunctionsAgreeWithGsl) {
+TEST(Exact, EllipticFunctionsOfDoublesAgreeWithBoost) {
   for (const double m : {0.0, 0.1, 0.5, 0.9, 0.999}) {
     for (const double u : {-3.0, 0.0, 0.2, 1.7, 10.0, 31.3}) {
-      double sn, cn, dn;
-      ASSERT_EQ(gsl_sf_elljac_e(u, m, &sn, &cn, &dn), 0);
+      double cn, dn;
+      const double sn = boost::math::jacobi_elliptic(std::sqrt(m), u, &cn, &dn);
       const auto f = jacobiFunctions<double>(u, m);
       const double tolerance = 50 * kEps * (1 + std::abs(u));
       EXPECT_NEAR(f.sn, sn, tolerance) << u << " " << m;
