@@ -27,8 +27,9 @@ class ReportTo {
 /// loaded.
 std::string loadFile(const std::filesystem::path& file);
 
-/// The hash of the loaded file that has registered `id`, its included files and those of irk/data_files.h, for `kind` scene or the name of an axis; empty for what
-/// belongs to the program. Part of a run's key. Safe from any number of threads, but not beside loadFile.
+/// The hash of the loaded file that has registered `id`, its included files and those of irk/data_files.h, for `kind`
+/// scene or the name of an axis; empty for what belongs to the program. Part of a run's key. Safe from any number of
+/// threads, but not beside loadFile.
 std::string hashOf(std::string_view kind, std::string_view id);
 
 /// The hash of a loaded file, by its name; empty for others.

@@ -31,7 +31,7 @@ std::string writerName();
 ///   1. made by this program's code;
 ///   2. the latest request to make it again (`--fresh`: column `remade`);
 ///   3. measured by the timing pass (column `cpu_runs`);
-///   4. the later date; within one second the row of the later part, or further down in it.
+///   4. the later date; within one second more repetitions, then the row of the later part, or further down in it.
 /// Reading takes one pass over the parts and keeps one Entry per key, with bounded memory (EntryIndex). Not
 /// thread-safe.
 class Rows {

@@ -27,21 +27,27 @@ TEST_F(SetBackClock, FreshMakesAllRunsAgain) {
   EXPECT_EQ(made(), 0);
 }
 
+// The times of three repetitions are in a part whose name, and in rows whose dates, are later than those of five.
 TEST_F(SetBackClock, NewTimesCount) {
   run();
-  ageBy("date");
   const Table names{{}, runColumns(), {}};
   std::uint64_t key = 0;
-  {
+  reader().runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
+  const auto time = [&](std::size_t repetitions) {
     Store writer(folder(), "small", Use::kWrite, {}, told_);
-    writer.runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
-    for (const std::size_t repetitions : {3u, 5u}) {
-      TableRow row = writer.runs().row(*writer.runs().find(key));
-      setTiming(names, row, {1, 1, 0, std::vector<double>(repetitions, 1.0)});
-      writer.addTimes(row);
-      EXPECT_EQ(writer.runs().find(key)->repetitions, repetitions);
-    }
+    TableRow row = writer.runs().row(*writer.runs().find(key));
+    setTiming(names, row, {1, 1, 0, std::vector<double>(repetitions, 1.0)});
+    writer.addTimes(row);
+  };
+  time(3);
+  for (const auto& part : partsOf(folder())) {
+    Table rows = readPartTable(part);
+    for (auto& row : rows.rows) row[rows.column("date")] = "2099-01-01T00:00:00Z";
+    writePartTable(part, rows);
   }
+  std::filesystem::rename(partsOf(folder()).back(), folder() / "parts" / "runs.later.csv");
+  EXPECT_EQ(reader().runs().find(key)->repetitions, 3);
+  time(5);
   EXPECT_EQ(reader().runs().find(key)->repetitions, 5);
 }
 
