@@ -128,7 +128,9 @@ std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) 
 }
 
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data) {
-  return fmt::format("{}data='{}'; out='{}'; {}", areQuick(options) ? "quick=1; " : "", data.string(),
+  // Tools that scripts start would take a path that begins with a dash for an option.
+  const std::string before = data.string().starts_with('-') ? "./" : "";
+  return fmt::format("{}data='{}{}'; out='{}'; {}", areQuick(options) ? "quick=1; " : "", before, data.string(),
                      (figureFolder(options) / figure.name).string(), figure.assignments);
 }
 
