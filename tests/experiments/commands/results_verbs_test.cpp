@@ -82,22 +82,22 @@ TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
 TEST_F(Verbs, FiguresDoNotJoinTimesOfTwoMachines) {
   ASSERT_EQ(run().status, 0);
   const auto part = partsOf(results() + "/small").front();
-  Table rows = readTable(part);
+  Table rows = readPartTable(part);
   for (auto& row : rows.rows) {
     if (textAt(rows, row, "formulation") == "ggl") row[rows.column("cpu_environment")] = "elsewhere";
   }
-  writeTable(part, rows);
+  writePartTable(part, rows);
   const Ended refused = run();
   EXPECT_EQ(refused.status, 1);
-  EXPECT_TRUE(containsAll(refused.err, {"2 processors", "elsewhere", "--times here"}));
+  EXPECT_TRUE(containsAll(refused.err, {"2 timing classes", "elsewhere", "--times here"}));
   std::filesystem::rename(results() + "/small", results() + "/drift");
   const Ended plotted = program({"plot", "drift", "--results", results()});
   EXPECT_EQ(plotted.status, 1);
-  EXPECT_TRUE(containsAll(plotted.err, {"figures of drift have no times", "2 processors"}));
+  EXPECT_TRUE(containsAll(plotted.err, {"figures of drift have no times", "2 timing classes"}));
   // Claim C11 reads the study k_form.
   std::filesystem::rename(results() + "/drift", results() + "/k_form");
   const Ended claims = program({"claims", "--results", results()});
-  EXPECT_TRUE(containsAll(claims.out, {"study k_form: times of 2 processors"}));
+  EXPECT_TRUE(containsAll(claims.out, {"study k_form: times of 2 timing classes"}));
   std::filesystem::rename(results() + "/k_form", results() + "/small");
   const Ended here = run("results", {"--times", "here"});
   EXPECT_EQ(here.status, 0) << here.err;

@@ -92,8 +92,8 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
   moveToOtherMachine("results", 5);
   const Table refused = run();
   const auto refusal = refusedTimes(refused.head);
-  EXPECT_TRUE(containsAll(refusal, {"2 processors", "'Other processor' (5 rows, environments abc)", processorName(),
-                                    "(4 rows", "--times here", "--fresh"}));
+  EXPECT_TRUE(containsAll(refusal, {"2 timing classes", "'Other processor; ", "(5 rows, environments abc)",
+                                    processorName(), "(4 rows", "--times here", "--fresh"}));
   for (const auto& row : refused.rows) {
     EXPECT_TRUE(std::isnan(numberAt(refused, row, "cpu_s")));
     EXPECT_GT(numberAt(refused, row, "residuals"), 0) << "counters are joined";
