@@ -98,7 +98,12 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
       EXPECT_EQ(idOf(spec.discontinuity), treatment);
     }
   }
-  EXPECT_EQ(scenes.size(), sceneCatalogue().size());
+  // Scenes that other tests of this process have registered are not drawn.
+  std::set<std::string> own;
+  for (const auto& scene : sceneCatalogue()) {
+    if (!scene.registered) own.insert(scene.id);
+  }
+  EXPECT_EQ(scenes, own);
   EXPECT_EQ(configurations.size(), irk::configurations().size());
   EXPECT_EQ(treatments, (std::set<std::string>{"default", "ignore", "iterate", "locate", "no switches", "smooth"}));
   EXPECT_EQ(formulations.size(), named<Formulation>().size());

@@ -92,11 +92,6 @@ TEST_F(OwnStudies, MistakesInFiguresAreMisuseBeforeAnyRun) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(containsAll(ended.err, {"small.toml:", "'work_by'"}));
   EXPECT_FALSE(exists("small/runs.csv"));
-  std::filesystem::create_directories(results() + "/theirs");
-  std::ofstream(results() + "/theirs/figures.toml") << "[[figure]]\nscript = \"../theirs/evil\"\n";
-  const Ended theirs = program({"report", "--results", results()});
-  EXPECT_EQ(theirs.status, 2);
-  EXPECT_TRUE(containsAll(theirs.err, {"theirs/figures.toml:2", "script"}));
 }
 
 // Both files say nothing of a family, so it is `user` for both, with one stage.
