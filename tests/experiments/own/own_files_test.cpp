@@ -161,8 +161,18 @@ TEST_F(OwnFiles, MistakesAreNamed) {
       {"rows.cpp", {"irk: scene rows: its residual writes behind the last row, to r.u[2]", "nu = 2, nx = 0, nz = 0"}},
       {"empty.cpp", {"empty.cpp: it registers nothing"}},
       {"missing.cpp", {"'missing.cpp' cannot be read"}}};
+#ifdef NDEBUG
+  constexpr bool kAsserts = false;
+#else
+  constexpr bool kAsserts = true;  // Eigen's own check comes first, and ends the program
+#endif
   for (const auto& [file, parts] : cases) {
     const Ran ran = irk("solve " + file + solve);
+    if (kAsserts && file == "rows.cpp") {
+      EXPECT_EQ(ran.status, 1) << ran.text;
+      EXPECT_TRUE(containsAll(ran.text, {"index < size()", "rows.cpp"}));
+      continue;
+    }
     EXPECT_EQ(ran.status, 2) << file;
     EXPECT_TRUE(containsAll(ran.text, parts));
   }
