@@ -65,7 +65,6 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   round_off_ = 0;
   last_rejection_ = nullptr;
   last_h_ = Real(0);
-  satisfies_constraints_ = true;
   attempt_->begin(length);
   attempt_->keepPieces(monitor.inside);
   jacobian_.forgetPattern();
@@ -83,17 +82,18 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   return report.outcome;
 }
 
-// In index 3 Newton's method leaves at most kappa tolerances in g(u), of which the next step makes a change of
-// velocities by kappa last_h / h tolerances: too much where h is shorter than this.
+// In index 3 Newton's method may leave kNewtonPart kHiddenPart of a tolerance in g(u). The next step turns it into a
+// change of velocities that is last_h / h times as large: more than kHiddenPart of a tolerance if h is shorter than
+// this.
 template <class Real>
 bool Trajectory<Real>::isShortAfterLast(const Real& h) const {
-  return projection_ && controller_ && !satisfies_constraints_ && h < Real(kNewtonPart.value) * last_h_;
+  return projection_ && controller_ && h < Real(kNewtonPart.value) * last_h_;
 }
 
 // Projects positions and velocities to their constraints. False if that cannot be done; the state is then as before.
 template <class Real>
 bool Trajectory<Real>::satisfyConstraints() {
-  satisfies_constraints_ = true;
+  last_h_ = Real(0);
   next_ = state_;
   if (projection_->applyToPositions(next_) != Outcome::kSuccess) return false;
   std::swap(state_, next_);
@@ -188,7 +188,6 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   const AttemptResult& attempt = step.attempt;
   std::swap(state_, next_);
   last_h_ = step.h;
-  satisfies_constraints_ = false;
   ++counters_.steps_accepted;
   if (controller_) amounts_.look(next_, state_);
   round_off_ = std::max(round_off_, attempt.round_off);
@@ -219,7 +218,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     if (modes != Outcome::kSuccess) return modes;
     restart();
     if (projection_) {
-      satisfies_constraints_ = true;
+      last_h_ = Real(0);
       const Outcome projected = projection_->applyToPositions(state_);
       if (projected != Outcome::kSuccess) return projected;
     }

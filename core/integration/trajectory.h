@@ -89,8 +89,7 @@ class Trajectory {
   /// In index 3 positions and velocities satisfy their constraints only to the error of a step. The short steps after a
   /// restart would turn that into errors of velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;
-  Real last_h_{0};                                      // size of the last accepted step; 0 after a restart
-  bool satisfies_constraints_ = true;                   // the state was projected since the last accepted step
+  Real last_h_{0};  // size of the last accepted step; 0 if the state was projected since, or is the start
   std::unique_ptr<SingularPositions<Real>> positions_;  // null without position constraints
   Switches<Real> switches_;
   ChatterDetector chatter_;
