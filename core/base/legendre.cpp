@@ -76,10 +76,8 @@ void integrateLegendre(const Vec<Real>& p, Vec<Real>& once, Vec<Real>& twice) {
 }
 
 template void legendre<double>(const double&, Eigen::Ref<Vec<double>>);
-template void legendre<mp50>(const mp50&, Eigen::Ref<Vec<mp50>>);
-template void legendre<mp100>(const mp100&, Eigen::Ref<Vec<mp100>>);
+template void legendre<BigFloat>(const BigFloat&, Eigen::Ref<Vec<BigFloat>>);
 template void integrateLegendre<double>(const Vec<double>&, Vec<double>&, Vec<double>&);
-template void integrateLegendre<mp50>(const Vec<mp50>&, Vec<mp50>&, Vec<mp50>&);
-template void integrateLegendre<mp100>(const Vec<mp100>&, Vec<mp100>&, Vec<mp100>&);
+template void integrateLegendre<BigFloat>(const Vec<BigFloat>&, Vec<BigFloat>&, Vec<BigFloat>&);
 
 }  // namespace irk

@@ -122,8 +122,7 @@ double allowedInFixedRows(const IntegratorOptions& options) {
   template std::string constraintViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double); \
   template std::string fixedRowViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);
 IRK_CHECKS(double)
-IRK_CHECKS(mp50)
-IRK_CHECKS(mp100)
+IRK_CHECKS(BigFloat)
 #undef IRK_CHECKS
 
 }  // namespace irk

@@ -103,7 +103,6 @@ std::string derivativeFault(const System<Real>& system, DerivativeSource source,
 }
 
 template std::string derivativeFault(const System<double>&, DerivativeSource, const State<double>&);
-template std::string derivativeFault(const System<mp50>&, DerivativeSource, const State<mp50>&);
-template std::string derivativeFault(const System<mp100>&, DerivativeSource, const State<mp100>&);
+template std::string derivativeFault(const System<BigFloat>&, DerivativeSource, const State<BigFloat>&);
 
 }  // namespace irk

@@ -331,9 +331,7 @@ std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<
 IRK_INSTANTIATE_CLASS(FirstOrderForm)
 template std::shared_ptr<const System<double>> firstOrderForm(std::shared_ptr<const System<double>>, MassFactors);
 template std::shared_ptr<const System<double>> firstOrderForm(std::shared_ptr<const System<double>>);
-template std::shared_ptr<const System<mp50>> firstOrderForm(std::shared_ptr<const System<mp50>>, MassFactors);
-template std::shared_ptr<const System<mp50>> firstOrderForm(std::shared_ptr<const System<mp50>>);
-template std::shared_ptr<const System<mp100>> firstOrderForm(std::shared_ptr<const System<mp100>>, MassFactors);
-template std::shared_ptr<const System<mp100>> firstOrderForm(std::shared_ptr<const System<mp100>>);
+template std::shared_ptr<const System<BigFloat>> firstOrderForm(std::shared_ptr<const System<BigFloat>>, MassFactors);
+template std::shared_ptr<const System<BigFloat>> firstOrderForm(std::shared_ptr<const System<BigFloat>>);
 
 }  // namespace irk

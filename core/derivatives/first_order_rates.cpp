@@ -92,7 +92,6 @@ typename FirstOrderForm<Real>::Rates FirstOrderForm<Real>::kindNear(const State<
 }
 
 template bool FirstOrderForm<double>::classify(const State<double>&) const;
-template bool FirstOrderForm<mp50>::classify(const State<mp50>&) const;
-template bool FirstOrderForm<mp100>::classify(const State<mp100>&) const;
+template bool FirstOrderForm<BigFloat>::classify(const State<BigFloat>&) const;
 
 }  // namespace irk

@@ -21,7 +21,7 @@ Catalogue<JacobianTerms>& catalogue<JacobianTerms>() {
       {.id = JacobianTerms::kNoMassVxz, .meaning = "(4.4): without d(M a)/d(v, x, z)", .mass_without_vxz = true},
       {.id = JacobianTerms::kNoConstraintXz,
        .meaning = "(4.5): without dG/d(x, z)",
-       .change = {dropConstraintXz<double>, dropConstraintXz<mp50>, dropConstraintXz<mp100>}},
+       .change = {dropConstraintXz<double>, dropConstraintXz<BigFloat>}},
       {.id = JacobianTerms::kNoMass,
        .meaning = "(4.4) and (4.8): without d(M a)/d(u, v, x, z)",
        .mass_without_vxz = true,

@@ -166,7 +166,6 @@ RowSets detectRows(const System<Real>& system, Level level, const Point<Real>& p
 }
 
 template RowSets detectRows(const System<double>&, Level, const Point<double>&, const Directions&, bool);
-template RowSets detectRows(const System<mp50>&, Level, const Point<mp50>&, const Directions&, bool);
-template RowSets detectRows(const System<mp100>&, Level, const Point<mp100>&, const Directions&, bool);
+template RowSets detectRows(const System<BigFloat>&, Level, const Point<BigFloat>&, const Directions&, bool);
 
 }  // namespace irk

@@ -161,8 +161,7 @@ auto Defect<Real>::largest(const State<Real>& from, const StagePolynomial<Real>&
 }
 
 template class MovingPoints<double>;
-template class MovingPoints<mp50>;
-template class MovingPoints<mp100>;
+template class MovingPoints<BigFloat>;
 IRK_INSTANTIATE_CLASS(Defect)
 
 }  // namespace irk

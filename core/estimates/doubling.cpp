@@ -265,7 +265,6 @@ Strategy<ErrorEstimate> noEstimate() {
 }
 
 template Vec<double> doublingFactors(const Scheme<double>&, const System<double>&, ErrorEstimate);
-template Vec<double> doublingFactors(const Scheme<mp50>&, const System<mp50>&, ErrorEstimate);
-template Vec<double> doublingFactors(const Scheme<mp100>&, const System<mp100>&, ErrorEstimate);
+template Vec<double> doublingFactors(const Scheme<BigFloat>&, const System<BigFloat>&, ErrorEstimate);
 
 }  // namespace irk

@@ -31,8 +31,7 @@ std::string roundOffRemark(double size) {
   template EndCheck finish(const System<Real>&, const IntegratorOptions&, const ErrorNorm<Real>&, State<Real>&, \
                            Counters&);
 IRK_FINISH(double)
-IRK_FINISH(mp50)
-IRK_FINISH(mp100)
+IRK_FINISH(BigFloat)
 #undef IRK_FINISH
 
 }  // namespace irk

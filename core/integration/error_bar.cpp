@@ -127,8 +127,7 @@ double largestErrorBar(const Tolerances& tolerances) {
   template ErrorBar measureErrorBar(const State<Real>&, Integrator<Real>&, const State<Real>&, const Tolerances&, \
                                     const Vec<double>&, Solution<Real>&, const Monitor<Real>&);
 IRK_ERROR_BAR(double)
-IRK_ERROR_BAR(mp50)
-IRK_ERROR_BAR(mp100)
+IRK_ERROR_BAR(BigFloat)
 #undef IRK_ERROR_BAR
 
 }  // namespace irk

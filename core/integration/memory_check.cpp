@@ -71,7 +71,6 @@ void requireNoMemory(const System<Real>& system, const State<Real>& start, const
 }
 
 template void requireNoMemory(const System<double>&, const State<double>&, const double&);
-template void requireNoMemory(const System<mp50>&, const State<mp50>&, const mp50&);
-template void requireNoMemory(const System<mp100>&, const State<mp100>&, const mp100&);
+template void requireNoMemory(const System<BigFloat>&, const State<BigFloat>&, const BigFloat&);
 
 }  // namespace irk

@@ -213,7 +213,6 @@ void requireLegal(const IntegratorOptions& options, const System<Real>& system, 
 }
 
 template void requireLegal(const IntegratorOptions&, const System<double>&, const SchemeList<double>&, std::size_t);
-template void requireLegal(const IntegratorOptions&, const System<mp50>&, const SchemeList<mp50>&, std::size_t);
-template void requireLegal(const IntegratorOptions&, const System<mp100>&, const SchemeList<mp100>&, std::size_t);
+template void requireLegal(const IntegratorOptions&, const System<BigFloat>&, const SchemeList<BigFloat>&, std::size_t);
 
 }  // namespace irk

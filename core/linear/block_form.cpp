@@ -121,20 +121,22 @@ BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
   return form;
 }
 
-// In multiprecision a form is made in 100 digits and then rounded: the eigenvalue solver is compiled for one of them
-// only.
-template <class Real>
-BlockForm<Real> rounded(const BlockForm<mp100>& form) {
-  BlockForm<Real> result;
-  result.Q = form.Q.template cast<Real>();
-  result.Q_inverse = form.Q_inverse.template cast<Real>();
-  result.T = form.T.template cast<Real>();
-  result.diagonal = form.diagonal;
-  for (const auto& block : form.blocks) {
-    result.blocks.push_back(
-        {block.start, block.size, {Real(block.mu.real()), Real(block.mu.imag())}, Real(block.sigma)});
+// In multiprecision a form is made with twice the digits and then rounded: the eigenvectors of many stages lose most of
+// the working digits.
+std::shared_ptr<const BlockForm<BigFloat>> madePrecisely(const Mat<BigFloat>& A, auto make) {
+  auto form = std::make_shared<BlockForm<BigFloat>>();
+  {
+    const WorkingDigits precise(std::min(2 * WorkingDigits::now(), WorkingDigits::kMost));
+    *form = make(A);
   }
-  return result;
+  form->Q = roundedToWork(form->Q);
+  form->Q_inverse = roundedToWork(form->Q_inverse);
+  form->T = roundedToWork(form->T);
+  for (auto& block : form->blocks) {
+    block.mu = {block.mu.real().rounded(), block.mu.imag().rounded()};
+    block.sigma = block.sigma.rounded();
+  }
+  return form;
 }
 
 }  // namespace
@@ -145,7 +147,7 @@ std::shared_ptr<const BlockForm<Real>> schurForm(const Mat<Real>& A) {
     static KeptForms kept;
     return kept.of(keyOf(A), [&] { return makeSchurForm(A); });
   } else {
-    return std::make_shared<const BlockForm<Real>>(rounded<Real>(makeSchurForm<mp100>(A.template cast<mp100>())));
+    return madePrecisely(A, makeSchurForm<Real>);
   }
 }
 
@@ -155,15 +157,13 @@ std::shared_ptr<const BlockForm<Real>> eigenForm(const Mat<Real>& A) {
     static KeptForms kept;
     return kept.of(keyOf(A), [&] { return makeEigenForm(A); });
   } else {
-    return std::make_shared<const BlockForm<Real>>(rounded<Real>(makeEigenForm<mp100>(A.template cast<mp100>())));
+    return madePrecisely(A, makeEigenForm<Real>);
   }
 }
 
 template std::shared_ptr<const BlockForm<double>> schurForm(const Mat<double>&);
-template std::shared_ptr<const BlockForm<mp50>> schurForm(const Mat<mp50>&);
-template std::shared_ptr<const BlockForm<mp100>> schurForm(const Mat<mp100>&);
+template std::shared_ptr<const BlockForm<BigFloat>> schurForm(const Mat<BigFloat>&);
 template std::shared_ptr<const BlockForm<double>> eigenForm(const Mat<double>&);
-template std::shared_ptr<const BlockForm<mp50>> eigenForm(const Mat<mp50>&);
-template std::shared_ptr<const BlockForm<mp100>> eigenForm(const Mat<mp100>&);
+template std::shared_ptr<const BlockForm<BigFloat>> eigenForm(const Mat<BigFloat>&);
 
 }  // namespace irk

@@ -293,11 +293,9 @@ void SparseLu<T>::solve(T* b) {
 
 IRK_INSTANTIATE_CLASS(PivotChoice)
 template class PivotChoice<std::complex<double>>;
-template class PivotChoice<std::complex<mp50>>;
-template class PivotChoice<std::complex<mp100>>;
+template class PivotChoice<std::complex<BigFloat>>;
 IRK_INSTANTIATE_CLASS(SparseLu)
 template class SparseLu<std::complex<double>>;
-template class SparseLu<std::complex<mp50>>;
-template class SparseLu<std::complex<mp100>>;
+template class SparseLu<std::complex<BigFloat>>;
 
 }  // namespace irk

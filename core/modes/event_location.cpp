@@ -244,8 +244,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
 }
 
 template struct Location<double>;
-template struct Location<mp50>;
-template struct Location<mp100>;
+template struct Location<BigFloat>;
 IRK_INSTANTIATE_CLASS(EventLocator)
 
 }  // namespace irk

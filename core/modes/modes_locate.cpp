@@ -63,7 +63,7 @@ Strategy<Discontinuity> locatedModes() {
   return {Discontinuity::kLocate,
           "the root of a switching function ends the step; restart",
           {},
-          {nothing<double>, nothing<mp50>, nothing<mp100>},
+          {nothing<double>, nothing<BigFloat>},
           makes<ModesAfterStepMaker, LocatedAfterStep>()};
 }
 

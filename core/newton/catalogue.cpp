@@ -18,7 +18,6 @@ std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const
 }
 
 template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<double>&);
-template std::unique_ptr<Newton<mp50>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<mp50>&);
-template std::unique_ptr<Newton<mp100>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<mp100>&);
+template std::unique_ptr<Newton<BigFloat>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<BigFloat>&);
 
 }  // namespace irk

@@ -56,8 +56,7 @@ NewtonMaker<Real> reusing(const NewtonMaker<Real>& inner, Reuse reuse) {
 Strategy<NewtonKind> withReuse(Strategy<NewtonKind> method, std::string_view id, Reuse reuse, std::string meaning) {
   method.id = {{id}};
   method.meaning = std::move(meaning);
-  method.make = {reusing(method.make.in_double, reuse), reusing(method.make.in_mp50, reuse),
-                 reusing(method.make.in_mp100, reuse)};
+  method.make = {reusing(method.make.in_double, reuse), reusing(method.make.in_big_float, reuse)};
   return method;
 }
 

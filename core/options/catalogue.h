@@ -30,17 +30,15 @@ struct Needs {
 template <template <class> class Maker>
 struct PerScalar {
   Maker<double> in_double;
-  Maker<mp50> in_mp50;
-  Maker<mp100> in_mp100;
+  Maker<BigFloat> in_big_float;
 
   template <class Real>
   const Maker<Real>& of() const {
-    if constexpr (std::is_same_v<Real, double>)
+    if constexpr (std::is_same_v<Real, double>) {
       return in_double;
-    else if constexpr (std::is_same_v<Real, mp50>)
-      return in_mp50;
-    else
-      return in_mp100;
+    } else {
+      return in_big_float;
+    }
   }
 };
 
@@ -51,7 +49,7 @@ inline constexpr auto kConstruct = [](auto&&... args) { return std::make_unique<
 /// Factories of T<Real> for all scalars.
 template <template <class> class Maker, template <class> class T>
 PerScalar<Maker> makes() {
-  return {kConstruct<T<double>>, kConstruct<T<mp50>>, kConstruct<T<mp100>>};
+  return {kConstruct<T<double>>, kConstruct<T<BigFloat>>};
 }
 
 /// One entry of the axis `Id`. It is specialised beside the strategies of the axis and has at least the members `Id

@@ -27,20 +27,20 @@ std::unique_ptr<StageSolver<double>> coupledSparse(const StageSolverSetup<double
   return std::make_unique<Coupled<double, SparseLu>>(setup);
 }
 
-PerScalar<StageSolverMaker> decoupledSolvers() { return {decoupled<double>, decoupled<mp50>, decoupled<mp100>}; }
+PerScalar<StageSolverMaker> decoupledSolvers() { return {decoupled<double>, decoupled<BigFloat>}; }
 
 }  // namespace
 
 Strategy<StageSolverKind> schurSolver() {
   return {.id = StageSolverKind::kSchur,
           .meaning = "real Schur form of A: s/2 complex n x n systems",
-          .form = {schurForm<double>, schurForm<mp50>, schurForm<mp100>},
+          .form = {schurForm<double>, schurForm<BigFloat>},
           .make = decoupledSolvers()};
 }
 Strategy<StageSolverKind> eigenSolver() {
   return {.id = StageSolverKind::kEigen,
           .meaning = "eigenvectors of A: s/2 complex n x n systems, cheapest",
-          .form = {eigenForm<double>, eigenForm<mp50>, eigenForm<mp100>},
+          .form = {eigenForm<double>, eigenForm<BigFloat>},
           .make = decoupledSolvers()};
 }
 Strategy<StageSolverKind> coupledDenseSolver() {
@@ -48,14 +48,14 @@ Strategy<StageSolverKind> coupledDenseSolver() {
           .meaning = "one LU of the s n x s n matrix (paper)",
           .coupled = true,
           .storage = Storage::kDense,
-          .make = {coupledDense<double>, coupledDense<mp50>, coupledDense<mp100>}};
+          .make = {coupledDense<double>, coupledDense<BigFloat>}};
 }
 Strategy<StageSolverKind> coupledSparseSolver() {
   return {.id = StageSolverKind::kCoupledSparse,
           .meaning = "one sparse LU of the s n x s n matrix",
           .coupled = true,
           .storage = Storage::kSparse,
-          .make = {coupledSparse, nullptr, nullptr}};
+          .make = {coupledSparse, nullptr}};
 }
 
 IRK_CATALOGUE(StageSolverKind, schurSolver(), eigenSolver(), coupledDenseSolver(), coupledSparseSolver())

@@ -79,8 +79,7 @@ void Coupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
 }
 
 template class Coupled<double, DenseLu>;
-template class Coupled<mp50, DenseLu>;
-template class Coupled<mp100, DenseLu>;
+template class Coupled<BigFloat, DenseLu>;
 template class Coupled<double, SparseLu>;
 
 }  // namespace irk

@@ -114,8 +114,12 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
     form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
   }
   if (setup_.threads > 1) {
+    const int digits = WorkingDigits::now();
 #pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
-    for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
+    for (std::size_t k = done; k < blocks; ++k) {
+      const WorkingDigits of_all(digits);
+      outcomes_[k] = factorizeBlock(k);
+    }
   } else {
     for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   }
@@ -333,8 +337,7 @@ void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
 }
 
 template class Decoupled<double, DenseLu>;
-template class Decoupled<mp50, DenseLu>;
-template class Decoupled<mp100, DenseLu>;
+template class Decoupled<BigFloat, DenseLu>;
 template class Decoupled<double, SparseLu>;
 
 }  // namespace irk

@@ -30,10 +30,8 @@ std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind, const S
 }
 
 template std::shared_ptr<const BlockForm<double>> makeBlockForm(StageSolverKind, const Mat<double>&);
-template std::shared_ptr<const BlockForm<mp50>> makeBlockForm(StageSolverKind, const Mat<mp50>&);
-template std::shared_ptr<const BlockForm<mp100>> makeBlockForm(StageSolverKind, const Mat<mp100>&);
+template std::shared_ptr<const BlockForm<BigFloat>> makeBlockForm(StageSolverKind, const Mat<BigFloat>&);
 template std::unique_ptr<StageSolver<double>> makeStageSolver(StageSolverKind, const StageSolverSetup<double>&);
-template std::unique_ptr<StageSolver<mp50>> makeStageSolver(StageSolverKind, const StageSolverSetup<mp50>&);
-template std::unique_ptr<StageSolver<mp100>> makeStageSolver(StageSolverKind, const StageSolverSetup<mp100>&);
+template std::unique_ptr<StageSolver<BigFloat>> makeStageSolver(StageSolverKind, const StageSolverSetup<BigFloat>&);
 
 }  // namespace irk

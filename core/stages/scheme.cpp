@@ -89,16 +89,12 @@ std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau) {
 }
 
 template std::shared_ptr<const Structure<double>> structureOf(const Tableau<double>&);
-template std::shared_ptr<const Structure<mp50>> structureOf(const Tableau<mp50>&);
-template std::shared_ptr<const Structure<mp100>> structureOf(const Tableau<mp100>&);
+template std::shared_ptr<const Structure<BigFloat>> structureOf(const Tableau<BigFloat>&);
 template std::shared_ptr<const Scheme<double>> schemeOf(const Tableau<double>&);
-template std::shared_ptr<const Scheme<mp50>> schemeOf(const Tableau<mp50>&);
-template std::shared_ptr<const Scheme<mp100>> schemeOf(const Tableau<mp100>&);
+template std::shared_ptr<const Scheme<BigFloat>> schemeOf(const Tableau<BigFloat>&);
 template struct Structure<double>;
-template struct Structure<mp50>;
-template struct Structure<mp100>;
+template struct Structure<BigFloat>;
 template struct Scheme<double>;
-template struct Scheme<mp50>;
-template struct Scheme<mp100>;
+template struct Scheme<BigFloat>;
 
 }  // namespace irk

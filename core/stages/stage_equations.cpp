@@ -125,8 +125,12 @@ bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   if (first > 0) R.leftCols(first).setZero();
   const StagePoints<Real> at = points(W);
   if (threads_ > 1) {
+    const int digits = WorkingDigits::now();
 #pragma omp parallel for num_threads(threads_) schedule(static)
-    for (Index i = first; i < s; ++i) system_.evaluateStages(at, i, i + 1, R.data());
+    for (Index i = first; i < s; ++i) {
+      const WorkingDigits of_all(digits);
+      system_.evaluateStages(at, i, i + 1, R.data());
+    }
   } else {
     system_.evaluateStages(at, first, s, R.data());
   }

@@ -117,8 +117,7 @@ const State<Real>& SwitchScan<Real>::at(const Real& theta) {
 }
 
 template struct DueInside<double>;
-template struct DueInside<mp50>;
-template struct DueInside<mp100>;
+template struct DueInside<BigFloat>;
 IRK_INSTANTIATE_CLASS(SwitchScan)
 
 }  // namespace irk

@@ -133,8 +133,7 @@ std::string notFinite(const State<Real>& start) {
   template void requireStart(const System<Real>&, const State<Real>&, const Real&); \
   template std::string notFinite(const State<Real>&);
 IRK_CHECKS(double)
-IRK_CHECKS(mp50)
-IRK_CHECKS(mp100)
+IRK_CHECKS(BigFloat)
 #undef IRK_CHECKS
 
 }  // namespace irk

@@ -70,7 +70,7 @@ void registerObserved() {
     registerStrategy<NewtonKind>({.id = kObserved,
                                   .meaning = "newton 'modified', each solve observed",
                                   .uses_stage_matrices = true,
-                                  .make = {kConstruct<ObservedNewton>, nullptr, nullptr}});
+                                  .make = {kConstruct<ObservedNewton>, nullptr}});
     return true;
   }();
   static_cast<void>(done);
@@ -121,7 +121,7 @@ void writeContractions(const Study& study, const RunFile& runs, const std::files
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
       if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method) ||
-          spec->options.newton.kind != NewtonKind::kModified || spec->scalar != ScalarKind::kDouble) {
+          spec->options.newton.kind != NewtonKind::kModified || !spec->scalar.isDouble()) {
         continue;
       }
       appendRun(series.name, textAt(names, *run, "rtol"), observedContractions(*spec), table);

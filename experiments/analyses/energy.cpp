@@ -22,31 +22,31 @@ struct EnergyErrors {
   std::vector<double> t, error;
 };
 
-const Scene<mp50>::Output* energyOf(const Scene<mp50>& scene) {
+const Scene<BigFloat>::Output* energyOf(const Scene<BigFloat>& scene) {
   const auto found = std::find_if(scene.outputs.begin(), scene.outputs.end(),
                                   [](const auto& output) { return output.name == "energy"; });
   return found == scene.outputs.end() ? nullptr : &*found;
 }
 
 // The exact value of the state: its numbers plus the carries of compensated summation.
-State<mp50> exactly(const State<double>& state) {
-  State<mp50> s;
+State<BigFloat> exactly(const State<double>& state) {
+  State<BigFloat> s;
   s.t = state.t;
-  s.u = state.u.cast<mp50>();
-  s.v = state.v.cast<mp50>();
-  s.x = state.x.cast<mp50>();
-  s.w = state.w.cast<mp50>();
-  s.d = state.d.cast<mp50>();
+  s.u = state.u.cast<BigFloat>();
+  s.v = state.v.cast<BigFloat>();
+  s.x = state.x.cast<BigFloat>();
+  s.w = state.w.cast<BigFloat>();
+  s.d = state.d.cast<BigFloat>();
   const Index nu = s.u.size();
-  s.u += state.carry.head(nu).cast<mp50>();
-  s.v += state.carry.segment(nu, nu).cast<mp50>();
-  s.x += state.carry.tail(s.x.size()).cast<mp50>();
+  s.u += state.carry.head(nu).cast<BigFloat>();
+  s.v += state.carry.segment(nu, nu).cast<BigFloat>();
+  s.x += state.carry.tail(s.x.size()).cast<BigFloat>();
   return s;
 }
 
-EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
+EnergyErrors integrate(const RunSpec& spec, const Scene<BigFloat>::Output& energy) {
   const auto setup = makeSetup<double>(spec);
-  const mp50 start = energy.value(exactly(setup.scene.start));
+  const BigFloat start = energy.value(exactly(setup.scene.start));
   const auto stride =
       static_cast<std::int64_t>(std::max(1.0, std::round(setup.spec.t_end / spec.options.step.h / kEnergySamples)));
   EnergyErrors errors;
@@ -55,7 +55,7 @@ EnergyErrors integrate(const RunSpec& spec, const Scene<mp50>::Output& energy) {
   monitor.accepted = [&](const StepRecord<double>& step) {
     if (++steps % stride != 0) return;
     errors.t.push_back(step.t);
-    const mp50 error = energy.value(exactly(step.state)) - start;
+    const BigFloat error = energy.value(exactly(step.state)) - start;
     errors.error.push_back(static_cast<double>(error));
   };
   monitor.interrupt = [] { return interruptFlag() ? Outcome::kInterrupted : Outcome::kSuccess; };
@@ -86,7 +86,7 @@ void writeEnergy(const Study& study, const RunFile& runs, const std::filesystem:
       const auto found = specs.find(run->front());
       if (!found || !succeededAt(names, *run) || interruptFlag()) continue;
       const RunSpec& spec = *found;
-      const auto scene = sceneOf<mp50>(spec);
+      const auto scene = sceneOf<BigFloat>(spec);
       const auto* energy = energyOf(scene);
       const bool fixed = hasFixedSteps(spec.options.step);
       if (!energy || !fixed || findPeer(spec.method)) continue;

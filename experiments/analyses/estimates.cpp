@@ -133,7 +133,7 @@ void writeEstimates(const Study& study, const RunFile& runs, const std::filesyst
     for (const auto* run : series.rows) {
       const auto spec = specs.find(run->front());
       if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method) ||
-          spec->options.step.estimate == ErrorEstimate::kNone || spec->scalar != ScalarKind::kDouble) {
+          spec->options.step.estimate == ErrorEstimate::kNone || !spec->scalar.isDouble()) {
         continue;
       }
       const StepSampler sampler(*spec);

@@ -18,7 +18,7 @@ using Cells = std::vector<std::pair<std::string, std::string>>;
 
 std::string truth(bool value) { return value ? "1" : "0"; }
 
-Cells propertyCells(const Tableau<mp80>& tableau, const TableauProperties& properties) {
+Cells propertyCells(const Tableau<BigFloat>& tableau, const TableauProperties& properties) {
   const auto& [analysis, kind, quadrature, symmetric, R, stability, spectrum] = properties;
   return {{"method", tableau.id},
           {"family", tableau.family},
@@ -58,7 +58,7 @@ void append(const Cells& cells, Table& table) {
   }
 }
 
-void appendRoots(const Tableau<mp80>& tableau, const StabilityFunction& R, Table& table) {
+void appendRoots(const Tableau<BigFloat>& tableau, const StabilityFunction& R, Table& table) {
   const auto add = [&](const char* root, const std::vector<std::complex<double>>& places) {
     for (const auto& z : places) {
       append({{"method", tableau.id},

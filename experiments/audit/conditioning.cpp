@@ -22,11 +22,11 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // u, v, x at the start and at the end.
 struct Motion {
-  Vec<mp50> start, end;
+  Vec<BigFloat> start, end;
 };
 
-Vec<mp50> stateOf(const State<mp50>& s) {
-  Vec<mp50> y(s.u.size() + s.v.size() + s.x.size());
+Vec<BigFloat> stateOf(const State<BigFloat>& s) {
+  Vec<BigFloat> y(s.u.size() + s.v.size() + s.x.size());
   y << s.u, s.v, s.x;
   return y;
 }
@@ -34,9 +34,9 @@ Vec<mp50> stateOf(const State<mp50>& s) {
 // nullopt if there is no such scene: the parameter is out of range, or has no consistent start.
 std::optional<Motion> motionOf(const SceneEntry& entry, const Settings& settings, double t_end) {
   try {
-    const auto scene = makeScene<mp50>(entry, settings);
+    const auto scene = makeScene<BigFloat>(entry, settings);
     if (!scene.exact) return {};
-    return Motion{stateOf(scene.start), stateOf(scene.exact(decimalNumber<mp50>(t_end)))};
+    return Motion{stateOf(scene.start), stateOf(scene.exact(decimalNumber<BigFloat>(t_end)))};
   } catch (const Misuse&) {
     return {};
   } catch (const std::logic_error&) {
@@ -45,12 +45,12 @@ std::optional<Motion> motionOf(const SceneEntry& entry, const Settings& settings
 }
 
 // The largest |a - b| / max(|b|, scale); NaN without components. The differences are formed in 50 digits.
-double distance(const Vec<mp50>& a, const Vec<mp50>& b, const Vec<double>& scale) {
+double distance(const Vec<BigFloat>& a, const Vec<BigFloat>& b, const Vec<double>& scale) {
   if (a.size() != b.size()) return kNone;
   double largest = a.size() > 0 ? 0 : kNone;
   for (Index i = 0; i < a.size(); ++i) {
     const double magnitude = std::max(std::abs(static_cast<double>(b[i])), i < scale.size() ? scale[i] : 1);
-    const double size = std::abs(static_cast<double>(mp50(a[i] - b[i]))) / magnitude;
+    const double size = std::abs(static_cast<double>(BigFloat(a[i] - b[i]))) / magnitude;
     largest = std::isfinite(size) ? std::max(largest, size) : std::numeric_limits<double>::infinity();
   }
   return largest;
@@ -69,7 +69,7 @@ std::optional<double> numberOf(const Parameter& p, const std::string& text) {
 
 double growthByClosedForm(const std::string& id, const Settings& settings, double t_end) {
   const SceneEntry& entry = findScene(id);
-  if (!entry.make_mp50) return kNone;
+  if (!entry.make_big_float) return kNone;
   const Settings values = completedSettings(id, entry.parameters, settings);
   const auto motion = motionOf(entry, values, t_end);
   if (!motion) return kNone;

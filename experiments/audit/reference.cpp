@@ -196,13 +196,13 @@ class Search {
   }
 
   bool canBePrecise() const {
-    return n_.switches == 0 && judged() <= kFewUnknowns && findScene(question_.scene).make_mp50 != nullptr;
+    return n_.switches == 0 && judged() <= kFewUnknowns && findScene(question_.scene).make_big_float != nullptr;
   }
   // Keeps the state on which two runs in 50 digits agree, if it is more accurate than what double precision gave.
   void agreePrecisely(double tolerance) {
     const auto made = [&](IndependentFamily family) {
       RunSpec precise = spec(family, {tolerance, 1});
-      precise.scalar = ScalarKind::kMp50;
+      precise.scalar = {50};
       precise.time_limit = kPreciseTimeLimit;
       const RunRecord record = execute(precise, watch_);
       return record.succeeded() ? componentsOf(record) : Vec<double>();

@@ -1,6 +1,7 @@
 #include "experiments/commands/arguments.h"
 
 #include <algorithm>
+#include <regex>
 
 #include "core/base/number_text.h"
 #include "core/base/text.h"
@@ -118,6 +119,15 @@ void addSolveOptions(CLI::App& sub, SolveOptions& run) {
       ->type_name("INTEGER");
   sub.add_flag("--bars", run.bars,
                "Adds to each point in --out its error bars, from one more integration of another method.");
+}
+
+void addDigits(CLI::App& sub, std::string& scalar) {
+  sub.add_option_function<std::string>(
+         "--digits",
+         [&scalar](const std::string& digits) { scalar = std::regex_replace(digits, std::regex("(^|,)"), "$1mp"); },
+         "Compute in so many decimal digits: short for --scalar mpN. [30 .. 1000]")
+      ->excludes(sub.get_option("--scalar"))
+      ->type_name("INTEGER");
 }
 
 void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble) {

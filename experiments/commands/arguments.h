@@ -36,6 +36,9 @@ int integer(std::string_view name, std::string_view text, const Range& range);
 void addPeersOption(CLI::App& sub, std::vector<std::string>& peers);
 /// The options of `irk solve` that are not fields of a run.
 void addSolveOptions(CLI::App& sub, SolveOptions& run);
+
+/// `--digits N`, which sets the scalar `mpN`; to be added after --scalar.
+void addDigits(CLI::App& sub, std::string& scalar);
 /// The same for `irk ensemble`.
 void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ensemble);
 /// The options of `irk compare`.

@@ -156,6 +156,7 @@ class Program {
     addSolveOptions(*sub, solve_);
     addLoad(*sub);
     for (const auto& field : specFields()) addField(*sub, field);
+    addDigits(*sub, fields_["scalar"]);
   }
 
   void addEnsemble() {

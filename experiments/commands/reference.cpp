@@ -48,8 +48,8 @@ std::vector<std::string> timesOf(const ReferenceTask& task, const std::vector<Re
   for (const auto& value : independent) {
     if (value.scene == spec.scene && value.settings == settings) times.push_back(value.t);
   }
-  std::stable_sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return mp50(a) < mp50(b); });
-  const auto same = [](const auto& a, const auto& b) { return mp50(a) == mp50(b); };
+  std::stable_sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return BigFloat(a) < BigFloat(b); });
+  const auto same = [](const auto& a, const auto& b) { return BigFloat(a) == BigFloat(b); };
   times.erase(std::unique(times.begin(), times.end(), same), times.end());
   return times;
 }

@@ -124,7 +124,7 @@ class Comparer {
   }
 
   double roundOff(const Pair& pair) const {
-    return kRoundOff * epsilonOf(scalar_ ? parseId<ScalarKind>(scalar_->of(*pair.first, false)) : ScalarKind::kDouble);
+    return kRoundOff * epsilonOf(scalar_ ? parseId<ScalarKind>(scalar_->of(*pair.first, false)) : ScalarKind{});
   }
 
   // Like counters: one difference per run. Errors below round-off are not compared.

@@ -27,7 +27,7 @@ void refuse(const std::string& what, const std::string& instead) {
 
 void requireSpec(const RunSpec& spec) {
   if (findPeer(spec.method)) refuse("method '" + spec.method + "'", "it has Runge-Kutta methods only");
-  if (spec.scalar != ScalarKind::kDouble) refuse("scalar '" + std::string(idOf(spec.scalar)) + "'", "it is in double");
+  if (!spec.scalar.isDouble()) refuse("scalar '" + idOf(spec.scalar) + "'", "it is in double");
   if (spec.options.threads > 1) refuse("threads", "--jobs says how many members are integrated at a time");
   if (spec.time_limit > 0) refuse("time_limit", "use max_steps");
   if (spec.reference != ReferenceUse::kNone || spec.reference_times > 1) refuse("references", "it has no errors");

@@ -48,16 +48,12 @@ SceneEntry entryIn(const SharedLibrary& object) {
   return entry;
 }
 
-/// Makes the scene of a file with more digits: compiles and loads the file anew when this is asked for first.
-template <class Real>
+/// Makes the scene of a file in multiprecision: compiles and loads the file anew when this is asked for first.
 class MoreDigits {
  public:
-  using Make = std::function<Scene<Real>(const Settings&)>;
+  explicit MoreDigits(std::filesystem::path source) : source_(std::move(source)) {}
 
-  MoreDigits(std::filesystem::path source, int digits, Make SceneEntry::*make)
-      : source_(std::move(source)), digits_(digits), make_(make) {}
-
-  Scene<Real> operator()(const Settings& settings) {
+  Scene<BigFloat> operator()(const Settings& settings) {
     const std::lock_guard lock(mutex_);
     if (!refusal_.empty()) throw Misuse(refusal_);
     if (!made_) compileAndLoad();
@@ -67,8 +63,8 @@ class MoreDigits {
  private:
   void compileAndLoad() {
     try {
-      const Compiled compiled = compile(source_, digits_, log());
-      made_ = entryIn(load(compiled.object, source_)).*make_;
+      const Compiled compiled = compile(source_, 50, log());
+      made_ = entryIn(load(compiled.object, source_)).make_big_float;
     } catch (const Misuse& misuse) {
       refusal_ = misuse.what();
       throw;
@@ -76,17 +72,13 @@ class MoreDigits {
   }
 
   std::filesystem::path source_;
-  int digits_;
-  Make SceneEntry::*make_;
   std::mutex mutex_;
-  Make made_;
+  std::function<Scene<BigFloat>(const Settings&)> made_;
   std::string refusal_;  // every run of a study would compile the file again
 };
 
-template <class Real>
-std::function<Scene<Real>(const Settings&)> whenAsked(const std::filesystem::path& source, int digits,
-                                                      std::function<Scene<Real>(const Settings&)> SceneEntry::*make) {
-  const auto maker = std::make_shared<MoreDigits<Real>>(source, digits, make);
+std::function<Scene<BigFloat>(const Settings&)> whenAsked(const std::filesystem::path& source) {
+  const auto maker = std::make_shared<MoreDigits>(source);
   return [maker](const Settings& settings) { return (*maker)(settings); };
 }
 
@@ -156,8 +148,7 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
   if (object.find<void(SceneEntry*)>("irk_scene")) {
     SceneEntry entry = entryIn(object);
     loaded.scene = entry.id;
-    entry.make_mp50 = whenAsked<mp50>(file, 50, &SceneEntry::make_mp50);
-    entry.make_mp100 = whenAsked<mp100>(file, 100, &SceneEntry::make_mp100);
+    entry.make_big_float = whenAsked(file);
     registerSceneOf(std::move(entry), given);
   }
   for (const auto& id : knownIds()) {

@@ -24,14 +24,14 @@ double roundedUp(double x) {
   return std::strtod(fmt::format("{:.0e}", digit * unit).c_str(), nullptr);
 }
 
-AgreedValue agreed(std::span<const mp50> runs, double least) {
+AgreedValue agreed(std::span<const BigFloat> runs, double least) {
   const auto [smallest, largest] = std::minmax_element(runs.begin(), runs.end());
-  const auto spread = static_cast<double>(mp50(*largest - *smallest));
+  const auto spread = static_cast<double>(BigFloat(*largest - *smallest));
   return {runs.back(), roundedUp(std::max(spread, least))};
 }
 
-std::string decimalText(const mp50& value, double accuracy) {
-  if (abs(value) < mp50(accuracy) / 2) return "0";  // not even its first digit is known
+std::string decimalText(const BigFloat& value, double accuracy) {
+  if (abs(value) < BigFloat(accuracy) / 2) return "0";  // not even its first digit is known
   constexpr int kGuard = 1;
   const int last = exponentOf(fmt::format("{:.0e}", accuracy)) - kGuard;  // exponent of the last digit
   const int first = exponentOf(value.str(kMaxDigits, std::ios::scientific));

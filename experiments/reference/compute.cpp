@@ -18,20 +18,20 @@ namespace {
 // Accuracy of exact values: the closed forms lose some of their 50 digits.
 constexpr double kExact = 1e-38;
 
-using Rows = std::vector<std::vector<mp50>>;  // of components and outputs, for each of a task's times
+using Rows = std::vector<std::vector<BigFloat>>;  // of components and outputs, for each of a task's times
 
 std::string nameOf(const ReferenceTask& task) {
   return fmt::format("{}{}{}", task.scene, task.of.settings.empty() ? "" : " ", task.of.settings);
 }
 
 // The values of the closed form at each time; NaN where it gives none.
-Rows exactRows(const Scene<mp50>& scene, const std::vector<std::string>& times) {
+Rows exactRows(const Scene<BigFloat>& scene, const std::vector<std::string>& times) {
   Rows rows;
   for (const auto& t : times) {
     if (scene.exact) {
-      rows.push_back(componentsAndOutputs(scene, scene.exact(mp50(t))));
+      rows.push_back(componentsAndOutputs(scene, scene.exact(BigFloat(t))));
     } else {
-      rows.emplace_back(scene.names.size() + scene.outputs.size(), std::numeric_limits<mp50>::quiet_NaN());
+      rows.emplace_back(scene.names.size() + scene.outputs.size(), std::numeric_limits<BigFloat>::quiet_NaN());
     }
   }
   return rows;
@@ -51,7 +51,7 @@ class Assembly {
         times_(times),
         runs_(runs),
         spec_(referenceRun(task, 0)),
-        scene_(makeScene<mp50>(spec_.scene, spec_.settings)) {}
+        scene_(makeScene<BigFloat>(spec_.scene, spec_.settings)) {}
 
   ComputedTask result() {
     for (const auto& run : runs_) {
@@ -71,8 +71,8 @@ class Assembly {
     return j < n ? scene_.names[j] : scene_.outputs[j - n].name;
   }
 
-  void addValue(std::size_t i, std::size_t j, const mp50& exact) {
-    std::array<mp50, kReferenceRuns> values;
+  void addValue(std::size_t i, std::size_t j, const BigFloat& exact) {
+    std::array<BigFloat, kReferenceRuns> values;
     for (std::size_t run = 0; run < kReferenceRuns; ++run) values[run] = runs_[run].rows[i][j];
     if (!isfinite(values.back())) return;  // the output is not defined here
     const auto at = static_cast<Index>(j);
@@ -87,8 +87,8 @@ class Assembly {
   }
 
   // Replaces the value by the exact one, or removes it if the integrations contradict it.
-  void replace(ReferenceValue& value, const mp50& exact, double size) {
-    const auto error = static_cast<double>(mp50(abs(exact - value.value)));
+  void replace(ReferenceValue& value, const BigFloat& exact, double size) {
+    const auto error = static_cast<double>(BigFloat(abs(exact - value.value)));
     if (error > value.accuracy) {
       computed_.problems.push_back(fmt::format("{}: exact {}, integrated {}, which agree to {:g} among themselves",
                                                value.place(), exact.str(30), value.value.str(30), value.accuracy));
@@ -102,7 +102,7 @@ class Assembly {
   const std::vector<std::string>& times_;
   std::span<const Integrated> runs_;
   RunSpec spec_;
-  Scene<mp50> scene_;
+  Scene<BigFloat> scene_;
   ComputedTask computed_;
 };
 
@@ -113,7 +113,7 @@ std::string ReferenceValue::place() const {
 }
 
 bool samePlace(const ReferenceValue& a, const ReferenceValue& b) {
-  return a.scene == b.scene && a.settings == b.settings && a.component == b.component && mp50(a.t) == mp50(b.t);
+  return a.scene == b.scene && a.settings == b.settings && a.component == b.component && BigFloat(a.t) == BigFloat(b.t);
 }
 
 void expectRuns(const ReferenceTask& task, Progress& progress) {

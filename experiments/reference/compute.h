@@ -15,7 +15,7 @@ struct ReferenceValue {
   std::string scene, settings;  ///< settings as `settingsText`, without defaults
   std::string t;                ///< decimal
   std::string component;
-  mp50 value;
+  BigFloat value;
   double accuracy = 0;  ///< absolute
   std::string source;
 

@@ -56,20 +56,21 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
 }  // namespace
 
 template <class Real>
-std::vector<mp50> componentsAndOutputs(const Scene<Real>& scene, const State<Real>& state) {
+std::vector<BigFloat> componentsAndOutputs(const Scene<Real>& scene, const State<Real>& state) {
   const Vec<Real> y = components(state);
-  std::vector<mp50> row(y.begin(), y.end());
-  for (const auto& output : scene.outputs) row.push_back(mp50(output.value(state)));
+  std::vector<BigFloat> row(y.begin(), y.end());
+  for (const auto& output : scene.outputs) row.push_back(BigFloat(output.value(state)));
   return row;
 }
-template std::vector<mp50> componentsAndOutputs(const Scene<double>&, const State<double>&);
-template std::vector<mp50> componentsAndOutputs(const Scene<mp50>&, const State<mp50>&);
+template std::vector<BigFloat> componentsAndOutputs(const Scene<double>&, const State<double>&);
+template std::vector<BigFloat> componentsAndOutputs(const Scene<BigFloat>&, const State<BigFloat>&);
 
 Integrated integrated(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch) {
   Integrated result;
+  const WorkingDigits digits(spec.scalar.isDouble() ? WorkingDigits::now() : spec.scalar.digits);
   try {
-    result = spec.scalar == ScalarKind::kDouble ? integratedIn<double>(spec, times, watch)
-                                                : integratedIn<mp50>(spec, times, watch);
+    result =
+        spec.scalar.isDouble() ? integratedIn<double>(spec, times, watch) : integratedIn<BigFloat>(spec, times, watch);
   } catch (const std::exception& error) {
     result.failure = error.what();
   }

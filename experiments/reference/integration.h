@@ -20,15 +20,15 @@ struct IntegrationWatch {
 };
 
 struct Integrated {
-  std::vector<std::vector<mp50>> rows;  ///< for each time reached the components and then the outputs of the scene
-  std::string failure;                  ///< why there are not all rows, in one line; empty: there are
+  std::vector<std::vector<BigFloat>> rows;  ///< for each time reached the components and then the outputs of the scene
+  std::string failure;                      ///< why there are not all rows, in one line; empty: there are
 };
 
 /// The components u, v, x, z of the state, then the outputs of the scene.
 template <class Real>
-std::vector<mp50> componentsAndOutputs(const Scene<Real>& scene, const State<Real>& state);
+std::vector<BigFloat> componentsAndOutputs(const Scene<Real>& scene, const State<Real>& state);
 
-/// Integrates the spec, in its scalar (double or mp50), to each of the times: decimal, ascending, from the scene's
+/// Integrates the spec, in its scalar, to each of the times: decimal, ascending, from the scene's
 /// start on. Exceptions become failures.
 Integrated integrated(const RunSpec& spec, const std::vector<std::string>& times, const IntegrationWatch& watch);
 

@@ -118,7 +118,7 @@ class Making {
   }
 
   std::string whyNotInFiftyDigits() const {
-    if (!findScene(last().scene).make_mp50) return "the scene has no 50-digit instance";
+    if (!findScene(last().scene).make_big_float) return "the scene has no 50-digit instance";
     const Index n = scene_.sizes().n();
     if (n <= limits_.most_unknowns) return "";
     return fmt::format("{} unknowns are too many, up to {} are computed in 50 digits", n, limits_.most_unknowns);
@@ -157,15 +157,15 @@ class Making {
     ComputedReference result;
     result.in_double = in_fifty_[k];
     for (std::size_t j = 0; j < names.size(); ++j) {
-      std::array<mp50, kReferenceRuns> values;
+      std::array<BigFloat, kReferenceRuns> values;
       for (std::size_t run = 0; run < kReferenceRuns; ++run) values[run] = runs[run].rows[i][j];
-      if (!std::all_of(values.begin(), values.end(), [](const mp50& x) { return isfinite(x); })) continue;
+      if (!std::all_of(values.begin(), values.end(), [](const BigFloat& x) { return isfinite(x); })) continue;
       const double size = std::max(std::abs(static_cast<double>(values.back())), scaleOf(j));
       const AgreedValue found = agreed(values, least * size);
       if (found.accuracy > limits_.disagreement * size) {
         const auto text = fmt::format("the four runs disagree, {} by {:.0e}", names[j], found.accuracy / size);
         // In 50 digits this is the end; in double a stricter attempt may follow.
-        if (specs.back().scalar == ScalarKind::kMp50) results_[k].problem = "in 50 digits " + text;
+        if (!specs.back().scalar.isDouble()) results_[k].problem = "in 50 digits " + text;
         return text;
       }
       result.accuracy = std::max(result.accuracy, found.accuracy / size);

@@ -14,15 +14,15 @@ namespace {
 
 const std::vector<std::string> kColumns = {"scene", "settings", "t", "component", "value", "accuracy", "source"};
 
-mp50 parseDecimal(const std::string& place, const std::string& text) {
+BigFloat parseDecimal(const std::string& place, const std::string& text) {
   parseNumber(place, text, kAnyNumber);  // refuses text that is no number, with its message
-  return mp50(text);
+  return BigFloat(text);
 }
 
 // Runs have double times, so a time must be a double.
 void requireTime(const std::string& place, const std::string& text) {
-  const mp50 t = parseDecimal(place, text);
-  if (t != decimalNumber<mp50>(static_cast<double>(t))) {
+  const BigFloat t = parseDecimal(place, text);
+  if (t != decimalNumber<BigFloat>(static_cast<double>(t))) {
     throw Misuse(fmt::format("{} = {} has more digits than a double tells apart", place, text));
   }
 }
@@ -75,7 +75,7 @@ std::vector<std::string> disagreements(const std::vector<ReferenceValue>& stated
       lines.push_back(fmt::format("{}: not computed", value.place()));
       continue;
     }
-    const auto error = static_cast<double>(mp50(abs(value.value - other->value)));
+    const auto error = static_cast<double>(BigFloat(abs(value.value - other->value)));
     if (error <= value.accuracy + other->accuracy) continue;
     lines.push_back(fmt::format("{}: {} to {:g} ({}), computed {} to {:g}", value.place(),
                                 decimalText(value.value, value.accuracy), value.accuracy, value.source,

@@ -19,7 +19,7 @@ RunSpec referenceSpec(const ReferenceTask& task, std::string_view method, Finene
   spec.method = method;
   spec.formulation = task.formulation;
   spec.discontinuity = Discontinuity::kLocate;
-  spec.scalar = ScalarKind::kMp50;
+  spec.scalar = {50};
   auto& options = spec.options;
   options.tolerances.rtol = options.tolerances.atol = task.of.tolerance * (fine ? kFiner : 1);
   options.step.control = StepControl::kPredictive;

@@ -82,7 +82,7 @@ double expectedCost(const Series& series) {
   const RunSpec first = series.runs.front();
   const double given = static_cast<double>(isFamily(first.method) ? 5 : stagesInId(first.method));
   const double stages = std::max(given, 1.0);
-  const double digits = first.scalar == ScalarKind::kDouble ? 1 : first.scalar == ScalarKind::kMp50 ? 40 : 80;
+  const double digits = first.scalar.isDouble() ? 1 : 20 + 0.2 * first.scalar.digits;
   const double step = stages * (unknowns.of(first) + 3) * digits;
   double cost = 0;
   for (const auto& spec : series.runs) cost += step * expectedSteps(spec, stages);

@@ -16,15 +16,9 @@ namespace irk {
 namespace {
 
 IntegratorOptions optionsFor(const RunSpec& spec) {
-  switch (spec.scalar) {
-    case ScalarKind::kDouble:
-      return independentOptions<double>(spec.options);
-    case ScalarKind::kMp50:
-      return independentOptions<mp50>(spec.options);
-    case ScalarKind::kMp100:
-      return independentOptions<mp100>(spec.options);
-  }
-  return {};
+  if (spec.scalar.isDouble()) return independentOptions<double>(spec.options);
+  const WorkingDigits digits(spec.scalar.digits);
+  return independentOptions<BigFloat>(spec.options);
 }
 
 // The largest |e| / max(|y|, scale); `place`: of the first component among u, v, x, z.
@@ -113,8 +107,7 @@ std::string doubtOf(const RunErrorBar& bar, const RunSpec& spec) {
 #define IRK_MEASURED(Real) \
   template RunErrorBar measuredErrorBar(const RunSpec&, const Scene<Real>&, Solution<Real>&, const MeasuringWatch&);
 IRK_MEASURED(double)
-IRK_MEASURED(mp50)
-IRK_MEASURED(mp100)
+IRK_MEASURED(BigFloat)
 #undef IRK_MEASURED
 
 }  // namespace irk

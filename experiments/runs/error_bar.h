@@ -46,7 +46,7 @@ struct MeasuringWatch {
 
 /// Measures the error of `solution`, the result of a run with the resolved `spec`, by an integration of
 /// independentSpec, with the run's scene; does nothing unless it is a success and the spec asks for it. With
-/// ErrorBarUse::kRefined the solution takes the state of the second integration. Real: double, mp50 or mp100, as the
+/// ErrorBarUse::kRefined the solution takes the state of the second integration. Real: double or BigFloat, as the
 /// spec's scalar.
 template <class Real>
 RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,

@@ -305,15 +305,9 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   requireKnownStep(spec);
   own::stillGoing(spec.time_limit);
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
-  switch (spec.scalar) {
-    case ScalarKind::kDouble:
-      return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
-    case ScalarKind::kMp50:
-      return std::make_unique<Prepared<mp50, RungeKutta<mp50>>>(spec);
-    case ScalarKind::kMp100:
-      return std::make_unique<Prepared<mp100, RungeKutta<mp100>>>(spec);
-  }
-  return nullptr;
+  if (spec.scalar.isDouble()) return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
+  return std::make_unique<InDigits>(
+      spec.scalar.digits, [&spec] { return std::make_unique<Prepared<BigFloat, RungeKutta<BigFloat>>>(spec); });
 }
 
 RunRecord execute(const RunSpec& spec, const Watch& watch) { return prepare(spec)->execute(watch); }

@@ -214,19 +214,14 @@ RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference
 }
 
 template Vec<double> components(const State<double>&);
-template Vec<mp50> components(const State<mp50>&);
-template Vec<mp100> components(const State<mp100>&);
+template Vec<BigFloat> components(const State<BigFloat>&);
 template RunErrors errorsOf(const Scene<double>&, const std::vector<Reference>&, const State<double>&,
                             const ToleranceRatio&);
 template RunErrors errorsByComputed(const Scene<double>&, const std::vector<Reference>&, const State<double>&,
                                     const ToleranceRatio&);
-template RunErrors errorsOf(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&,
+template RunErrors errorsOf(const Scene<BigFloat>&, const std::vector<Reference>&, const State<BigFloat>&,
                             const ToleranceRatio&);
-template RunErrors errorsByComputed(const Scene<mp50>&, const std::vector<Reference>&, const State<mp50>&,
-                                    const ToleranceRatio&);
-template RunErrors errorsOf(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&,
-                            const ToleranceRatio&);
-template RunErrors errorsByComputed(const Scene<mp100>&, const std::vector<Reference>&, const State<mp100>&,
+template RunErrors errorsByComputed(const Scene<BigFloat>&, const std::vector<Reference>&, const State<BigFloat>&,
                                     const ToleranceRatio&);
 
 }  // namespace irk

@@ -17,9 +17,9 @@ namespace irk {
 namespace {
 
 constexpr Named<ScalarKind> kScalars[] = {
-    {ScalarKind::kDouble, "double", "53 bits"},
-    {ScalarKind::kMp50, "mp50", "50 decimal digits, for orders that double cannot show"},
-    {ScalarKind::kMp100, "mp100", "100 digits, for orders from about 20 on; few scenes offer it"}};
+    {{}, "double", "53 bits"},
+    {{50}, "mp50", "50 decimal digits, for orders that double cannot show; any number from mp30 to mp1000 is legal"},
+    {{100}, "mp100", "100 digits, for orders from about 20 on"}};
 
 constexpr Named<ReferenceUse> kReferenceUses[] = {
     {ReferenceUse::kNone, "none", "where no reference is stored, the error is unknown"},
@@ -47,12 +47,23 @@ template <>
 std::span<const Named<ScalarKind>> named<ScalarKind>() {
   return kScalars;
 }
+std::string idOf(ScalarKind scalar) { return scalar.isDouble() ? "double" : fmt::format("mp{}", scalar.digits); }
 template <>
 std::string_view axisName<ScalarKind>() {
   return "scalar";
 }
 template <>
 ScalarKind parseId<ScalarKind>(std::string_view id) {
+  int digits = 0;
+  if (id.starts_with("mp")) {
+    const auto [end, error] = std::from_chars(id.data() + 2, id.data() + id.size(), digits);
+    const bool in_range = digits >= ScalarKind::kLeastDigits && digits <= ScalarKind::kMostDigits;
+    if (error == std::errc() && end == id.data() + id.size()) {
+      if (in_range) return {digits};
+      throw Misuse(fmt::format("scalar '{}': mp{} to mp{} expected", id, ScalarKind::kLeastDigits,
+                               ScalarKind::kMostDigits));
+    }
+  }
   return valueOf<ScalarKind>(id);
 }
 
@@ -83,15 +94,7 @@ ErrorBarUse parseId<ErrorBarUse>(std::string_view id) {
 }
 
 double epsilonOf(ScalarKind scalar) {
-  switch (scalar) {
-    case ScalarKind::kDouble:
-      return std::numeric_limits<double>::epsilon();
-    case ScalarKind::kMp50:
-      return 1e-50;
-    case ScalarKind::kMp100:
-      return 1e-100;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  return scalar.isDouble() ? std::numeric_limits<double>::epsilon() : std::pow(10.0, -std::min(scalar.digits, 300));
 }
 
 RunSpec resolved(RunSpec spec) {

@@ -12,7 +12,15 @@
 
 namespace irk {
 
-enum class ScalarKind { kDouble, kMp50, kMp100 };
+/// The numbers that a run computes in: `double`, or `mpN` with N decimal digits (irk/multiprecision.h).
+struct ScalarKind {
+  static constexpr int kLeastDigits = 30, kMostDigits = 1000;
+  int digits = 0;  ///< 0: double; else kLeastDigits .. kMostDigits
+
+  bool isDouble() const { return digits == 0; }
+  bool operator==(const ScalarKind&) const = default;
+};
+std::string idOf(ScalarKind scalar);
 template <>
 std::span<const Named<ScalarKind>> named<ScalarKind>();
 template <>
@@ -47,7 +55,7 @@ std::string_view axisName<ErrorBarUse>();
 
 inline constexpr int kMaxReferenceTimes = 1000;
 
-/// The unit round-off of this kind of number.
+/// The unit round-off of this kind of number; 1e-300 for more digits than a double can tell apart from 0.
 double epsilonOf(ScalarKind scalar);
 
 /// The settings of a run. fields.cpp has their legal values and meanings; a new member needs a line there.
@@ -61,7 +69,7 @@ struct RunSpec {
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
   Discontinuity discontinuity = Discontinuity::kLocate;
-  ScalarKind scalar = ScalarKind::kDouble;
+  ScalarKind scalar;
   IntegratorOptions options;
   /// Absolute tolerances of single components by their names, > 0, instead of atol times their scale.
   Settings atol_of = {};

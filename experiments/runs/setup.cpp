@@ -81,19 +81,14 @@ Setup<Real> setUp(RunSpec spec, Scene<Real> scene) {
 }
 
 template Vec<double> toleranceScale(const Scene<double>&, const RunSpec&, const Sizes&);
-template Vec<double> toleranceScale(const Scene<mp50>&, const RunSpec&, const Sizes&);
-template Vec<double> toleranceScale(const Scene<mp100>&, const RunSpec&, const Sizes&);
+template Vec<double> toleranceScale(const Scene<BigFloat>&, const RunSpec&, const Sizes&);
 template Scene<double> sceneOf(const RunSpec&);
-template Scene<mp50> sceneOf(const RunSpec&);
-template Scene<mp100> sceneOf(const RunSpec&);
+template Scene<BigFloat> sceneOf(const RunSpec&);
 template Setup<double> setUp(RunSpec, Scene<double>);
-template Setup<mp50> setUp(RunSpec, Scene<mp50>);
-template Setup<mp100> setUp(RunSpec, Scene<mp100>);
+template Setup<BigFloat> setUp(RunSpec, Scene<BigFloat>);
 template std::string Setup<double>::advice(Outcome) const;
-template std::string Setup<mp50>::advice(Outcome) const;
-template std::string Setup<mp100>::advice(Outcome) const;
+template std::string Setup<BigFloat>::advice(Outcome) const;
 template Setup<double> makeSetup(const RunSpec&);
-template Setup<mp50> makeSetup(const RunSpec&);
-template Setup<mp100> makeSetup(const RunSpec&);
+template Setup<BigFloat> makeSetup(const RunSpec&);
 
 }  // namespace irk

@@ -10,7 +10,8 @@ std::string versionText() {
   std::string text = fmt::format(
       "{} {}\n"
       "The sources are under the BSD licence of 3 clauses. The program contains parts of, or is linked with:\n"
-      "  Eigen (MPL 2.0), Boost (BSL 1.0), SuiteSparse's KLU (LGPL 2.1 or later), SUNDIALS (BSD, 3 clauses), fmt "
+      "  Eigen (MPL 2.0), Boost (BSL 1.0), MPFR (LGPL 3 or later), SuiteSparse's KLU (LGPL 2.1 or later), SUNDIALS "
+      "(BSD, 3 clauses), fmt "
       "(MIT),\n"
       "  Google Benchmark (Apache 2.0), CLI11 (BSD, 3 clauses), toml++ (MIT), nlohmann/json (MIT); the explorer's "
       "page: "

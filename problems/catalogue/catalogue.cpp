@@ -192,20 +192,16 @@ template <class Real>
 const std::function<Scene<Real>(const Settings&)>& makerOf(const SceneEntry& entry) {
   if constexpr (std::is_same_v<Real, double>) {
     return entry.make;
-  } else if constexpr (std::is_same_v<Real, mp50>) {
-    return entry.make_mp50;
   } else {
-    return entry.make_mp100;
+    return entry.make_big_float;
   }
 }
 
 // Ids of scalars, as in experiments/runs/run_spec.cpp.
 template <class Real>
-constexpr const char* kScalarId = "double";
-template <>
-constexpr const char* kScalarId<mp50> = "mp50";
-template <>
-constexpr const char* kScalarId<mp100> = "mp100";
+std::string scalarId() {
+  return std::is_same_v<Real, double> ? "double" : "mp" + std::to_string(WorkingDigits::now());
+}
 
 template <class Real>
 [[noreturn]] void refuseScalar(const SceneEntry& refused) {
@@ -214,12 +210,11 @@ template <class Real>
     list += (list.empty() ? "" : comma) + word;
   };
   if (refused.make) append(offers, " and ", "double");
-  if (refused.make_mp50) append(offers, " and ", "mp50");
-  if (refused.make_mp100) append(offers, " and ", "mp100");
+  if (refused.make_big_float) append(offers, " and ", "multiprecision");
   for (const SceneEntry& entry : sceneCatalogue()) {
     if (makerOf<Real>(entry)) append(offering, ", ", entry.id);
   }
-  const std::string id = kScalarId<Real>;
+  const std::string id = scalarId<Real>();
   throw Misuse("scalar = '" + id + "': scene " + refused.id + " offers " + (offers.empty() ? "none" : offers) +
                "; with " + id + ": " + offering);
 }
@@ -303,10 +298,8 @@ Scene<Real> makeScene(std::string_view id, const Settings& settings) {
 }
 
 template Scene<double> makeScene<double>(const SceneEntry&, const Settings&);
-template Scene<mp50> makeScene<mp50>(const SceneEntry&, const Settings&);
-template Scene<mp100> makeScene<mp100>(const SceneEntry&, const Settings&);
+template Scene<BigFloat> makeScene<BigFloat>(const SceneEntry&, const Settings&);
 template Scene<double> makeScene<double>(std::string_view, const Settings&);
-template Scene<mp50> makeScene<mp50>(std::string_view, const Settings&);
-template Scene<mp100> makeScene<mp100>(std::string_view, const Settings&);
+template Scene<BigFloat> makeScene<BigFloat>(std::string_view, const Settings&);
 
 }  // namespace irk

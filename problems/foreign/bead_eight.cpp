@@ -1,8 +1,7 @@
 // A bead on a wire that has the form of an eight, x^4 - x^2 + y^2 = 0, without force: its speed is constant, and it
 // passes the crossing straight. The constraint has no gradient there.
-#include <boost/math/quadrature/gauss.hpp>
-
 #include "irk/scene_file.h"
+#include "problems/support/gauss_rule.h"
 
 using namespace irk;
 
@@ -43,9 +42,8 @@ struct Eight {
     using std::abs;
     using std::floor;
     const Real piece = Real(1) / 10, wanted = v0 * t;
-    const auto length = [](const Real& from, const Real& to) {
-      return boost::math::quadrature::gauss<Real, 30>::integrate([](const Real& s) { return speedOf(s); }, from, to);
-    };
+    const GaussRule<Real> rule(30);
+    const auto length = [&rule](const Real& from, const Real& to) { return rule(speedOf, from, to); };
     Real from = 0, covered = 0;
     for (Real next; covered + (next = length(from, Real(from + piece))) < wanted; from += piece) covered += next;
     Real s = from;

@@ -9,6 +9,8 @@
 //   (phi + psi)' = spin - a + (p + a) / (1 + c),   (phi - psi)' = a - spin + (p - a) / (1 - c).
 #pragma once
 
+#include "problems/support/boost_math.h"
+
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_3.hpp>
 #include <cmath>

@@ -2,6 +2,8 @@
 // takes the place of time. EI theta'' = f cos theta, r' = (cos theta, sin theta), theta(0) = 0,
 // theta'(L) = 0; load = f L^2 / EI. It is the limit of ancf_cantilever at rest when EA and the number of elements
 // tend to infinity.
+#include "problems/support/boost_math.h"
+
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -111,7 +113,7 @@ class ExactElastica {
     const Real eps = std::numeric_limits<Real>::epsilon();
     Real low = rootOf(Real(0.5)) * (1 + 4 * eps), high = 1 - eps;
     std::uintmax_t iterations = 200;
-    const boost::math::tools::eps_tolerance<Real> tight(std::numeric_limits<Real>::digits - 2);
+    const boost::math::tools::eps_tolerance<Real> tight;
     const auto root = boost::math::tools::toms748_solve(excess, low, high, tight, iterations);
     return (root.first + root.second) / 2;
   }

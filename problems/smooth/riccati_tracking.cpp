@@ -32,8 +32,7 @@ struct RiccatiTracking {
             .title = "y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t",
             .shows = "the order of a scheme: no damaged tableau passes it",
             .collections = {"probes"},
-            .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}},
-            .make_mp100 = sceneWith<mp100, RiccatiTracking<mp100>>};
+            .reference_cases = {{.times = "0.5 1", .tolerance = kManyDigits}}};
   }
 };
 

@@ -39,6 +39,6 @@ JacobiFunctions<Real> jacobiFunctions(const Real& u, const Real& m) {
 }
 
 template JacobiFunctions<double> jacobiFunctions(const double&, const double&);
-template JacobiFunctions<mp50> jacobiFunctions(const mp50&, const mp50&);
+template JacobiFunctions<BigFloat> jacobiFunctions(const BigFloat&, const BigFloat&);
 
 }  // namespace irk

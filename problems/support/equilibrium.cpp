@@ -75,8 +75,8 @@ Equilibrium<Real> findEquilibrium(const LoadedSystem<Real>& system, const State<
 }
 
 template Equilibrium<double> findEquilibrium(const System<double>&, const State<double>&);
-template Equilibrium<mp50> findEquilibrium(const System<mp50>&, const State<mp50>&);
+template Equilibrium<BigFloat> findEquilibrium(const System<BigFloat>&, const State<BigFloat>&);
 template Equilibrium<double> findEquilibrium(const LoadedSystem<double>&, const State<double>&, int);
-template Equilibrium<mp50> findEquilibrium(const LoadedSystem<mp50>&, const State<mp50>&, int);
+template Equilibrium<BigFloat> findEquilibrium(const LoadedSystem<BigFloat>&, const State<BigFloat>&, int);
 
 }  // namespace irk

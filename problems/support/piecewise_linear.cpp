@@ -124,6 +124,6 @@ State<Real> PiecewiseLinear<Real>::operator()(const Real& t) const {
 }
 
 template struct PiecewiseLinear<double>;
-template struct PiecewiseLinear<mp50>;
+template struct PiecewiseLinear<BigFloat>;
 
 }  // namespace irk

@@ -4,7 +4,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -129,12 +128,8 @@ double decimal<double>(const char* text) {
   return std::strtod(text, nullptr);
 }
 template <>
-mp50 decimal<mp50>(const char* text) {
-  return mp50(text);
-}
-template <>
-mp100 decimal<mp100>(const char* text) {
-  return mp100(text);
+BigFloat decimal<BigFloat>(const char* text) {
+  return BigFloat(text);
 }
 
 template <>
@@ -161,7 +156,8 @@ Real number(const Settings& settings, const std::string& name) {
 
 template <class Real>
 Real piOf() {
-  return boost::math::constants::pi<Real>();
+  using std::acos;
+  return acos(Real(-1));
 }
 template <>
 Lanes piOf<Lanes>() {
@@ -324,23 +320,17 @@ void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) 
 }
 
 template double number<double>(const Settings&, const std::string&);
-template mp50 number<mp50>(const Settings&, const std::string&);
-template mp100 number<mp100>(const Settings&, const std::string&);
+template BigFloat number<BigFloat>(const Settings&, const std::string&);
 template Lanes number<Lanes>(const Settings&, const std::string&);
 template double piOf<double>();
-template mp50 piOf<mp50>();
-template mp100 piOf<mp100>();
+template BigFloat piOf<BigFloat>();
 template void setComponents<double>(Scene<double>&, const std::vector<Component>&, const std::vector<Component>&,
                                     const std::vector<Component>&);
-template void setComponents<mp50>(Scene<mp50>&, const std::vector<Component>&, const std::vector<Component>&,
-                                  const std::vector<Component>&);
-template void setComponents<mp100>(Scene<mp100>&, const std::vector<Component>&, const std::vector<Component>&,
-                                   const std::vector<Component>&);
+template void setComponents<BigFloat>(Scene<BigFloat>&, const std::vector<Component>&, const std::vector<Component>&,
+                                      const std::vector<Component>&);
 template void completeStart<double>(Scene<double>&);
-template void completeStart<mp50>(Scene<mp50>&);
-template void completeStart<mp100>(Scene<mp100>&);
+template void completeStart<BigFloat>(Scene<BigFloat>&);
 template void completeStart<double>(Scene<double>&, const std::vector<std::string>&);
-template void completeStart<mp50>(Scene<mp50>&, const std::vector<std::string>&);
-template void completeStart<mp100>(Scene<mp100>&, const std::vector<std::string>&);
+template void completeStart<BigFloat>(Scene<BigFloat>&, const std::vector<std::string>&);
 
 }  // namespace irk

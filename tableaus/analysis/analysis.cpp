@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kRoundingUnits = 50;
 
-void requireShape(const Tableau<mp80>& tableau) {
+void requireShape(const Tableau<BigFloat>& tableau) {
   const Index s = tableau.stages();
   if (s < 1 || tableau.A.rows() != s || tableau.A.cols() != s || tableau.c.size() != s) {
     throw Misuse(fmt::format("tableau '{}': A is {} x {}, b has {}, c has {} entries", tableau.id, tableau.A.rows(),
                              tableau.A.cols(), s, tableau.c.size()));
   }
-  const auto finite = [](const Mat<mp80>& block) {
-    return std::ranges::all_of(block.reshaped(), [](const mp80& x) { return isfinite(x); });
+  const auto finite = [](const Mat<BigFloat>& block) {
+    return std::ranges::all_of(block.reshaped(), [](const BigFloat& x) { return isfinite(x); });
   };
   if (!finite(tableau.A) || !finite(tableau.b) || !finite(tableau.c)) {
     throw Misuse(fmt::format("tableau '{}' has a coefficient that is not finite", tableau.id));
@@ -33,26 +33,29 @@ void requireShape(const Tableau<mp80>& tableau) {
 /// The largest |sum - expected|, each divided by the magnitude of the sum's terms.
 template <class Sum, class Magnitude, class Expected>
 double residual(const Sum& sum, const Magnitude& magnitude, const Expected& expected) {
-  const Vec<mp80> error = (sum - expected).cwiseAbs();
-  return static_cast<double>(error.cwiseQuotient(magnitude.cwiseMax(mp80(1))).maxCoeff());
+  const Vec<BigFloat> error = (sum - expected).cwiseAbs();
+  return static_cast<double>(error.cwiseQuotient(magnitude.cwiseMax(BigFloat(1))).maxCoeff());
 }
 
-SimplifyingResiduals simplifyingResiduals(const Tableau<mp80>& tableau) {
+SimplifyingResiduals simplifyingResiduals(const Tableau<BigFloat>& tableau) {
   const auto& [id, family, A, b, c, order, stage_order] = tableau;
   const Index s = tableau.stages();
-  const Mat<mp80> A_abs = A.cwiseAbs();
+  const Mat<BigFloat> A_abs = A.cwiseAbs();
   SimplifyingResiduals residuals{Vec<double>(2 * s + 1), Vec<double>(s + 1), Vec<double>(s + 1)};
-  Vec<mp80> power = Vec<mp80>::Ones(s);  // c^(k-1)
+  Vec<BigFloat> power = Vec<BigFloat>::Ones(s);  // c^(k-1)
   for (Index k = 1; k <= 2 * s + 1; ++k) {
-    const Vec<mp80> b_power = b.cwiseProduct(power);
-    const Vec<mp80> power_abs = power.cwiseAbs(), b_power_abs = b_power.cwiseAbs();
-    const Vec<mp80> power_next = power.cwiseProduct(c);
-    residuals.B[k - 1] = residual(Vec<mp80>::Constant(1, b_power.sum()), Vec<mp80>::Constant(1, b_power_abs.sum()),
-                                  Vec<mp80>::Constant(1, mp80(1) / k));
+    const Vec<BigFloat> b_power = b.cwiseProduct(power);
+    const Vec<BigFloat> power_abs = power.cwiseAbs(), b_power_abs = b_power.cwiseAbs();
+    const Vec<BigFloat> power_next = power.cwiseProduct(c);
+    residuals.B[k - 1] =
+        residual(Vec<BigFloat>::Constant(1, b_power.sum()), Vec<BigFloat>::Constant(1, b_power_abs.sum()),
+                 Vec<BigFloat>::Constant(1, BigFloat(1) / k));
     if (k <= s + 1) {
-      residuals.C[k - 1] = residual(Vec<mp80>(A * power), Vec<mp80>(A_abs * power_abs), Vec<mp80>(power_next / k));
-      residuals.D[k - 1] = residual(Vec<mp80>(A.transpose() * b_power), Vec<mp80>(A_abs.transpose() * b_power_abs),
-                                    Vec<mp80>(b.cwiseProduct((1 - power_next.array()).matrix()) / k));
+      residuals.C[k - 1] =
+          residual(Vec<BigFloat>(A * power), Vec<BigFloat>(A_abs * power_abs), Vec<BigFloat>(power_next / k));
+      residuals.D[k - 1] =
+          residual(Vec<BigFloat>(A.transpose() * b_power), Vec<BigFloat>(A_abs.transpose() * b_power_abs),
+                   Vec<BigFloat>(b.cwiseProduct((1 - power_next.array()).matrix()) / k));
     }
     power = power_next;
   }
@@ -64,28 +67,28 @@ int countHolding(const Vec<double>& residuals, double tolerance) {
   return static_cast<int>(std::find_if(residuals.begin(), residuals.end(), fails) - residuals.begin());
 }
 
-double norm1(const Mat<mp80>& A) { return static_cast<double>(A.cwiseAbs().colwise().sum().maxCoeff()); }
+double norm1(const Mat<BigFloat>& A) { return static_cast<double>(A.cwiseAbs().colwise().sum().maxCoeff()); }
 
-double reciprocalCondition(const Mat<mp80>& A, const Eigen::FullPivLU<Mat<mp80>>& lu) {
+double reciprocalCondition(const Mat<BigFloat>& A, const Eigen::FullPivLU<Mat<BigFloat>>& lu) {
   return lu.isInvertible() ? 1 / (norm1(A) * norm1(lu.inverse())) : 0;
 }
 
-void analyzeRegularity(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
-  const Eigen::FullPivLU<Mat<mp80>> lu(tableau.A);
+void analyzeRegularity(const Tableau<BigFloat>& tableau, TableauAnalysis& analysis) {
+  const Eigen::FullPivLU<Mat<BigFloat>> lu(tableau.A);
   analysis.reciprocal_condition = reciprocalCondition(tableau.A, lu);
   analysis.regular = analysis.reciprocal_condition > analysis.tolerance;
 }
 
-void analyzeStructure(const Tableau<mp80>& tableau, TableauAnalysis& analysis) {
+void analyzeStructure(const Tableau<BigFloat>& tableau, TableauAnalysis& analysis) {
   const auto& [id, family, A, b, c, order, stage_order] = tableau;
   const auto maximum = [](const auto& block) { return static_cast<double>(block.cwiseAbs().maxCoeff()); };
-  const Vec<mp80> row_sums = A.rowwise().sum();
+  const Vec<BigFloat> row_sums = A.rowwise().sum();
   analysis.row_sum_errors = (row_sums - c).cwiseAbs().cast<double>();
   analysis.stiffly_accurate = maximum(A.row(A.rows() - 1) - b.transpose()) <= analysis.tolerance;
   analysis.explicit_first_stage = maximum(A.row(0)) == 0;
 
-  const Mat<mp80> bA = b.asDiagonal() * A;
-  const Mat<mp80> M = bA + bA.transpose() - b * b.transpose();
+  const Mat<BigFloat> bA = b.asDiagonal() * A;
+  const Mat<BigFloat> M = bA + bA.transpose() - b * b.transpose();
   analysis.symplecticity_error = maximum(M);
   analysis.symplectic = analysis.symplecticity_error <= analysis.tolerance;
   // Rounding may change M by the tolerance, and its eigenvalues are computed in double precision.
@@ -104,13 +107,14 @@ double roundingTolerance() {
 }
 
 template <>
-double roundingTolerance<mp80>() {
+double roundingTolerance<BigFloat>() {
   return toleranceOfDigits(kFileDigits);
 }
 
 template <class Real>
 TableauAnalysis analyzeTableau(const Tableau<Real>& tableau, double tolerance) {
-  const Tableau<mp80> wide = tableau.template cast<mp80>();
+  const WorkingDigits digits(kAnalysisDigits);
+  const Tableau<BigFloat> wide = tableau.template cast<BigFloat>();
   requireShape(wide);
   TableauAnalysis analysis{};
   analysis.tolerance = tolerance;
@@ -126,9 +130,8 @@ TableauAnalysis analyzeTableau(const Tableau<Real>& tableau, double tolerance) {
 }
 
 template double roundingTolerance<double>();
-template double roundingTolerance<mp50>();
+template double roundingTolerance<BigFloat>();
 template TableauAnalysis analyzeTableau(const Tableau<double>&, double);
-template TableauAnalysis analyzeTableau(const Tableau<mp50>&, double);
-template TableauAnalysis analyzeTableau(const Tableau<mp80>&, double);
+template TableauAnalysis analyzeTableau(const Tableau<BigFloat>&, double);
 
 }  // namespace irk

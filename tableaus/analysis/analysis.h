@@ -35,11 +35,11 @@ struct TableauAnalysis {
 /// rounded tableaus are below 0.4 eps up to s = 100; published ones are often off by a few eps.
 double toleranceOfDigits(int digits);
 
-/// The same for coefficients rounded to Real; for mp80 with the number of digits in tableau files.
+/// The same for coefficients rounded to Real; for BigFloat with the number of digits in tableau files.
 template <class Real>
 double roundingTolerance();
 
-/// Real: double, mp50, mp80. Throws Misuse unless A is s x s, b and c have s entries, s >= 1, and all are finite.
+/// Real: double, BigFloat. Throws Misuse unless A is s x s, b and c have s entries, s >= 1, and all are finite.
 template <class Real>
 TableauAnalysis analyzeTableau(const Tableau<Real>& tableau, double tolerance = roundingTolerance<Real>());
 

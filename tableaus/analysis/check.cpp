@@ -18,7 +18,7 @@ using tableaus::Verdict;
 namespace {
 
 struct Subject {
-  const Tableau<mp80>& tableau;
+  const Tableau<BigFloat>& tableau;
   const TableauAnalysis& analysis;
 };
 
@@ -90,8 +90,8 @@ void checkStageOrder(const Subject& subject, Findings& findings) {
 }
 
 /// Largest |x - y| / max(1, |y|).
-double distance(const Mat<mp80>& x, const Mat<mp80>& y) {
-  const Mat<mp80> magnitude = y.cwiseAbs().cwiseMax(mp80(1));
+double distance(const Mat<BigFloat>& x, const Mat<BigFloat>& y) {
+  const Mat<BigFloat> magnitude = y.cwiseAbs().cwiseMax(BigFloat(1));
   return static_cast<double>((x - y).cwiseAbs().cwiseQuotient(magnitude).maxCoeff());
 }
 
@@ -119,7 +119,7 @@ void checkFamilyMember(const Subject& subject, const Family& family, Findings& f
   requires_at_least("C", analysis.q, orders.q);
   requires_at_least("D", analysis.r, orders.r);
 
-  const Tableau<mp80> expected = constructFamily(family, tableau.stages());
+  const Tableau<BigFloat> expected = constructFamily(family, tableau.stages());
   const double error =
       std::max({distance(tableau.A, expected.A), distance(tableau.b, expected.b), distance(tableau.c, expected.c)});
   if (error <= analysis.tolerance) {
@@ -219,7 +219,7 @@ std::string analysisText(const TableauAnalysis& analysis) {
          condition('D', analysis.residuals.D, analysis.r);
 }
 
-std::string reportText(const Tableau<mp80>& tableau, const TableauReport& report) {
+std::string reportText(const Tableau<BigFloat>& tableau, const TableauReport& report) {
   std::string text = fmt::format("{}: family {}, {} stages, order {}, stage order {}\n", tableau.id, tableau.family,
                                  tableau.stages(), tableau.order, tableau.stage_order);
   text += analysisText(report.analysis);
@@ -235,7 +235,8 @@ std::string reportText(const Tableau<mp80>& tableau, const TableauReport& report
 
 template <class Real>
 TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance) {
-  const Tableau<mp80> wide = tableau.template cast<mp80>();
+  const WorkingDigits digits(kAnalysisDigits);
+  const Tableau<BigFloat> wide = tableau.template cast<BigFloat>();
   TableauReport report{tableau.id, analyzeTableau(wide, tolerance), {}, true, ""};
   for (const Check check : kChecks) check({wide, report.analysis}, report.findings);
   report.ok = std::ranges::find(report.findings, Verdict::kContradiction, &Finding::verdict) == report.findings.end();
@@ -244,7 +245,6 @@ TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance) {
 }
 
 template TableauReport checkTableau(const Tableau<double>&, double);
-template TableauReport checkTableau(const Tableau<mp50>&, double);
-template TableauReport checkTableau(const Tableau<mp80>&, double);
+template TableauReport checkTableau(const Tableau<BigFloat>&, double);
 
 }  // namespace irk

@@ -40,7 +40,7 @@ struct TableauReport {
 };
 
 /// Checks sum b = 1, row sums (unless stage order 0 is declared), B(p), C(q), orders and coefficients of a family of
-/// the suite, whether B, C, D prove the order, and the order by rooted trees. Real: double, mp50, mp80. Throws Misuse
+/// the suite, whether B, C, D prove the order, and the order by rooted trees. Real: double, BigFloat. Throws Misuse
 /// as analyzeTableau.
 template <class Real>
 TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance = roundingTolerance<Real>());

@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include "irk/misuse.h"
+#include "tableaus/families/precise.h"
 
 namespace irk {
 namespace {
 
-StageKind stageKind(const Mat<mp80>& A) {
+StageKind stageKind(const Mat<BigFloat>& A) {
   const Index s = A.rows();
   for (Index i = 0; i < s; ++i) {
     for (Index j = i + 1; j < s; ++j) {
@@ -25,11 +26,11 @@ StageKind stageKind(const Mat<mp80>& A) {
   return rest ? StageKind::kSinglyDiagonalRest : StageKind::kDiagonal;
 }
 
-NodesAndWeights nodesAndWeights(const Tableau<mp80>& tableau, double tolerance) {
-  Vec<mp80> c = tableau.c;
+NodesAndWeights nodesAndWeights(const Tableau<BigFloat>& tableau, double tolerance) {
+  Vec<BigFloat> c = tableau.c;
   std::ranges::sort(c);
-  mp80 closest = 1;
-  for (Index i = 1; i < c.size(); ++i) closest = std::min<mp80>(closest, c[i] - c[i - 1]);
+  BigFloat closest = 1;
+  for (Index i = 1; i < c.size(); ++i) closest = std::min<BigFloat>(closest, c[i] - c[i - 1]);
   NodesAndWeights result{};
   result.closest = static_cast<double>(closest);
   result.lowest = static_cast<double>(c[0]);
@@ -45,7 +46,7 @@ NodesAndWeights nodesAndWeights(const Tableau<mp80>& tableau, double tolerance) 
 /// only between equal nodes.
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Tableau<mp80>& tableau, double tolerance) : tableau_(tableau), tolerance_(tolerance) {}
+  SymmetrySearch(const Tableau<BigFloat>& tableau, double tolerance) : tableau_(tableau), tolerance_(tolerance) {}
 
   bool found() {
     if (static_cast<Index>(image_.size()) == tableau_.stages()) return true;
@@ -59,7 +60,7 @@ class SymmetrySearch {
   }
 
  private:
-  bool zero(const mp80& x) const { return abs(x) <= tolerance_; }
+  bool zero(const BigFloat& x) const { return abs(x) <= tolerance_; }
 
   bool lastFits() const {
     const auto& [A, b, c] = std::tie(tableau_.A, tableau_.b, tableau_.c);
@@ -73,14 +74,14 @@ class SymmetrySearch {
   }
   Index image(Index i) const { return image_[static_cast<std::size_t>(i)]; }
 
-  const Tableau<mp80>& tableau_;
+  const Tableau<BigFloat>& tableau_;
   double tolerance_;
   std::vector<Index> image_;
 };
 
 std::string_view yesNo(bool value) { return value ? "yes" : "no"; }
 
-std::string polynomialText(const Vec<mp80>& ascending) {
+std::string polynomialText(const Vec<BigFloat>& ascending) {
   std::string text;
   for (Index k = 0; k < ascending.size(); ++k) {
     const auto x = static_cast<double>(ascending[k]);
@@ -156,7 +157,8 @@ std::string_view stageKindName(StageKind kind) {
   return "";
 }
 
-TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double tolerance) {
+TableauProperties analyzeProperties(const Tableau<BigFloat>& tableau, double tolerance) {
+  const WorkingDigits digits(kAnalysisDigits);
   TableauAnalysis analysis = analyzeTableau(tableau, tolerance);
   if (tableau.stages() > kMaxAnalyzedStages) {
     throw Misuse(fmt::format("tableau '{}': {} stages, properties are analysed up to {}", tableau.id, tableau.stages(),

@@ -44,7 +44,7 @@ struct TableauProperties {
 inline constexpr Index kMaxAnalyzedStages = 40;
 
 /// Computed in 80 digits. Throws Misuse as analyzeTableau, and for more than kMaxAnalyzedStages stages.
-TableauProperties analyzeProperties(const Tableau<mp80>& tableau, double tolerance);
+TableauProperties analyzeProperties(const Tableau<BigFloat>& tableau, double tolerance);
 
 /// One indented line per property.
 std::string propertiesText(const TableauProperties& properties);

@@ -1,4 +1,5 @@
 #include "tableaus/analysis/rooted_trees.h"
+#include "tableaus/families/precise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ class Grafting {
 /// subtree costs one matrix-vector product, however often it occurs.
 class Weights {
  public:
-  explicit Weights(const Tableau<mp80>& tableau)
+  explicit Weights(const Tableau<BigFloat>& tableau)
       : tableau_(tableau), A_abs_(tableau.A.cwiseAbs().cast<double>()), b_abs_(tableau.b.cwiseAbs().cast<double>()) {}
 
   void appendTime() {
@@ -58,7 +59,7 @@ class Weights {
   /// Returns the residual of the tree's condition. `is_child` tells whether later trees contain it.
   double append(const RootedTree& tree, bool is_child) {
     const Index s = tableau_.stages();
-    Vec<mp80> phi = Vec<mp80>::Ones(s);
+    Vec<BigFloat> phi = Vec<BigFloat>::Ones(s);
     Vec<double> phi_abs = Vec<double>::Ones(s);
     for (const int child : tree.children) {
       phi.array() *= grafted_[static_cast<std::size_t>(child)].array();
@@ -68,15 +69,15 @@ class Weights {
       grafted_.push_back(tableau_.A * phi);
       grafted_abs_.push_back(A_abs_ * phi_abs);
     }
-    const mp80 error = tableau_.b.dot(phi) - 1 / mp80(tree.density);
+    const BigFloat error = tableau_.b.dot(phi) - 1 / BigFloat(tree.density);
     return std::abs(static_cast<double>(error)) / std::max(1.0, b_abs_.dot(phi_abs));
   }
 
  private:
-  const Tableau<mp80>& tableau_;
+  const Tableau<BigFloat>& tableau_;
   Mat<double> A_abs_;
   Vec<double> b_abs_;
-  std::vector<Vec<mp80>> grafted_;
+  std::vector<Vec<BigFloat>> grafted_;
   std::vector<Vec<double>> grafted_abs_;
 };
 
@@ -91,7 +92,8 @@ std::vector<RootedTree> rootedTrees(int max_order, Leaves leaves) {
   return trees;
 }
 
-TreeConditions treeConditions(const Tableau<mp80>& tableau, const TableauAnalysis& analysis) {
+TreeConditions treeConditions(const Tableau<BigFloat>& tableau, const TableauAnalysis& analysis) {
+  const WorkingDigits digits(kAnalysisDigits);
   const int max_order = std::min(kMaxTreeOrder, analysis.p + 1);
   const bool time = analysis.q < 1;
   const auto trees = rootedTrees(max_order, time ? Leaves::kUnknownsAndTime : Leaves::kUnknowns);

@@ -35,6 +35,6 @@ struct TreeConditions {
 };
 
 /// `analysis` belongs to this tableau; its tolerance is used here, too.
-TreeConditions treeConditions(const Tableau<mp80>& tableau, const TableauAnalysis& analysis);
+TreeConditions treeConditions(const Tableau<BigFloat>& tableau, const TableauAnalysis& analysis);
 
 }  // namespace irk

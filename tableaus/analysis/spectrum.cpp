@@ -1,4 +1,5 @@
 #include "tableaus/analysis/spectrum.h"
+#include "tableaus/families/precise.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -11,13 +12,14 @@ namespace {
 
 constexpr double kLargestCondition = 1e38;  // 80 digits resolve its square
 
-mp80 magnitude(const mp80& re, const mp80& im) { return sqrt(re * re + im * im); }
+BigFloat magnitude(const BigFloat& re, const BigFloat& im) { return sqrt(re * re + im * im); }
 
 /// Appends the eigenvalues of the 2 x 2 block [a b; c d].
-void appendPair(const mp80& a, const mp80& b, const mp80& c, const mp80& d, std::vector<Eigenvalue>& values) {
-  const mp80 centre = (a + d) / 2, half = (a - d) / 2;
-  const mp80 discriminant = half * half + b * c;
-  const mp80 root = sqrt(abs(discriminant));
+void appendPair(const BigFloat& a, const BigFloat& b, const BigFloat& c, const BigFloat& d,
+                std::vector<Eigenvalue>& values) {
+  const BigFloat centre = (a + d) / 2, half = (a - d) / 2;
+  const BigFloat discriminant = half * half + b * c;
+  const BigFloat root = sqrt(abs(discriminant));
   if (discriminant < 0) {
     values.push_back({centre, root});
     values.push_back({centre, -root});
@@ -27,7 +29,7 @@ void appendPair(const mp80& a, const mp80& b, const mp80& c, const mp80& d, std:
   }
 }
 
-std::vector<Eigenvalue> ofSchurForm(const Mat<mp80>& T) {
+std::vector<Eigenvalue> ofSchurForm(const Mat<BigFloat>& T) {
   std::vector<Eigenvalue> values;
   for (Index i = 0; i < T.rows(); ++i) {
     if (i + 1 < T.rows() && T(i + 1, i) != 0) {
@@ -41,11 +43,11 @@ std::vector<Eigenvalue> ofSchurForm(const Mat<mp80>& T) {
 }
 
 double smallestGap(const std::vector<Eigenvalue>& values) {
-  mp80 largest = 0, gap = -1;
+  BigFloat largest = 0, gap = -1;
   for (std::size_t i = 0; i < values.size(); ++i) {
     largest = std::max(largest, magnitude(values[i].re, values[i].im));
     for (std::size_t j = 0; j < i; ++j) {
-      const mp80 d = magnitude(values[i].re - values[j].re, values[i].im - values[j].im);
+      const BigFloat d = magnitude(values[i].re - values[j].re, values[i].im - values[j].im);
       if (gap < 0 || d < gap) gap = d;
     }
   }
@@ -55,25 +57,25 @@ double smallestGap(const std::vector<Eigenvalue>& values) {
 
 // A pair of eigenvectors p +- i q is normalized to (p +- i q) / sqrt(|p|^2 + |q|^2). Equally scaled, sqrt(2) (p, q)
 // is a real matrix of the same condition, because it differs by a unitary factor.
-Mat<mp80> realUnitEigenvectors(const Eigen::EigenSolver<Mat<mp80>>& eigen) {
-  Mat<mp80> V = eigen.pseudoEigenvectors();
+Mat<BigFloat> realUnitEigenvectors(const Eigen::EigenSolver<Mat<BigFloat>>& eigen) {
+  Mat<BigFloat> V = eigen.pseudoEigenvectors();
   const auto& D = eigen.eigenvalues();
   for (Index k = 0; k < V.cols(); ++k) {
     if (D[k].imag() == 0) {
       V.col(k).normalize();
     } else {
-      V.middleCols(k, 2) *= sqrt(mp80(2)) / V.middleCols(k, 2).norm();
+      V.middleCols(k, 2) *= sqrt(BigFloat(2)) / V.middleCols(k, 2).norm();
       ++k;
     }
   }
   return V;
 }
 
-double condition2(const Mat<mp80>& V) {
+double condition2(const Mat<BigFloat>& V) {
   const auto squares = eigenvalues(V.transpose() * V);
   const auto [lowest, highest] = std::ranges::minmax(squares, {}, &Eigenvalue::re);
-  const mp80 low = lowest.re, high = highest.re;
-  const bool resolved = low > 0 && high / low < mp80(kLargestCondition) * mp80(kLargestCondition);
+  const BigFloat low = lowest.re, high = highest.re;
+  const bool resolved = low > 0 && high / low < BigFloat(kLargestCondition) * BigFloat(kLargestCondition);
   return resolved ? static_cast<double>(sqrt(high / low)) : std::numeric_limits<double>::infinity();
 }
 
@@ -81,20 +83,22 @@ double condition2(const Mat<mp80>& V) {
 
 std::complex<double> Eigenvalue::rounded() const { return {static_cast<double>(re), static_cast<double>(im)}; }
 
-std::vector<Eigenvalue> eigenvalues(const Mat<mp80>& matrix) {
+std::vector<Eigenvalue> eigenvalues(const Mat<BigFloat>& matrix) {
+  const WorkingDigits digits(kAnalysisDigits);
   if (matrix.rows() == 0) return {};
-  const Eigen::RealSchur<Mat<mp80>> schur(matrix, false);
+  const Eigen::RealSchur<Mat<BigFloat>> schur(matrix, false);
   if (schur.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not converge");
   return ofSchurForm(schur.matrixT());
 }
 
-std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending) {
+std::vector<Eigenvalue> polynomialZeros(const Vec<BigFloat>& ascending) {
+  const WorkingDigits digits(kAnalysisDigits);
   const Index n = ascending.size() - 1;
   if (n < 1) return {};
-  const mp80 scale = pow(abs(ascending[0] / ascending[n]), mp80(1) / n);
-  Mat<mp80> companion = Mat<mp80>::Zero(n, n);
+  const BigFloat scale = pow(abs(ascending[0] / ascending[n]), BigFloat(1) / n);
+  Mat<BigFloat> companion = Mat<BigFloat>::Zero(n, n);
   companion.diagonal(-1).setOnes();
-  mp80 power = 1;  // powers of `scale`
+  BigFloat power = 1;  // powers of `scale`
   for (Index k = 0; k < n; ++k, power *= scale) {
     companion(k, n - 1) = -ascending[k] * power;
   }
@@ -104,15 +108,16 @@ std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending) {
   return zeros;
 }
 
-Spectrum spectrum(const Mat<mp80>& matrix, double tolerance) {
-  const Eigen::EigenSolver<Mat<mp80>> eigen(matrix);
+Spectrum spectrum(const Mat<BigFloat>& matrix, double tolerance) {
+  const WorkingDigits digits(kAnalysisDigits);
+  const Eigen::EigenSolver<Mat<BigFloat>> eigen(matrix);
   if (eigen.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not converge");
   Spectrum result;
   // For a triangular matrix take the diagonal, which is exact. The QR iteration would spread the s equal eigenvalues
   // of an SDIRK method by the s-th root of its rounding errors.
-  const Mat<mp80> above = matrix.triangularView<Eigen::StrictlyUpper>();
+  const Mat<BigFloat> above = matrix.triangularView<Eigen::StrictlyUpper>();
   if (above.isZero(0)) {
-    for (const mp80& value : matrix.diagonal()) result.values.push_back({value, 0});
+    for (const BigFloat& value : matrix.diagonal()) result.values.push_back({value, 0});
   } else {
     for (const auto& value : eigen.eigenvalues()) {
       result.values.push_back({value.real(), value.imag()});

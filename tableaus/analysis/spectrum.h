@@ -11,18 +11,18 @@ namespace irk {
 
 /// The number re + i im. The two of a complex pair are neighbours, the one with positive im first.
 struct Eigenvalue {
-  mp80 re, im;
+  BigFloat re, im;
 
   std::complex<double> rounded() const;
 };
 
 /// The n eigenvalues of a real n x n matrix, n >= 0. Throws std::runtime_error if the QR iteration does not converge
 /// (no such matrix is known).
-std::vector<Eigenvalue> eigenvalues(const Mat<mp80>& matrix);
+std::vector<Eigenvalue> eigenvalues(const Mat<BigFloat>& matrix);
 
 /// The zeros, real ones and complex pairs, of a_0 + a_1 x + ... + a_n x^n with a_0 and a_n not zero: the eigenvalues
 /// of its companion matrix, with x scaled so that |a_0| = |a_n|.
-std::vector<Eigenvalue> polynomialZeros(const Vec<mp80>& ascending);
+std::vector<Eigenvalue> polynomialZeros(const Vec<BigFloat>& ascending);
 
 struct Spectrum {
   std::vector<Eigenvalue> values;
@@ -35,6 +35,6 @@ struct Spectrum {
 };
 
 /// For a real n x n matrix, n >= 1, with coefficients accurate to `tolerance`.
-Spectrum spectrum(const Mat<mp80>& matrix, double tolerance);
+Spectrum spectrum(const Mat<BigFloat>& matrix, double tolerance);
 
 }  // namespace irk

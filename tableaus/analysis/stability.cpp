@@ -1,11 +1,11 @@
 #include "tableaus/analysis/stability.h"
 
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
 
 #include "tableaus/analysis/spectrum.h"
+#include "tableaus/families/precise.h"
 
 namespace irk {
 namespace {
@@ -15,26 +15,26 @@ constexpr double kAngleAccuracy = 1e-7;  // degrees
 
 /// The polynomial sum_k value_k x^k, and bounds for rounding errors of its terms, in units of the tolerance.
 struct RayPolynomial {
-  Vec<mp80> value, magnitude;
+  Vec<BigFloat> value, magnitude;
 };
 
 // With z = r e^(i phi) and T_n(cos phi) = cos(n phi):
 //   |D|^2 - |N|^2 = sum_ij (d_i d_j - n_i n_j) T_|i-j|(cos phi) r^(i+j)
-RayPolynomial onRay(const StabilityFunction& R, const mp80& cosine) {
+RayPolynomial onRay(const StabilityFunction& R, const BigFloat& cosine) {
   const Index m = std::max(R.numeratorDegree(), R.denominatorDegree());
-  const auto coefficient = [](const Vec<mp80>& polynomial, Index k) {
-    return k < polynomial.size() ? polynomial[k] : mp80(0);
+  const auto coefficient = [](const Vec<BigFloat>& polynomial, Index k) {
+    return k < polynomial.size() ? polynomial[k] : BigFloat(0);
   };
-  std::vector<mp80> T{1, cosine};
+  std::vector<BigFloat> T{1, cosine};
   for (Index n = 2; n <= m; ++n) {
     const auto last = T.end();
     T.push_back(2 * cosine * *(last - 1) - *(last - 2));
   }
-  RayPolynomial sum{Vec<mp80>::Zero(2 * m + 1), Vec<mp80>::Zero(2 * m + 1)};
+  RayPolynomial sum{Vec<BigFloat>::Zero(2 * m + 1), Vec<BigFloat>::Zero(2 * m + 1)};
   for (Index i = 0; i <= m; ++i) {
     for (Index j = 0; j <= m; ++j) {
-      const mp80 dd = coefficient(R.denominator, i) * coefficient(R.denominator, j);
-      const mp80 nn = coefficient(R.numerator, i) * coefficient(R.numerator, j);
+      const BigFloat dd = coefficient(R.denominator, i) * coefficient(R.denominator, j);
+      const BigFloat nn = coefficient(R.numerator, i) * coefficient(R.numerator, j);
       sum.value[i + j] += (dd - nn) * T[static_cast<std::size_t>(std::abs(i - j))];
       sum.magnitude[i + j] += abs(dd) + abs(nn);
     }
@@ -42,8 +42,8 @@ RayPolynomial onRay(const StabilityFunction& R, const mp80& cosine) {
   return sum;
 }
 
-mp80 evaluate(const Vec<mp80>& polynomial, const mp80& x) {
-  mp80 value = 0;
+BigFloat evaluate(const Vec<BigFloat>& polynomial, const BigFloat& x) {
+  BigFloat value = 0;
   for (Index k = polynomial.size() - 1; k >= 0; --k) value = value * x + polynomial[k];
   return value;
 }
@@ -57,12 +57,12 @@ void clean(RayPolynomial& F, double tolerance) {
 
 /// Positive x, ascending, at which the polynomial can change its sign. Pairs close to the real axis count, too: they
 /// may be double zeros that rounding has split, and an additional point does no harm.
-std::vector<mp80> positiveZeros(const Vec<mp80>& polynomial) {
+std::vector<BigFloat> positiveZeros(const Vec<BigFloat>& polynomial) {
   constexpr double kNearAxis = 1e-3;
   Index low = 0, high = polynomial.size() - 1;
   while (low <= high && polynomial[low] == 0) ++low;
   while (high > low && polynomial[high] == 0) --high;
-  std::vector<mp80> zeros;
+  std::vector<BigFloat> zeros;
   if (low >= high) return zeros;
   for (const auto& [re, im] : polynomialZeros(polynomial.segment(low, high - low + 1))) {
     if (re > 0 && abs(im) <= kNearAxis * re) zeros.push_back(re);
@@ -72,7 +72,7 @@ std::vector<mp80> positiveZeros(const Vec<mp80>& polynomial) {
 }
 
 double alphaOf(const StabilityFunction& R, double tolerance) {
-  const mp80 degree = boost::math::constants::pi<mp80>() / 180;
+  const BigFloat degree = acos(BigFloat(-1)) / 180;
   const auto holds = [&](double alpha) { return stableRadius(R, -cos(alpha * degree), tolerance) == kInfinity; };
   double unstable = 90;  // unstable, or not known to be stable
   for (const auto& pole : R.poles) {
@@ -89,15 +89,16 @@ double alphaOf(const StabilityFunction& R, double tolerance) {
 
 }  // namespace
 
-double stableRadius(const StabilityFunction& R, const mp80& cosine, double tolerance) {
+double stableRadius(const StabilityFunction& R, const BigFloat& cosine, double tolerance) {
+  const WorkingDigits digits(kAnalysisDigits);
   RayPolynomial F = onRay(R, cosine);
   clean(F, tolerance);
-  const auto lowest = std::ranges::find_if(F.value, [](const mp80& x) { return x != 0; });
+  const auto lowest = std::ranges::find_if(F.value, [](const BigFloat& x) { return x != 0; });
   if (lowest == F.value.end()) return kInfinity;  // |R| = 1
   if (*lowest < 0) return 0;
-  const std::vector<mp80> zeros = positiveZeros(F.value);
+  const std::vector<BigFloat> zeros = positiveZeros(F.value);
   for (std::size_t i = 1; i < zeros.size(); ++i) {
-    const mp80 x = sqrt(zeros[i - 1] * zeros[i]);
+    const BigFloat x = sqrt(zeros[i - 1] * zeros[i]);
     const bool stable = evaluate(F.value, x) >= -tolerance * evaluate(F.magnitude, x);
     if (!stable) return static_cast<double>(zeros[i - 1]);
   }
@@ -107,6 +108,7 @@ double stableRadius(const StabilityFunction& R, const mp80& cosine, double toler
 }
 
 Stability analyzeStability(const StabilityFunction& R, double tolerance) {
+  const WorkingDigits digits(kAnalysisDigits);
   Stability result{};
   result.real_limit = stableRadius(R, -1, tolerance);
   result.imaginary_limit = stableRadius(R, 0, tolerance);

@@ -23,6 +23,6 @@ Stability analyzeStability(const StabilityFunction& R, double tolerance);
 
 /// The largest r_0 with |R(r e^(i phi))| <= 1 for 0 <= r <= r_0; inf if there is no largest. `cosine` is cos(phi); -1
 /// and 0 are treated exactly.
-double stableRadius(const StabilityFunction& R, const mp80& cosine, double tolerance);
+double stableRadius(const StabilityFunction& R, const BigFloat& cosine, double tolerance);
 
 }  // namespace irk

@@ -4,26 +4,27 @@
 #include <limits>
 
 #include "tableaus/analysis/spectrum.h"
+#include "tableaus/families/precise.h"
 
 namespace irk {
 namespace {
 
 /// R(z) = 1 + z b^T (I - z A)^-1 e.
 struct Realization {
-  Mat<mp80> A;
-  Vec<mp80> e, b;
+  Mat<BigFloat> A;
+  Vec<BigFloat> e, b;
 };
 
 /// Orthonormal basis of span{x, A x, A^2 x, ...}: Arnoldi's process, orthogonalized twice.
-Mat<mp80> krylovBasis(const Mat<mp80>& A, const Vec<mp80>& x, double tolerance) {
+Mat<BigFloat> krylovBasis(const Mat<BigFloat>& A, const Vec<BigFloat>& x, double tolerance) {
   const Index s = x.size();
-  const mp80 negligible = tolerance * A.norm();
-  Mat<mp80> Q(s, s);
+  const BigFloat negligible = tolerance * A.norm();
+  Mat<BigFloat> Q(s, s);
   if (x.norm() == 0) return Q.leftCols(0);
   Q.col(0) = x.normalized();
   for (Index k = 1; k < s; ++k) {
     const auto basis = Q.leftCols(k);
-    Vec<mp80> next = A * Q.col(k - 1);
+    Vec<BigFloat> next = A * Q.col(k - 1);
     for (int pass = 0; pass < 2; ++pass) next -= basis * (basis.transpose() * next).eval();
     if (next.norm() <= negligible) return Q.leftCols(k);
     Q.col(k) = next.normalized();
@@ -33,26 +34,26 @@ Mat<mp80> krylovBasis(const Mat<mp80>& A, const Vec<mp80>& x, double tolerance) 
 
 // Reduces A to the subspace that the vector 1 reaches and b observes; the rest cancels in R. This removes common
 // factors of N and D, as reducible methods have them, and zero eigenvalues of A that do not make R grow at infinity.
-Realization minimalRealization(const Tableau<mp80>& tableau, double tolerance) {
+Realization minimalRealization(const Tableau<BigFloat>& tableau, double tolerance) {
   const auto& A = tableau.A;
-  const Vec<mp80> ones = Vec<mp80>::Ones(tableau.stages());
-  const Mat<mp80> Q = krylovBasis(A, ones, tolerance);
-  const Mat<mp80> A_reached = Q.transpose() * A * Q;
-  const Vec<mp80> b_reached = Q.transpose() * tableau.b;
-  const Mat<mp80> P = krylovBasis(A_reached.transpose(), b_reached, tolerance);
-  const Mat<mp80> QP = Q * P;
+  const Vec<BigFloat> ones = Vec<BigFloat>::Ones(tableau.stages());
+  const Mat<BigFloat> Q = krylovBasis(A, ones, tolerance);
+  const Mat<BigFloat> A_reached = Q.transpose() * A * Q;
+  const Vec<BigFloat> b_reached = Q.transpose() * tableau.b;
+  const Mat<BigFloat> P = krylovBasis(A_reached.transpose(), b_reached, tolerance);
+  const Mat<BigFloat> QP = Q * P;
   return {QP.transpose() * A * QP, QP.transpose() * ones, QP.transpose() * tableau.b};
 }
 
 /// The coefficients of prod (1 - z lambda), ascending.
-Vec<mp80> productOfFactors(const std::vector<Eigenvalue>& values) {
+Vec<BigFloat> productOfFactors(const std::vector<Eigenvalue>& values) {
   const auto n = static_cast<Index>(values.size());
-  Vec<mp80> product = Vec<mp80>::Zero(n + 1);
+  Vec<BigFloat> product = Vec<BigFloat>::Zero(n + 1);
   product[0] = 1;
   Index degree = 0;
   for (const auto& [re, im] : values) {
     if (im < 0) continue;  // included with its conjugate
-    const mp80 linear = im == 0 ? -re : -2 * re, quadratic = im == 0 ? 0 : re * re + im * im;
+    const BigFloat linear = im == 0 ? -re : -2 * re, quadratic = im == 0 ? 0 : re * re + im * im;
     degree += im == 0 ? 1 : 2;
     for (Index k = degree; k > 0; --k) {
       product[k] += linear * product[k - 1];
@@ -64,11 +65,11 @@ Vec<mp80> productOfFactors(const std::vector<Eigenvalue>& values) {
 
 /// A polynomial and the eigenvalues that define it.
 struct Factored {
-  Vec<mp80> coefficients;
+  Vec<BigFloat> coefficients;
   std::vector<Eigenvalue> values;
 };
 
-Factored factored(const Mat<mp80>& matrix) {
+Factored factored(const Mat<BigFloat>& matrix) {
   auto values = eigenvalues(matrix);
   const auto squared = [](const Eigenvalue& x) { return x.re * x.re + x.im * x.im; };
   std::ranges::stable_sort(values, std::greater<>(), squared);
@@ -94,7 +95,7 @@ std::vector<std::complex<double>> reciprocals(const std::vector<Eigenvalue>& val
 /// |A^(q-2-j) 1|, and |b^T| |A^(q-1) 1| for b.
 class Uncertainty {
  public:
-  explicit Uncertainty(const Tableau<mp80>& tableau)
+  explicit Uncertainty(const Tableau<BigFloat>& tableau)
       : A_(tableau.A.cast<double>()), A_abs_(A_.cwiseAbs()), b_abs_(tableau.b.cast<double>()) {
     left_.push_back(b_abs_);
     b_abs_ = b_abs_.cwiseAbs().eval();
@@ -119,18 +120,18 @@ class Uncertainty {
 
 // e^z - R(z) has the coefficients 1/q! - b^T A^(q-1) 1. The smallest known error constants of methods of order q - 1
 // are those of Pade approximations, about 2^-q / q!; if the digits do not resolve these, the order is undecided.
-void findOrder(const Tableau<mp80>& tableau, double tolerance, StabilityFunction& R) {
+void findOrder(const Tableau<BigFloat>& tableau, double tolerance, StabilityFunction& R) {
   const int most = static_cast<int>(2 * tableau.stages()) + 1;
   Uncertainty uncertainty(tableau);
-  Vec<mp80> power = Vec<mp80>::Ones(tableau.stages());
-  mp80 expected = 1;
+  Vec<BigFloat> power = Vec<BigFloat>::Ones(tableau.stages());
+  BigFloat expected = 1;
   R.error_constant = std::numeric_limits<double>::quiet_NaN();
   R.order_resolved = false;
   for (int q = 1; q <= most; ++q) {
     R.order = q - 1;
     expected /= q;
-    const mp80 difference = expected - tableau.b.dot(power);
-    const mp80 noise = tolerance * uncertainty.next();
+    const BigFloat difference = expected - tableau.b.dot(power);
+    const BigFloat noise = tolerance * uncertainty.next();
     if (abs(difference) > noise) {
       R.error_constant = static_cast<double>(difference);
       R.order_resolved = true;
@@ -146,14 +147,15 @@ void findOrder(const Tableau<mp80>& tableau, double tolerance, StabilityFunction
 double StabilityFunction::atInfinity() const {
   const Index j = numeratorDegree(), k = denominatorDegree();
   if (j < k) return 0;
-  const mp80 ratio = numerator[j] / denominator[k];
+  const BigFloat ratio = numerator[j] / denominator[k];
   if (j == k) return static_cast<double>(ratio);
   const bool positive = (ratio > 0) == ((j - k) % 2 == 0);
   const double infinity = std::numeric_limits<double>::infinity();
   return positive ? infinity : -infinity;
 }
 
-StabilityFunction stabilityFunction(const Tableau<mp80>& tableau, double tolerance) {
+StabilityFunction stabilityFunction(const Tableau<BigFloat>& tableau, double tolerance) {
+  const WorkingDigits digits(kAnalysisDigits);
   const auto [A, e, b] = minimalRealization(tableau, tolerance);
   // Rounding A and b by `tolerance` changes a ratio of determinants by tolerance times its condition, about s^2.
   const double negligible = tolerance * static_cast<double>(A.rows() * A.rows());

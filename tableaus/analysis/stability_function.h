@@ -13,7 +13,7 @@ namespace irk {
 struct StabilityFunction {
   /// Coefficients of N and D, ascending, those of z^0 being 1. R is a quotient of the determinants of I - z A + z 1
   /// b^T and I - z A, HW II (IV.3.3).
-  Vec<mp80> numerator, denominator;
+  Vec<BigFloat> numerator, denominator;
   std::vector<std::complex<double>> zeros, poles;  ///< as many as their degrees
   int order;              ///< largest q with e^z - R(z) = O(z^(q+1)); at least the method's order
   double error_constant;  ///< C of e^z - R(z) = C z^(q+1) + ..., HW II (IV.3.5)
@@ -29,6 +29,6 @@ struct StabilityFunction {
 
 /// For coefficients accurate to `tolerance`; differences within it count as zero. Requires A s x s and b with s
 /// entries, s >= 1, all finite.
-StabilityFunction stabilityFunction(const Tableau<mp80>& tableau, double tolerance);
+StabilityFunction stabilityFunction(const Tableau<BigFloat>& tableau, double tolerance);
 
 }  // namespace irk

@@ -102,21 +102,20 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
     const Family& family = familyOf(member->family);
     const Index s = stagesOf(id_or_file, *member);
     if constexpr (std::is_same_v<Real, double>) return familyInDouble(family, s);
-    using Precise = std::conditional_t<std::is_same_v<Real, mp100>, mp130, mp80>;
-    return constructFamily<Precise>(family, s).template cast<Real>();
+    return constructFamily(family, s).template cast<Real>();
   }
   const TableauFile file = findTableau(id_or_file);
-  constexpr int kWanted = std::numeric_limits<Real>::digits10;
-  if (kWanted > kFileDigits) {
+  const int wanted = std::is_same_v<Real, double> ? std::numeric_limits<double>::digits10 : WorkingDigits::now();
+  if (wanted > kFileDigits) {
     throw Misuse(
         fmt::format("{}: tableau files have too few digits for this scalar of {} digits; use "
                     "one of the families",
-                    id_or_file, kWanted));
+                    id_or_file, wanted));
   }
-  if (file.digits < kWanted) {
+  if (file.digits < wanted) {
     throw Misuse(
         fmt::format("{}: accurate to {} digits, this scalar needs {}; if its coefficients are, add 'digits: {}'",
-                    id_or_file, file.digits, kWanted, kWanted));
+                    id_or_file, file.digits, wanted, wanted));
   }
   return file.tableau.cast<Real>();
 }
@@ -154,10 +153,8 @@ int classicalOrder(std::string_view family, Index s) { return familyOf(family).o
 int stageOrder(std::string_view family, Index s) { return familyOf(family).orders(s).q; }
 
 template Tableau<double> makeTableau(std::string_view);
-template Tableau<mp50> makeTableau(std::string_view);
-template Tableau<mp100> makeTableau(std::string_view);
+template Tableau<BigFloat> makeTableau(std::string_view);
 template Methods<double> makeMethods(std::string_view, Index, Index);
-template Methods<mp50> makeMethods(std::string_view, Index, Index);
-template Methods<mp100> makeMethods(std::string_view, Index, Index);
+template Methods<BigFloat> makeMethods(std::string_view, Index, Index);
 
 }  // namespace irk

@@ -13,16 +13,16 @@ namespace {
 
 constexpr int kMaxShownDigits = 75;  // five less than the arithmetic's
 
-std::string numbersText(const Vec<mp80>& row, int digits, std::size_t width) {
+std::string numbersText(const Vec<BigFloat>& row, int digits, std::size_t width) {
   std::string text;
-  for (const mp80& x : row) text += fmt::format("  {:>{}}", x.str(digits), width);
+  for (const BigFloat& x : row) text += fmt::format("  {:>{}}", x.str(digits), width);
   text += '\n';
   return text;
 }
 
-std::size_t widest(const Mat<mp80>& block, int digits) {
+std::size_t widest(const Mat<BigFloat>& block, int digits) {
   std::size_t width = 1;
-  for (const mp80& x : block.reshaped()) width = std::max(width, x.str(digits).size());
+  for (const BigFloat& x : block.reshaped()) width = std::max(width, x.str(digits).size());
   return width;
 }
 

@@ -24,28 +24,26 @@ bool hasRightEnd(Quadrature quadrature) {
 }
 
 // If an end is a node, its factor belongs to the weight function of the polynomial whose zeros are the other nodes.
-template <class Real>
-Vec<Real> quadratureNodes(Quadrature quadrature, Index s) {
+Vec<BigFloat> quadratureNodes(Quadrature quadrature, Index s) {
   const int left = hasLeftEnd(quadrature) ? 1 : 0;
   const int right = hasRightEnd(quadrature) ? 1 : 0;
-  Vec<Real> c(s);
+  Vec<BigFloat> c(s);
   if (left == 1) c[0] = 0;
   if (right == 1) c[s - 1] = 1;
-  c.segment(left, s - left - right) = jacobiZeros<Real>(s - left - right, right, left);
+  c.segment(left, s - left - right) = jacobiZeros(s - left - right, right, left);
   return c;
 }
 
 /// W_ik = P_k(c_i), orthonormal on [0, 1], k = 0 .. s-1.
-template <class Real>
-Mat<Real> legendreBasis(const Vec<Real>& c) {
+Mat<BigFloat> legendreBasis(const Vec<BigFloat>& c) {
   const Index s = c.size();
-  Mat<Real> W(s, s);
+  Mat<BigFloat> W(s, s);
   for (Index i = 0; i < s; ++i) {
-    const Real x = 2 * c[i] - 1;
-    Real L = 1, L_before = 0;
+    const BigFloat x = 2 * c[i] - 1;
+    BigFloat L = 1, L_before = 0;
     for (Index k = 0; k < s; ++k) {
-      W(i, k) = sqrt(Real(2 * k + 1)) * L;
-      const Real L_next = ((2 * k + 1) * x * L - k * L_before) / (k + 1);
+      W(i, k) = sqrt(BigFloat(2 * k + 1)) * L;
+      const BigFloat L_next = ((2 * k + 1) * x * L - k * L_before) / (k + 1);
       L_before = L;
       L = L_next;
     }
@@ -54,28 +52,25 @@ Mat<Real> legendreBasis(const Vec<Real>& c) {
 }
 
 /// d_s: 1 unless the quadrature is too weak to integrate P_{s-1}^2 exactly.
-template <class Real>
-Real lastNorm(Quadrature quadrature, Index s) {
-  return quadrature == Quadrature::kLobatto ? 2 + Real(1) / (s - 1) : Real(1);
+BigFloat lastNorm(Quadrature quadrature, Index s) {
+  return quadrature == Quadrature::kLobatto ? 2 + BigFloat(1) / (s - 1) : BigFloat(1);
 }
 
-template <class Real>
-Real cornerSize(Quadrature quadrature, Index s) {
-  return Real(1) / (quadrature == Quadrature::kLobatto ? 2 * (s - 1) : 4 * s - 2);
+BigFloat cornerSize(Quadrature quadrature, Index s) {
+  return BigFloat(1) / (quadrature == Quadrature::kLobatto ? 2 * (s - 1) : 4 * s - 2);
 }
 
 /// X of HW II, IV.5: integration in the basis W; the last row and column depend on the family.
-template <class Real>
-Mat<Real> integrationMatrix(const Family& family, Index s) {
-  Mat<Real> X = Mat<Real>::Zero(s, s);
-  X(0, 0) = Real(1) / 2;
+Mat<BigFloat> integrationMatrix(const Family& family, Index s) {
+  Mat<BigFloat> X = Mat<BigFloat>::Zero(s, s);
+  X(0, 0) = BigFloat(1) / 2;
   for (Index k = 1; k < s; ++k) {
-    const Real xi = 1 / (2 * sqrt(Real(4 * k * k - 1)));
+    const BigFloat xi = 1 / (2 * sqrt(BigFloat(4 * k * k - 1)));
     const bool last = k == s - 1;
     X(k, k - 1) = last ? family.below * xi : xi;
-    X(k - 1, k) = last ? -family.above * xi * lastNorm<Real>(family.quadrature, s) : Real(-xi);
+    X(k - 1, k) = last ? -family.above * xi * lastNorm(family.quadrature, s) : BigFloat(-xi);
   }
-  if (family.corner != 0) X(s - 1, s - 1) += family.corner * cornerSize<Real>(family.quadrature, s);
+  if (family.corner != 0) X(s - 1, s - 1) += family.corner * cornerSize(family.quadrature, s);
   return X;
 }
 
@@ -113,32 +108,29 @@ const Family& familyOf(std::string_view id) {
   throw Misuse(unknownName("tableau family", id, known));
 }
 
-template <class Real>
-Tableau<Real> constructFamily(const Family& family, Index s) {
+Tableau<BigFloat> constructFamily(const Family& family, Index s) {
   if (s < family.minStages() || s > kMaxStages) {
     throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s, family.minStages(),
                              kMaxStages));
   }
-  const Vec<Real> c = quadratureNodes<Real>(family.quadrature, s);
-  const Mat<Real> W = legendreBasis<Real>(c);
-  Vec<Real> d = Vec<Real>::Ones(s);
-  d[s - 1] = lastNorm<Real>(family.quadrature, s);
+  const WorkingDigits digits(WorkingDigits::now() + kSpareDigits);
+  const Vec<BigFloat> c = quadratureNodes(family.quadrature, s);
+  const Mat<BigFloat> W = legendreBasis(c);
+  Vec<BigFloat> d = Vec<BigFloat>::Ones(s);
+  d[s - 1] = lastNorm(family.quadrature, s);
 
   // W^T diag(b) W = D, hence diag(b)^-1 = W D^-1 W^T.
-  const Mat<Real> W_scaled = W * d.cwiseInverse().asDiagonal();
-  const Vec<Real> b = W_scaled.cwiseProduct(W).rowwise().sum().cwiseInverse();
+  const Mat<BigFloat> W_scaled = W * d.cwiseInverse().asDiagonal();
+  const Vec<BigFloat> b = W_scaled.cwiseProduct(W).rowwise().sum().cwiseInverse();
 
-  const Mat<Real> X = integrationMatrix<Real>(family, s);
-  const Mat<Real> WX = W * X;
-  Mat<Real> A = WX * W_scaled.transpose() * b.asDiagonal();
-  const Real zero = kZeroThreshold * Eigen::NumTraits<Real>::epsilon();
-  A = A.unaryExpr([&zero](const Real& a) { return abs(a) < zero ? Real(0) : a; }).eval();
+  const Mat<BigFloat> X = integrationMatrix(family, s);
+  const Mat<BigFloat> WX = W * X;
+  Mat<BigFloat> A = WX * W_scaled.transpose() * b.asDiagonal();
+  const BigFloat zero = kZeroThreshold * Eigen::NumTraits<BigFloat>::epsilon();
+  A = A.unaryExpr([&zero](const BigFloat& a) { return abs(a) < zero ? BigFloat(0) : a; }).eval();
 
   const SimplifyingOrders orders = family.orders(s);
   return {fmt::format("{}_{}", family.id, s), family.id, A, b, c, orders.p, orders.q};
 }
-
-template Tableau<mp80> constructFamily(const Family&, Index);
-template Tableau<mp130> constructFamily(const Family&, Index);
 
 }  // namespace irk

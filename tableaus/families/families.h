@@ -40,9 +40,8 @@ const Family* findFamily(std::string_view id);
 const Family& familyOf(std::string_view id);
 
 /// The s-stage member. Throws Misuse, naming the range, unless minStages() <= s <= kMaxStages. HW II, IV.5 in the
-/// orthonormal Legendre basis W: A = W X D^-1 W^T diag(b). At most the last 20 digits of Real (mp80, mp130) are
-/// wrong; coefficients that are zero are exactly zero.
-template <class Real = mp80>
-Tableau<Real> constructFamily(const Family& family, Index s);
+/// orthonormal Legendre basis W: A = W X D^-1 W^T diag(b). The coefficients have kSpareDigits more than the working
+/// digits, of which at most the last 20 are wrong; coefficients that are zero are exactly zero.
+Tableau<BigFloat> constructFamily(const Family& family, Index s);
 
 }  // namespace irk

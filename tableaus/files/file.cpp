@@ -34,13 +34,13 @@ int lineOf(const TableauFile& file, const Finding& finding) {
 }
 
 /// One line per row; columns are as wide as their widest number.
-std::string blockText(const Mat<mp80>& block) {
-  const auto number = [](const mp80& x) { return x.str(kFileDigits); };
+std::string blockText(const Mat<BigFloat>& block) {
+  const auto number = [](const BigFloat& x) { return x.str(kFileDigits); };
   std::string text;
   for (Index i = 0; i < block.rows(); ++i) {
     for (Index j = 0; j < block.cols(); ++j) {
       std::size_t width = 0;
-      for (const mp80& x : block.col(j)) width = std::max(width, number(x).size());
+      for (const BigFloat& x : block.col(j)) width = std::max(width, number(x).size());
       text += fmt::format("{}{:>{}}", j == 0 ? "" : "  ", number(block(i, j)), width);
     }
     text += '\n';
@@ -67,7 +67,7 @@ TableauReport checkTableau(const TableauFile& file) {
 }
 
 std::string writeTableau(const TableauFile& file) {
-  const Tableau<mp80>& tableau = file.tableau;
+  const Tableau<BigFloat>& tableau = file.tableau;
   return fmt::format("# Butcher tableau {}\n", tableau.id) +
          fmt::format("family: {}\nstages: {}\norder: {}\nstage_order: {}\n", tableau.family, tableau.stages(),
                      tableau.order, tableau.stage_order) +

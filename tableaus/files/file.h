@@ -28,7 +28,7 @@ namespace irk {
 
 /// The content of a file. Line numbers count from 1; 0 stands for a missing key.
 struct TableauFile {
-  Tableau<mp80> tableau;
+  Tableau<BigFloat> tableau;
   std::string source;
   int digits;
   int family_line = 0, order_line = 0, stage_order_line = 0, weights_line = 0;

@@ -15,7 +15,7 @@ namespace irk {
 namespace {
 
 constexpr int kMinDigits = 15;  // as a double has; the default of the key `digits`
-constexpr int kMaxDigits = 75;  // five less than mp80
+constexpr int kMaxDigits = kAnalysisDigits - 5;
 constexpr std::size_t kMaxNumberLength = 200;
 
 const std::vector<std::string>& headerKeys() {
@@ -63,7 +63,7 @@ class Parser {
     parseHeader();
     const int s = integer("stages", 1, static_cast<int>(kMaxStages));
     TableauFile file{};
-    Tableau<mp80>& tableau = file.tableau;
+    Tableau<BigFloat>& tableau = file.tableau;
     tableau.id = name_;
     tableau.family = header_.contains("family") ? header_["family"].text : "user";
     tableau.order = integer("order", 1, 2 * s);
@@ -157,7 +157,7 @@ class Parser {
     ++position_;
   }
 
-  Vec<mp80> row(const std::string& what, Index s) {
+  Vec<BigFloat> row(const std::string& what, Index s) {
     const auto& [number, text] = nextLine(what);
     if (text == "b" || text == "c") {
       fail(number, fmt::format("block {} starts, but {} is missing", text, what));
@@ -165,7 +165,7 @@ class Parser {
     const std::vector<std::string> entries = words(text);
     const auto count = static_cast<Index>(entries.size());
     if (count != s) fail(number, fmt::format("{} has {} numbers, not {}", what, count, s));
-    Vec<mp80> values(s);
+    Vec<BigFloat> values(s);
     for (Index j = 0; j < s; ++j) {
       values[j] = numberOrFraction(entries[static_cast<std::size_t>(j)], number);
     }
@@ -173,25 +173,25 @@ class Parser {
     return values;
   }
 
-  mp80 numberOrFraction(const std::string& word, int line) const {
+  BigFloat numberOrFraction(const std::string& word, int line) const {
     const std::size_t slash = word.find('/');
     if (slash == std::string::npos) return decimal(word, line);
-    const mp80 denominator = decimal(word.substr(slash + 1), line);
+    const BigFloat denominator = decimal(word.substr(slash + 1), line);
     if (denominator == 0) fail(line, fmt::format("'{}' divides by zero", word));
     return decimal(word.substr(0, slash), line) / denominator;
   }
 
   // An exponent has at most three digits, so that no value overflows and each is read quickly.
-  mp80 decimal(const std::string& word, int line) const {
+  BigFloat decimal(const std::string& word, int line) const {
     static const std::regex form(R"([+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?)");
     if (word.size() > kMaxNumberLength || !std::regex_match(word, form)) {
       fail(line, fmt::format("'{}' is not a finite number", word.substr(0, kMaxNumberLength)));
     }
-    return mp80(word.front() == '+' ? word.substr(1) : word);
+    return BigFloat(word.front() == '+' ? word.substr(1) : word);
   }
 
   int stageOrderOf(const TableauFile& file) const {
-    const Tableau<mp80>& tableau = file.tableau;
+    const Tableau<BigFloat>& tableau = file.tableau;
     const auto s = static_cast<int>(tableau.stages());
     if (header_.at("stage_order").number > 0) return integer("stage_order", 0, s);
     if (const Family* family = findFamily(tableau.family)) return family->orders(s).q;
@@ -207,6 +207,9 @@ class Parser {
 
 }  // namespace
 
-TableauFile parseTableau(std::string_view text, const std::string& name) { return Parser(text, name).parse(); }
+TableauFile parseTableau(std::string_view text, const std::string& name) {
+  const WorkingDigits digits(kAnalysisDigits);
+  return Parser(text, name).parse();
+}
 
 }  // namespace irk

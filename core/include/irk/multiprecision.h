@@ -1,15 +1,14 @@
-// Multiprecision scalars: floating-point numbers of 50 and more decimal digits.
+// A multiprecision scalar: a binary floating-point number whose decimal digits are chosen at run time.
 //
-// Their arithmetic is that of Boost.Multiprecision's cpp_bin_float without expression templates, bit for bit. It is
-// compiled once, in base/multiprecision.cpp. Before, each file that instantiates a template for these numbers included
-// Boost and inlined its arithmetic, which took two thirds of the compile time.
+// Arithmetic and functions are those of MPFR (Fousse, Hanrot, Lefevre, Pelissier, Zimmermann, ACM TOMS 33, 2007):
+// every result is the exact one, rounded to nearest. Numbers of up to 150 digits hold their bits inside, without
+// memory of their own.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <compare>
 #include <concepts>
-#include <cstddef>
 #include <ios>
 #include <iosfwd>
 #include <limits>
@@ -17,42 +16,61 @@
 #include <type_traits>
 
 // Calls F(name) for the functions of <cmath> that a BigFloat has.
-#define IRK_BIG_FLOAT_FUNCTIONS(F) IRK_POWERS(F) IRK_ANGLES(F) IRK_HYPERBOLIC(F) IRK_ROUNDED(F)
+#define IRK_BIG_FLOAT_FUNCTIONS(F) IRK_POWERS(F) IRK_ANGLES(F) IRK_HYPERBOLIC(F) IRK_TO_INTEGERS(F) F(abs)
 #define IRK_POWERS(F) F(sqrt) F(cbrt) F(exp) F(expm1) F(log) F(log1p) F(log2) F(log10)
 #define IRK_ANGLES(F) F(sin) F(cos) F(tan) F(asin) F(acos) F(atan)
 #define IRK_HYPERBOLIC(F) F(sinh) F(cosh) F(tanh) F(asinh) F(acosh) F(atanh)
-#define IRK_ROUNDED(F) F(abs) F(fabs) F(floor) F(ceil) F(round) F(trunc)
+#define IRK_TO_INTEGERS(F) F(floor) F(ceil) F(round) F(trunc)
 #define IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(F) F(pow) F(atan2) F(hypot) F(fmod)
 
 namespace irk {
 
-/// A binary floating-point number that holds Digits decimal digits: 50, 80, 100 or 130. Operations round to nearest.
+/// Sets the decimal digits of all results of BigFloat's operations on this thread while the object lives; without one
+/// they are 50. A parallel region starts with the default: pass `now()` on to its threads.
+class WorkingDigits {
+ public:
+  static constexpr int kLeast = 17, kDefault = 50, kMost = 2000;
+
+  /// Throws Misuse for digits outside of kLeast .. kMost.
+  explicit WorkingDigits(int digits);
+  ~WorkingDigits();
+  WorkingDigits(const WorkingDigits&) = delete;
+  WorkingDigits& operator=(const WorkingDigits&) = delete;
+
+  static int now();
+
+ private:
+  int before_;
+};
+
+/// Operations round to nearest, to the WorkingDigits of their thread; copies keep all bits that a number has.
 ///
 /// Arithmetic types convert to it implicitly and exactly; all other conversions are explicit and round to nearest,
 /// those to integers towards zero. NaN compares as unordered. The functions of <cmath> below are found by argument
 /// dependent lookup: `using std::sin; sin(x)`.
-template <int Digits>
 class BigFloat {
  public:
-  BigFloat() noexcept;  ///< 0
-  BigFloat(const BigFloat& other) noexcept;
-  BigFloat& operator=(const BigFloat& other) noexcept;  // NOLINT(bugprone-unhandled-self-assignment)
-  BigFloat(double value) noexcept;                      // NOLINT(google-explicit-constructor)
-  BigFloat(long long value) noexcept;                   // NOLINT(google-explicit-constructor)
-  BigFloat(unsigned long long value) noexcept;          // NOLINT(google-explicit-constructor)
+  BigFloat() noexcept = default;  ///< 0
+  BigFloat(const BigFloat& other);
+  BigFloat(BigFloat&& other) noexcept;
+  BigFloat& operator=(const BigFloat& other);
+  BigFloat& operator=(BigFloat&& other) noexcept;
+  ~BigFloat() {
+    if (limbs_ > kInside) release();
+  }
+  BigFloat(double value);              // NOLINT(google-explicit-constructor)
+  BigFloat(long long value);           // NOLINT(google-explicit-constructor)
+  BigFloat(unsigned long long value);  // NOLINT(google-explicit-constructor)
   template <std::signed_integral I>
-  BigFloat(I value) noexcept  // NOLINT(google-explicit-constructor)
+  BigFloat(I value)  // NOLINT(google-explicit-constructor)
       : BigFloat(static_cast<long long>(value)) {}
   template <std::unsigned_integral I>
-  BigFloat(I value) noexcept  // NOLINT(google-explicit-constructor)
+  BigFloat(I value)  // NOLINT(google-explicit-constructor)
       : BigFloat(static_cast<unsigned long long>(value)) {}
 
   /// The number that is nearest to a decimal text. Throws std::runtime_error if the text is not a number.
   explicit BigFloat(const char* text);
   explicit BigFloat(const std::string& text) : BigFloat(text.c_str()) {}
-
-  template <int Other>
-  requires(Other != Digits) explicit BigFloat(const BigFloat<Other>& other);
 
   explicit operator double() const;
   explicit operator long long() const;  ///< the nearest limit for numbers out of range
@@ -61,10 +79,13 @@ class BigFloat {
     return static_cast<I>(static_cast<long long>(*this));
   }
 
-  BigFloat& operator+=(const BigFloat& b);
-  BigFloat& operator-=(const BigFloat& b);
-  BigFloat& operator*=(const BigFloat& b);
-  BigFloat& operator/=(const BigFloat& b);
+  /// This number, rounded to the working digits.
+  BigFloat rounded() const;
+
+  BigFloat& operator+=(const BigFloat& b) { return *this = sum(*this, b); }
+  BigFloat& operator-=(const BigFloat& b) { return *this = difference(*this, b); }
+  BigFloat& operator*=(const BigFloat& b) { return *this = product(*this, b); }
+  BigFloat& operator/=(const BigFloat& b) { return *this = quotient(*this, b); }
   BigFloat operator-() const;
   BigFloat operator+() const { return *this; }
 
@@ -83,6 +104,7 @@ class BigFloat {
   friend BigFloat name(const BigFloat& x, const BigFloat& y) { return name##Of(x, y); }
   IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(IRK_FRIEND)
 #undef IRK_FRIEND
+  friend BigFloat fabs(const BigFloat& x) { return absOf(x); }
   template <std::integral I>
   friend BigFloat pow(const BigFloat& x, I n) {
     return powerOf(x, n);
@@ -92,15 +114,19 @@ class BigFloat {
   friend bool isfinite(const BigFloat& x) { return x.isFinite(); }
   friend bool isnan(const BigFloat& x) { return x.isNan(); }
   friend bool isinf(const BigFloat& x) { return !x.isFinite() && !x.isNan(); }
-  friend bool signbit(const BigFloat& x) { return x.isNegative(); }
-  friend std::ostream& operator<<(std::ostream& out, const BigFloat& x) { return x.write(out); }
-  friend std::istream& operator>>(std::istream& in, BigFloat& x) { return x.read(in); }
+  friend bool signbit(const BigFloat& x) { return x.kind_ < 0; }
+  friend std::ostream& operator<<(std::ostream& out, const BigFloat& x);
 
-  /// The decimal text with `digits` digits, all of them if 0, in the format of a stream with these flags.
+  /// The decimal text with `digits` digits, all of them if 0. `flags`: std::ios::scientific or std::ios::fixed, for
+  /// which `digits` counts those after the point.
   std::string str(std::streamsize digits = 0, std::ios_base::fmtflags flags = {}) const;
 
  private:
-  friend struct BigFloatValue;
+  friend class BigFloatView;
+  friend class BigFloatResult;
+
+  using Limb = unsigned long;
+  static constexpr int kInside = 8;  // limbs of 64 bits
 
   static BigFloat sum(const BigFloat& a, const BigFloat& b);
   static BigFloat difference(const BigFloat& a, const BigFloat& b);
@@ -118,36 +144,52 @@ class BigFloat {
   static BigFloat frexpOf(const BigFloat& x, int* n);
   bool isFinite() const;
   bool isNan() const;
-  bool isNegative() const;
-  std::ostream& write(std::ostream& out) const;
-  std::istream& read(std::istream& in);
+  Limb* bits();
+  const Limb* bits() const;
+  void reserve(int limbs);
+  void release() noexcept;
 
-  // Holds Boost's number; the source file checks size and alignment.
-  static constexpr std::size_t kBytes = Digits <= 50 ? 64 : Digits <= 100 ? 80 : 96;
-  alignas(16) std::byte value_[kBytes];
+  // MPFR's kind of the number with its sign (zero, regular, infinite, NaN), its exponent, and its mantissa, of which
+  // only regular numbers have the bits. `limbs_` counts the places for them.
+  int kind_ = kZero;
+  int precision_ = 1;
+  int limbs_ = 0;
+  static constexpr int kZero = 2;  // the source file checks that this is MPFR's
+  long exponent_ = 0;
+  union {
+    Limb inside_[kInside];
+    Limb* outside_;
+  };
 };
 
-/// 50 decimal digits.
-using mp50 = BigFloat<50>;
-
-/// 100 decimal digits, for measuring orders from about 20 on: only errors below 1e-40 show them as a straight line.
-using mp100 = BigFloat<100>;
+/// The number of decimal digits of a vector, a matrix or a number in which one computes: rounds every entry to the
+/// working digits. In double nothing is to be done.
+template <class Derived>
+auto roundedToWork(const Eigen::MatrixBase<Derived>& y) {
+  using Number = typename Derived::Scalar;
+  if constexpr (std::is_same_v<Number, BigFloat>) {
+    return y.unaryExpr([](const BigFloat& x) { return x.rounded(); }).eval();
+  } else {
+    return y.eval();
+  }
+}
 
 }  // namespace irk
 
-template <int Digits>
-struct std::numeric_limits<irk::BigFloat<Digits>> {  // NOLINTBEGIN(readability-identifier-naming): prescribed
-  using Number = irk::BigFloat<Digits>;
+template <>
+struct std::numeric_limits<irk::BigFloat> {  // NOLINTBEGIN(readability-identifier-naming): prescribed
+  using Number = irk::BigFloat;
   static constexpr bool is_specialized = true, is_signed = true, is_integer = false, is_exact = false;
   static constexpr bool has_infinity = true, has_quiet_NaN = true, has_signaling_NaN = false;
   static constexpr bool is_bounded = true, is_modulo = false, is_iec559 = false, has_denorm_loss = false;
   static constexpr bool traps = false, tinyness_before = false;
   static constexpr std::float_denorm_style has_denorm = std::denorm_absent;
   static constexpr std::float_round_style round_style = std::round_to_nearest;
-  static constexpr int digits = Digits * 1000 / 301 + 2, digits10 = Digits, max_digits10 = Digits + 3, radix = 2;
-  static constexpr int min_exponent = -2147482000, max_exponent = 2147482000;
-  static constexpr int min_exponent10 = -646392000, max_exponent10 = 646392000;
-  static Number epsilon();
+  // 0: known at run time only; Boost.Math reads them so.
+  static constexpr int digits = 0, digits10 = 0, max_digits10 = 0, radix = 2;
+  static constexpr int min_exponent = -(1 << 30) + 2, max_exponent = (1 << 30) - 1;
+  static constexpr int min_exponent10 = -323228496, max_exponent10 = 323228496;
+  static Number epsilon();  ///< of the working digits
   static Number min();
   static Number max();
   static Number lowest();
@@ -158,9 +200,9 @@ struct std::numeric_limits<irk::BigFloat<Digits>> {  // NOLINTBEGIN(readability-
   static Number round_error() { return Number(0.5); }
 };
 
-// Eigen's costs are those that Boost gives for its numbers.
-template <int Digits>
-struct Eigen::NumTraits<irk::BigFloat<Digits>> : GenericNumTraits<irk::BigFloat<Digits>> {
+// Eigen's costs are relative to those of double.
+template <>
+struct Eigen::NumTraits<irk::BigFloat> : GenericNumTraits<irk::BigFloat> {
   using Literal = double;
   enum {
     IsComplex = 0,
@@ -171,25 +213,22 @@ struct Eigen::NumTraits<irk::BigFloat<Digits>> : GenericNumTraits<irk::BigFloat<
     MulCost = 8,
     RequireInitialization = 1
   };
-  static irk::BigFloat<Digits> dummy_precision() {
-    return 1000 * std::numeric_limits<irk::BigFloat<Digits>>::epsilon();
-  }
-  static int digits10() { return Digits; }
+  static irk::BigFloat dummy_precision() { return 1000 * std::numeric_limits<irk::BigFloat>::epsilon(); }
+  static int digits10() { return irk::WorkingDigits::now(); }
 };  // NOLINTEND(readability-identifier-naming)
 
-template <int Digits, class T, class Operation>
+template <class T, class Operation>
 requires std::is_arithmetic_v<T>
-struct Eigen::ScalarBinaryOpTraits<irk::BigFloat<Digits>, T, Operation> {
-  using ReturnType = irk::BigFloat<Digits>;
+struct Eigen::ScalarBinaryOpTraits<irk::BigFloat, T, Operation> {
+  using ReturnType = irk::BigFloat;
 };
-template <int Digits, class T, class Operation>
+template <class T, class Operation>
 requires std::is_arithmetic_v<T>
-struct Eigen::ScalarBinaryOpTraits<T, irk::BigFloat<Digits>, Operation> {
-  using ReturnType = irk::BigFloat<Digits>;
+struct Eigen::ScalarBinaryOpTraits<T, irk::BigFloat, Operation> {
+  using ReturnType = irk::BigFloat;
 };
 
 /// Instantiates the class template Name for every scalar that core is compiled for.
 #define IRK_INSTANTIATE_CLASS(Name) \
   template class Name<double>;      \
-  template class Name<::irk::mp50>; \
-  template class Name<::irk::mp100>;
+  template class Name<::irk::BigFloat>;

@@ -24,10 +24,16 @@ struct Tableau {
 
   Index stages() const { return b.size(); }
 
-  /// The same tableau over another scalar; every coefficient is rounded once.
+  /// The same tableau over another scalar; every coefficient is rounded once, in multiprecision to the WorkingDigits.
   template <class To>
   Tableau<To> cast() const {
-    const auto round = [](const Real& x) { return static_cast<To>(x); };
+    const auto round = [](const Real& x) {
+      if constexpr (requires(const To& to) { to.rounded(); }) {
+        return To(x).rounded();
+      } else {
+        return static_cast<To>(x);
+      }
+    };
     return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round), order, stage_order};
   }
 };

@@ -21,18 +21,18 @@ struct Swing {
   }
 };
 
-irk::mp50 errorWith(double h) {
-  const auto system = irk::makeSystem<irk::mp50>(Swing{});
-  irk::State<irk::mp50> start(system->sizes());
+irk::BigFloat errorWith(double h) {
+  const auto system = irk::makeSystem<irk::BigFloat>(Swing{});
+  irk::State<irk::BigFloat> start(system->sizes());
   start.x[0] = 1;
   irk::IntegratorOptions options;
   options.step.control = irk::StepControl::kFixed;
   options.step.h = h;
   options.step.estimate = irk::ErrorEstimate::kNone;
   options.tolerances = {.rtol = 1e-40, .atol = 1e-40};
-  irk::Integrator<irk::mp50> integrator(system, irk::makeTableau<irk::mp50>("gauss_5"), options);
-  const auto solution = integrator.integrate(start, irk::mp50(1));
-  return abs(solution.state.x[0] - exp(sin(irk::mp50(1))));
+  irk::Integrator<irk::BigFloat> integrator(system, irk::makeTableau<irk::BigFloat>("gauss_5"), options);
+  const auto solution = integrator.integrate(start, irk::BigFloat(1));
+  return abs(solution.state.x[0] - exp(sin(irk::BigFloat(1))));
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ void refuseFormulation(const PeerEntry& peer, Formulation formulation) {
 }  // namespace
 
 void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scene) {
-  if (spec.scalar != ScalarKind::kDouble) {
+  if (!spec.scalar.isDouble()) {
     refuse(peer, spec.scalar, "the library computes in double precision");
   }
   if (hasFixedSteps(spec.options.step)) {

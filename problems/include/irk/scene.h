@@ -128,9 +128,7 @@ struct SceneEntry {
   /// Build the scene from complete, checked settings; users call makeScene. An empty function: the scene does not
   /// offer this scalar.
   std::function<Scene<double>(const Settings&)> make = {};
-  std::function<Scene<mp50>(const Settings&)> make_mp50 = {};
-  /// Needed only if orders from 20 on are measured with the scene.
-  std::function<Scene<mp100>(const Settings&)> make_mp100 = {};
+  std::function<Scene<BigFloat>(const Settings&)> make_big_float = {};
   /// For ensembles: `.make_lanes = lanesOf<FourBar>` (irk/scene_lanes.h). Null: the scene has no lanes.
   LanesMaker make_lanes = nullptr;
   /// Set by registerScene: that it is not one of the library's, and the file that it comes from, if the program loaded

@@ -249,7 +249,7 @@ constexpr bool kHasConstraints = requires(const P& p, const Point<double>& at, d
 }  // namespace detail
 
 /// Completes the entry of a scene's struct by the makers of the scalars that this file is compiled for: double and
-/// mp50, or with IRK_DIGITS set to 16, 50 or 100 the one that it names. A struct with `constraints` is of the kind
+/// BigFloat, or with IRK_DIGITS the one that it names: 16 for double, 50 for BigFloat, of any number of digits. A struct with `constraints` is of the kind
 /// kConstrained, unless its entry names another one. `static`: to gcc, functions of equal templates S in the unnamed
 /// namespaces of two files are one function.
 template <template <class> class S>
@@ -259,10 +259,7 @@ static SceneEntry sceneEntryOf(SceneEntry entry) {
   entry.make = sceneWith<double, S<double>>;
 #endif
 #if !defined(IRK_DIGITS) || IRK_DIGITS == 50
-  entry.make_mp50 = sceneWith<mp50, S<mp50>>;
-#endif
-#if defined(IRK_DIGITS) && IRK_DIGITS == 100
-  entry.make_mp100 = sceneWith<mp100, S<mp100>>;
+  entry.make_big_float = sceneWith<BigFloat, S<BigFloat>>;
 #endif
   return entry;
 }

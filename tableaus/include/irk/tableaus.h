@@ -21,8 +21,8 @@ struct FamilyEntry {
 const std::vector<FamilyEntry>& familyCatalogue();
 
 /// The tableau `radau_iia_5`, or that of a file given by path; constructed in multiprecision and rounded once to Real
-/// (double, mp50, mp100). Throws Misuse for an unknown family (naming the nearest), s out of range, a bad file, a
-/// file with fewer digits than Real, and for any file with mp100.
+/// (double, BigFloat with the WorkingDigits of the thread). Throws Misuse for an unknown family (naming the nearest), s
+/// out of range, a bad file, and a file with fewer digits than Real.
 template <class Real>
 Tableau<Real> makeTableau(std::string_view id_or_file);
 

@@ -91,7 +91,7 @@ TEST(Linearization, SourcesAgreeAtTwoHundredUnknowns) {
 
 TEST(Linearization, AutomaticIsExactToRoundOff) {
   const auto coarse = linearize(*makeSystem<double>(Chain{5, 3}), DerivativeSource::kAutomatic);
-  const auto fine = linearize(*makeSystem<mp50>(Chain{5, 3}), DerivativeSource::kCentral);
+  const auto fine = linearize(*makeSystem<BigFloat>(Chain{5, 3}), DerivativeSource::kCentral);
   for (Index i = 0; i < coarse.d0.size(); ++i) {
     EXPECT_NEAR(coarse.d0[i], static_cast<double>(fine.d0[i]), 1e-14);
     EXPECT_NEAR(coarse.d1[i], static_cast<double>(fine.d1[i]), 1e-14);

@@ -55,10 +55,11 @@ TEST(Integrator, ToleranceIsReachedByEveryNewton) {
 }
 
 TEST(Integrator, MultiprecisionGoesBelowDouble) {
-  const auto s = integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 2, makeTableau<mp50>("gauss_12"), fixedSteps(0.05));
+  const auto s =
+      integrate<BigFloat>(Riccati{}, riccatiStart<BigFloat>(), 2, makeTableau<BigFloat>("gauss_12"), fixedSteps(0.05));
   ASSERT_EQ(s.outcome, Outcome::kSuccess);
-  const mp50 exact = mp50(1.5) + sin(mp50(2));
-  EXPECT_LT(std::abs(static_cast<double>(mp50(s.state.x[0] - exact))), 1e-35);
+  const BigFloat exact = BigFloat(1.5) + sin(BigFloat(2));
+  EXPECT_LT(std::abs(static_cast<double>(BigFloat(s.state.x[0] - exact))), 1e-35);
 }
 
 // A linear problem with constant coefficients needs one Jacobian, one factorization, and per step one iteration of

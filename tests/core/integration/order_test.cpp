@@ -8,15 +8,15 @@
 namespace irk::test {
 namespace {
 
-// In mp50 every slope has an asymptotic range; in double it disappears in round-off from order 8 on.
-double riccatiOrder(const Tableau<mp50>& tableau, const std::vector<int>& counts) {
+// In 50 digits every slope has an asymptotic range; in double it disappears in round-off from order 8 on.
+double riccatiOrder(const Tableau<BigFloat>& tableau, const std::vector<int>& counts) {
   std::vector<double> h, error;
   for (const int n : counts) {
     h.push_back(2.0 / n);
-    const auto s = integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 2, tableau, fixedSteps(2.0 / n));
+    const auto s = integrate<BigFloat>(Riccati{}, riccatiStart<BigFloat>(), 2, tableau, fixedSteps(2.0 / n));
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << tableau.id << ": " << s.detail;
-    const mp50 exact = mp50(1.5) + sin(mp50(2));
-    error.push_back(std::abs(static_cast<double>(mp50(s.state.x[0] - exact))));
+    const BigFloat exact = BigFloat(1.5) + sin(BigFloat(2));
+    error.push_back(std::abs(static_cast<double>(BigFloat(s.state.x[0] - exact))));
   }
   return slope(h, error);
 }
@@ -24,36 +24,36 @@ double riccatiOrder(const Tableau<mp50>& tableau, const std::vector<int>& counts
 TEST(Order, EveryFamilyShowsItsClassicalOrderOnRiccati) {
   for (const auto& family : familyCatalogue()) {
     for (Index s = family.min_stages; s <= 4; ++s) {
-      const auto tableau = makeTableau<mp50>(family.id + "_" + std::to_string(s));
+      const auto tableau = makeTableau<BigFloat>(family.id + "_" + std::to_string(s));
       EXPECT_NEAR(riccatiOrder(tableau, {40, 56, 80}), tableau.order, 0.2) << tableau.id;
     }
   }
 }
 
 TEST(Order, TwentyAndNineteenAtTenStages) {
-  EXPECT_NEAR(riccatiOrder(makeTableau<mp50>("gauss_10"), {10, 14, 20}), 20, 0.3);
-  EXPECT_NEAR(riccatiOrder(makeTableau<mp50>("radau_iia_10"), {10, 14, 20}), 19, 0.3);
+  EXPECT_NEAR(riccatiOrder(makeTableau<BigFloat>("gauss_10"), {10, 14, 20}), 20, 0.3);
+  EXPECT_NEAR(riccatiOrder(makeTableau<BigFloat>("radau_iia_10"), {10, 14, 20}), 19, 0.3);
 }
 
 // Only a nonlinear non-autonomous problem detects all five damaged tableaus.
 TEST(Order, DamagedTableausLoseTheirOrder) {
-  const auto good = makeTableau<mp50>("radau_iia_3");
+  const auto good = makeTableau<BigFloat>("radau_iia_3");
   EXPECT_NEAR(riccatiOrder(good, {40, 80}), 5, 0.2);
   auto node = good;
-  node.c[0] += mp50(1e-3);
+  node.c[0] += BigFloat(1e-3);
   auto swapped = good;
   std::swap(swapped.c[0], swapped.c[1]);
   auto transposed = good;
-  transposed.A = Mat<mp50>(good.A.transpose());
+  transposed.A = Mat<BigFloat>(good.A.transpose());
   auto shifted = good;
-  shifted.A(0, 0) += mp50(1e-3);
-  shifted.A(0, 1) -= mp50(1e-3);
+  shifted.A(0, 0) += BigFloat(1e-3);
+  shifted.A(0, 1) -= BigFloat(1e-3);
   auto similar = good;  // P^-1 A P with P 1 = 1 and b^T P = b^T: the same stability function
-  Mat<mp50> P = Mat<mp50>::Identity(3, 3);
-  const Vec<mp50> along = (Vec<mp50>(3) << mp50(1), mp50(-1), mp50(0)).finished();
-  Vec<mp50> left = (Vec<mp50>(3) << good.b[1], -good.b[0], mp50(0)).finished();  // b^T left = 0
-  P += mp50(1e-2) * left * along.transpose();                                    // along^T 1 = 0
-  similar.A = P.fullPivLu().solve(Mat<mp50>(good.A * P));
+  Mat<BigFloat> P = Mat<BigFloat>::Identity(3, 3);
+  const Vec<BigFloat> along = (Vec<BigFloat>(3) << BigFloat(1), BigFloat(-1), BigFloat(0)).finished();
+  Vec<BigFloat> left = (Vec<BigFloat>(3) << good.b[1], -good.b[0], BigFloat(0)).finished();  // b^T left = 0
+  P += BigFloat(1e-2) * left * along.transpose();                                            // along^T 1 = 0
+  similar.A = P.fullPivLu().solve(Mat<BigFloat>(good.A * P));
   for (const auto& damaged : {node, swapped, transposed, shifted, similar}) {
     EXPECT_LT(riccatiOrder(damaged, {40, 80}), 4.5);
   }
@@ -62,16 +62,16 @@ TEST(Order, DamagedTableausLoseTheirOrder) {
 struct PendulumOrders {
   double q, v, lambda;
 };
-PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<mp50>& exact) {
+PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<BigFloat>& exact) {
   std::vector<double> h, q, v, lambda;
   for (const int n : {32, 45, 64}) {
     h.push_back(0.5 / n);
     auto options = fixedSteps(0.5 / n);
     options.multipliers = multipliers;
-    const auto run = integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5,
-                                     makeTableau<mp50>("radau_iia_" + std::to_string(s)), options);
+    const auto run = integrate<BigFloat>(CartesianPendulum{}, pendulumStart<BigFloat>(), 0.5,
+                                         makeTableau<BigFloat>("radau_iia_" + std::to_string(s)), options);
     EXPECT_EQ(run.outcome, Outcome::kSuccess) << run.detail;
-    const auto distance = [](const auto& a, const auto& b) { return static_cast<double>(mp50((a - b).norm())); };
+    const auto distance = [](const auto& a, const auto& b) { return static_cast<double>(BigFloat((a - b).norm())); };
     q.push_back(distance(run.state.u, exact.u));
     v.push_back(distance(run.state.v, exact.v));
     lambda.push_back(distance(run.state.z(), exact.z()));
@@ -84,8 +84,8 @@ PendulumOrders pendulumOrders(int s, Multipliers multipliers, const State<mp50>&
 TEST(Order, RadauIiaOnTheIndexTwoPendulum) {
   auto options = fixedSteps(0.5 / 12);
   options.multipliers = Multipliers::kConsistent;
-  const auto reference =
-      integrate<mp50>(CartesianPendulum{}, pendulumStart<mp50>(), 0.5, makeTableau<mp50>("radau_iia_12"), options);
+  const auto reference = integrate<BigFloat>(CartesianPendulum{}, pendulumStart<BigFloat>(), 0.5,
+                                             makeTableau<BigFloat>("radau_iia_12"), options);
   ASSERT_EQ(reference.outcome, Outcome::kSuccess);
   for (int s = 1; s <= 4; ++s) {
     for (const auto multipliers : {Multipliers::kStages, Multipliers::kConsistent}) {

@@ -46,7 +46,7 @@ Strategy<StepControl> steady() {
 }
 Strategy<Predictor> zero() {
   const auto make = [](const Scheme<double>&) { return std::make_unique<ZeroPredictor>(); };
-  return {.id = kZero, .meaning = "nothing is known", .make = {make, nullptr, nullptr}};
+  return {.id = kZero, .meaning = "nothing is known", .make = {make, nullptr}};
 }
 
 /// Registers both, once in this program.
@@ -168,7 +168,8 @@ TEST(Strategies, NeedsOfOnesFromOutsideAreRules) {
   const std::string estimate = refusal([&] { pendulum(o); });
   EXPECT_NE(estimate.find("control 'steady' with estimate 'none'"), std::string::npos) << estimate;
   const std::string scalar = refusal([] {
-    Integrator<mp50>(makeSystem<mp50>(CartesianPendulum{}), makeTableau<mp50>("radau_iia_3"), withBoth(1e-6));
+    Integrator<BigFloat>(makeSystem<BigFloat>(CartesianPendulum{}), makeTableau<BigFloat>("radau_iia_3"),
+                         withBoth(1e-6));
   });
   EXPECT_NE(scalar.find("predictor 'zero' in multiprecision"), std::string::npos) << scalar;
 }

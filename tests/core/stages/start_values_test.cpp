@@ -16,11 +16,11 @@ namespace {
 
 // The polynomial through the stages (c_i, w_i) of one row, at tau.
 double lagrange(const Vec<double>& c, const Mat<double>& W, Index row, double tau) {
-  mp50 sum(0);
+  BigFloat sum(0);
   for (Index i = 0; i < c.size(); ++i) {
-    mp50 term(W(row, i));
+    BigFloat term(W(row, i));
     for (Index j = 0; j < c.size(); ++j) {
-      if (j != i) term *= (mp50(tau) - mp50(c[j])) / (mp50(c[i]) - mp50(c[j]));
+      if (j != i) term *= (BigFloat(tau) - BigFloat(c[j])) / (BigFloat(c[i]) - BigFloat(c[j]));
     }
     sum += term;
   }

@@ -41,31 +41,31 @@ std::vector<Function<T>> functions() {
 }
 
 // (f(x + h) - f(x - h)) / 2 h in 50 digits: right to about 30.
-mp50 difference(const std::function<mp50(const mp50&)>& f, const mp50& x) {
-  const mp50 h("1e-16");
+BigFloat difference(const std::function<BigFloat(const BigFloat&)>& f, const BigFloat& x) {
+  const BigFloat h("1e-16");
   return (f(x + h) - f(x - h)) / (2 * h);
 }
 
 TEST(DualFunctions, DerivativesAreThoseOfDifferences) {
-  const auto exact = functions<mp50>();
+  const auto exact = functions<BigFloat>();
   const auto once = functions<Rate<double>>();
-  const auto nested = functions<DualNumber<Rate<mp50>, 2>>();
+  const auto nested = functions<DualNumber<Rate<BigFloat>, 2>>();
   for (const double x : {0.3, 0.7}) {
     for (std::size_t i = 0; i < exact.size(); ++i) {
       SCOPED_TRACE(exact[i].name);
-      const mp50 slope = difference(exact[i].f, mp50(x));
+      const BigFloat slope = difference(exact[i].f, BigFloat(x));
       const Rate<double> y = once[i].f(Rate<double>(x, 1.0));
-      EXPECT_NEAR(y.value, static_cast<double>(exact[i].f(mp50(x))), 1e-15);
+      EXPECT_NEAR(y.value, static_cast<double>(exact[i].f(BigFloat(x))), 1e-15);
       EXPECT_NEAR(y.d[0], static_cast<double>(slope), 4e-15);
 
-      DualNumber<Rate<mp50>, 2> both(Rate<mp50>(mp50(x), mp50(1)));
-      both.d[1] = Rate<mp50>(mp50(1));
+      DualNumber<Rate<BigFloat>, 2> both(Rate<BigFloat>(BigFloat(x), BigFloat(1)));
+      both.d[1] = Rate<BigFloat>(BigFloat(1));
       const auto z = nested[i].f(both);
-      EXPECT_LT(valueOf(mp50(abs(mp50(z.d[1].value - slope)))), 1e-25);
-      const auto slopeAt = [&](const mp50& at) { return difference(exact[i].f, at); };
-      const mp50 h("1e-8");
-      const mp50 second = (slopeAt(mp50(x) + h) - slopeAt(mp50(x) - h)) / (2 * h);
-      EXPECT_LT(valueOf(mp50(abs(mp50(z.d[1].d[0] - second)))), 1e-13);
+      EXPECT_LT(valueOf(BigFloat(abs(BigFloat(z.d[1].value - slope)))), 1e-25);
+      const auto slopeAt = [&](const BigFloat& at) { return difference(exact[i].f, at); };
+      const BigFloat h("1e-8");
+      const BigFloat second = (slopeAt(BigFloat(x) + h) - slopeAt(BigFloat(x) - h)) / (2 * h);
+      EXPECT_LT(valueOf(BigFloat(abs(BigFloat(z.d[1].d[0] - second)))), 1e-13);
       EXPECT_EQ(valueOf(z.d[0]), 0.0);
     }
   }

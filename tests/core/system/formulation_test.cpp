@@ -36,9 +36,9 @@ IntegratorOptions withStages(IntegratorOptions options) {
   return options;
 }
 
-Solution<mp50> mechanical(const char* method, int steps, Formulation formulation) {
-  return integrate<mp50>(Mechanical{}, mechanicalStart<mp50>(), 1, makeTableau<mp50>(method),
-                         withStages(fixedSteps(1.0 / steps)), formulation);
+Solution<BigFloat> mechanical(const char* method, int steps, Formulation formulation) {
+  return integrate<BigFloat>(Mechanical{}, mechanicalStart<BigFloat>(), 1, makeTableau<BigFloat>(method),
+                             withStages(fixedSteps(1.0 / steps)), formulation);
 }
 
 constexpr double kNotStated = -100;
@@ -65,7 +65,7 @@ TEST(Formulation, OrdersPerComponent) {
     for (const int n : {64, 90, 128}) {
       const auto run = mechanical(c.method, n, c.formulation);
       ASSERT_EQ(run.outcome, Outcome::kSuccess) << c.method << ' ' << run.detail;
-      const auto distance = [](const auto& a, const auto& b) { return static_cast<double>(mp50((a - b).norm())); };
+      const auto distance = [](const auto& a, const auto& b) { return static_cast<double>(BigFloat((a - b).norm())); };
       h.push_back(1.0 / n);
       q.push_back(distance(run.state.u, reference.state.u));
       v.push_back(distance(run.state.v, reference.state.v));

@@ -204,13 +204,14 @@ TEST(UserSystem, GoodSystemsOfEveryScalarAndFormulationPass) {
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << formulation.id << s.detail;
   }
   EXPECT_EQ(
-      (integrate<mp50>(Riccati{}, riccatiStart<mp50>(), 0.1, makeTableau<mp50>("gauss_3"), fixedSteps(0.1)).outcome),
+      (integrate<BigFloat>(Riccati{}, riccatiStart<BigFloat>(), 0.1, makeTableau<BigFloat>("gauss_3"), fixedSteps(0.1))
+           .outcome),
       Outcome::kSuccess);
   // A finite number beyond the range of double.
-  State<mp50> start(Riccati{}.sizes());
-  start.x[0] = mp50("1e400");
+  State<BigFloat> start(Riccati{}.sizes());
+  start.x[0] = BigFloat("1e400");
   EXPECT_EQ(notFinite(start), "");
-  start.x[0] = std::numeric_limits<mp50>::quiet_NaN();
+  start.x[0] = std::numeric_limits<BigFloat>::quiet_NaN();
   EXPECT_NE(notFinite(start), "");
 }
 

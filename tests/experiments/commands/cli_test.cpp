@@ -147,7 +147,8 @@ TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
   const BadInput inputs[] = {
       {{"solve", "slider_krank"}, {"scene", "slider_krank", "'slider_crank'"}},
       {{"solve", "kepler", "--method", "radau_ia_"}, {"radau_ia_"}},
-      {{"solve", "kepler", "--scalar", "mp100"}, {"kepler", "mp100", "mp50", "riccati_tracking"}},
+      {{"solve", "kepler", "--scalar", "mp20"}, {"mp20", "mp30", "mp1000"}},
+      {{"solve", "kepler", "--digits", "1001"}, {"mp1001", "mp30", "mp1000"}},
       {{"solve", "kepler", "--method", "gaus_3"}, {"gaus_3", "'gauss_3'"}},
       {{"solve", "kepler", "--method", "gauss_0"}, {"0"}},
       {{"solve", "kepler", "--newton", "simple"}, {"newton", "simple", "'simplified'"}},

@@ -34,8 +34,8 @@ void expectKaps(const ComputedReference& made, double least, double most) {
   ASSERT_EQ(made.values.size(), 2u);
   for (const auto& [component, rate] : {std::pair("y1", -2), {"y2", -1}}) {
     const auto& value = valueOf(made, component);
-    const mp50 exact = exp(rate * mp50("0.3"));
-    EXPECT_LE(abs(value.value - exact), mp50(value.accuracy)) << component;
+    const BigFloat exact = exp(rate * BigFloat("0.3"));
+    EXPECT_LE(abs(value.value - exact), BigFloat(value.accuracy)) << component;
     EXPECT_GT(value.accuracy, least);
     EXPECT_LT(value.accuracy, most);
   }
@@ -59,16 +59,16 @@ TEST(Making, DoubleAgreesWithAnExactSolution) {
 // solutions of these scenes are not used.
 TEST(Making, SwitchesAreLocated) {
   for (const auto& [scene, t] : {std::pair("bouncing_mass", 0.9), {"elastoplastic", 1.1}}) {
-    const auto entry = makeScene<mp50>(scene);
+    const auto entry = makeScene<BigFloat>(scene);
     ASSERT_TRUE(entry.exact) << scene;
     const auto made = make({scene, {}, t});
     ASSERT_TRUE(made.problem.empty()) << made.problem;
-    const auto exact = componentsAndOutputs(entry, entry.exact(mp50(std::to_string(t))));
+    const auto exact = componentsAndOutputs(entry, entry.exact(BigFloat(std::to_string(t))));
     std::size_t compared = 0;
     for (std::size_t i = 0; i < entry.names.size(); ++i) {
       if (!isfinite(exact[i])) continue;
       const auto& value = valueOf(made, entry.names[i]);
-      EXPECT_LE(abs(value.value - exact[i]), 2 * mp50(value.accuracy)) << value.place();
+      EXPECT_LE(abs(value.value - exact[i]), 2 * BigFloat(value.accuracy)) << value.place();
       EXPECT_LT(value.accuracy, 1e-20) << value.place();
       ++compared;
     }
@@ -82,8 +82,8 @@ TEST(Making, AgreesWithAnotherFamily) {
   ASSERT_TRUE(made.problem.empty()) << made.problem;
   const auto run = execute(parseSpec("scene=van_der_pol;t_end=0.7;scalar=mp50;method=gauss_7;rtol=1e-17;atol=1e-17"));
   ASSERT_TRUE(run.succeeded());
-  EXPECT_LT(abs(valueOf(made, "y1").value - mp50(run.digits[0])), mp50("1e-14"));
-  EXPECT_LT(abs(valueOf(made, "y2").value - mp50(run.digits[1])), mp50("1e-14"));
+  EXPECT_LT(abs(valueOf(made, "y1").value - BigFloat(run.digits[0])), BigFloat("1e-14"));
+  EXPECT_LT(abs(valueOf(made, "y2").value - BigFloat(run.digits[1])), BigFloat("1e-14"));
   EXPECT_LT(made.accuracy, 1e-22);
 }
 
@@ -93,7 +93,7 @@ TEST(Making, TheRegularizedProblemHasAnotherReference) {
   const auto smooth = make({"slider_crank", settings, 0.2, true}, onlyDouble());
   ASSERT_TRUE(sharp.problem.empty() && smooth.problem.empty()) << sharp.problem << smooth.problem;
   const auto &a = valueOf(sharp, "theta"), &b = valueOf(smooth, "theta");
-  EXPECT_GT(abs(a.value - b.value), mp50(1e-6));
+  EXPECT_GT(abs(a.value - b.value), BigFloat(1e-6));
   EXPECT_LT(a.accuracy, 1e-8);
   EXPECT_LT(b.accuracy, 1e-8);
 }
@@ -128,7 +128,7 @@ TEST(Making, SeveralTimesAreMadeTogether) {
   for (std::size_t k = 0; k < 3; ++k) {
     ASSERT_TRUE(made[k].problem.empty()) << made[k].problem;
     const auto& value = valueOf(made[k], "y2");
-    EXPECT_LE(abs(value.value - exp(-mp50(std::to_string(questions[k].t_end)))), mp50(value.accuracy));
+    EXPECT_LE(abs(value.value - exp(-BigFloat(std::to_string(questions[k].t_end)))), BigFloat(value.accuracy));
     EXPECT_LT(value.accuracy, 1e-24);
     EXPECT_EQ(made[k].seconds, made[0].seconds) << "together";
   }

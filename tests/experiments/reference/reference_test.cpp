@@ -15,7 +15,7 @@ namespace irk {
 namespace {
 
 ReferenceValue value(const char* component, const char* number, double accuracy) {
-  return {"kaps", "", "0.5", component, mp50(number), accuracy, "a test"};
+  return {"kaps", "", "0.5", component, BigFloat(number), accuracy, "a test"};
 }
 
 TEST(Agreement, RoundsUpToOneDigit) {
@@ -27,25 +27,25 @@ TEST(Agreement, RoundsUpToOneDigit) {
 }
 
 TEST(Agreement, IsTheLargestDifferenceOfTheRuns) {
-  const mp50 runs[] = {mp50("1.00000000000000000012"), mp50("1.0000000000000000001"), mp50("0.99999999999999999998"),
-                       mp50("1")};
+  const BigFloat runs[] = {BigFloat("1.00000000000000000012"), BigFloat("1.0000000000000000001"),
+                           BigFloat("0.99999999999999999998"), BigFloat("1")};
   const AgreedValue found = agreed(runs, 1e-30);
-  EXPECT_EQ(found.value, mp50(1)) << "the last run is the best";
+  EXPECT_EQ(found.value, BigFloat(1)) << "the last run is the best";
   EXPECT_DOUBLE_EQ(found.accuracy, 2e-19);
   EXPECT_DOUBLE_EQ(agreed(runs, 5e-10).accuracy, 5e-10) << "no better than what was asked for";
 }
 
 TEST(Agreement, WritesTheDigitsThatItStatesAndOneMore) {
-  EXPECT_EQ(decimalText(mp50("1.23456789"), 1e-4), "1.23457");
-  EXPECT_EQ(decimalText(mp50("-1.23456789"), 3e-4), "-1.23457");
-  EXPECT_EQ(decimalText(mp50("12345.678"), 1e-1), "12345.68");
-  EXPECT_EQ(decimalText(mp50("0.0012345678"), 1e-6), "0.0012346");
-  EXPECT_EQ(decimalText(mp50("8.3333607703347e-14"), 1e-20), "8.3333608e-14");
-  EXPECT_EQ(decimalText(mp50("9.99999"), 1e-2), "10.000");
-  EXPECT_EQ(decimalText(mp50(0), 1e-30), "0");
-  EXPECT_EQ(decimalText(mp50("-2.7e-50"), 1e-38), "0") << "round-off";
+  EXPECT_EQ(decimalText(BigFloat("1.23456789"), 1e-4), "1.23457");
+  EXPECT_EQ(decimalText(BigFloat("-1.23456789"), 3e-4), "-1.23457");
+  EXPECT_EQ(decimalText(BigFloat("12345.678"), 1e-1), "12345.68");
+  EXPECT_EQ(decimalText(BigFloat("0.0012345678"), 1e-6), "0.0012346");
+  EXPECT_EQ(decimalText(BigFloat("8.3333607703347e-14"), 1e-20), "8.3333608e-14");
+  EXPECT_EQ(decimalText(BigFloat("9.99999"), 1e-2), "10.000");
+  EXPECT_EQ(decimalText(BigFloat(0), 1e-30), "0");
+  EXPECT_EQ(decimalText(BigFloat("-2.7e-50"), 1e-38), "0") << "round-off";
   // Not all of the fifty digits are correct.
-  EXPECT_EQ(decimalText(mp50(1) / 3, 1e-60).size(), std::string("0.").size() + 40);
+  EXPECT_EQ(decimalText(BigFloat(1) / 3, 1e-60).size(), std::string("0.").size() + 40);
 }
 
 TEST(ReferenceTable, ReadsBackWhatItWrote) {
@@ -55,7 +55,7 @@ TEST(ReferenceTable, ReadsBackWhatItWrote) {
   ASSERT_EQ(read.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(samePlace(read[i], values[i]));
-    EXPECT_LE(abs(read[i].value - values[i].value), mp50(values[i].accuracy) / 10);
+    EXPECT_LE(abs(read[i].value - values[i].value), BigFloat(values[i].accuracy) / 10);
     EXPECT_EQ(read[i].accuracy, values[i].accuracy);
     EXPECT_EQ(read[i].source, "a test");
   }
@@ -182,7 +182,7 @@ TEST(Compute, StatesWhatTheRunsAgreeOn) {
   for (std::size_t i = 0; i < 10; ++i) {
     const auto &rough = computed[0].values[i], &good = computed[1].values[i];
     EXPECT_TRUE(samePlace(rough, good));
-    EXPECT_LE(abs(rough.value - good.value), mp50(rough.accuracy)) << rough.place();
+    EXPECT_LE(abs(rough.value - good.value), BigFloat(rough.accuracy)) << rough.place();
     EXPECT_LT(rough.accuracy, 1e-9) << rough.place();
     EXPECT_GE(rough.accuracy, 1e-15 / 2) << "the finer tolerance; " << rough.place();
     EXPECT_LT(good.accuracy, 1e-24) << good.place();
@@ -218,8 +218,8 @@ TEST(ReferenceCommand, WritesAndChecks) {
   const auto values = referenceValues(file.string(), readTable(file));
   ASSERT_EQ(values.size(), 6U) << "two components at three times";
   for (const auto& value : values) {
-    const mp50 rate = value.component == "y1" ? -2 : -1;
-    EXPECT_LT(abs(value.value - exp(rate * mp50(value.t))), mp50("1e-37")) << value.place();
+    const BigFloat rate = value.component == "y1" ? -2 : -1;
+    EXPECT_LT(abs(value.value - exp(rate * BigFloat(value.t))), BigFloat("1e-37")) << value.place();
   }
   const auto check = [&] { return reference({"kaps", "--check", "--out", out}); };
   EXPECT_EQ(check().status, 0);

@@ -17,7 +17,7 @@ RunSpec sample() {
   spec.settings = {{"coordinates", "absolute"}, {"torque_off_at", "0.5"}};
   spec.method = "gauss_7";
   spec.formulation = Formulation::kIndex3;
-  spec.scalar = ScalarKind::kMp50;
+  spec.scalar = {50};
   spec.options.newton.kind = NewtonKind::kModified;
   spec.options.step.h = 0.1 + 0.2;  // has no short decimal form
   spec.options.tolerances.rtol = 1e-9 / 3;

@@ -15,24 +15,24 @@ const std::vector<double> kTimes = {0.13, 0.49, 0.97, 1.9};
 TEST(Exact, SolvesTheEquations) {
   for (const SceneCase& c : sceneCases()) {
     SCOPED_TRACE(c.name());
-    const auto scene = makeScene<mp50>(c.id, c.settings);
+    const auto scene = makeScene<BigFloat>(c.id, c.settings);
     if (!scene.exact) continue;
     const auto system = scene.system({Formulation::kIndex3});
     for (const double fraction : kTimes) {
-      const mp50 t = mp50(fraction) * scene.t_end / 2;
+      const BigFloat t = BigFloat(fraction) * scene.t_end / 2;
       const auto s = scene.exact(t);
       EXPECT_EQ(s.t, t);
-      const Vec<mp50> r = residualAt<mp50, mp50>(*system, Level::kFormulated, t, pointVector(s), s.d);
+      const Vec<BigFloat> r = residualAt<BigFloat, BigFloat>(*system, Level::kFormulated, t, pointVector(s), s.d);
       // 1e8: the stiffest lambda multiplies the round-off of y - phi.
-      EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-49 * 1e8 * 100)) << t;
+      EXPECT_LT(r.lpNorm<Eigen::Infinity>(), BigFloat(1e-49 * 1e8 * 100)) << t;
       // Central differences have the truncation error delta^2 / 6 times the third derivative (below 1e8; that of the
       // motor's current is the largest).
-      const mp50 delta = 1e-16;
+      const BigFloat delta = 1e-16;
       const auto above = scene.exact(t + delta), below = scene.exact(t - delta);
-      const mp50 tolerance = delta * delta * 1e8;
-      const auto rate = [&](const Vec<mp50>& up, const Vec<mp50>& down, const Vec<mp50>& value) {
+      const BigFloat tolerance = delta * delta * 1e8;
+      const auto rate = [&](const Vec<BigFloat>& up, const Vec<BigFloat>& down, const Vec<BigFloat>& value) {
         for (Index i = 0; i < up.size(); ++i) {
-          const mp50 error = (up[i] - down[i]) / (2 * delta) - value[i];
+          const BigFloat error = (up[i] - down[i]) / (2 * delta) - value[i];
           EXPECT_LT(abs(error), tolerance) << "component " << i << " at " << t;
         }
       };
@@ -72,12 +72,12 @@ TEST(Exact, DoubleIsTheRoundedFiftyDigits) {
   for (const SceneCase& c : sceneCases()) {
     SCOPED_TRACE(c.name());
     const auto scene = makeScene<double>(c.id, c.settings);
-    const auto precise = makeScene<mp50>(c.id, c.settings);
+    const auto precise = makeScene<BigFloat>(c.id, c.settings);
     if (!scene.exact) continue;
     for (const double fraction : kTimes) {
       const double t = fraction * scene.t_end / 2;
       const auto s = scene.exact(t);
-      const auto exact = precise.exact(mp50(t));
+      const auto exact = precise.exact(BigFloat(t));
       // The argument omega t is some hundreds, so its error is as many eps.
       const double tolerance = 1e4 * kEps;
       for (Index i = 0; i < s.u.size(); ++i) {
@@ -92,8 +92,8 @@ TEST(Exact, DoubleIsTheRoundedFiftyDigits) {
 }
 
 TEST(Exact, StickSlipSwitchesWhereItShould) {
-  const auto scene = makeScene<mp50>("stick_slip");
-  const auto stuck = [&](const char* t) { return scene.exact(mp50(t)).v[0] == mp50("0.1"); };
+  const auto scene = makeScene<BigFloat>("stick_slip");
+  const auto stuck = [&](const char* t) { return scene.exact(BigFloat(t)).v[0] == BigFloat("0.1"); };
   EXPECT_TRUE(stuck("14.999999999999"));
   EXPECT_FALSE(stuck("15.000000000001"));
   EXPECT_FALSE(stuck("18.536383773289"));
@@ -118,12 +118,12 @@ TEST(Exact, CoulombDecayComesToRest) {
 TEST(Exact, EllipticFunctionsAgreeWithBoostToFortyFiveDigits) {
   for (const char* m : {"0.1", "0.5", "0.99"}) {
     for (const char* u : {"0.2", "1.7", "31.3"}) {
-      mp50 cn, dn;
-      const mp50 sn = boost::math::jacobi_elliptic(mp50(sqrt(mp50(m))), mp50(u), &cn, &dn);
-      const auto f = jacobiFunctions<mp50>(mp50(u), mp50(m));
-      EXPECT_LT(abs(f.sn - sn), mp50("1e-45")) << u << " " << m;
-      EXPECT_LT(abs(f.cn - cn), mp50("1e-45")) << u << " " << m;
-      EXPECT_LT(abs(f.dn - dn), mp50("1e-45")) << u << " " << m;
+      BigFloat cn, dn;
+      const BigFloat sn = boost::math::jacobi_elliptic(BigFloat(sqrt(BigFloat(m))), BigFloat(u), &cn, &dn);
+      const auto f = jacobiFunctions<BigFloat>(BigFloat(u), BigFloat(m));
+      EXPECT_LT(abs(f.sn - sn), BigFloat("1e-45")) << u << " " << m;
+      EXPECT_LT(abs(f.cn - cn), BigFloat("1e-45")) << u << " " << m;
+      EXPECT_LT(abs(f.dn - dn), BigFloat("1e-45")) << u << " " << m;
     }
   }
 }
@@ -138,7 +138,7 @@ TEST(Exact, EllipticFunctionsOfDoublesAgreeWithBoost) {
       EXPECT_NEAR(f.sn, sn, tolerance) << u << " " << m;
       EXPECT_NEAR(f.cn, cn, tolerance) << u << " " << m;
       EXPECT_NEAR(f.dn, dn, tolerance) << u << " " << m;
-      const auto precise = jacobiFunctions<mp50>(u, m);
+      const auto precise = jacobiFunctions<BigFloat>(u, m);
       EXPECT_NEAR(f.sn, static_cast<double>(precise.sn), tolerance) << u << " " << m;
     }
   }

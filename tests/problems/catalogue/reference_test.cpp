@@ -77,13 +77,14 @@ TEST(Reference, DigitsOfTheTestSetsVanDerPolBelongToItsStart) {
 TEST(Reference, ExactSolutionsAgree) {
   int compared = 0;
   for (const SceneCase& c : sceneCases()) {
-    const auto scene = makeScene<mp50>(c.id, c.settings);
+    const auto scene = makeScene<BigFloat>(c.id, c.settings);
     if (!scene.exact) continue;
     for (const Reference& r : references(c.id, c.settings)) {
-      const mp50 value = valueOf(scene, r.component, scene.exact(mp50(fmt::format("{}", r.t))));
+      const BigFloat value = valueOf(scene, r.component, scene.exact(BigFloat(fmt::format("{}", r.t))));
       if (!isfinite(value)) continue;  // the closed form does not give it
       // The guard digit of a value is rounded.
-      EXPECT_LE(abs(value - mp50(r.value)), mp50(1.1 * r.accuracy)) << c.name() << " " << r.component << " at " << r.t;
+      EXPECT_LE(abs(value - BigFloat(r.value)), BigFloat(1.1 * r.accuracy))
+          << c.name() << " " << r.component << " at " << r.t;
       ++compared;
     }
   }
@@ -143,7 +144,7 @@ TEST(Reference, ComputedValuesAgreeWithThoseOfOtherPrograms) {
     for (const StoredRow& row : at->second) {
       if (row.settings != other.settings || row.component != other.component) continue;
       if (std::strtod(row.t.c_str(), nullptr) != std::strtod(other.t.c_str(), nullptr)) continue;
-      EXPECT_LE(abs(mp50(row.value) - mp50(other.value)), mp50(other.accuracy) + mp50(row.accuracy))
+      EXPECT_LE(abs(BigFloat(row.value) - BigFloat(other.value)), BigFloat(other.accuracy) + BigFloat(row.accuracy))
           << other.scene << " " << other.component << " at " << other.t;
       ++compared[other.scene];
     }
@@ -163,27 +164,27 @@ TEST(Reference, ComputedValuesAgreeWithThoseOfOtherPrograms) {
 TEST(Reference, EllipticFunctionsAndIntegrationAgreeToTwentyFiveDigits) {
   for (const auto& [id, t_end] : {std::pair{"pendulum", "0.5"}, std::pair{"elastica", "2"}}) {
     SCOPED_TRACE(id);
-    const auto scene = makeScene<mp50>(id);
+    const auto scene = makeScene<BigFloat>(id);
     IntegratorOptions options;
     options.tolerances.rtol = options.tolerances.atol = 1e-28;
     options.newton.max_iterations = 100;
     options.newton.kappa = 1e-4;
-    Integrator<mp50> integrator(scene.system({}), makeTableau<mp50>("radau_iia_16"), options, scene.scale);
-    const auto solution = integrator.integrate(scene.start, mp50(t_end));
+    Integrator<BigFloat> integrator(scene.system({}), makeTableau<BigFloat>("radau_iia_16"), options, scene.scale);
+    const auto solution = integrator.integrate(scene.start, BigFloat(t_end));
     ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
-    const State<mp50> exact = scene.exact(mp50(t_end));
+    const State<BigFloat> exact = scene.exact(BigFloat(t_end));
     for (const std::string& name : scene.names) {
-      const mp50 error = valueOf(scene, name, solution.state) - valueOf(scene, name, exact);
-      EXPECT_LT(abs(error), mp50("1e-25")) << name;
+      const BigFloat error = valueOf(scene, name, solution.state) - valueOf(scene, name, exact);
+      EXPECT_LT(abs(error), BigFloat("1e-25")) << name;
     }
   }
 }
 
 // The elliptic integrals were solved for theta'(L) = 0; the tip deflection is known from the literature.
 TEST(Reference, TheElasticaEndsWithoutMoment) {
-  const auto scene = makeScene<mp50>("elastica");
-  const State<mp50> tip = scene.exact(mp50(2));
-  EXPECT_LT(abs(tip.v[0]), mp50("1e-45"));
+  const auto scene = makeScene<BigFloat>("elastica");
+  const State<BigFloat> tip = scene.exact(BigFloat(2));
+  EXPECT_LT(abs(tip.v[0]), BigFloat("1e-45"));
   // Published with twelve decimals; the last one of u_y should be 0, not 1.
   EXPECT_NEAR(static_cast<double>(valueOf(scene, "u_x", tip)), -0.508840369128, 0.6e-12);
   EXPECT_NEAR(static_cast<double>(valueOf(scene, "u_y", tip)), -1.206506882261, 1.1e-12);

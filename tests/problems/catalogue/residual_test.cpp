@@ -9,18 +9,18 @@ namespace {
 
 // Central differences of the 50-digit residual with delta = 1e-15 scale: truncation and round-off are both below
 // 1e-25, relative to the terms of the row.
-Mat<double> differenceJacobian(const System<mp50>& system, Level level, const mp50& t, const Vec<double>& y,
+Mat<double> differenceJacobian(const System<BigFloat>& system, Level level, const BigFloat& t, const Vec<double>& y,
                                const Vec<double>& d, const Vec<double>& scale) {
-  const Vec<mp50> at = y.cast<mp50>(), modes = d.cast<mp50>();
+  const Vec<BigFloat> at = y.cast<BigFloat>(), modes = d.cast<BigFloat>();
   Mat<double> J(system.sizes().n(), y.size());
   for (Index j = 0; j < y.size(); ++j) {
-    const mp50 delta = mp50(1e-15) * scale[j];
-    Vec<mp50> above = at, below = at;
+    const BigFloat delta = BigFloat(1e-15) * scale[j];
+    Vec<BigFloat> above = at, below = at;
     above[j] += delta;
     below[j] -= delta;
-    const Vec<mp50> difference =
-        residualAt<mp50, mp50>(system, level, t, above, modes) - residualAt<mp50, mp50>(system, level, t, below, modes);
-    J.col(j) = (difference / mp50(2 * delta)).cast<double>();
+    const Vec<BigFloat> difference = residualAt<BigFloat, BigFloat>(system, level, t, above, modes) -
+                                     residualAt<BigFloat, BigFloat>(system, level, t, below, modes);
+    J.col(j) = (difference / BigFloat(2 * delta)).cast<double>();
   }
   return J;
 }
@@ -31,7 +31,7 @@ constexpr double kDerivativeTolerance = 1e4 * kEps;
 void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& d,
                             const SystemOptions& options, Level level) {
   const auto scene = makeScene<double>(c.id, c.settings);
-  const auto precise = makeScene<mp50>(c.id, c.settings);
+  const auto precise = makeScene<BigFloat>(c.id, c.settings);
   const auto system = scene.system(options);
   const auto precise_system = precise.system(options);
   const Vec<double> scale = pointScale(scene, system->sizes());
@@ -137,7 +137,7 @@ TEST(Residual, FiftyDigitsAgreeWithDouble) {
   for (const SceneCase& c : sceneCases()) {
     SCOPED_TRACE(c.name());
     const auto scene = makeScene<double>(c.id, c.settings);
-    const auto precise = makeScene<mp50>(c.id, c.settings);
+    const auto precise = makeScene<BigFloat>(c.id, c.settings);
     const Sizes n = scene.sizes();
     const Vec<double> y = perturbedPoint(scene, n);
     for (const Mode& mode : modesToTest(scene)) {
@@ -148,7 +148,8 @@ TEST(Residual, FiftyDigitsAgreeWithDouble) {
         const double t = std::min(0.25, scene.t_end / 4);
         const Level level = Level::kFormulated;
         const Vec<double> r = residualAt<double, double>(*system, level, t, y, mode.d);
-        const Vec<mp50> exact = residualAt<mp50, mp50>(*precise_system, level, t, y.cast<mp50>(), mode.d.cast<mp50>());
+        const Vec<BigFloat> exact =
+            residualAt<BigFloat, BigFloat>(*precise_system, level, t, y.cast<BigFloat>(), mode.d.cast<BigFloat>());
         const Mat<double> J = automaticJacobian<double>(*system, level, t, y, mode.d);
         const Vec<double> rows = rowSizes(J, y, pointScale(scene, n));
         for (Index i = 0; i < r.size(); ++i) {

@@ -37,7 +37,7 @@ TEST(Start, IsConsistentInDouble) {
 TEST(Start, IsConsistentInFiftyDigits) {
   for (const SceneCase& c : sceneCases()) {
     SCOPED_TRACE(c.name());
-    expectConsistent<mp50>(c, std::numeric_limits<mp50>::epsilon());
+    expectConsistent<BigFloat>(c, std::numeric_limits<BigFloat>::epsilon());
   }
 }
 

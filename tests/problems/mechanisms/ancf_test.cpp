@@ -61,33 +61,33 @@ TEST(Ancf, StaticCantileverConvergesToTheElastica) {
 }
 
 TEST(Ancf, FiftyDigitEquilibriumLeavesNoResidual) {
-  const auto bent = bentCantilever<mp50>("2");
+  const auto bent = bentCantilever<BigFloat>("2");
   ASSERT_EQ(bent.outcome, Outcome::kSuccess);
-  const auto scene = makeScene<mp50>("ancf_cantilever");
+  const auto scene = makeScene<BigFloat>("ancf_cantilever");
   const auto system = scene.system({Formulation::kIndex3});
-  const auto r = residualAt<mp50, mp50>(*system, Level::kPosition, 0, pointVector(bent.state));
-  EXPECT_LT(r.lpNorm<Eigen::Infinity>(), mp50(1e-40) * 2.07e9);  // of EA
+  const auto r = residualAt<BigFloat, BigFloat>(*system, Level::kPosition, 0, pointVector(bent.state));
+  EXPECT_LT(r.lpNorm<Eigen::Infinity>(), BigFloat(1e-40) * 2.07e9);  // of EA
 }
 
 // Forces are the gradient of the energy: at rest with a = 0, r_u = -dE/du.
 TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
   for (const char* id : {"ancf_cantilever", "ancf_pendulum"}) {
-    const auto scene = makeScene<mp50>(id);
+    const auto scene = makeScene<BigFloat>(id);
     const auto nominal = makeScene<double>(id);
     const Sizes n = scene.sizes();
-    State<mp50> s = scene.start;
+    State<BigFloat> s = scene.start;
     s.v.setZero();
     s.w.setZero();
-    s.u = perturbedPoint(nominal, n).head(n.nu).cast<mp50>();
+    s.u = perturbedPoint(nominal, n).head(n.nu).cast<BigFloat>();
     const auto system = scene.system({Formulation::kIndex3});
-    const auto r = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(s));
-    const mp50 size = r.lpNorm<Eigen::Infinity>();
+    const auto r = residualAt<BigFloat, BigFloat>(*system, Level::kFormulated, 0, pointVector(s));
+    const BigFloat size = r.lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < n.nu; ++i) {
-      const mp50 delta = 1e-15;
-      State<mp50> above = s, below = s;
+      const BigFloat delta = 1e-15;
+      State<BigFloat> above = s, below = s;
       above.u[i] += delta;
       below.u[i] -= delta;
-      const mp50 slope = (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
+      const BigFloat slope = (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
       // Central differences have the error delta^2 times the ratio of third to first derivative, below 1e5 here.
       EXPECT_LT(abs(r[i] + slope), size * 1e-25) << id << " " << i;
     }
@@ -96,18 +96,18 @@ TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
 
 // The kinetic energy v M v / 2 has the residual's M: its time derivative is v.M a.
 TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
-  const auto scene = makeScene<mp50>("ancf_pendulum");
+  const auto scene = makeScene<BigFloat>("ancf_pendulum");
   const Sizes n = scene.sizes();
   const auto system = scene.system({Formulation::kIndex3});
-  State<mp50> s = scene.start, rest = scene.start;
-  for (Index i = 0; i < n.nu; ++i) s.v[i] = mp50(static_cast<double>(i % 5) - 1.5);
+  State<BigFloat> s = scene.start, rest = scene.start;
+  for (Index i = 0; i < n.nu; ++i) s.v[i] = BigFloat(static_cast<double>(i % 5) - 1.5);
   rest.v.setZero();
   rest.w.setZero();
   s.w = s.v;  // a = v
-  const auto zero = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(rest));
-  const auto r = residualAt<mp50, mp50>(*system, Level::kFormulated, 0, pointVector(s));
-  const mp50 kinetic = s.v.dot(zero - r) / 2;
-  const mp50 energy = outputOf(scene, "energy", s) - outputOf(scene, "energy", rest);
+  const auto zero = residualAt<BigFloat, BigFloat>(*system, Level::kFormulated, 0, pointVector(rest));
+  const auto r = residualAt<BigFloat, BigFloat>(*system, Level::kFormulated, 0, pointVector(s));
+  const BigFloat kinetic = s.v.dot(zero - r) / 2;
+  const BigFloat energy = outputOf(scene, "energy", s) - outputOf(scene, "energy", rest);
   EXPECT_LT(abs(kinetic - energy), abs(energy) * 1e-45);
 }
 

@@ -24,9 +24,9 @@ State<double> bent(const Scene<double>& scene) {
 }
 
 // The product D D y row by row, with zeros beyond the ends and negligible round-off.
-Vec<mp50> secondDifferences(const Vec<mp50>& y) {
+Vec<BigFloat> secondDifferences(const Vec<BigFloat>& y) {
   const Index m = y.size();
-  Vec<mp50> D = -2 * y;
+  Vec<BigFloat> D = -2 * y;
   D.head(m - 1) += y.tail(m - 1);
   D.tail(m - 1) += y.head(m - 1);
   return D;
@@ -43,16 +43,16 @@ TEST(BeamChain, StiffnessLosesNoDigitsOnAFineMesh) {
 
   const Index m = s.u.size();
   const double n4 = std::pow(static_cast<double>(m + 1), 4);
-  const mp50 damping = mp50(1) / 1000;
-  const Vec<mp50> q = s.u.cast<mp50>() + damping * s.v.cast<mp50>();
-  const Vec<mp50> Kq = mp50(n4) * secondDifferences(secondDifferences(q));
+  const BigFloat damping = BigFloat(1) / 1000;
+  const Vec<BigFloat> q = s.u.cast<BigFloat>() + damping * s.v.cast<BigFloat>();
+  const Vec<BigFloat> Kq = BigFloat(n4) * secondDifferences(secondDifferences(q));
   const double neighbours = (s.u.tail(m - 1) - s.u.head(m - 1)).cwiseAbs().maxCoeff() +
                             0.001 * (s.v.tail(m - 1) - s.v.head(m - 1)).cwiseAbs().maxCoeff();
   // Four differences and three sums, each with half an eps of its terms; at t = 0 there is no force.
   const double bound = 8 * kEps * n4 * neighbours;
   double error = 0;
   for (Index i = 0; i < m; ++i) {
-    error = std::max(error, std::abs(static_cast<double>(mp50(mp50(r[i]) + Kq[i]))));
+    error = std::max(error, std::abs(static_cast<double>(BigFloat(BigFloat(r[i]) + Kq[i]))));
   }
   EXPECT_LE(error, bound);
   EXPECT_GT(bound, 0);

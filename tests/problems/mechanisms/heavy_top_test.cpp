@@ -15,14 +15,14 @@ const char* const kCoordinates[] = {"absolute", "fixed_point"};
 TEST(HeavyTop, FollowsEllipticFunctionsToTwentyFiveDigits) {
   for (const char* coordinates : kCoordinates) {
     SCOPED_TRACE(coordinates);
-    auto scene = makeScene<mp50>("heavy_top", {{"coordinates", coordinates}});
-    const mp50 t = mp50("0.38");
+    auto scene = makeScene<BigFloat>("heavy_top", {{"coordinates", coordinates}});
+    const BigFloat t = BigFloat("0.38");
     const auto exact = scene.exact(t);
-    scene.start = scene.exact(mp50("0.365"));
-    const auto s = stateAfter<mp50>(scene, t, 1e-27, 14);
+    scene.start = scene.exact(BigFloat("0.365"));
+    const auto s = stateAfter<BigFloat>(scene, t, 1e-27, 14);
     for (const std::string& name : scene.names) {
       const auto wanted = valueByName(scene, name, exact);
-      EXPECT_LT(abs(valueByName(scene, name, s) - wanted), mp50("1e-25") * (1 + abs(wanted))) << name;
+      EXPECT_LT(abs(valueByName(scene, name, s) - wanted), BigFloat("1e-25") * (1 + abs(wanted))) << name;
     }
   }
 }
@@ -104,7 +104,7 @@ TEST(HeavyTop, KeepsTightTolerancesInFirstOrderForm) {
 TEST(HeavyTop, OffersNoClosedFormThroughTheVertical) {
   const Settings through = {{"spin", "130"}, {"precession", "-4"}, {"J3", "0.46875"}};  // a = 4
   EXPECT_FALSE(makeScene<double>("heavy_top", through).exact);
-  EXPECT_FALSE(makeScene<mp50>("heavy_top", through).exact);
+  EXPECT_FALSE(makeScene<BigFloat>("heavy_top", through).exact);
   EXPECT_FALSE(makeScene<double>("heavy_top", {{"spin", "0"}, {"precession", "0"}}).exact);
 }
 

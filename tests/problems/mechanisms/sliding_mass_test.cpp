@@ -11,15 +11,15 @@ namespace {
 // state, share the beam only. They agree beyond the switch.
 TEST(SlidingMass, JointAndInsertedMassAgreeToFourteenDigits) {
   Settings settings = {{"start", "0.485"}, {"v0", "2"}};
-  const auto joint = makeScene<mp50>("sliding_mass", settings);
+  const auto joint = makeScene<BigFloat>("sliding_mass", settings);
   settings["coordinates"] = "inserted";
-  const auto inserted = makeScene<mp50>("sliding_mass", settings);
-  const mp50 t("0.015");
-  const auto a = stateAfter<mp50>(joint, t, 1e-18, 9), b = stateAfter<mp50>(inserted, t, 1e-18, 9);
+  const auto inserted = makeScene<BigFloat>("sliding_mass", settings);
+  const BigFloat t("0.015");
+  const auto a = stateAfter<BigFloat>(joint, t, 1e-18, 9), b = stateAfter<BigFloat>(inserted, t, 1e-18, 9);
   EXPECT_EQ(a.d[0], 1);
   EXPECT_EQ(b.d[0], 1);
   for (const char* name : {"s", "s'", "x", "y", "x'", "y'", "tip_x", "tip_y", "tip_x'", "tip_y'", "s1_y'", "energy"}) {
-    EXPECT_LT(abs(valueByName(joint, name, a) - valueByName(inserted, name, b)), mp50("1e-14")) << name;
+    EXPECT_LT(abs(valueByName(joint, name, a) - valueByName(inserted, name, b)), BigFloat("1e-14")) << name;
   }
 }
 

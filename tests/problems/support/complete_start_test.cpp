@@ -32,9 +32,9 @@ TEST(CompleteStart, TakesTheLeastRatesOfASingularMatrix) {
   completeStart(scene);
   EXPECT_NEAR(scene.start.w[0], 0.375, 1e-14);
   EXPECT_NEAR(scene.start.w[1], -0.375, 1e-14);
-  auto digits = circuit<mp50>(0.25, 0.75);
+  auto digits = circuit<BigFloat>(0.25, 0.75);
   completeStart(digits);
-  EXPECT_LT(abs(mp50(digits.start.w[0] - 0.375)), mp50("1e-48"));
+  EXPECT_LT(abs(BigFloat(digits.start.w[0] - 0.375)), BigFloat("1e-48"));
 }
 
 TEST(CompleteStart, RefusesAStartThatTheEquationsContradict) {

@@ -63,8 +63,9 @@ TEST(SceneFrame, FillsTheScene) {
 
 TEST(SceneFrame, MakesBothScalars) {
   const SceneEntry entry = plainEntry();
-  EXPECT_EQ(makeScene<mp50>(entry, {{"k", "0.1"}}).start.w[0], mp50("2.8")) << "all digits of a parameter";
-  EXPECT_THROW(makeScene<mp100>(entry, {}), Misuse);
+  EXPECT_EQ(makeScene<BigFloat>(entry, {{"k", "0.1"}}).start.w[0], BigFloat("2.8")) << "all digits of a parameter";
+  const WorkingDigits digits(100);
+  EXPECT_EQ(makeScene<BigFloat>(entry, {{"k", "0.1"}}).start.w[0], BigFloat("2.8"));
   EXPECT_THROW(makeScene<double>(entry, {{"k", "101"}}), Misuse);
 }
 

@@ -14,7 +14,9 @@ int countOfOrder(const std::vector<RootedTree>& trees, int order) {
   return static_cast<int>(std::ranges::count(trees, order, &RootedTree::order));
 }
 
-TreeConditions conditionsOf(const Tableau<mp80>& tableau) { return treeConditions(tableau, analyzeTableau(tableau)); }
+TreeConditions conditionsOf(const Tableau<BigFloat>& tableau) {
+  return treeConditions(tableau, analyzeTableau(tableau));
+}
 
 // OEIS A000081.
 TEST(RootedTrees, AreAsManyAsKnown) {
@@ -94,9 +96,9 @@ TEST(TreeConditions, HoldUpToTheLargestTreesForManyStages) {
 
 // b^T A c = 1/2 sum b c^2 is not 1/6: the quadrature has order 3, the method order 2.
 TEST(TreeConditions, DetectErrorsThatQuadratureDoesNot) {
-  Tableau<mp80> tableau{"", "user", Mat<mp80>::Zero(2, 2), Vec<mp80>(2), Vec<mp80>(2), 3, 1};
-  tableau.b << mp80(1) / 4, mp80(3) / 4;
-  tableau.c << 0, mp80(2) / 3;
+  Tableau<BigFloat> tableau{"", "user", Mat<BigFloat>::Zero(2, 2), Vec<BigFloat>(2), Vec<BigFloat>(2), 3, 1};
+  tableau.b << BigFloat(1) / 4, BigFloat(3) / 4;
+  tableau.c << 0, BigFloat(2) / 3;
   tableau.A(1, 0) = tableau.c[1];
   const auto conditions = conditionsOf(tableau);
   EXPECT_EQ(conditions.order, 2);

@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-TableauProperties propertiesOf(const Tableau<mp80>& tableau) {
-  return analyzeProperties(tableau, roundingTolerance<mp80>());
+TableauProperties propertiesOf(const Tableau<BigFloat>& tableau) {
+  return analyzeProperties(tableau, roundingTolerance<BigFloat>());
 }
 
 /// Makes a tableau from the rows of A, then b; c is the row sums.
-Tableau<mp80> method(const std::vector<std::vector<mp80>>& rows) {
+Tableau<BigFloat> method(const std::vector<std::vector<BigFloat>>& rows) {
   const auto s = static_cast<Index>(rows.size()) - 1;
-  Tableau<mp80> tableau{"mine", "user", Mat<mp80>(s, s), Vec<mp80>(s), Vec<mp80>(s), 1, 0};
+  Tableau<BigFloat> tableau{"mine", "user", Mat<BigFloat>(s, s), Vec<BigFloat>(s), Vec<BigFloat>(s), 1, 0};
   for (Index i = 0; i < s; ++i) {
     for (Index j = 0; j < s; ++j) {
       tableau.A(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
@@ -33,8 +33,8 @@ Tableau<mp80> method(const std::vector<std::vector<mp80>>& rows) {
 }
 
 /// Two stages, one value on the diagonal, order 2: b = (1/2, 1/2) on c = (gamma, 1 - gamma).
-Tableau<mp80> sdirk2(const mp80& gamma) {
-  return method({{gamma, 0}, {1 - 2 * gamma, gamma}, {mp80(1) / 2, mp80(1) / 2}});
+Tableau<BigFloat> sdirk2(const BigFloat& gamma) {
+  return method({{gamma, 0}, {1 - 2 * gamma, gamma}, {BigFloat(1) / 2, BigFloat(1) / 2}});
 }
 
 struct Degrees {
@@ -45,15 +45,15 @@ const Degrees kPade[] = {{"gauss", 0, 0},        {"radau_ia", 1, 0},     {"radau
                          {"lobatto_iiib", 1, 1}, {"lobatto_iiic", 2, 0}, {"lobatto_iiics", 0, 2}};
 
 // HW II (IV.3.30): N_jk = sum_i binom(j, i) (j+k-i)! / (j+k)! z^i, D_jk(z) = N_kj(-z).
-mp80 padeCoefficient(Index j, Index k, Index i) {
-  mp80 value = 1;
-  for (Index m = 0; m < i; ++m) value *= mp80(j - m) / ((j + k - m) * (m + 1));
+BigFloat padeCoefficient(Index j, Index k, Index i) {
+  BigFloat value = 1;
+  for (Index m = 0; m < i; ++m) value *= BigFloat(j - m) / ((j + k - m) * (m + 1));
   return value;
 }
 
 // HW II, Theorem IV.3.11: e^z - R = (-1)^k j! k! / ((j+k)! (j+k+1)!) z^(j+k+1) + ...
-mp80 padeConstant(Index j, Index k) {
-  mp80 value = k % 2 == 0 ? 1 : -1;
+BigFloat padeConstant(Index j, Index k) {
+  BigFloat value = k % 2 == 0 ? 1 : -1;
   for (Index m = 1; m <= j; ++m) value *= m;
   for (Index m = 1; m <= k; ++m) value *= m;
   for (Index m = 1; m <= j + k; ++m) value /= m;
@@ -74,7 +74,7 @@ TEST(StabilityFunction, FamiliesArePadeApproximations) {
         EXPECT_LT(abs(R.numerator[i] / padeCoefficient(j, k, i) - 1), 1e-40) << i;
       }
       for (Index i = 0; i <= k; ++i) {
-        const mp80 sign = i % 2 == 0 ? 1 : -1;
+        const BigFloat sign = i % 2 == 0 ? 1 : -1;
         EXPECT_LT(abs(sign * R.denominator[i] / padeCoefficient(k, j, i) - 1), 1e-40) << i;
       }
       EXPECT_NEAR(R.error_constant / static_cast<double>(padeConstant(j, k)), 1, 1e-14);
@@ -91,7 +91,7 @@ TEST(StabilityFunction, LobattoIiidIsSymmetricAndNoPadeApproximation) {
     EXPECT_EQ(R.order, 2 * s - 2);
     EXPECT_FALSE(R.isPade());
     for (Index i = 0; i <= s; ++i) {
-      const mp80 sign = i % 2 == 0 ? 1 : -1;
+      const BigFloat sign = i % 2 == 0 ? 1 : -1;
       EXPECT_LT(abs(sign * R.denominator[i] / R.numerator[i] - 1), 1e-40) << s << ' ' << i;
     }
   }
@@ -137,7 +137,7 @@ TEST(StabilityFunction, LimitsOfTheory) {
 
 // A singular A of another kind: the trapezoidal rule with its first stage repeated.
 TEST(StabilityFunction, LimitWithARepeatedExplicitStage) {
-  const mp80 quarter = mp80(1) / 4, half = mp80(1) / 2;
+  const BigFloat quarter = BigFloat(1) / 4, half = BigFloat(1) / 2;
   const auto R =
       stabilityFunction(method({{0, 0, 0}, {0, 0, 0}, {quarter, quarter, half}, {quarter, quarter, half}}), 5e-48);
   EXPECT_EQ(R.atInfinity(), -1);
@@ -145,7 +145,7 @@ TEST(StabilityFunction, LimitWithARepeatedExplicitStage) {
 
 // Two equal stages: the method reduces to the implicit midpoint rule, so N and D have a common factor.
 TEST(StabilityFunction, CommonFactorsCancel) {
-  const mp80 half = mp80(1) / 2;
+  const BigFloat half = BigFloat(1) / 2;
   const auto R = stabilityFunction(method({{half, 0}, {0, half}, {half, half}}), 5e-48);
   ASSERT_EQ(R.numeratorDegree(), 1);
   ASSERT_EQ(R.denominatorDegree(), 1);
@@ -155,7 +155,7 @@ TEST(StabilityFunction, CommonFactorsCancel) {
 TEST(StabilityFunction, RoundedToDoubleKeepsItsDegrees) {
   for (const auto& [family, numerator_gap, denominator_gap] : kPade) {
     for (Index s : {2, 5, 10, 20}) {
-      const auto rounded = makeTableau<double>(memberId(family, s)).cast<mp80>();
+      const auto rounded = makeTableau<double>(memberId(family, s)).cast<BigFloat>();
       const auto R = stabilityFunction(rounded, roundingTolerance<double>());
       EXPECT_EQ(R.numeratorDegree(), s - numerator_gap) << family << s;
       EXPECT_EQ(R.denominatorDegree(), s - denominator_gap) << family << s;
@@ -182,7 +182,7 @@ TEST(Stability, OfTheFamilies) {
 
 // Explicit methods with s = p <= 4 stages: HW II, Table IV.2.1.
 TEST(Stability, IntervalsOfExplicitMethods) {
-  const mp80 half = mp80(1) / 2, third = mp80(1) / 3, sixth = mp80(1) / 6;
+  const BigFloat half = BigFloat(1) / 2, third = BigFloat(1) / 3, sixth = BigFloat(1) / 6;
   const auto rk4 = propertiesOf(
       method({{0, 0, 0, 0}, {half, 0, 0, 0}, {0, half, 0, 0}, {0, 0, 1, 0}, {sixth, third, third, sixth}}));
   EXPECT_NEAR(rk4.stability.real_limit, 2.785293563405282, 1e-14);
@@ -205,15 +205,15 @@ TEST(Stability, IntervalsOfExplicitMethods) {
 // HW II, IV.6: of order 2, A-stable for gamma >= 1/4; of order 3 for gamma = (3 + sqrt 3) / 6, not
 // for the other sign.
 TEST(Stability, OfTwoStageSdirk) {
-  EXPECT_TRUE(propertiesOf(sdirk2(mp80(1) / 4)).stability.a_stable);
-  EXPECT_FALSE(propertiesOf(sdirk2(mp80(1) / 4 - mp80(1e-12))).stability.a_stable);
-  const auto crouzeix = propertiesOf(sdirk2((3 + sqrt(mp80(3))) / 6));
+  EXPECT_TRUE(propertiesOf(sdirk2(BigFloat(1) / 4)).stability.a_stable);
+  EXPECT_FALSE(propertiesOf(sdirk2(BigFloat(1) / 4 - BigFloat(1e-12))).stability.a_stable);
+  const auto crouzeix = propertiesOf(sdirk2((3 + sqrt(BigFloat(3))) / 6));
   EXPECT_TRUE(crouzeix.stability.a_stable);
   EXPECT_FALSE(crouzeix.stability.l_stable);
   EXPECT_EQ(crouzeix.R.order, 3);
   EXPECT_NEAR(crouzeix.R.atInfinity(), 1 - std::sqrt(3.0), 1e-15);
   EXPECT_EQ(crouzeix.kind, StageKind::kSinglyDiagonal);
-  const auto other = propertiesOf(sdirk2((3 - sqrt(mp80(3))) / 6));
+  const auto other = propertiesOf(sdirk2((3 - sqrt(BigFloat(3))) / 6));
   EXPECT_EQ(other.R.order, 3);
   EXPECT_FALSE(other.stability.a_stable);
   EXPECT_NEAR(other.R.atInfinity(), 1 + std::sqrt(3.0), 1e-14);
@@ -222,9 +222,9 @@ TEST(Stability, OfTwoStageSdirk) {
 // Alexander's L-stable method with a wrong sign: still R(inf) = 0, but unstable on the imaginary axis. Rays just
 // above alpha are unstable somewhere, rays just below nowhere.
 TEST(Stability, AngleAgreesWithSampling) {
-  const mp80 gamma("0.435866521508458999416019451194"), tau = (1 + gamma) / 2;
-  const mp80 b1 = -(6 * gamma * gamma - 16 * gamma + 1) / 4;
-  const mp80 b2 = (6 * gamma * gamma - 20 * gamma + 5) / 4;
+  const BigFloat gamma("0.435866521508458999416019451194"), tau = (1 + gamma) / 2;
+  const BigFloat b1 = -(6 * gamma * gamma - 16 * gamma + 1) / 4;
+  const BigFloat b2 = (6 * gamma * gamma - 20 * gamma + 5) / 4;
   const auto properties =
       propertiesOf(method({{gamma, 0, 0}, {tau - gamma, gamma, 0}, {b1, -b2, gamma}, {b1, -b2, gamma}}));
   const auto& [a_stable, l_stable, i_stable, alpha, real_limit, imaginary_limit] = properties.stability;
@@ -257,19 +257,19 @@ TEST(Spectrum, ConditionOfEigenvectors) {
 }
 
 TEST(Spectrum, RepeatedEigenvaluesWithAndWithoutEigenvectors) {
-  const Mat<mp80> diagonal = Mat<mp80>::Identity(3, 3) / 2;
+  const Mat<BigFloat> diagonal = Mat<BigFloat>::Identity(3, 3) / 2;
   EXPECT_TRUE(spectrum(diagonal, 5e-48).repeated);
   EXPECT_FALSE(spectrum(diagonal, 5e-48).defective);
   EXPECT_EQ(spectrum(diagonal, 5e-48).eigenvector_condition, 1);
-  EXPECT_TRUE(spectrum(sdirk2(mp80(1) / 4).A, 5e-48).defective);
-  Mat<mp80> sdirk = Mat<mp80>::Ones(6, 6).triangularView<Eigen::Lower>();
-  sdirk.diagonal().setConstant(mp80(1) / 3);
+  EXPECT_TRUE(spectrum(sdirk2(BigFloat(1) / 4).A, 5e-48).defective);
+  Mat<BigFloat> sdirk = Mat<BigFloat>::Ones(6, 6).triangularView<Eigen::Lower>();
+  sdirk.diagonal().setConstant(BigFloat(1) / 3);
   EXPECT_TRUE(spectrum(sdirk, 5e-48).defective);
   EXPECT_EQ(spectrum(sdirk, 5e-48).gap, 0);
   // Not triangular, and rounded to double; both eigenvalues are 1.
-  Mat<mp80> full(2, 2);
+  Mat<BigFloat> full(2, 2);
   full << 3, 4, -1, -1;
-  full(0, 0) += mp80(1e-16);
+  full(0, 0) += BigFloat(1e-16);
   EXPECT_TRUE(spectrum(full, roundingTolerance<double>()).defective);
   EXPECT_FALSE(spectrum(full, 5e-48).defective) << "as 80 digits see it";
 }
@@ -286,17 +286,18 @@ TEST(Structure, SymmetryOfTheFamilies) {
 
 // Composition of two midpoint rules: no collocation method, stages in any order.
 TEST(Structure, SymmetryUpToTheOrderOfStages) {
-  const mp80 quarter = mp80(1) / 4, half = mp80(1) / 2;
+  const BigFloat quarter = BigFloat(1) / 4, half = BigFloat(1) / 2;
   const auto composed = method({{quarter, 0}, {half, quarter}, {half, half}});
   EXPECT_TRUE(propertiesOf(composed).symmetric);
   const auto swapped = method({{quarter, half}, {0, quarter}, {half, half}});
   EXPECT_TRUE(propertiesOf(swapped).symmetric);
   EXPECT_EQ(propertiesOf(swapped).kind, StageKind::kFull);
-  EXPECT_FALSE(propertiesOf(sdirk2(mp80(1) / 3)).symmetric);
+  EXPECT_FALSE(propertiesOf(sdirk2(BigFloat(1) / 3)).symmetric);
 }
 
 TEST(Structure, KindsOfStages) {
-  EXPECT_EQ(propertiesOf(method({{0, 0}, {mp80(1) / 2, mp80(1) / 2}, {0, 1}})).kind, StageKind::kSinglyDiagonalRest);
+  EXPECT_EQ(propertiesOf(method({{0, 0}, {BigFloat(1) / 2, BigFloat(1) / 2}, {0, 1}})).kind,
+            StageKind::kSinglyDiagonalRest);
   EXPECT_EQ(propertiesOf(method({{1, 0}, {1, 2}, {0, 1}})).kind, StageKind::kDiagonal);
   EXPECT_EQ(propertiesOf(constructFamily(familyOf("gauss"), 2)).kind, StageKind::kFull);
 }

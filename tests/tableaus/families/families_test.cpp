@@ -68,7 +68,7 @@ TEST(Families, RoundedToDoubleKeepResidualsBelow6e16With100Stages) {
 
 TEST(Families, Mp50CarriesFiftyDigits) {
   for (const Family& family : families()) {
-    const auto analysis = analyzeTableau(makeTableau<mp50>(memberId(family.id, 12)));
+    const auto analysis = analyzeTableau(makeTableau<BigFloat>(memberId(family.id, 12)));
     EXPECT_LT(largestResidual(analysis, family.orders(12)), 1e-49) << family.id;
   }
 }
@@ -109,35 +109,35 @@ TEST(Families, StructuralZerosAreExact) {
 
 struct KnownTableau {
   std::string id;
-  Mat<mp50> A;
-  Vec<mp50> b, c;
+  Mat<BigFloat> A;
+  Vec<BigFloat> b, c;
 };
 
 void expectKnown(const KnownTableau& known) {
   SCOPED_TRACE(known.id);
-  const auto tableau = makeTableau<mp50>(known.id);
+  const auto tableau = makeTableau<BigFloat>(known.id);
   const double tolerance = 1e-49;  // a few roundings of numbers below 1
-  EXPECT_LT(largestDifference<mp50>(tableau.A, known.A), tolerance);
-  EXPECT_LT(largestDifference<mp50>(tableau.b, known.b), tolerance);
-  EXPECT_LT(largestDifference<mp50>(tableau.c, known.c), tolerance);
+  EXPECT_LT(largestDifference<BigFloat>(tableau.A, known.A), tolerance);
+  EXPECT_LT(largestDifference<BigFloat>(tableau.b, known.b), tolerance);
+  EXPECT_LT(largestDifference<BigFloat>(tableau.c, known.c), tolerance);
 }
 
 template <class Block>
-Block filled(Index rows, Index columns, std::initializer_list<mp50> values) {
+Block filled(Index rows, Index columns, std::initializer_list<BigFloat> values) {
   Block block(rows, columns);
   std::copy(values.begin(), values.end(), block.template reshaped<Eigen::RowMajor>().begin());
   return block;
 }
 
-Mat<mp50> square(Index s, std::initializer_list<mp50> values) { return filled<Mat<mp50>>(s, s, values); }
+Mat<BigFloat> square(Index s, std::initializer_list<BigFloat> values) { return filled<Mat<BigFloat>>(s, s, values); }
 
-Vec<mp50> column(std::initializer_list<mp50> values) {
-  return filled<Vec<mp50>>(static_cast<Index>(values.size()), 1, values);
+Vec<BigFloat> column(std::initializer_list<BigFloat> values) {
+  return filled<Vec<BigFloat>>(static_cast<Index>(values.size()), 1, values);
 }
 
 // HW II, tables IV.5.2, IV.5.4, IV.5.6.
 TEST(Families, EqualTheSurdsOfTheBooks) {
-  const mp50 r3 = sqrt(mp50(3)), r6 = sqrt(mp50(6)), one = 1;
+  const BigFloat r3 = sqrt(BigFloat(3)), r6 = sqrt(BigFloat(6)), one = 1;
   expectKnown({"gauss_2", square(2, {one / 4, one / 4 - r3 / 6, one / 4 + r3 / 6, one / 4}), column({one / 2, one / 2}),
                column({one / 2 - r3 / 6, one / 2 + r3 / 6})});
   expectKnown({"radau_ia_3",
@@ -153,22 +153,22 @@ TEST(Families, EqualTheSurdsOfTheBooks) {
 
 // HW II, tables IV.5.8 to IV.5.12; IIIC* and IIID: Chan, BIT 30 (1990), and their mean.
 TEST(Families, EqualTheFractionsOfTheBooks) {
-  const mp50 one = 1;
-  const Vec<mp50> b = column({one / 6, 2 * one / 3, one / 6}), c = column({0, one / 2, 1});
-  const Mat<mp50> iiic =
+  const BigFloat one = 1;
+  const Vec<BigFloat> b = column({one / 6, 2 * one / 3, one / 6}), c = column({0, one / 2, 1});
+  const Mat<BigFloat> iiic =
       square(3, {one / 6, -one / 3, one / 6, one / 6, 5 * one / 12, -one / 12, one / 6, 2 * one / 3, one / 6});
-  const Mat<mp50> iiics = square(3, {0, 0, 0, one / 4, one / 4, 0, 0, 1, 0});
+  const Mat<BigFloat> iiics = square(3, {0, 0, 0, one / 4, one / 4, 0, 0, 1, 0});
   expectKnown(
       {"lobatto_iiia_3", square(3, {0, 0, 0, 5 * one / 24, one / 3, -one / 24, one / 6, 2 * one / 3, one / 6}), b, c});
   expectKnown(
       {"lobatto_iiib_3", square(3, {one / 6, -one / 6, 0, one / 6, one / 3, 0, one / 6, 5 * one / 6, 0}), b, c});
   expectKnown({"lobatto_iiic_3", iiic, b, c});
   expectKnown({"lobatto_iiics_3", iiics, b, c});
-  expectKnown({"lobatto_iiid_3", (iiic + iiics) / mp50(2), b, c});
+  expectKnown({"lobatto_iiid_3", (iiic + iiics) / BigFloat(2), b, c});
 }
 
 TEST(Families, OneStageMembers) {
-  const mp50 one = 1;
+  const BigFloat one = 1;
   expectKnown({"gauss_1", square(1, {one / 2}), column({1}), column({one / 2})});
   expectKnown({"radau_ia_1", square(1, {1}), column({1}), column({0})});
   expectKnown({"radau_iia_1", square(1, {1}), column({1}), column({1})});

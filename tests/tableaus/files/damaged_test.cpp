@@ -62,7 +62,7 @@ class Damaged : public testing::Test {
                                              {"similar A", transformSimilarly<Real>}};
 };
 
-using Scalars = testing::Types<double, mp50>;
+using Scalars = testing::Types<double, BigFloat>;
 TYPED_TEST_SUITE(Damaged, Scalars);
 
 TYPED_TEST(Damaged, UndamagedPasses) {
@@ -91,7 +91,7 @@ TYPED_TEST(Damaged, EachIsCaughtByBCD) {
 
 TYPED_TEST(Damaged, EachLowersTheOrderByTrees) {
   const auto orderOf = [](const Tableau<TypeParam>& tableau) {
-    return treeConditions(tableau.template cast<mp80>(), analyzeTableau(tableau)).order;
+    return treeConditions(tableau.template cast<BigFloat>(), analyzeTableau(tableau)).order;
   };
   EXPECT_EQ(orderOf(makeTableau<TypeParam>("radau_iia_3")), 5);
   for (const auto& damage : this->damages) {
