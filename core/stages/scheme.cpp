@@ -67,6 +67,7 @@ std::shared_ptr<const Value> kept(const Tableau<Real>& tableau, const std::strin
       appendKey(tableau.A, key);
       appendKey(tableau.b, key);
       appendKey(tableau.c, key);
+      appendKey(tableau.b_hat, key);
       return all.of(key, [&] { return Value(tableau); });
     }
   }
@@ -82,7 +83,7 @@ std::shared_ptr<const Structure<Real>> structureOf(const Tableau<Real>& tableau)
 
 template <class Real>
 std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau) {
-  const auto orders = {tableau.order, tableau.stage_order};
+  const auto orders = {tableau.order, tableau.stage_order, tableau.order_hat};
   std::string names = std::to_string(tableau.id.size()) + ' ' + tableau.id + tableau.family + '\n';
   for (const int order : orders) names += std::to_string(order) + '\n';
   return kept<Scheme<Real>>(tableau, names);

@@ -236,8 +236,9 @@ class Program {
     show->add_option("--digits", digits_, numberHelp("Significant digits.", kDigits, "17"))->type_name("INTEGER");
     auto* check = verb(*tableau, "check", "does it keep what it declares, and what is it?",
                        [this](Streams s) { return tableauCheck(method_, s); });
-    auto* write =
-        verb(*tableau, "export", "as a tableau file", [this](Streams s) { return tableauExport(method_, s); });
+    auto* write = verb(*tableau, "export", "as a file or as source text",
+                       [this](Streams s) { return tableauExport(method_, format_, s); });
+    write->add_option("--format", format_, "file (a tableau file), latex, numpy or c.")->capture_default_str();
     for (auto* sub : {show, check, write}) {
       sub->add_option("method", method_, "id or file")->required();
     }
@@ -318,7 +319,7 @@ class Program {
   Action action_;
   bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false, sensitivity_ = false;
   std::string stale_ = "keep", times_ = "all";
-  std::string study_, shard_, what_, method_, shell_, out_ = "stability";
+  std::string study_, shard_, what_, method_, shell_, out_ = "stability", format_ = "file";
   std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::vector<std::string> folders_, methods_, load_, peers_;
   std::map<std::string, std::string> fields_;

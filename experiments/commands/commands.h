@@ -127,7 +127,7 @@ int referenceCommand(const ReferenceOptions& options, Streams streams);
 
 int tableauShow(const std::string& id_or_file, int digits, Streams streams);
 int tableauCheck(const std::string& id_or_file, Streams streams);
-int tableauExport(const std::string& id_or_file, Streams streams);
+int tableauExport(const std::string& id_or_file, const std::string& format, Streams streams);
 /// Writes `out`.csv, .svg and .png: stability regions and order stars of the methods, which are ids or files.
 int tableauPlot(const std::vector<std::string>& methods, const std::string& out, Streams streams);
 /// Writes results/tableaus/: the families' members up to 20 stages.

@@ -21,8 +21,8 @@ int tableauCheck(const std::string& id_or_file, Streams streams) {
   return report.ok ? 0 : 1;
 }
 
-int tableauExport(const std::string& id_or_file, Streams streams) {
-  streams.out << exportTableau(id_or_file);
+int tableauExport(const std::string& id_or_file, const std::string& format, Streams streams) {
+  streams.out << exportTableau(id_or_file, format);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "irk/misuse.h"
 #include "tableaus/families/precise.h"
@@ -38,7 +39,7 @@ double residual(const Sum& sum, const Magnitude& magnitude, const Expected& expe
 }
 
 SimplifyingResiduals simplifyingResiduals(const Tableau<BigFloat>& tableau) {
-  const auto& [id, family, A, b, c, order, stage_order] = tableau;
+  const auto& [A, b, c] = std::tie(tableau.A, tableau.b, tableau.c);
   const Index s = tableau.stages();
   const Mat<BigFloat> A_abs = A.cwiseAbs();
   SimplifyingResiduals residuals{Vec<double>(2 * s + 1), Vec<double>(s + 1), Vec<double>(s + 1)};
@@ -80,7 +81,7 @@ void analyzeRegularity(const Tableau<BigFloat>& tableau, TableauAnalysis& analys
 }
 
 void analyzeStructure(const Tableau<BigFloat>& tableau, TableauAnalysis& analysis) {
-  const auto& [id, family, A, b, c, order, stage_order] = tableau;
+  const auto& [A, b, c] = std::tie(tableau.A, tableau.b, tableau.c);
   const auto maximum = [](const auto& block) { return static_cast<double>(block.cwiseAbs().maxCoeff()); };
   const Vec<BigFloat> row_sums = A.rowwise().sum();
   analysis.row_sum_errors = (row_sums - c).cwiseAbs().cast<double>();

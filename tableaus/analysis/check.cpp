@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tableaus/analysis/properties.h"
 #include "tableaus/analysis/rooted_trees.h"
 #include "tableaus/families/families.h"
 #include "tableaus/families/precise.h"
@@ -190,9 +191,44 @@ void checkTrees(const Subject& subject, Findings& findings) {
   }
 }
 
+std::string atInfinityText(const Tableau<mp80>& hat, double tolerance) {
+  if (hat.stages() > kMaxAnalyzedStages) return "";
+  const double limit = stabilityFunction(hat, tolerance).atInfinity();
+  return fmt::format("; R_hat(inf) = {:.6g}", limit) +
+         (std::isinf(limit) ? ", unbounded for stiff components: estimates need their filter" : "");
+}
+
+// Embedded weights are a method of their own in the same stages.
+void checkEmbedded(const Subject& subject, Findings& findings) {
+  const auto& [tableau, analysis] = subject;
+  if (tableau.b_hat.size() == 0) return;
+  const auto contradict = [&](Place place, const std::string& text) {
+    add(findings, Verdict::kContradiction, place, "b_hat", text);
+  };
+  if ((tableau.b_hat - tableau.b).cwiseAbs().maxCoeff() <= analysis.tolerance) {
+    return contradict(Place::kWeightsHat, "b_hat equals b: the difference of their results is no estimate");
+  }
+  const mp80 sum = tableau.b_hat.sum();
+  if (abs(sum - 1) > analysis.tolerance) {
+    return contradict(Place::kWeightsHat,
+                      fmt::format("not consistent: the sum of b_hat is {:.6g}", static_cast<double>(sum)));
+  }
+  Tableau<mp80> hat = tableau;
+  hat.b = tableau.b_hat;
+  hat.order = tableau.order_hat;
+  const auto [order, residuals] = treeConditions(hat, analyzeTableau(hat, analysis.tolerance));
+  const std::string numbers = residualsText(residuals) + atInfinityText(hat, analysis.tolerance);
+  if (hat.order > order && order < kMaxTreeOrder) {
+    return contradict(Place::kOrderHat, fmt::format("order_hat {} is contradicted by a rooted tree: it is {}; {}",
+                                                    hat.order, order, numbers));
+  }
+  add(findings, hat.order == order ? Verdict::kHolds : Verdict::kNote, Place::kOrderHat, "b_hat",
+      fmt::format("b_hat: the sum is 1, by all rooted trees the order is {}; {}", order, numbers));
+}
+
 // In the order of printing. A file is refused because of its first contradiction.
 constexpr Check kChecks[] = {checkWeights, checkRowSums, checkQuadrature, checkStageOrder,
-                             checkFamily,  checkProof,   checkTrees};
+                             checkFamily,  checkProof,   checkTrees,      checkEmbedded};
 
 std::string_view verdictName(Verdict verdict) {
   switch (verdict) {

@@ -19,13 +19,13 @@ enum class Verdict {
 };
 
 /// The part of a tableau that a finding is about; the file reader maps it to a line.
-enum class Place { kFamily, kOrder, kStageOrder, kRow, kWeights };
+enum class Place { kFamily, kOrder, kStageOrder, kRow, kWeights, kWeightsHat, kOrderHat };
 
 struct Finding {
   Verdict verdict;
   Place place;
   Index row;         ///< of A, for Place::kRow
-  std::string name;  ///< short name of the check: "sum of b", "row sums", "B", "C", "family", "order", "trees"
+  std::string name;  ///< short name of the check: "sum of b", "row sums", "B", "C", "family", "order", "trees", "b_hat"
   std::string text;  ///< a sentence with the numbers
 };
 
@@ -40,7 +40,8 @@ struct TableauReport {
 };
 
 /// Checks sum b = 1, row sums (unless stage order 0 is declared), B(p), C(q), orders and coefficients of a family of
-/// the suite, whether B, C, D prove the order, and the order by rooted trees. Real: double, BigFloat. Throws Misuse
+/// the suite, whether B, C, D prove the order, and the order by rooted trees; of embedded weights the sum, the order by
+/// rooted trees and R(inf). Real: double, BigFloat. Throws Misuse
 /// as analyzeTableau.
 template <class Real>
 TableauReport checkTableau(const Tableau<Real>& tableau, double tolerance = roundingTolerance<Real>());

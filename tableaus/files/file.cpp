@@ -29,6 +29,10 @@ int lineOf(const TableauFile& file, const Finding& finding) {
       return file.row_lines[static_cast<std::size_t>(finding.row)];
     case Place::kWeights:
       return file.weights_line;
+    case Place::kWeightsHat:
+      return file.weights_hat_line;
+    case Place::kOrderHat:
+      return file.order_hat_line;
   }
   return 0;
 }
@@ -68,12 +72,15 @@ TableauReport checkTableau(const TableauFile& file) {
 
 std::string writeTableau(const TableauFile& file) {
   const Tableau<BigFloat>& tableau = file.tableau;
+  const bool has_weights = tableau.b_hat.size() > 0;
   return fmt::format("# Butcher tableau {}\n", tableau.id) +
          fmt::format("family: {}\nstages: {}\norder: {}\nstage_order: {}\n", tableau.family, tableau.stages(),
                      tableau.order, tableau.stage_order) +
+         (has_weights ? fmt::format("order_hat: {}\n", tableau.order_hat) : "") +
          (file.source.empty() ? "" : fmt::format("source: {}\n", file.source)) +
          fmt::format("digits: {}\n", file.digits) + "A\n" + blockText(tableau.A) + "b\n" +
-         blockText(tableau.b.transpose()) + "c\n" + blockText(tableau.c.transpose());
+         blockText(tableau.b.transpose()) + "c\n" + blockText(tableau.c.transpose()) +
+         (has_weights ? "b_hat\n" + blockText(tableau.b_hat.transpose()) : "");
 }
 
 TableauFile constructedFile(std::string_view family, Index s) {

@@ -14,6 +14,12 @@
 //   0.75   0.25
 //   c
 //   1/3    1
+//
+// A method with embedded weights for the same stages (`--estimate tableau`) has a key and a block more, after c:
+//
+//   order_hat: 1             order of A, b_hat, c
+//   b_hat
+//   1      0
 #pragma once
 
 #include <string>
@@ -32,6 +38,7 @@ struct TableauFile {
   std::string source;
   int digits;
   int family_line = 0, order_line = 0, stage_order_line = 0, weights_line = 0;
+  int order_hat_line = 0, weights_hat_line = 0;
   std::vector<int> row_lines;  ///< s, of A
 };
 

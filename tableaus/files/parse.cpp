@@ -19,7 +19,8 @@ constexpr int kMaxDigits = kAnalysisDigits - 5;
 constexpr std::size_t kMaxNumberLength = 200;
 
 const std::vector<std::string>& headerKeys() {
-  static const std::vector<std::string> keys = {"family", "stages", "order", "stage_order", "source", "digits"};
+  static const std::vector<std::string> keys = {"family",    "stages", "order", "stage_order",
+                                                "order_hat", "source", "digits"};
   return keys;
 }
 
@@ -85,14 +86,29 @@ class Parser {
     tableau.b = row("the row of b", s);
     expectWord("c");
     tableau.c = row("the row of c", s);
+    parseEmbedded(s, file);
     if (position_ < lines_.size()) {
-      fail(lines_[position_].number, fmt::format("'{}' after the end of block c", shown()));
+      const auto last = tableau.b_hat.size() > 0 ? "b_hat" : "c";
+      fail(lines_[position_].number, fmt::format("'{}' after the end of block {}", shown(), last));
     }
     tableau.stage_order = stageOrderOf(file);
     return file;
   }
 
  private:
+  // The block b_hat and its key `order_hat`: both or neither.
+  void parseEmbedded(int s, TableauFile& file) {
+    const auto key = header_.find("order_hat");
+    const bool has_block = position_ < lines_.size() && lines_[position_].text == "b_hat";
+    if (!has_block && key == header_.end()) return;
+    if (!has_block) fail(key->second.number, "'order_hat' without a block b_hat after block c");
+    file.tableau.order_hat = integer("order_hat", 1, 2 * s);
+    file.order_hat_line = key->second.number;
+    ++position_;
+    file.weights_hat_line = nextLine("the row of b_hat").number;
+    file.tableau.b_hat = row("the row of b_hat", s);
+  }
+
   [[noreturn]] void fail(int line, std::string_view reason) const {
     throw Misuse(fmt::format("{}:{}: {}", name_, line, reason));
   }
@@ -122,7 +138,7 @@ class Parser {
       }
       const std::string key = trimmed(std::string_view(text).substr(0, colon));
       const std::string value = trimmed(std::string_view(text).substr(colon + 1));
-      if (key == "A" || key == "b" || key == "c") {
+      if (key == "A" || key == "b" || key == "c" || key == "b_hat") {
         fail(number, fmt::format("'{}': a block begins with a line '{}' without ':'", shown(), key));
       }
       if (std::ranges::find(headerKeys(), key) == headerKeys().end()) {
@@ -159,7 +175,7 @@ class Parser {
 
   Vec<BigFloat> row(const std::string& what, Index s) {
     const auto& [number, text] = nextLine(what);
-    if (text == "b" || text == "c") {
+    if (text == "b" || text == "c" || text == "b_hat") {
       fail(number, fmt::format("block {} starts, but {} is missing", text, what));
     }
     const std::vector<std::string> entries = words(text);

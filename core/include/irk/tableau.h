@@ -12,15 +12,18 @@ namespace irk {
 /// The largest number of stages that ids, files and options accept.
 inline constexpr Index kMaxStages = 100;
 
-/// The coefficients A (s x s), b and c (s each), with the orders that the family or the file declares.
+/// The coefficients A (s x s), b and c (s each), and b_hat (s) if there are embedded weights, with the orders that the
+/// family or the file declares.
 template <class Real>
 struct Tableau {
-  std::string id;       ///< e.g. `radau_iia_5`, or the file it came from
-  std::string family;   ///< e.g. `radau_iia`; `user` for a file that names no family
-  Mat<Real> A;          ///< s x s
-  Vec<Real> b, c;       ///< s each
-  int order = 0;        ///< classical order p
-  int stage_order = 0;  ///< q of C(q)
+  std::string id;        ///< e.g. `radau_iia_5`, or the file it came from
+  std::string family;    ///< e.g. `radau_iia`; `user` for a file that names no family
+  Mat<Real> A;           ///< s x s
+  Vec<Real> b, c;        ///< s each
+  int order = 0;         ///< classical order p
+  int stage_order = 0;   ///< q of C(q)
+  Vec<Real> b_hat = {};  ///< s, the embedded weights of the same stages; empty: the method has none
+  int order_hat = 0;     ///< classical order of A, b_hat, c; 0 without embedded weights
 
   Index stages() const { return b.size(); }
 
@@ -34,7 +37,8 @@ struct Tableau {
         return static_cast<To>(x);
       }
     };
-    return {id, family, A.unaryExpr(round), b.unaryExpr(round), c.unaryExpr(round), order, stage_order};
+    return {id,    family,      A.unaryExpr(round),     b.unaryExpr(round), c.unaryExpr(round),
+            order, stage_order, b_hat.unaryExpr(round), order_hat};
   }
 };
 

@@ -195,7 +195,7 @@ TEST(File, WritingAndReadingKeepsEverything) {
 }
 
 TEST(File, ExportGivesAFileThatReadsBackTheSame) {
-  const TemporaryFile file(exportTableau("gauss_7"));
+  const TemporaryFile file(exportTableau("gauss_7", "file"));
   EXPECT_EQ(makeTableau<double>(file.path()).A, makeTableau<double>("gauss_7").A);
 }
 
@@ -203,7 +203,7 @@ TEST(File, ExportGivesAFileThatReadsBackTheSame) {
 TEST(Data, FilesEqualTheConstruction) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(IRK_SOURCE_DIR "/tableaus/data")) {
-    EXPECT_EQ(contentOf(entry.path()), exportTableau(entry.path().stem().string())) << entry.path();
+    EXPECT_EQ(contentOf(entry.path()), exportTableau(entry.path().stem().string(), "file")) << entry.path();
     ++files;
   }
   EXPECT_GE(files, 8);
@@ -213,7 +213,7 @@ TEST(Data, FilesGiveTheConstructionsDoubles) {
   for (const FamilyEntry& family : familyCatalogue()) {
     for (Index s = family.min_stages; s <= 20; s += 3) {
       const std::string id = memberId(family.id, s);
-      const TemporaryFile file(exportTableau(id));
+      const TemporaryFile file(exportTableau(id, "file"));
       const auto read = makeTableau<double>(file.path());
       const auto constructed = makeTableau<double>(id);
       EXPECT_EQ(read.A, constructed.A) << id;
