@@ -7,6 +7,6 @@ namespace irk {
 IRK_STRATEGIES(ErrorEstimate, "estimate")
 
 IRK_CATALOGUE(ErrorEstimate, richardsonEstimate(), doublingEstimate(), scalarDoublingEstimate(), embeddedEstimate(),
-              noEstimate())
+              tableauEstimate(), noEstimate())
 
 }  // namespace irk

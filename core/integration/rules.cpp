@@ -66,7 +66,7 @@ struct Facts {
   std::array<Chosen, 7> chosen;
   // Of the method.
   std::string method;
-  bool invertible = true, determines_algebraic = true;
+  bool invertible = true, determines_algebraic = true, has_weights = false;
   int stage_order = 1;
   std::size_t members = 1, start = 0;
   // Of the system.
@@ -162,6 +162,18 @@ constexpr Rule kSystemsAndMethods[] = {
        const Chosen* const who = f.whoNeeds(&Needs::invertible_matrix);
        return text(*who) + " with " + text("method", f.method) + ": its A is singular" + instead(who);
      }},
+    {[](const Facts& f) { return f.whoNeeds(&Needs::embedded_weights) && !f.has_weights; },
+     [](const Facts& f) {
+       const Chosen* const who = f.whoNeeds(&Needs::embedded_weights);
+       return text(*who) + " with " + text("method", f.method) +
+              ": it has no embedded weights, a block 'b_hat' of a tableau file" + instead(who);
+     }},
+    {[](const Facts& f) { return f.whoNeeds(&Needs::embedded_weights) && !f.determines_algebraic; },
+     [](const Facts& f) {
+       const Chosen* const who = f.whoNeeds(&Needs::embedded_weights);
+       return text(*who) + " with " + text("method", f.method) +
+              ": its A is singular, also without an explicit first stage" + instead(who);
+     }},
     {[](const Facts& f) { return f.whoNeeds(&Needs::stage_order) && f.stage_order < 1; },
      [](const Facts& f) {
        const Chosen* const who = f.whoNeeds(&Needs::stage_order);
@@ -179,6 +191,7 @@ void describe(const Tableau<Real>& tableau, Facts& facts) {
   facts.determines_algebraic = structure.allowsAlgebraic();
   facts.invertible = structure.regular && structure.first == 0;
   facts.stage_order = tableau.stage_order;
+  facts.has_weights = tableau.b_hat.size() > 0;
 }
 
 template <class Real>

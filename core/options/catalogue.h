@@ -23,7 +23,9 @@ struct Needs {
   bool kept_jacobian = false;      ///< a Newton method that keeps one Jacobian for all stages
   bool estimate = false;           ///< an error estimate
   bool embedded_estimate = false;  ///< an error estimate that can compare orders
-  std::string_view instead = "";   ///< for messages, what to use instead: "estimate 'richardson'"
+  /// the method has embedded weights b_hat, and an invertible A but for an explicit first stage
+  bool embedded_weights = false;
+  std::string_view instead = "";  ///< for messages, what to use instead: "estimate 'richardson'"
 };
 
 /// One factory per scalar. An empty factory: the strategy does not exist in that scalar.
