@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
+#include <vector>
 
 #include "core/base/constants.h"
 #include "core/derivatives/first_order.h"
@@ -23,13 +25,22 @@ Vec<Real> constraintsAt(const System<Real>& system, Level level, const State<Rea
   return r.segment(n.nu + n.nx, n.constraints);
 }
 
+// The first of the constraints `numbers` that is violated.
 template <class Real>
-std::string violationAt(const System<Real>& system, Level level, const State<Real>& state, const State<double>& weights,
-                        double allowed) {
-  const auto constraints = [&](const State<Real>& at) { return constraintsAt(system, level, at); };
+std::string violationAt(const System<Real>& system, Level level, const State<Real>& given, const Vec<double>& weights,
+                        double allowed, const std::vector<Index>& numbers) {
+  if (numbers.empty()) return {};
+  const System<Real>& constrained = constrainedIn(system);
+  const State<Real> state = system.sizes().constraints == 0 ? system.toScene(given) : given;
+  const Sizes n = constrained.sizes();
+  State<double> moves(n);
+  moves.u = weights.head(n.nu);
+  moves.v = weights.segment(n.nu, n.nu);
+  moves.x = weights.segment(2 * n.nu, n.nx);
+  const auto constraints = [&](const State<Real>& at) { return constraintsAt(constrained, level, at); };
   const Vec<Real> r = constraints(state);
-  const Vec<double> most = allowed * weightedChanges(state, weights, r, constraints);
-  for (Index i = 0; i < r.size(); ++i) {
+  const Vec<double> most = allowed * weightedChanges(state, moves, r, constraints);
+  for (const Index i : numbers) {
     const double value = static_cast<double>(r[i]);
     if (std::abs(value) <= most[i]) continue;
     std::ostringstream text;
@@ -65,16 +76,19 @@ const System<Real>& constrainedIn(const System<Real>& system) {
 template <class Real>
 std::string constraintViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
                                 double allowed) {
-  const System<Real>& constrained = constrainedIn(system);
-  if (constrained.sizes().constraints == 0) return {};
-  const State<Real> scene = system.sizes().constraints == 0 ? system.toScene(state) : state;
-  const Sizes n = constrained.sizes();
-  State<double> moves(n);
-  moves.u = weights.head(n.nu);
-  moves.v = weights.segment(n.nu, n.nu);
-  moves.x = weights.segment(2 * n.nu, n.nx);
-  const std::string g = violationAt(constrained, Level::kPosition, scene, moves, allowed);
-  return g.empty() ? violationAt(constrained, Level::kVelocity, scene, moves, allowed) : g;
+  const Index count = constrainedIn(system).sizes().constraints;
+  std::vector<Index> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), Index(0));
+  const std::string g = violationAt(system, Level::kPosition, state, weights, allowed, all);
+  return g.empty() ? violationAt(system, Level::kVelocity, state, weights, allowed, all) : g;
+}
+
+template <class Real>
+std::string leftOutViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
+                             double allowed) {
+  const auto& left_out = constrainedIn(system).leftOut();
+  const std::string g = violationAt(system, Level::kPosition, state, weights, allowed, left_out);
+  return g.empty() ? g : g + ": it was left out at the start, but does not follow from the others";
 }
 
 // With a drift of some tens of tolerances, errors of 1000 tolerances and more occurred in directions that no constraint
@@ -120,6 +134,7 @@ double allowedInFixedRows(const IntegratorOptions& options) {
 #define IRK_CHECKS(Real)                                                                                         \
   template const System<Real>& constrainedIn(const System<Real>&);                                               \
   template std::string constraintViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double); \
+  template std::string leftOutViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);    \
   template std::string fixedRowViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);
 IRK_CHECKS(double)
 IRK_CHECKS(BigFloat)

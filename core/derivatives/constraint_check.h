@@ -24,6 +24,12 @@ template <class Real>
 std::string constraintViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
                                 double allowed);
 
+/// The same for g = 0 of the constraints that are left out as dependent (System::leftOut): a violation shows that they
+/// do not follow from the others any more, or never did away from the start.
+template <class Real>
+std::string leftOutViolation(const System<Real>& system, const State<Real>& state, const Vec<double>& weights,
+                             double allowed);
+
 /// The allowed violation of constraints, in weights of the error norm: 10, i.e. 10 tolerances, but relative to the
 /// state not less than 1e-11 and not more than 0.1.
 double allowedDrift(const Tolerances& tolerances);

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "core/base/constants.h"
 #include "core/derivatives/constraint_check.h"
 #include "core/system/component_scale.h"
+#include "irk/dependent_constraints.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -43,6 +46,18 @@ void orthogonalize(ConstraintFrame& f) {
     q /= left;
     ++f.rank;
   }
+}
+
+// The rows of the constraints that are not left out.
+template <class Real>
+std::vector<Index> constraintRows(const System<Real>& system) {
+  const Sizes n = system.sizes();
+  const auto& left_out = system.leftOut();
+  std::vector<Index> rows;
+  for (Index i = 0; i < n.constraints; ++i) {
+    if (std::find(left_out.begin(), left_out.end(), i) == left_out.end()) rows.push_back(n.nu + n.nx + i);
+  }
+  return rows;
 }
 
 // R^T y = g, in place: |y| = |G^+ g|.
@@ -89,8 +104,8 @@ ConstraintFrames<Real>::ConstraintFrames(const System<Real>& system, const Vec<d
     : outer_(system),
       system_(constrainedIn(system)),
       positions_(system.sceneSizes().nu),
-      constraints_(system_.sizes().constraints),
-      row_(system_.sizes().nu + system_.sizes().nx),
+      constraints_(system_.sizes().constraints - static_cast<Index>(system_.leftOut().size())),
+      rows_(constraintRows(system_)),
       scale_(componentScale(system.sizes(), scale).head(positions_)),
       at_(system_.sizes()),
       dual_(system_.sizes()),
@@ -161,7 +176,8 @@ void ConstraintFrames<Real>::evaluate(const State<Real>& state, const Real& t, c
       v(first + c).d[static_cast<std::size_t>(c)] = Real(0);
       for (Index i = 0; i < constraints_; ++i) {
         out.Gt(first + c, i) =
-            scale_[first + c] * static_cast<double>(dual_.r[row_ + i].d[static_cast<std::size_t>(c)]);
+            scale_[first + c] *
+            static_cast<double>(dual_.r[rows_[static_cast<std::size_t>(i)]].d[static_cast<std::size_t>(c)]);
       }
     }
   }
@@ -172,7 +188,7 @@ template <class Real>
 void ConstraintFrames<Real>::constraintsAt(const Vec<Real>& u, Vec<double>& g) {
   setPositions(u);
   system_.evaluate(Level::kPosition, pointOf(at_), VecView<Real>(r_.data(), r_.size()));
-  for (Index i = 0; i < constraints_; ++i) g[i] = static_cast<double>(r_[row_ + i]);
+  for (Index i = 0; i < constraints_; ++i) g[i] = static_cast<double>(r_[rows_[static_cast<std::size_t>(i)]]);
 }
 
 // g(u - s G^+ g) = (1 - s) g + s^2 q: q, which one Newton step (s = 1) leaves, is measured where the round-off of g
@@ -206,9 +222,35 @@ Index ConstraintFrames<Real>::weakest(const ConstraintFrame& frame, const Constr
   const Eigen::JacobiSVD<Mat<double>> svd(scaled, Eigen::ComputeFullV);
   Index largest = 0;
   svd.matrixV().col(constraints_ - 1).cwiseAbs().maxCoeff(&largest);
-  return largest;
+  return rows_[static_cast<std::size_t>(largest)] - system_.sizes().nu - system_.sizes().nx;
+}
+
+template <class Real>
+std::vector<Index> dependentConstraints(const System<Real>& system, const State<Real>& start,
+                                        const Vec<double>& scale) {
+  ConstraintFrames<Real> frames(system, scale);
+  if (frames.constraints() == 0) return {};
+  ConstraintFrame frame = frames.make();
+  frames.evaluate(start, start.t, start.u, frame);
+  if (!frame.finite) return {};
+  for (auto gradient : frame.Gt.colwise()) gradient.normalize();
+  const Eigen::ColPivHouseholderQR<Mat<double>> qr(frame.Gt);
+  const auto& pivots = qr.colsPermutation().indices();
+  std::vector<Index> dependent;
+  for (Index k = 0; k < frames.constraints(); ++k) {
+    const bool independent = k < frame.Gt.rows() && std::abs(qr.matrixQR()(k, k)) > kEightDigits;
+    if (!independent) dependent.push_back(pivots[k]);
+  }
+  std::sort(dependent.begin(), dependent.end());
+  return dependent;
 }
 
 IRK_INSTANTIATE_CLASS(ConstraintFrames)
+#define IRK_DEPENDENT(Real) \
+  template std::vector<Index> dependentConstraints(const System<Real>&, const State<Real>&, const Vec<double>&);
+IRK_DEPENDENT(double)
+IRK_DEPENDENT(mp50)
+IRK_DEPENDENT(mp100)
+#undef IRK_DEPENDENT
 
 }  // namespace irk

@@ -8,7 +8,8 @@
 namespace irk {
 
 /// G^T = dg/du^T = Q R by Gram and Schmidt, with orthonormal columns of Q and a positive diagonal of R. Sizes: G^T and
-/// Q nu x m, R m x m, u nu, with the nu positions and m constraints of the scene. Positions are divided by their scale.
+/// Q nu x m, R m x m, u nu, with the nu positions and those m constraints of the scene that are not left out. Positions
+/// are divided by their scale.
 struct ConstraintFrame {
   double t = 0;
   Vec<double> u;
@@ -57,7 +58,8 @@ class ConstraintFrames {
 
   const System<Real>& outer_;   // of the states
   const System<Real>& system_;  // that is evaluated
-  Index positions_, constraints_, row_;
+  Index positions_, constraints_;
+  std::vector<Index> rows_;  // of the constraints in the residual
   Vec<double> scale_;
   State<Real> at_;
   PointBuffers<Dual<Real>> dual_;

@@ -21,6 +21,7 @@ Outcome VelocityProjection<Real>::solve(Level level, const State<Real>& state) {
   system_.evaluate(level, pointOf(state), VecView<Real>(r_.data(), r_.size()));
   r_.head(first).setZero();
   r_.tail(sizes_.nz - sizes_.constraints).setZero();
+  for (const Index i : system_.leftOut()) r_[first + i] = Real(0);
   ++counters_.mass_factorizations;
   const Outcome outcome = lu_.factorize(D_);
   if (outcome != Outcome::kSuccess) return outcome;

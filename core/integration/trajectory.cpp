@@ -51,6 +51,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const bool constrained = constrainedIn(system).sizes().constraints > 0;
+  leaves_out_ = !constrainedIn(system).leftOut().empty();
   if (constrained) positions_ = std::make_unique<SingularPositions<Real>>(system, scale);
 }
 
@@ -155,6 +156,10 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
   }
   if (!step.shortened) next_.t = end;
   if (passesSingularPosition()) return Outcome::kSingular;
+  if (leaves_out_) {
+    start_detail_ = leftOutViolation(system_, next_, norm_.weights(), allowedDrift(options_.tolerances));
+    if (!start_detail_.empty()) return Outcome::kDrift;
+  }
   takeOver(step);
   if (!step.at_switch) return Outcome::kSuccess;
   ++counters_.located_events;

@@ -91,6 +91,7 @@ class Trajectory {
   std::unique_ptr<VelocityProjection<Real>> projection_;
   Real last_h_{0};  // size of the last accepted step; 0 if the state was projected since, or is the start
   std::unique_ptr<SingularPositions<Real>> positions_;  // null without position constraints
+  bool leaves_out_ = false;                             // constraints that have to follow from the others
   Switches<Real> switches_;
   ChatterDetector chatter_;
   InsideAttempt<Real> inside_;

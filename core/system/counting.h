@@ -40,6 +40,7 @@ class CountingSystem final : public System<Real> {
   bool nonNegative(Index i) const override { return inner_.nonNegative(i); }
   bool usesVelocity() const override { return inner_.usesVelocity(); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }
+  const std::vector<Index>& leftOut() const override { return inner_.leftOut(); }
   Discontinuity discontinuity() const override { return inner_.discontinuity(); }
   bool projectsVelocity() const override { return inner_.projectsVelocity(); }
   bool secondOrder() const override { return inner_.secondOrder(); }

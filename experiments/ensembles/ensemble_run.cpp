@@ -31,6 +31,7 @@ void requireSpec(const RunSpec& spec) {
   if (spec.options.threads > 1) refuse("threads", "--jobs says how many members are integrated at a time");
   if (spec.time_limit > 0) refuse("time_limit", "use max_steps");
   if (spec.reference != ReferenceUse::kNone || spec.reference_times > 1) refuse("references", "it has no errors");
+  if (spec.constraints != ConstraintUse::kAll) refuse("constraints 'independent'", "leave them out in the scene");
   if (spec.formulation == Formulation::kFirstOrder || spec.formulation == Formulation::kFirstOrderPerStep) {
     refuse("formulation 'first_order'", "its systems cannot be shared by threads");
   }

@@ -177,6 +177,7 @@ std::vector<SpecField> makeFields() {
       {sceneField(), settingsField(), configurationField(), methodField(),
        axisField<RunSpec>("The form of the equations, above all of constraints.", IRK_MEMBER(formulation)),
        axisField<RunSpec>("Whether the rows of constraints are scaled by the step size.", IRK_MEMBER(scaling)),
+       axisField<RunSpec>("Which position constraints are integrated.", IRK_MEMBER(constraints)),
        axisField<RunSpec>("How switches of the scene are treated.", IRK_MEMBER(discontinuity)),
        axisField<RunSpec>("The kind of numbers of the computation.", IRK_MEMBER(scalar))});
   auto after = std::to_array<Field<RunSpec>>(

@@ -40,7 +40,9 @@ class RungeKutta {
       const Sizes sizes{.nu = start.u.size(), .nx = start.x.size(), .nz = start.z().size()};
       solution.detail = withNames(solution.detail, scene().names, sizes, setup_.system->sizes());
     }
-    solution.detail += setup_.advice(solution.outcome);
+    const std::string advice = setup_.advice(solution.outcome);
+    if (!solution.detail.empty() && !advice.empty()) solution.detail += "; ";
+    solution.detail += advice;
     return solution;
   }
 

@@ -21,6 +21,9 @@ constexpr Named<ScalarKind> kScalars[] = {
     {{50}, "mp50", "50 decimal digits, for orders that double cannot show; any number from mp30 to mp1000 is legal"},
     {{100}, "mp100", "100 digits, for orders from about 20 on"}};
 
+constexpr Named<ConstraintUse> kConstraintUses[] = {
+    {ConstraintUse::kAll, "all", "all; where they depend on each other, the run ends as singular"},
+    {ConstraintUse::kIndependent, "independent", "a choice made at the start; the others are checked at each step"}};
 constexpr Named<ReferenceUse> kReferenceUses[] = {
     {ReferenceUse::kNone, "none", "where no reference is stored, the error is unknown"},
     {ReferenceUse::kAuto, "auto", "where no reference is stored, one is computed and kept in the user's cache"}};
@@ -65,6 +68,19 @@ ScalarKind parseId<ScalarKind>(std::string_view id) {
     }
   }
   return valueOf<ScalarKind>(id);
+}
+
+template <>
+std::span<const Named<ConstraintUse>> named<ConstraintUse>() {
+  return kConstraintUses;
+}
+template <>
+std::string_view axisName<ConstraintUse>() {
+  return "constraints";
+}
+template <>
+ConstraintUse parseId<ConstraintUse>(std::string_view id) {
+  return valueOf<ConstraintUse>(id);
 }
 
 template <>

@@ -28,6 +28,18 @@ ScalarKind parseId<ScalarKind>(std::string_view id);
 template <>
 std::string_view axisName<ScalarKind>();
 
+/// Which position constraints are integrated.
+enum class ConstraintUse {
+  kAll,
+  kIndependent,  ///< those that a rank-revealing factorization chooses at the start; see irk/dependent_constraints.h
+};
+template <>
+std::span<const Named<ConstraintUse>> named<ConstraintUse>();
+template <>
+ConstraintUse parseId<ConstraintUse>(std::string_view id);
+template <>
+std::string_view axisName<ConstraintUse>();
+
 /// How an error is measured if neither a closed form nor problems/reference gives the solution at t_end.
 enum class ReferenceUse {
   kNone,  ///< not at all: the error is unknown
@@ -68,6 +80,7 @@ struct RunSpec {
   std::string method = "radau_iia_5";
   Formulation formulation = Formulation::kIndex2;
   ConstraintScaling scaling = ConstraintScaling::kOn;
+  ConstraintUse constraints = ConstraintUse::kAll;
   Discontinuity discontinuity = Discontinuity::kLocate;
   ScalarKind scalar;
   IntegratorOptions options;

@@ -1,13 +1,18 @@
 #include "experiments/runs/setup.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "core/base/number_text.h"
 #include "core/base/text.h"
 #include "core/control/order_controller.h"
+#include "core/derivatives/constraint_check.h"
 #include "core/estimates/variable_order.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "irk/dependent_constraints.h"
 #include "irk/multiprecision.h"
 #include "irk/tableaus.h"
 
@@ -24,6 +29,27 @@ Methods<Real> methodsOf(const RunSpec& spec) {
   return makeMethods<Real>(spec.method, spec.max_stages, firstStages(spec.options.tolerances));
 }
 
+// "6 constraints, rank 5: left out g[4]"; empty if none is left out.
+template <class Real>
+std::string leftOutText(const System<Real>& system) {
+  const auto& left_out = constrainedIn(system).leftOut();
+  if (left_out.empty()) return {};
+  const Index all = constrainedIn(system).sizes().constraints;
+  std::vector<std::string> names;
+  for (const Index i : left_out) names.push_back(fmt::format("g[{}]", i));
+  return fmt::format("{} constraints, rank {}: left out {}", all, all - std::ssize(left_out), fmt::join(names, ", "));
+}
+
+// With the constraints that the spec leaves out.
+template <class Real>
+SystemOptions systemOptions(const RunSpec& spec, const Scene<Real>& scene) {
+  SystemOptions options{spec.formulation, spec.scaling, spec.discontinuity};
+  if (spec.constraints == ConstraintUse::kIndependent) {
+    options.left_out = dependentConstraints(*scene.system({}), scene.start, scene.scale);
+  }
+  return options;
+}
+
 }  // namespace
 
 // In index 2 only a method whose last stage is the step's end keeps the velocity constraint; with others velocities
@@ -31,14 +57,20 @@ Methods<Real> methodsOf(const RunSpec& spec) {
 // failures `index2_projected` solves 465.
 template <class Real>
 std::string Setup<Real>::advice(Outcome outcome) const {
+  const std::string left_out = leftOutText(*system);
+  if (outcome == Outcome::kSingular && spec.constraints == ConstraintUse::kAll) {
+    const bool dependent = !dependentConstraints(*scene.system({}), scene.start, scene.scale).empty();
+    return dependent ? "constraints 'independent' leaves out those that follow from the others" : "";
+  }
   const bool steps_shrink = outcome == Outcome::kStepTooSmall || outcome == Outcome::kStalled;
   const Tableau<Real>& method = methods.members[methods.start];
   const Vec<Real> beside = method.A.row(method.stages() - 1).transpose() - method.b;
   constexpr double kRoundOff = 1e-12;  // of coefficients with 15 digits
   const bool at_end = static_cast<double>(Real(beside.cwiseAbs().maxCoeff())) < kRoundOff;
   const bool constrained = spec.formulation == Formulation::kIndex2 && system->sizes().constraints > 0;
-  if (!steps_shrink || !constrained || at_end) return {};
-  return "; the steps of " + method.id + " end off the velocity constraint; formulation index2_projected projects them";
+  if (!steps_shrink || !constrained || at_end) return left_out;
+  return (left_out.empty() ? "" : left_out + "; ") + "the steps of " + method.id +
+         " end off the velocity constraint; formulation index2_projected projects them";
 }
 
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
@@ -75,7 +107,7 @@ Setup<Real> makeSetup(const RunSpec& given) {
 template <class Real>
 Setup<Real> setUp(RunSpec spec, Scene<Real> scene) {
   auto methods = methodsOf<Real>(spec);
-  auto system = scene.system({spec.formulation, spec.scaling, spec.discontinuity});
+  auto system = scene.system(systemOptions(spec, scene));
   auto scale = toleranceScale(scene, spec, system->sizes());
   return {std::move(spec), std::move(scene), std::move(system), std::move(methods), std::move(scale)};
 }

@@ -22,7 +22,8 @@ struct Setup {
   Index stages() const { return methods.members[methods.start].stages(); }
   /// Throws Misuse for combinations that cannot work.
   Integrator<Real> integrator() const { return integrator(methods, spec.options); }
-  /// The end of the detail of a run with this outcome: which formulation solves it; empty if none is known to.
+  /// What is said beside the detail of a run with this outcome: which constraints are left out, and which formulation
+  /// solves it; empty if there is nothing to say.
   std::string advice(Outcome outcome) const;
   /// An integrator of the same system with other methods and options.
   Integrator<Real> integrator(const Methods<Real>& others, const IntegratorOptions& options) const {

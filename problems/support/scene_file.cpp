@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/differentiator.h"
+#include "irk/dependent_constraints.h"
 #include "irk/lanes.h"
 #include "irk/misuse.h"
 #include "irk/system_check.h"
@@ -239,8 +240,7 @@ void completeStart(Scene<Real>& scene) {
   ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true, nullptr, scene.scale);
   StartReport report = consistent.apply(scene.start);
   if (report.outcome == Outcome::kNotFinite) {
-    // Exact derivatives can be 0/0 where differences are finite. How they were found does not matter to (a, k, z),
-    // which satisfy the residual; whether a run accepts these derivatives, its own option decides.
+    // Exact derivatives can be 0/0 where differences are finite. Whether a run accepts these, its own option decides.
     ConsistentStart<Real> by_differences(*system, DerivativeSource::kCentral, true, nullptr, scene.scale);
     if (by_differences.apply(scene.start).outcome == Outcome::kSuccess) return;
   }
@@ -248,9 +248,13 @@ void completeStart(Scene<Real>& scene) {
     solveRates(*system, scene.start);
     report = consistent.apply(scene.start);
   }
-  if (report.outcome != Outcome::kSuccess) {
-    throw Misuse("its start: " + report.detail);
+  if (report.outcome == Outcome::kSingular) {
+    // Constraints that depend on each other are no mistake in the scene: a run may leave some of them out.
+    const auto others = scene.system({.left_out = dependentConstraints(*system, scene.start, scene.scale)});
+    report =
+        ConsistentStart<Real>(*others, DerivativeSource::kAutomatic, true, nullptr, scene.scale).apply(scene.start);
   }
+  if (report.outcome != Outcome::kSuccess) throw Misuse("its start: " + report.detail);
 }
 
 namespace {

@@ -25,6 +25,10 @@ class GglSystem final : public System<Real> {
     error_powers_.x.assign(static_cast<std::size_t>(sizes_.nx), 0);
     error_powers_.z = scene_.errorPowers().z;
     error_powers_.z.insert(error_powers_.z.end(), static_cast<std::size_t>(inner_.constraints), 1);
+    for (const Index i : leftOut()) {
+      row_powers_[static_cast<std::size_t>(inner_.nu + inner_.n() + i)] = 0;
+      error_powers_.z[static_cast<std::size_t>(inner_.nz + i)] = 0;
+    }
   }
 
   Sizes sizes() const override { return sizes_; }
@@ -52,6 +56,7 @@ class GglSystem final : public System<Real> {
   }
   bool nonNegative(Index i) const override { return scene_.nonNegative(i); }
   std::string switchName(Index i) const override { return scene_.switchName(i); }
+  const std::vector<Index>& leftOut() const override { return scene_.leftOut(); }
   Discontinuity discontinuity() const override { return scene_.discontinuity(); }
   bool secondOrder() const override { return false; }
   const std::vector<int>& rowPowers() const override { return row_powers_; }
@@ -105,6 +110,8 @@ class GglSystem final : public System<Real> {
     T* const last = r + nu + inner_.n();
     if (level == Level::kFormulated) {
       scene_.constraintRows(Level::kVelocity, at, last);
+      scene_.leaveOut(at.z, r + nu + inner_.nu + inner_.nx);
+      scene_.leaveOut(mu, last);
     } else {  // mu = 0 on the exact solution
       for (Index i = 0; i < nc; ++i) last[i] = mu[i];
     }

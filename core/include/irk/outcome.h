@@ -21,7 +21,7 @@ enum class Outcome {
   kInconsistentStart,  ///< constraints are violated, or accelerations cannot be determined
   kChattering,         ///< switches follow each other while no time passes
   kStalled,            ///< steps stay so small that the end is out of reach
-  kDrift,              ///< the integration reached the end, but the state there violates the position constraints
+  kDrift,              ///< the state at the end violates the position constraints, or a step those that are left out
   kInaccurate,         ///< the error bar of the result exceeds 1000 tolerances (irk/error_bar.h)
 };
 

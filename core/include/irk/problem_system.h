@@ -63,6 +63,14 @@ class ProblemSystem final : public System<Real> {
         row_powers_[static_cast<std::size_t>(sizes_.nu + sizes_.nx + i)] = power;
       }
     }
+    for (const Index i : options_.left_out) {
+      if (i < 0 || i >= sizes_.constraints) {
+        throw Misuse("left_out: constraint " + std::to_string(i) + ": the problem has " +
+                     std::to_string(sizes_.constraints) + ", numbered from 0 on");
+      }
+      error_powers_.z[static_cast<std::size_t>(i)] = 0;
+      row_powers_[static_cast<std::size_t>(sizes_.nu + sizes_.nx + i)] = 0;
+    }
   }
 
   Sizes sizes() const override { return sizes_; }
@@ -117,6 +125,7 @@ class ProblemSystem final : public System<Real> {
     if constexpr (requires { problem_.switchName(i); }) return problem_.switchName(i);
     return System<Real>::switchName(i);
   }
+  const std::vector<Index>& leftOut() const override { return options_.left_out; }
   Discontinuity discontinuity() const override { return options_.discontinuity; }
   bool projectsVelocity() const override {
     return options_.formulation == Formulation::kIndex2Projected && sizes_.constraints > 0;
@@ -155,6 +164,12 @@ class ProblemSystem final : public System<Real> {
         problem_.constraints(p.t, p.u, g);
       }
     }
+  }
+
+  /// Replaces the rows of the constraints that are left out by their multipliers z, or mu.
+  template <class T>
+  void leaveOut(ConstVec<T> multipliers, T* rows) const {
+    for (const Index i : options_.left_out) rows[i] = multipliers[i];
   }
 
   const P& problem() const { return problem_; }
@@ -273,6 +288,7 @@ class ProblemSystem final : public System<Real> {
     problem_.residual(
         p, Rows<T>{VecView<T>(r, sizes_.nu), VecView<T>(r + sizes_.nu, sizes_.nx), VecView<T>(g + nc, sizes_.nz - nc)});
     if (nc > 0) constraintRows(constraintLevel(level), p, g);
+    if (level == Level::kFormulated || level == Level::kAcceleration) leaveOut(p.z, g);
   }
 
   Level constraintLevel(Level level) const {

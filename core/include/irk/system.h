@@ -207,6 +207,12 @@ class System {
   virtual bool usesVelocity() const { return true; }
   /// The name of switch i in messages, e.g. "contact".
   virtual std::string switchName(Index i) const { return std::to_string(i); }
+  /// The position constraints that are left out (SystemOptions::left_out). At kPosition and kVelocity their rows are
+  /// still g and dg/dt, so that a violation is seen; otherwise z_i.
+  virtual const std::vector<Index>& leftOut() const {
+    static const std::vector<Index> none;
+    return none;
+  }
   /// How evaluations treat the discrete state.
   virtual Discontinuity discontinuity() const { return Discontinuity::kIgnore; }
   /// Whether v is projected on dg/dt = 0 after each step.

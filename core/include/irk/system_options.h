@@ -26,6 +26,10 @@ struct SystemOptions {
   ConstraintScaling scaling = ConstraintScaling::kOn;
   /// Has no effect on a problem without switches.
   Discontinuity discontinuity = Discontinuity::kLocate;
+  /// Numbers of the position constraints that are left out because they follow from the others, ascending, from 0 on:
+  /// dependentConstraints in irk/dependent_constraints.h finds them. Their rows become z_i = 0, so that their
+  /// multipliers are 0; the others carry the whole force.
+  std::vector<Index> left_out = {};
 };
 
 }  // namespace irk

@@ -1,5 +1,6 @@
 /// @example integrate.cpp
 /// One integration of a pendulum with a constraint: its state, the solution inside of steps, counters, a failure.
+#include <irk/dependent_constraints.h>
 #include <irk/ggl.h>
 #include <irk/integrator.h>
 #include <irk/misuse.h>
@@ -37,9 +38,11 @@ struct Pendulum {
 
 // The length of the rod after 10 s, with the constraint as the formulation says.
 double lengthAfter(irk::Formulation formulation) {
-  const auto system = irk::makeSystem<double>(Pendulum{}, {.formulation = formulation});
-  irk::State<double> start(system->sceneSizes());
+  irk::State<double> start(Pendulum{}.sizes());
   start.u << 1, 0;
+  // A second rod between the same points would follow from the first one: it would be found here, and left out.
+  const auto left_out = irk::dependentConstraints(*irk::makeSystem<double>(Pendulum{}), start);
+  const auto system = irk::makeSystem<double>(Pendulum{}, {.formulation = formulation, .left_out = left_out});
   irk::IntegratorOptions options;
   options.tolerances = {.rtol = 1e-6, .atol = 1e-6};
   const irk::Tableau<double> method = irk::makeTableau<double>("radau_iia_3");

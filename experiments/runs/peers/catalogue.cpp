@@ -108,6 +108,7 @@ void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scen
   if (scene.switches > 0 && spec.discontinuity == Discontinuity::kLocate && !peer.finds_roots) {
     refuse(peer, spec.discontinuity, "the library has no root finding");
   }
+  if (spec.constraints != ConstraintUse::kAll) refuse(peer, spec.constraints, "it takes all constraints");
   if (scene.constraints > 0) refuseFormulation(peer, spec.formulation);
 }
 
