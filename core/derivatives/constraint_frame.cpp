@@ -249,8 +249,7 @@ IRK_INSTANTIATE_CLASS(ConstraintFrames)
 #define IRK_DEPENDENT(Real) \
   template std::vector<Index> dependentConstraints(const System<Real>&, const State<Real>&, const Vec<double>&);
 IRK_DEPENDENT(double)
-IRK_DEPENDENT(mp50)
-IRK_DEPENDENT(mp100)
+IRK_DEPENDENT(BigFloat)
 #undef IRK_DEPENDENT
 
 }  // namespace irk

@@ -191,7 +191,7 @@ void checkTrees(const Subject& subject, Findings& findings) {
   }
 }
 
-std::string atInfinityText(const Tableau<mp80>& hat, double tolerance) {
+std::string atInfinityText(const Tableau<BigFloat>& hat, double tolerance) {
   if (hat.stages() > kMaxAnalyzedStages) return "";
   const double limit = stabilityFunction(hat, tolerance).atInfinity();
   return fmt::format("; R_hat(inf) = {:.6g}", limit) +
@@ -208,12 +208,12 @@ void checkEmbedded(const Subject& subject, Findings& findings) {
   if ((tableau.b_hat - tableau.b).cwiseAbs().maxCoeff() <= analysis.tolerance) {
     return contradict(Place::kWeightsHat, "b_hat equals b: the difference of their results is no estimate");
   }
-  const mp80 sum = tableau.b_hat.sum();
+  const BigFloat sum = tableau.b_hat.sum();
   if (abs(sum - 1) > analysis.tolerance) {
     return contradict(Place::kWeightsHat,
                       fmt::format("not consistent: the sum of b_hat is {:.6g}", static_cast<double>(sum)));
   }
-  Tableau<mp80> hat = tableau;
+  Tableau<BigFloat> hat = tableau;
   hat.b = tableau.b_hat;
   hat.order = tableau.order_hat;
   const auto [order, residuals] = treeConditions(hat, analyzeTableau(hat, analysis.tolerance));

@@ -31,29 +31,29 @@ std::size_t widest(const Mat<BigFloat>& block, int digits) {
   return width;
 }
 
-std::string joined(const Vec<mp80>& row, std::string_view between, int digits) {
+std::string joined(const Vec<BigFloat>& row, std::string_view between, int digits) {
   std::string text;
-  for (const mp80& x : row) text += (text.empty() ? "" : std::string(between)) + x.str(digits);
+  for (const BigFloat& x : row) text += (text.empty() ? "" : std::string(between)) + x.str(digits);
   return text;
 }
 
 // Calls `row` for each vector of the tableau.
-void forEachRow(const Tableau<mp80>& tableau, const std::function<void(const char*, const Vec<mp80>&)>& row) {
+void forEachRow(const Tableau<BigFloat>& tableau, const std::function<void(const char*, const Vec<BigFloat>&)>& row) {
   row("b", tableau.b);
   row("c", tableau.c);
   if (tableau.b_hat.size() > 0) row("b_hat", tableau.b_hat);
 }
 
-std::string titleText(const Tableau<mp80>& tableau) {
+std::string titleText(const Tableau<BigFloat>& tableau) {
   return fmt::format("Butcher tableau {}, order {}", tableau.id, tableau.order) +
          (tableau.b_hat.size() > 0 ? fmt::format(", embedded weights b_hat of order {}", tableau.order_hat) : "");
 }
 
 std::string latexText(const TableauFile& file) {
   constexpr int kDigits = 10;
-  const Tableau<mp80>& tableau = file.tableau;
+  const Tableau<BigFloat>& tableau = file.tableau;
   static const std::regex power("e([+-])0*(\\d+)");
-  const auto row = [](const std::string& node, const Vec<mp80>& numbers) {
+  const auto row = [](const std::string& node, const Vec<BigFloat>& numbers) {
     const std::string text = node + " & " + joined(numbers, " & ", kDigits);
     return std::regex_replace(text, power, R"( \cdot 10^{$1$2})");
   };
@@ -70,27 +70,27 @@ std::string latexText(const TableauFile& file) {
 constexpr int kDoubleDigits = 17;
 
 std::string numpyText(const TableauFile& file) {
-  const Tableau<mp80>& tableau = file.tableau;
+  const Tableau<BigFloat>& tableau = file.tableau;
   std::string text = fmt::format("# {}\nimport numpy as np\n\nA = np.array([\n", titleText(tableau));
   for (const auto& row : tableau.A.rowwise()) {
     text += fmt::format("    [{}],\n", joined(row.transpose(), ", ", kDoubleDigits));
   }
   text += "], dtype=float)\n";
-  forEachRow(tableau, [&](const char* name, const Vec<mp80>& row) {
+  forEachRow(tableau, [&](const char* name, const Vec<BigFloat>& row) {
     text += fmt::format("{} = np.array([{}], dtype=float)\n", name, joined(row, ", ", kDoubleDigits));
   });
   return text;
 }
 
 std::string cText(const TableauFile& file) {
-  const Tableau<mp80>& tableau = file.tableau;
+  const Tableau<BigFloat>& tableau = file.tableau;
   const Index s = tableau.stages();
   std::string text = fmt::format("/* {} */\nconst double A[{}][{}] = {{\n", titleText(tableau), s, s);
   for (const auto& row : tableau.A.rowwise()) {
     text += fmt::format("    {{{}}},\n", joined(row.transpose(), ", ", kDoubleDigits));
   }
   text += "};\n";
-  forEachRow(tableau, [&](const char* name, const Vec<mp80>& row) {
+  forEachRow(tableau, [&](const char* name, const Vec<BigFloat>& row) {
     text += fmt::format("const double {}[{}] = {{{}}};\n", name, s, joined(row, ", ", kDoubleDigits));
   });
   return text;
