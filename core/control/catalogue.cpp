@@ -14,12 +14,12 @@ IRK_CATALOGUE(OrderControl, fixedOrder(), variableOrder())
 
 std::unique_ptr<StepController> makeController(const StepOptions& options, int order) {
   const auto& make = catalogue<StepControl>()[options.control].make;
-  return make ? make(options, order) : nullptr;
+  return make ? madeBy(make, options.control, options, order) : nullptr;
 }
 
 std::unique_ptr<OrderController> makeOrderController(OrderControl order, const OrderSetup& setup) {
   const auto& make = catalogue<OrderControl>()[order].make;
-  return make ? make(setup) : nullptr;
+  return make ? madeBy(make, order, setup) : nullptr;
 }
 
 bool choosesOrder(OrderControl order) { return catalogue<OrderControl>()[order].make != nullptr; }

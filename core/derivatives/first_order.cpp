@@ -9,6 +9,7 @@
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
 #include "irk/problem.h"
+#include "irk/system_check.h"
 
 namespace irk {
 namespace {
@@ -21,11 +22,17 @@ bool allFinite(const Vec<Real>& x) {
   return std::all_of(x.begin(), x.end(), [](const Real& value) { return isfinite(value); });
 }
 
+template <class Real>
+std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> system) {
+  requireSystem(system.get(), {});
+  return system;
+}
+
 }  // namespace
 
 template <class Real>
 FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner, MassFactors factors)
-    : inner_(std::move(inner)),
+    : inner_(checked(std::move(inner))),
       inner_sizes_(inner_->sizes()),
       factors_(factors),
       at_(inner_sizes_),
@@ -273,6 +280,7 @@ template <class Real>
 void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->onSwitch(i, scene);
+  requireState("System::onSwitch", scene, inner_sizes_);
   state.d = scene.d;
   static_cast<void>(classify(scene));
 }
@@ -281,6 +289,7 @@ template <class Real>
 void FirstOrderForm<Real>::onTime(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->onTime(i, scene);
+  requireState("System::onTime", scene, inner_sizes_);
   state.d = scene.d;
   static_cast<void>(classify(scene));
 }
@@ -289,6 +298,7 @@ template <class Real>
 void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->jump(i, scene);
+  requireState("System::jump", scene, inner_sizes_);
   state.x << scene.u, scene.v, scene.x;
 }
 

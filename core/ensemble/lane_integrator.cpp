@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "core/base/in_use.h"
 #include "core/ensemble/lane_newton.h"
 #include "core/ensemble/lane_rules.h"
 #include "core/ensemble/lane_run.h"
@@ -17,7 +19,7 @@ namespace irk {
 class LaneIntegrator::Run {
  public:
   Run(const Tableau<double>& tableau, const IntegratorOptions& options)
-      : options_(legalInLanes(options)), scheme_(tableau), points_(scheme_, options_.step.looks) {
+      : options_(legalInLanes(options)), scheme_(checked(tableau)), points_(scheme_, options_.step.looks) {
     requireLaneMethod(scheme_);
     mu_ = EmbeddedEstimate<double>::weight(tableau);
     const int order = EmbeddedEstimate<double>::order(tableau);
@@ -25,6 +27,10 @@ class LaneIntegrator::Run {
   }
 
   void integrate(const Ensemble& ensemble, const Next& next, const Done& done, const std::function<Outcome()>& stop) {
+    const InUse use(in_use_, "LaneIntegrator::integrate");
+    if (!ensemble.member || !ensemble.lanes || !next || !done) {
+      throw Misuse("LaneIntegrator::integrate: each of the functions `member`, `lanes`, `next` and `done` is needed");
+    }
     ensemble_ = &ensemble;
     next_ = &next;
     done_ = &done;
@@ -41,19 +47,22 @@ class LaneIntegrator::Run {
   }
 
  private:
+  static const Tableau<double>& checked(const Tableau<double>& tableau) {
+    requireTableau(tableau);
+    return tableau;
+  }
+
   // Vectors whose sizes depend on those of the systems.
   struct Vectors {
     Vectors(const Scheme<double>& scheme, const System<double>& system, const IntegratorOptions& options, double mu)
-        : sizes(system.sizes()),
-          error_powers(system.errorPowers()),
-          from(sizes),
-          to(sizes),
-          norm(sizes, error_powers, options.tolerances),
-          stages(scheme, sizes, system.rowPowers(), mu),
-          newton(scheme, sizes, system.rowPowers(), options, mu),
-          W(static_cast<std::size_t>(sizes.n() * scheme.s)) {}
-    Sizes sizes;
-    ErrorPowers error_powers;
+        : form(system),
+          from(form.sizes),
+          to(form.sizes),
+          norm(form.sizes, form.error_powers, options.tolerances),
+          stages(scheme, form.sizes, form.row_powers, mu),
+          newton(scheme, form.sizes, form.row_powers, options, mu),
+          W(static_cast<std::size_t>(form.sizes.n() * scheme.s)) {}
+    LaneForm form;
     LaneState from, to;
     LaneNorm norm;
     LaneStages stages;
@@ -61,7 +70,7 @@ class LaneIntegrator::Run {
     std::vector<Lanes> W;
   };
 
-  State<double> state(std::size_t i) const { return vectors_->from.get(i, vectors_->sizes); }
+  State<double> state(std::size_t i) const { return vectors_->from.get(i, vectors_->form.sizes); }
 
   // Loads the next member that can begin into lane i. A lane without a member keeps its numbers, which are not used.
   void load(std::size_t i) {
@@ -70,7 +79,7 @@ class LaneIntegrator::Run {
     while (const std::optional<std::size_t> index = (*next_)()) {
       LaneRun& run = *runs_[i];
       EnsembleMember member = ensemble_->member(*index);
-      requireLaneSystem(*member.system, vectors_ ? &vectors_->sizes : nullptr);
+      requireLaneMember(member, vectors_ ? &vectors_->form : nullptr);
       if (!vectors_) vectors_.emplace(scheme_, *member.system, options_, mu_);
       const Outcome outcome = run.begin(*index, std::move(member));
       if (outcome != Outcome::kSuccess) {
@@ -102,6 +111,7 @@ class LaneIntegrator::Run {
       if (!active_[i]) at[i] = at_[first];
     }
     system_ = ensemble_->lanes(at);
+    requireLaneSystem(system_.get(), vectors_->form);
     vectors_->stages.use(*system_);
   }
 
@@ -127,7 +137,7 @@ class LaneIntegrator::Run {
   }
 
   void attempt() {
-    auto& [sizes, powers, from, to, norm, stages, newton, W] = *vectors_;
+    auto& [form, from, to, norm, stages, newton, W] = *vectors_;
     const Lanes h = Lanes::each([this](std::size_t i) { return active_[i] ? runs_[i]->h() : 1.0; });
     norm.update(from, h);
     stages.begin(from, h);
@@ -189,6 +199,7 @@ class LaneIntegrator::Run {
     });
   }
 
+  std::atomic_flag in_use_;
   IntegratorOptions options_;
   Scheme<double> scheme_;
   MovingPoints<double> points_;
@@ -212,6 +223,7 @@ LaneIntegrator::LaneIntegrator(LaneIntegrator&&) noexcept = default;
 
 void LaneIntegrator::integrate(const Ensemble& ensemble, const Next& next, const Done& done,
                                const std::function<Outcome()>& stop) {
+  if (!run_) throw Misuse("LaneIntegrator::integrate: the object has been moved from");
   run_->integrate(ensemble, next, done, stop);
 }
 

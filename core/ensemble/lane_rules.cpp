@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/options/fixed_steps.h"
-#include "irk/ensemble.h"
 #include "irk/system_check.h"
 
 namespace irk {
@@ -18,6 +17,19 @@ void requireSame(E given, E needed) {
 }
 
 [[noreturn]] void refuseSystem(const std::string& what) { throw Misuse("an ensemble in lanes with " + what); }
+
+std::string text(const Sizes& n) {
+  return "nu, nx, nz, constraints = " + std::to_string(n.nu) + ", " + std::to_string(n.nx) + ", " +
+         std::to_string(n.nz) + ", " + std::to_string(n.constraints);
+}
+
+void requireSameForm(const LaneForm& given, const LaneForm& first) {
+  if (given.sizes != first.sizes) {
+    refuseSystem("systems of different sizes: " + text(given.sizes) + " after " + text(first.sizes));
+  }
+  if (given.row_powers == first.row_powers && given.error_powers == first.error_powers) return;
+  refuseSystem("systems of different formulations: their powers of h differ");
+}
 
 }  // namespace
 
@@ -64,8 +76,9 @@ void requireLaneMethod(const Scheme<double>& scheme) {
                "lobatto_iiic");
 }
 
-void requireLaneSystem(const System<double>& system, const Sizes* others) {
-  requireSystem(&system, Vec<double>());
+void requireLaneMember(const EnsembleMember& member, const LaneForm* others) {
+  requireSystem(member.system.get(), member.scale);
+  const System<double>& system = *member.system;
   const Sizes n = system.sizes();
   if (n.switches > 0 || n.discrete > 0 || !system.times().empty()) {
     refuseSystem("a system that switches: each lane would need residuals of its own");
@@ -80,9 +93,12 @@ void requireLaneSystem(const System<double>& system, const Sizes* others) {
     refuseSystem(std::to_string(n.n()) + " unknowns: lanes have dense Jacobians of up to " +
                  std::to_string(kMostLaneUnknowns));
   }
-  if (others && (others->nu != n.nu || others->nx != n.nx || others->nz != n.nz)) {
-    refuseSystem("systems of different sizes");
-  }
+  if (others) requireSameForm(LaneForm(system), *others);
+}
+
+void requireLaneSystem(const System<Lanes>* system, const LaneForm& members) {
+  if (!system) refuseSystem("null from its function `lanes`: the system of eight members is expected");
+  requireSameForm(LaneForm(*system), members);
 }
 
 }  // namespace irk

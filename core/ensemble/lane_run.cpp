@@ -38,6 +38,7 @@ Outcome LaneRun::begin(std::size_t index, EnsembleMember member) {
   detail_.clear();
   requireStart(*member_.system, member_.start, member_.t_end);
   start_ = member_.system->fromScene(member_.start);
+  requireState("System::fromScene", start_, member_.system->sizes());
   const std::string not_finite = notFinite(member_.start);
   if (!not_finite.empty()) {
     detail_ = "at the start: " + not_finite;

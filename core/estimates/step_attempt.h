@@ -111,7 +111,8 @@ Catalogue<ErrorEstimate>& catalogue<ErrorEstimate>();
 /// The error estimate that the options name.
 template <class Real>
 std::unique_ptr<StepAttempt<Real>> makeStepAttempt(const StepAttemptSetup<Real>& setup) {
-  return catalogue<ErrorEstimate>()[setup.options.step.estimate].make.template of<Real>()(setup);
+  const ErrorEstimate estimate = setup.options.step.estimate;
+  return madeBy(catalogue<ErrorEstimate>()[estimate].make.template of<Real>(), estimate, setup);
 }
 
 }  // namespace irk

@@ -6,6 +6,7 @@
 #include "core/base/constants.h"
 #include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"
+#include "irk/system_check.h"
 
 namespace irk {
 namespace {
@@ -92,6 +93,13 @@ template <class Real>
 ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                          const Tolerances& tolerances, const Vec<double>& scale, Solution<Real>& second_result,
                          const Monitor<Real>& monitor) {
+  const Index nu = start.u.size(), nx = start.x.size();
+  const Sizes sizes{.nu = nu, .nx = nx, .nz = start.w.size() - nu - nx, .discrete = start.d.size()};
+  requireState("the result", result, sizes);
+  requireScale(scale, sizes);
+  IntegratorOptions checked;
+  checked.tolerances = tolerances;
+  validate(checked);
   SwitchErrors<Real> switches(result);
   Monitor<Real> watched = monitor;
   watched.located = [&](const LocatedSwitch<Real>& at) {

@@ -1,11 +1,13 @@
 #include "irk/integrator.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/base/constants.h"
+#include "core/base/in_use.h"
 #include "core/control/stall_detector.h"
 #include "core/derivatives/first_order.h"
 #include "core/integration/memory_check.h"
@@ -83,6 +85,7 @@ class Integrator<Real>::Run {
         trajectory_(counted_, schemes_, methods.start, options_, scale, counters_) {}
 
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
+    const InUse use(in_use_, "Integrator::integrate");
     counters_ = {};
     monitor_ = &monitor;
     requireStart(*system_, start, t_end);
@@ -257,6 +260,7 @@ class Integrator<Real>::Run {
     }
   }
 
+  std::atomic_flag in_use_;
   std::shared_ptr<const System<Real>> system_;
   SchemeList<Real> schemes_;
   IntegratorOptions options_;
@@ -283,6 +287,7 @@ Integrator<Real>::Integrator(Integrator&&) noexcept = default;
 
 template <class Real>
 Solution<Real> Integrator<Real>::integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
+  if (!run_) throw Misuse("Integrator::integrate: the object has been moved from");
   return run_->integrate(start, t_end, monitor);
 }
 

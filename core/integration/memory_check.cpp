@@ -8,6 +8,7 @@
 #include "core/derivatives/constraint_check.h"
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
+#include "irk/system_check.h"
 
 namespace irk {
 namespace {
@@ -49,6 +50,7 @@ void requireNoMemory(const System<Real>& system, const State<Real>& start, const
   const System<Real>& users = constrainedIn(system);
   const Real middle = start.t + (t_end - start.t) / Real(2);
   const State<Real> here = users.fromScene(start);
+  requireState("System::fromScene", here, users.sizes());
   const std::array<State<Real>, 3> points{here, moved(here, t_end, 0.01), moved(here, middle, 0.02)};
   std::array<Vec<Real>, 3> first;
   Vec<Real> again(users.sizes().n()), magnitude = Vec<Real>::Zero(again.size());

@@ -14,7 +14,8 @@ IRK_CATALOGUE(NewtonKind, simplifiedNewton(), broydenNewton(), modifiedNewton(),
 template <class Real>
 std::unique_ptr<Newton<Real>> makeNewton(const IntegratorOptions& options, const Sizes& sizes,
                                          const Scheme<Real>& scheme) {
-  return catalogue<NewtonKind>()[options.newton.kind].make.template of<Real>()(options, sizes, scheme);
+  const NewtonKind kind = options.newton.kind;
+  return madeBy(catalogue<NewtonKind>()[kind].make.template of<Real>(), kind, options, sizes, scheme);
 }
 
 template std::unique_ptr<Newton<double>> makeNewton(const IntegratorOptions&, const Sizes&, const Scheme<double>&);

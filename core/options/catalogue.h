@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -100,6 +101,15 @@ class Catalogue {
 /// The catalogue of an axis; defined beside its strategies. Any number of threads may read it.
 template <class Id>
 Catalogue<Id>& catalogue();
+
+/// What the factory of a strategy makes. Throws Misuse if the factory is empty or returns null.
+template <class Id, class Maker, class... Args>
+auto madeBy(const Maker& make, const Id& id, Args&&... args) {
+  decltype(make(args...)) made = make ? make(std::forward<Args>(args)...) : nullptr;
+  if (made) return made;
+  throw Misuse(std::string(axisName<Id>()) + " '" + std::string(id.id) + "': its factory " +
+               (make ? "returns null" : "is empty for this scalar"));
+}
 
 /// Adds a strategy to its axis: from then on options, `parseId` and `named` accept its id like those of the library.
 /// Throws Misuse for an id that is taken or has characters other than small letters, digits and '_', for an empty

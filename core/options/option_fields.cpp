@@ -145,8 +145,10 @@ std::span<const OptionField> optionFields() {
 #undef IRK_MEMBER
 
 void validate(const IntegratorOptions& o) {
+  IntegratorOptions known;  // only a known id can be set
   for (const auto& field : optionFields()) {
     if (field.isNumeric()) requireInRange(field.name, field.number(o), field.range);
+    if (field.kind == FieldKind::kAxis) field.set(known, field.get(o));
   }
   if (hasFixedSteps(o.step) && o.step.h == 0)
     throw Misuse("illegal combination: control 'fixed' with h = 0: fixed steps need h > 0");

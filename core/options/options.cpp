@@ -84,4 +84,10 @@ IRK_AXIS(NormKind, kNorms, "norm")
 IRK_AXIS(Guards, kGuards, "guards")
 #undef IRK_AXIS
 
+void validate(const SystemOptions& options) {
+  static_cast<void>(parseId<Formulation>(idOf(options.formulation)));
+  static_cast<void>(parseId<ConstraintScaling>(idOf(options.scaling)));
+  static_cast<void>(parseId<Discontinuity>(idOf(options.discontinuity)));
+}
+
 }  // namespace irk

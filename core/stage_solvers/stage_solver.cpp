@@ -20,13 +20,10 @@ std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const
 template <class Real>
 std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind, const StageSolverSetup<Real>& setup) {
   const auto& make = catalogue<StageSolverKind>()[kind].make.template of<Real>();
-  if (!make) {
-    throw Misuse("illegal combination: solver '" + std::string(idOf(kind)) + "': it is not made for this scalar");
-  }
-  if (setup.form) return make(setup);
+  if (setup.form) return madeBy(make, kind, setup);
   StageSolverSetup<Real> with_form = setup;
   with_form.form = makeBlockForm(kind, setup.A);
-  return make(with_form);
+  return madeBy(make, kind, with_form);
 }
 
 template std::shared_ptr<const BlockForm<double>> makeBlockForm(StageSolverKind, const Mat<double>&);

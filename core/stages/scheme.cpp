@@ -2,14 +2,55 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include <Eigen/LU>
 
 #include "core/base/kept.h"
 #include "core/base/legendre.h"
+#include "core/base/number_text.h"
+#include "irk/misuse.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
+
+namespace {
+
+// Members of A, or of b and c as one column.
+template <class Real>
+void requireFinite(const Tableau<Real>& tableau, const char* name, const Mat<Real>& numbers) {
+  using std::isfinite;  // for double; other scalars are found by their namespace
+  for (Index i = 0; i < numbers.size(); ++i) {
+    if (isfinite(numbers.data()[i])) continue;
+    const Index row = i % numbers.rows(), column = i / numbers.rows();
+    throw Misuse("tableau '" + tableau.id + "': " + name + "[" + std::to_string(row) +
+                 (numbers.cols() > 1 ? ", " + std::to_string(column) : "") +
+                 "] = " + numberText(static_cast<double>(numbers.data()[i])) + ": a finite number is expected");
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void requireTableau(const Tableau<Real>& tableau) {
+  const Index s = tableau.A.rows();
+  const auto fail = [&](const std::string& what) { throw Misuse("tableau '" + tableau.id + "': " + what); };
+  if (s == 0 || tableau.A.cols() != s) {
+    fail("A is " + std::to_string(s) + " x " + std::to_string(tableau.A.cols()) +
+         ": a square matrix of at least one row is expected");
+  }
+  for (const auto& [name, size] : {std::pair("b", tableau.b.size()), std::pair("c", tableau.c.size())}) {
+    if (size == s) continue;
+    fail(std::string(name) + " has " + std::to_string(size) + " numbers: " + std::to_string(s) +
+         " are expected, one for each row of A");
+  }
+  requireFinite<Real>(tableau, "A", tableau.A);
+  requireFinite<Real>(tableau, "b", tableau.b);
+  requireFinite<Real>(tableau, "c", tableau.c);
+  const std::string place = "tableau '" + tableau.id + "': ";
+  requireInRange(place + "order", tableau.order, Range::integers(1, 2 * s));
+  requireInRange(place + "stage_order", tableau.stage_order, Range::integers(0, s));
+}
 
 template <class Real>
 Structure<Real>::Structure(const Tableau<Real>& tableau) {
@@ -89,6 +130,9 @@ std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau) {
   return kept<Scheme<Real>>(tableau, names);
 }
 
+template void requireTableau(const Tableau<double>&);
+template void requireTableau(const Tableau<mp50>&);
+template void requireTableau(const Tableau<mp100>&);
 template std::shared_ptr<const Structure<double>> structureOf(const Tableau<double>&);
 template std::shared_ptr<const Structure<BigFloat>> structureOf(const Tableau<BigFloat>&);
 template std::shared_ptr<const Scheme<double>> schemeOf(const Tableau<double>&);

@@ -12,6 +12,11 @@ namespace irk {
 /// above 0 and returns between two of them; core/steps/switch_scan.h searches for such functions.
 constexpr Index kParts = 8;
 
+/// Throws Misuse for sizes that do not fit each other, for coefficients that are not finite, and for orders that no
+/// method of s stages has; see irk/tableau.h.
+template <class Real>
+void requireTableau(const Tableau<Real>& tableau);
+
 /// What a tableau's structure says about its stages.
 template <class Real>
 struct Structure {

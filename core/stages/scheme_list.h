@@ -14,7 +14,10 @@ namespace irk {
 template <class Real>
 class SchemeList {
  public:
-  explicit SchemeList(std::vector<Tableau<Real>> tableaus) : tableaus_(std::move(tableaus)), made_(tableaus_.size()) {}
+  /// Throws Misuse as requireTableau.
+  explicit SchemeList(std::vector<Tableau<Real>> tableaus) : tableaus_(std::move(tableaus)), made_(tableaus_.size()) {
+    for (const auto& tableau : tableaus_) requireTableau(tableau);
+  }
 
   std::size_t size() const { return tableaus_.size(); }
   const Tableau<Real>& tableau(std::size_t i) const { return tableaus_[i]; }

@@ -196,7 +196,7 @@ Catalogue<Predictor>& catalogue<Predictor>() {
 
 template <class Real>
 StartValues<Real>::StartValues(Predictor kind, const Scheme<Real>& scheme)
-    : scheme_(scheme), predictor_(catalogue<Predictor>()[kind].make.template of<Real>()(scheme)) {}
+    : scheme_(scheme), predictor_(madeBy(catalogue<Predictor>()[kind].make.template of<Real>(), kind, scheme)) {}
 
 template <class Real>
 void StartValues<Real>::fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) {

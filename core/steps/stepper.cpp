@@ -30,7 +30,8 @@ std::unique_ptr<ModesInStep<Real>> modesOf(const System<Real>& system, const Int
                                            const ErrorNorm<Real>& norm, Counters& counters) {
   if (system.sizes().switches == 0) return nullptr;
   const auto& treatment = catalogue<Discontinuity>()[system.discontinuity()];
-  return treatment.in_step.template of<Real>()(system, options, norm, counters);
+  const auto& make = treatment.in_step.template of<Real>();
+  return make ? make(system, options, norm, counters) : nullptr;
 }
 
 template <class Real>

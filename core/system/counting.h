@@ -1,15 +1,18 @@
-// A decorator that counts evaluations, so that no strategy has to count its own.
+// A decorator that counts evaluations, so that no strategy has to count its own, and checks the states that the system
+// makes or changes.
 #pragma once
 
 #include <atomic>
 
 #include "irk/statistics.h"
 #include "irk/system.h"
+#include "irk/system_check.h"
 
 namespace irk {
 
-/// Forwards to another system and counts its evaluations. Keeps references to both. Each integrator has its own;
-/// several threads may evaluate it at a time if `threads` > 1.
+/// Forwards to another system and counts its evaluations. Throws Misuse for states of other sizes than the system's:
+/// they would be read beyond their ends. Keeps references to both. Each integrator has its own; several threads may
+/// evaluate it at a time if `threads` > 1.
 template <class Real>
 class CountingSystem final : public System<Real> {
  public:
@@ -33,10 +36,19 @@ class CountingSystem final : public System<Real> {
   const std::vector<int>& rowPowers() const override { return inner_.rowPowers(); }
   const ErrorPowers& errorPowers() const override { return inner_.errorPowers(); }
   void switching(const Point<Real>& p, VecView<Real> g) const override { inner_.switching(p, g); }
-  void onSwitch(Index i, State<Real>& state) const override { inner_.onSwitch(i, state); }
-  void jump(Index i, State<Real>& state) const override { inner_.jump(i, state); }
+  void onSwitch(Index i, State<Real>& state) const override {
+    inner_.onSwitch(i, state);
+    requireState("System::onSwitch", state, sizes());
+  }
+  void jump(Index i, State<Real>& state) const override {
+    inner_.jump(i, state);
+    requireState("System::jump", state, sizes());
+  }
   std::vector<Real> times() const override { return inner_.times(); }
-  void onTime(Index i, State<Real>& state) const override { inner_.onTime(i, state); }
+  void onTime(Index i, State<Real>& state) const override {
+    inner_.onTime(i, state);
+    requireState("System::onTime", state, sizes());
+  }
   bool nonNegative(Index i) const override { return inner_.nonNegative(i); }
   bool usesVelocity() const override { return inner_.usesVelocity(); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }
@@ -44,8 +56,16 @@ class CountingSystem final : public System<Real> {
   Discontinuity discontinuity() const override { return inner_.discontinuity(); }
   bool projectsVelocity() const override { return inner_.projectsVelocity(); }
   bool secondOrder() const override { return inner_.secondOrder(); }
-  State<Real> fromScene(const State<Real>& scene) const override { return inner_.fromScene(scene); }
-  State<Real> toScene(const State<Real>& state) const override { return inner_.toScene(state); }
+  State<Real> fromScene(const State<Real>& scene) const override {
+    State<Real> state = inner_.fromScene(scene);
+    requireState("System::fromScene", state, sizes());
+    return state;
+  }
+  State<Real> toScene(const State<Real>& state) const override {
+    State<Real> scene = inner_.toScene(state);
+    requireState("System::toScene", scene, sceneSizes());
+    return scene;
+  }
 
  private:
   void count(std::int64_t& counter, std::int64_t by = 1) const {

@@ -15,6 +15,16 @@ void requireCount(const std::string& what, Index given, Index wanted) {
   throw Misuse(what + ": " + std::to_string(given) + " numbers, " + std::to_string(wanted) + " are expected");
 }
 
+// 0 to 2: the index minus 1 of equations of index 1 to 3.
+void requirePowers(const std::string& what, const std::vector<int>& powers, Index wanted) {
+  requireCount("powers of the " + what, static_cast<Index>(powers.size()), wanted);
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    if (powers[i] >= 0 && powers[i] <= 2) continue;
+    throw Misuse("powers of the " + what + ": number " + std::to_string(i) +
+                 " (from 0 on) = " + std::to_string(powers[i]) + ": 0, 1 or 2 is expected");
+  }
+}
+
 template <class Real>
 bool isFinite(const Real& x) {
   using std::isfinite;  // for double; other scalars are found by their namespace
@@ -33,6 +43,7 @@ std::string text(const Real& x) {
 template <class Real>
 void requireNoVelocity(const System<Real>& system, const State<Real>& start) {
   State<Real> state = system.fromScene(start);
+  requireState("System::fromScene", state, system.sizes());
   const Index n = system.sizes().n();
   Vec<Real> given(n), other(n);
   system.evaluate(Level::kFormulated, pointOf(state), VecView<Real>(given.data(), n));
@@ -76,18 +87,7 @@ void requireSizes(const Sizes& n, const Declared& declared) {
   }
 }
 
-template <class Real>
-void requireSystem(const System<Real>* system, const Vec<double>& scale) {
-  if (!system) throw Misuse("no system to integrate");
-  const Sizes n = system->sizes();
-  requireSizes(n);
-  const auto count = [](const std::vector<int>& powers) { return static_cast<Index>(powers.size()); };
-  requireCount("powers of the system's rows", count(system->rowPowers()), n.n());
-  const ErrorPowers& powers = system->errorPowers();
-  requireCount("powers of the errors of u", count(powers.u), n.nu);
-  requireCount("powers of the errors of v", count(powers.v), n.nu);
-  requireCount("powers of the errors of x", count(powers.x), n.nx);
-  requireCount("powers of the errors of z", count(powers.z), n.nz);
+void requireScale(const Vec<double>& scale, const Sizes& n) {
   if (scale.size() == 0) return;
   requireCount("scale", scale.size(), n.components());
   for (Index i = 0; i < scale.size(); ++i) {
@@ -97,19 +97,51 @@ void requireSystem(const System<Real>* system, const Vec<double>& scale) {
 }
 
 template <class Real>
+void requireSystem(const System<Real>* system, const Vec<double>& scale) {
+  if (!system) throw Misuse("no system to integrate");
+  const Sizes n = system->sizes();
+  requireSizes(n);
+  requireSizes(system->sceneSizes());
+  requirePowers("rows", system->rowPowers(), n.n());
+  const ErrorPowers& powers = system->errorPowers();
+  requirePowers("errors of u", powers.u, n.nu);
+  requirePowers("errors of v", powers.v, n.nu);
+  requirePowers("errors of x", powers.x, n.nx);
+  requirePowers("errors of z", powers.z, n.nz);
+  requireScale(scale, n);
+}
+
+template <class Real>
+void requireTimes(const std::vector<Real>& times) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (isFinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+    throw Misuse("times of the system: number " + std::to_string(i) + " (from 0 on) = " + text(times[i]) +
+                 ": finite numbers are expected, each later than the one before");
+  }
+}
+
+template <class Real>
+void requireState(const char* what, const State<Real>& state, const Sizes& n) {
+  const auto require = [what](const char* part, Index given, Index wanted) {
+    if (given != wanted) requireCount(std::string(what) + ": " + part, given, wanted);
+  };
+  require("u", state.u.size(), n.nu);
+  require("v", state.v.size(), n.nu);
+  require("x", state.x.size(), n.nx);
+  require("w = (a, k, z)", state.w.size(), n.n());
+  require("discrete state d", state.d.size(), n.discrete);
+  require("carry", state.carry.size(), 2 * n.nu + n.nx);
+}
+
+template <class Real>
 void requireStart(const System<Real>& system, const State<Real>& start, const Real& t_end) {
-  const Sizes n = system.sceneSizes();
-  requireCount("start: u", start.u.size(), n.nu);
-  requireCount("start: v", start.v.size(), n.nu);
-  requireCount("start: x", start.x.size(), n.nx);
-  requireCount("start: w = (a, k, z)", start.w.size(), n.n());
-  requireCount("start: discrete state d", start.d.size(), n.discrete);
-  requireCount("start: carry", start.carry.size(), 2 * n.nu + n.nx);
+  requireState("start", start, system.sceneSizes());
   if (!isFinite(start.t)) throw Misuse("start: t = " + text(start.t) + ": a finite number is expected");
   if (!isFinite(t_end)) throw Misuse("t_end = " + text(t_end) + ": a finite number is expected");
   if (start.t > t_end) {
     throw Misuse("t_end = " + text(t_end) + " lies before the start, t = " + text(start.t));
   }
+  requireTimes(system.times());
   if (!system.usesVelocity()) requireNoVelocity(system, start);
 }
 
@@ -129,6 +161,8 @@ std::string notFinite(const State<Real>& start) {
 }
 
 #define IRK_CHECKS(Real)                                                            \
+  template void requireTimes(const std::vector<Real>&);                             \
+  template void requireState(const char*, const State<Real>&, const Sizes&);        \
   template void requireSystem(const System<Real>*, const Vec<double>&);             \
   template void requireStart(const System<Real>&, const State<Real>&, const Real&); \
   template std::string notFinite(const State<Real>&);

@@ -106,7 +106,7 @@ std::vector<Settings> EnsembleScene::everyValue() const {
 
 Ensemble EnsembleScene::lanes() const {
   requireLanes(entry_, everyValue());
-  requireLaneSystem(*first_.system(system_options_), nullptr);
+  requireLaneMember({first_.system(system_options_), first_.start}, nullptr);
   Ensemble ensemble;
   ensemble.member = [this](std::size_t i) { return member(i); };
   if (system_) {

@@ -54,7 +54,10 @@ class LaneIntegrator {
   /// affected. `stop` is called before each step: if it returns an outcome other than kSuccess, all members under way
   /// end with that outcome, and no more are begun.
   /// Throws Misuse for a system that lanes cannot integrate: one with switches, times, algebraic unknowns of index 2
-  /// other than multipliers, a projection of velocities, or more than kMostLaneUnknowns unknowns.
+  /// other than multipliers, a projection of velocities, or more than kMostLaneUnknowns unknowns; for systems, also
+  /// those of `lanes`, that are null or differ from the first one in sizes or formulation; for a missing function; for
+  /// a call while another one of this object is under way; and for an object that has been moved from. Exceptions of
+  /// the functions leave this call; the object may be used again.
   void integrate(const Ensemble& ensemble, const Next& next, const Done& done,
                  const std::function<Outcome()>& stop = {});
 

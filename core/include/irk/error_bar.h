@@ -36,7 +36,8 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds the error of its time (LocatedSwitch) times the change of (v, a, k) in it. Both can miss
 /// the same thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the
-/// second integration fails, the bar is unknown and `problem` says why.
+/// second integration fails, the bar is unknown and `problem` says why. Throws Misuse as Integrator::integrate, and for
+/// a result of other sizes than the start, a scale or tolerances out of range.
 template <class Real>
 [[nodiscard]] ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                                        const Tolerances& tolerances, const Vec<double>& scale,

@@ -19,18 +19,22 @@ class Integrator {
   /// Shares ownership of `system`; copies the rest. `scale`: typical magnitudes > 0 of u, v, x, z
   /// (2 nu + nx + nz numbers); empty means 1.
   /// Throws Misuse for an invalid system or scale (irk/system_check.h), for options out of range, and for combinations
-  /// that do not work; the message names both ids and the reason. Examples of such combinations: several methods
-  /// without variable order, variable order without the estimate `embedded`, a singular A with algebraic unknowns, a
-  /// defective A with `eigen`, Newton `full` with a decoupled solver.
+  /// that do not work; the message names both ids and the reason. A tableau is checked as in irk/tableau.h. Examples of
+  /// such combinations: several methods without variable order, variable order without the estimate `embedded`, a
+  /// singular A with algebraic unknowns, a defective A with `eigen`, Newton `full` with a decoupled solver.
   Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods, const IntegratorOptions& options,
              const Vec<double>& scale = {});
   ~Integrator();
+  /// Not while `integrate` is under way.
   Integrator(Integrator&&) noexcept;
 
   /// Integrates from `start` (in the scene's unknowns u, v, x, z) to t_end. Numerical failures are returned as
   /// Solution::outcome (kNotFinite for a start with a NaN); Solution::state is then the last accepted state.
   /// Throws Misuse, before the first step, for a start whose sizes differ from the scene's, for times that are
-  /// not finite, and for t_end < start.t. `monitor` is called during this call only.
+  /// not finite, and for t_end < start.t; for a call while another one of this object is under way, as from `monitor`;
+  /// for an object that has been moved from; and for a system that makes states of other sizes than its own. Exceptions
+  /// of `monitor` and of the system leave this call, with any number of threads; the object may be used again.
+  /// `monitor` is called during this call only.
   [[nodiscard]] Solution<Real> integrate(const State<Real>& start, const Real& t_end,
                                          const Monitor<Real>& monitor = {});
 

@@ -85,8 +85,8 @@ enum class MassFactors {
 
 /// `system` in the form y' = f(t, y) that codes for ordinary differential equations need: y = (u, v, x) and
 /// f = (v, a, k), where (a, k, z) solve the rows of `system` at acceleration level. Shares ownership of `system`.
-/// The result keeps scratch: use one object per thread. Its fromScene throws Misuse if (a, k, z) do not follow
-/// from (u, v, x).
+/// The result keeps scratch: use one object per thread. Throws Misuse for an invalid system (irk/system_check.h); its
+/// fromScene throws Misuse if (a, k, z) do not follow from (u, v, x).
 template <class Real>
 std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<Real>> system, MassFactors factors);
 /// The same with MassFactors::kEachPoint.

@@ -29,11 +29,12 @@ constexpr std::size_t kFew = 16;
 template <class P, class Real>
 class ProblemSystem final : public System<Real> {
  public:
-  /// Throws Misuse for invalid sizes (core/include/irk/system_check.h), for times that are not ascending, for `smooth`
+  /// Throws Misuse for invalid sizes and times (core/include/irk/system_check.h), for unknown options, for `smooth`
   /// with a problem that switches but has no regularisation, and for `ignore` and `iterate` with a problem whose state
   /// jumps, since they go on over switches.
   ProblemSystem(P problem, const SystemOptions& options)
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
+    validate(options);
     requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
     if (smooth() && kHasSwitching && !kHasSmoothed) {
       throw Misuse(
@@ -46,7 +47,7 @@ class ProblemSystem final : public System<Real> {
           "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
           "switches: steps go on over them; use 'locate'");
     }
-    if constexpr (kHasTimes) requireAscending(problem_.times());
+    if constexpr (kHasTimes) requireTimes(problem_.times());
     const int index = constraintIndex();
     const auto all = [](Index n, int power) { return std::vector<int>(static_cast<std::size_t>(n), power); };
     row_powers_ = all(sizes_.n(), 0);
@@ -192,16 +193,6 @@ class ProblemSystem final : public System<Real> {
   };
 
   static constexpr bool kHasTimes = requires(const P& problem) { problem.times(); };
-
-  static void requireAscending(const std::vector<Real>& times) {
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      using std::isfinite;
-      if (!isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
-        throw Misuse("a problem's times: number " + std::to_string(i) +
-                     " is not finite, or not later than the one before");
-      }
-    }
-  }
 
   // Calls f(p, d) with the state and the discrete states that f may change.
   template <class F>

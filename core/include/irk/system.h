@@ -26,6 +26,7 @@ struct Sizes {
   Index n() const { return nu + nx + nz; }
   /// Components of the state (u, v, x, z).
   Index components() const { return 2 * nu + nx + nz; }
+  bool operator==(const Sizes&) const = default;
 };
 
 /// A point where the residual is evaluated. Views: the caller owns the numbers, and nothing is copied.
@@ -140,6 +141,7 @@ enum class Level { kFormulated, kPosition, kVelocity, kAcceleration };
 /// all components. Sizes: nu, nu, nx, nz.
 struct ErrorPowers {
   std::vector<int> u, v, x, z;
+  bool operator==(const ErrorPowers&) const = default;
 };
 
 /// A system in residual form. Evaluations have no side effects, so that threads may share a system; FirstOrderForm is

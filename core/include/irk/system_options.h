@@ -32,4 +32,7 @@ struct SystemOptions {
   std::vector<Index> left_out = {};
 };
 
+/// Throws Misuse for values that the enumerations and the axis `discontinuity` do not have.
+void validate(const SystemOptions& options);
+
 }  // namespace irk

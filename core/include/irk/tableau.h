@@ -13,15 +13,16 @@ namespace irk {
 inline constexpr Index kMaxStages = 100;
 
 /// The coefficients A (s x s), b and c (s each), and b_hat (s) if there are embedded weights, with the orders that the
-/// family or the file declares.
+/// family or the file declares. Integrators refuse (Misuse) other sizes, coefficients that are not finite, and orders that
+/// no method of s stages has. Whether the method has its orders is checked for files only.
 template <class Real>
 struct Tableau {
   std::string id;        ///< e.g. `radau_iia_5`, or the file it came from
   std::string family;    ///< e.g. `radau_iia`; `user` for a file that names no family
   Mat<Real> A;           ///< s x s
   Vec<Real> b, c;        ///< s each
-  int order = 0;         ///< classical order p
-  int stage_order = 0;   ///< q of C(q)
+  int order = 0;         ///< classical order p, 1 to 2 s
+  int stage_order = 0;   ///< q of C(q), 0 to s
   Vec<Real> b_hat = {};  ///< s, the embedded weights of the same stages; empty: the method has none
   int order_hat = 0;     ///< classical order of A, b_hat, c; 0 without embedded weights
 
