@@ -4,6 +4,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "core/base/first_exception.h"
 #include "core/base/small_product.h"
 #include "irk/multiprecision.h"
 
@@ -114,12 +115,10 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
     form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
   }
   if (setup_.threads > 1) {
-    const int digits = WorkingDigits::now();
+    FirstException thrown;
 #pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
-    for (std::size_t k = done; k < blocks; ++k) {
-      const WorkingDigits of_all(digits);
-      outcomes_[k] = factorizeBlock(k);
-    }
+    for (std::size_t k = done; k < blocks; ++k) thrown.run(k, [&] { outcomes_[k] = factorizeBlock(k); });
+    thrown.rethrow();
   } else {
     for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   }

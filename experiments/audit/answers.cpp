@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "core/base/first_exception.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
@@ -80,25 +80,22 @@ Answers answersTo(const std::set<Question>& questions, const std::filesystem::pa
   std::optional<Progress> progress(std::in_place, out, "audit: references");
   for (const auto& question : open) progress->expect(question.scene);
   std::mutex mutex;
-  std::exception_ptr failure;
+  FirstException thrown;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(jobs)
   for (std::size_t i = 0; i < open.size(); ++i) {
-    try {
-      if (interruptFlag()) continue;
+    thrown.run(i, [&] {
+      if (interruptFlag()) return;
       const double start = wallSeconds();
       const Answer answer = answerOf(open[i], &interruptFlag());
-      if (answer.source == kInterruptedSource) continue;
+      if (answer.source == kInterruptedSource) return;
       const std::lock_guard lock(mutex);
       writer.append(answerRow(open[i], answer));
       answers[open[i]] = answer;
       progress->finished(open[i].scene, wallSeconds() - start);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-    }
+    });
   }
   progress.reset();
-  if (failure) std::rethrow_exception(failure);
+  thrown.rethrow();
   return answers;
 }
 

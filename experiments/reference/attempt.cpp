@@ -6,6 +6,7 @@
 #include <limits>
 #include <mutex>
 
+#include "core/base/first_exception.h"
 #include "experiments/base/clock.h"
 
 namespace irk {
@@ -26,22 +27,26 @@ class Attempt {
 
   // The looser runs first: they tell what the stricter ones will cost.
   Attempted made() {
+    FirstException thrown;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(watch_.jobs)
-    for (std::size_t i = 0; i < kReferenceRuns; ++i) {
-      auto run = integrated(specs_[i], times_,
-                            {.stop = watch_.stop, .refuse = [this, i](double t, double s) { return refuse(i, t, s); }});
-      const std::lock_guard lock(mutex_);
-      if (!run.failure.empty() && result_.failure.empty()) {
-        result_.failure = run.failure;
-        useful_ = run.rows.empty() ? -std::numeric_limits<double>::infinity()
-                                   : std::strtod(times_[run.rows.size() - 1].c_str(), nullptr);
-      }
-      result_.runs[i] = std::move(run);
-    }
+    for (std::size_t i = 0; i < kReferenceRuns; ++i) thrown.run(i, [&] { makeRun(i); });
+    thrown.rethrow();
     return std::move(result_);
   }
 
  private:
+  void makeRun(std::size_t i) {
+    auto run = integrated(specs_[i], times_,
+                          {.stop = watch_.stop, .refuse = [this, i](double t, double s) { return refuse(i, t, s); }});
+    const std::lock_guard lock(mutex_);
+    if (!run.failure.empty() && result_.failure.empty()) {
+      result_.failure = run.failure;
+      useful_ = run.rows.empty() ? -std::numeric_limits<double>::infinity()
+                                 : std::strtod(times_[run.rows.size() - 1].c_str(), nullptr);
+    }
+    result_.runs[i] = std::move(run);
+  }
+
   std::string refuse(std::size_t run, double t, double cpu_s) {
     const std::lock_guard lock(mutex_);
     if (t >= useful_) return "another run has failed";

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/first_exception.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/progress.h"
 #include "experiments/reference/agreement.h"
@@ -100,17 +101,22 @@ void ReferenceLibrary::prepare(const std::vector<RunSpec>& resolved, Progress* p
   }
   // All threads compute a single problem; of several problems each thread computes its own.
   const int threads = missing.size() == 1 ? 1 : options_.jobs, inside = missing.size() == 1 ? options_.jobs : 1;
+  FirstException thrown;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (const auto& problem : missing) {
-    const double start = wallSeconds();
-    const auto references = made(problem, inside, progress);
-    const double each = (wallSeconds() - start) / static_cast<double>(problem.size());
-    for (std::size_t i = 0; i < problem.size(); ++i) {
-      fill(shelfOf(problem[i]), [&] { return references[i]; });
-      const std::lock_guard lock(mutex_);
-      if (progress) progress->finished(problem[i].scene, each);
-    }
+  for (std::size_t turn = 0; turn < missing.size(); ++turn) {
+    thrown.run(turn, [&] {
+      const Together& problem = missing[turn];
+      const double start = wallSeconds();
+      const auto references = made(problem, inside, progress);
+      const double each = (wallSeconds() - start) / static_cast<double>(problem.size());
+      for (std::size_t i = 0; i < problem.size(); ++i) {
+        fill(shelfOf(problem[i]), [&] { return references[i]; });
+        const std::lock_guard lock(mutex_);
+        if (progress) progress->finished(problem[i].scene, each);
+      }
+    });
   }
+  thrown.rethrow();
 }
 
 ReferenceLibrary::Shelf& ReferenceLibrary::shelfOf(const ReferenceQuestion& question) {

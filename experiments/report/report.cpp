@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <iterator>
 #include <memory>
 #include <ostream>
@@ -18,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/first_exception.h"
 #include "core/base/text.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
@@ -101,22 +101,18 @@ bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& e
 // Returns the number of failures.
 int drawAll(const std::vector<Figure>& figures, const ReportOptions& options, std::ostream& err) {
   std::vector<std::string> messages(figures.size());
-  std::vector<std::exception_ptr> thrown(figures.size());
+  FirstException thrown;
   int failures = 0;
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : failures)
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    try {
+    thrown.run(i, [&] {
       std::ostringstream text;
       if (!drawOne(figures[i], options, text)) ++failures;
       messages[i] = text.str();
-    } catch (...) {
-      thrown[i] = std::current_exception();
-    }
+    });
   }
   for (const auto& text : messages) err << text;
-  for (const auto& exception : thrown) {
-    if (exception) std::rethrow_exception(exception);
-  }
+  thrown.rethrow();
   return failures;
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/first_exception.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
@@ -32,28 +32,21 @@
 namespace irk {
 namespace {
 
-// Calls f(i) on several threads for every i of the queue. After an exception all threads stop, and the first
-// exception is rethrown.
+// Calls f(i) on several threads for every i of the queue. After an exception all threads stop.
 template <class F>
 void inParallel(WorkQueue& queue, int threads, F&& f) {
-  std::mutex mutex;
-  std::exception_ptr failure;
-  std::atomic<bool> failed = false;
+  std::atomic<std::size_t> turns = 0;
+  FirstException thrown;
 #pragma omp parallel num_threads(threads)
-  {
-    try {
-      while (!failed) {
-        const auto i = queue.next();
-        if (!i) break;
-        f(*i);
-      }
-    } catch (...) {
-      failed = true;
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-    }
+  for (bool more = true; more;) {
+    thrown.run(turns++, [&] {
+      const auto i = queue.next();
+      if (i) f(*i);
+      more = i.has_value();
+    });
+    more = more && !thrown.happened();
   }
-  if (failure) std::rethrow_exception(failure);
+  thrown.rethrow();
 }
 
 bool asksForReference(const Series& series) { return series.runs.front().reference == ReferenceUse::kAuto; }

@@ -1,0 +1,168 @@
+// The life of an integrator: moved from, called from its own callbacks, and exceptions of callbacks and systems.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "core/base/first_exception.h"
+#include "tests/core/support.h"
+#include "tests/misuse_table.h"
+
+namespace irk::test {
+namespace {
+
+/// x' = -x with a switch at t = 0.5; `at` is called in each residual, with t.
+struct Watched {
+  std::function<void(double)> at = {};
+  Sizes sizes() const { return {.nx = 4, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    if constexpr (std::is_same_v<T, double>) {
+      if (at) at(p.t);
+    }
+    for (Index i = 0; i < 4; ++i) r.x[i] = -static_cast<double>(i + 1) * p.x[i] - p.k[i];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > 0 ? T(-1) : T(p.t - 0.5);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1);
+  }
+};
+
+// Of the interval [0, 1], a part that holds stages, but no point of the checks before the first step.
+bool isInside(double t) { return t > 0.2 && t < 0.45; }
+
+State<double> startOf(const Watched& problem) {
+  State<double> start(problem.sizes());
+  start.x.setOnes();
+  return start;
+}
+
+Integrator<double> integratorOf(const Watched& problem, int threads = 1) {
+  IntegratorOptions options = adaptive(1e-6);
+  options.threads = threads;
+  return {makeSystem<double>(problem), makeTableau<double>("radau_iia_5"), options};
+}
+
+TEST(Reentry, AnIntegratorThatHasBeenMovedFromIsRefused) {
+  const Watched problem;
+  auto first = integratorOf(problem);
+  auto second = std::move(first);
+  EXPECT_EQ(second.integrate(startOf(problem), 1.0).outcome, Outcome::kSuccess);
+  // NOLINTNEXTLINE(bugprone-use-after-move): that is the test
+  EXPECT_EQ(refusal([&] { (void)first.integrate(startOf(problem), 1.0); }),
+            "Integrator::integrate: the object has been moved from");
+}
+
+// A call from a callback would overwrite the state of the call that is under way.
+TEST(Reentry, ACallFromACallbackIsRefused) {
+  const Watched problem;
+  auto integrator = integratorOf(problem);
+  const auto again = [&] { (void)integrator.integrate(startOf(problem), 1.0); };
+  const auto from = [&](auto set) {
+    return [&, set] {
+      Monitor<double> monitor;
+      set(monitor);
+      (void)integrator.integrate(startOf(problem), 1.0, monitor);
+    };
+  };
+  const std::string message = "Integrator::integrate is called while another call of the same object is under way";
+  expectRefusals({
+      {"accepted", message, from([&](auto& m) { m.accepted = [&](const auto&) { again(); }; })},
+      {"switched", message, from([&](auto& m) { m.switched = [&](const auto&) { again(); }; })},
+      {"located", message, from([&](auto& m) { m.located = [&](const auto&) { again(); }; })},
+      {"interrupt", message, from([&](auto& m) { m.interrupt = [&] { return again(), Outcome::kSuccess; }; })},
+  });
+  EXPECT_EQ(integrator.integrate(startOf(problem), 1.0).outcome, Outcome::kSuccess) << "the next call works";
+}
+
+TEST(Reentry, ACallFromTheResidualIsRefused) {
+  for (const int threads : {1, 2}) {
+    Integrator<double>* own = nullptr;
+    const Watched problem{[&own](double t) {
+      if (isInside(t)) (void)own->integrate(startOf(Watched{}), 1.0);
+    }};
+    auto integrator = integratorOf(problem, threads);
+    own = &integrator;
+    EXPECT_NE(refusal([&] { (void)integrator.integrate(startOf(problem), 1.0); }).find("another call"),
+              std::string::npos)
+        << threads;
+  }
+}
+
+// What leaves a residual or a callback; empty if nothing does.
+std::string thrownBy(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// With two threads an exception once ended the program. The stages are at c_i h: the first one is the first to throw.
+TEST(Reentry, AnExceptionOfTheResidualReachesTheCallerWithAnyNumberOfThreads) {
+  std::set<std::string> messages;
+  for (const int threads : {1, 2, 4}) {
+    const Watched problem{[](double t) {
+      if (isInside(t)) throw std::runtime_error("no residual at t = " + std::to_string(t));
+    }};
+    auto integrator = integratorOf(problem, threads);
+    const std::string message = thrownBy([&] { (void)integrator.integrate(startOf(problem), 1.0); });
+    EXPECT_NE(message.find("no residual at t = 0."), std::string::npos) << threads;
+    messages.insert(message);
+  }
+  EXPECT_EQ(messages.size(), 1U) << "does not depend on the number of threads";
+}
+
+// Bit for bit as one that has never thrown.
+TEST(Reentry, AnIntegratorMayBeUsedAfterAnException) {
+  for (const int threads : {1, 2}) {
+    auto fresh = integratorOf({}, threads);
+    const auto expected = fresh.integrate(startOf({}), 1.0);
+    std::atomic<bool> throws = true;
+    const Watched problem{[&throws](double t) {
+      if (throws && isInside(t)) throw std::runtime_error("residual");
+    }};
+    auto integrator = integratorOf(problem, threads);
+    EXPECT_EQ(thrownBy([&] { (void)integrator.integrate(startOf(problem), 1.0); }), "residual");
+    throws = false;
+    Monitor<double> monitor;
+    monitor.accepted = [](const auto&) { throw std::runtime_error("monitor"); };
+    EXPECT_EQ(thrownBy([&] { (void)integrator.integrate(startOf(problem), 1.0, monitor); }), "monitor");
+    const auto s = integrator.integrate(startOf(problem), 1.0);
+    EXPECT_EQ(s.outcome, Outcome::kSuccess);
+    EXPECT_EQ(s.state.x, expected.state.x);
+    EXPECT_EQ(s.counters.steps_accepted, expected.counters.steps_accepted);
+    EXPECT_EQ(s.counters.residuals, expected.counters.residuals);
+  }
+}
+
+TEST(FirstException, IsThatOfTheFirstTurn) {
+  for (int repetition = 0; repetition < 100; ++repetition) {
+    FirstException thrown;
+    std::atomic<int> made = 0;
+#pragma omp parallel for num_threads(4) schedule(dynamic)
+    for (std::size_t i = 0; i < 64; ++i) {
+      thrown.run(i, [&] {
+        ++made;
+        if (i % 2 == 1 && i > 20) throw std::runtime_error(std::to_string(i));
+      });
+    }
+    EXPECT_TRUE(thrown.happened());
+    EXPECT_EQ(thrownBy([&] { thrown.rethrow(); }), "21");
+    EXPECT_GE(made, 22) << "all turns before it are made";
+  }
+  FirstException none;
+  none.run(0, [] {});
+  EXPECT_FALSE(none.happened());
+  EXPECT_NO_THROW(none.rethrow());
+}
+
+}  // namespace
+}  // namespace irk::test
