@@ -131,8 +131,7 @@ std::shared_ptr<const Scheme<Real>> schemeOf(const Tableau<Real>& tableau) {
 }
 
 template void requireTableau(const Tableau<double>&);
-template void requireTableau(const Tableau<mp50>&);
-template void requireTableau(const Tableau<mp100>&);
+template void requireTableau(const Tableau<BigFloat>&);
 template std::shared_ptr<const Structure<double>> structureOf(const Tableau<double>&);
 template std::shared_ptr<const Structure<BigFloat>> structureOf(const Tableau<BigFloat>&);
 template std::shared_ptr<const Scheme<double>> schemeOf(const Tableau<double>&);

@@ -11,6 +11,7 @@
 #include "irk/registration.h"
 #include "irk/scene.h"
 #include "irk/scene_file.h"
+#include "irk/system_check.h"
 
 namespace irk {
 
@@ -249,6 +250,28 @@ void requireComponents(const std::string& scene, const std::vector<std::string>&
   }
 }
 
+// The sizes of a scene whose system, start and end fit each other.
+template <class Real>
+Sizes checkedSizes(const Scene<Real>& scene) {
+  const auto system = scene.system({});
+  requireSystem(system.get(), {});
+  requireStart(*system, scene.start, Real(scene.t_end));
+  return system->sceneSizes();
+}
+
+// What a scene says of its components fits its sizes.
+template <class Real>
+void requireDescription(const Scene<Real>& scene, const Sizes& n) {
+  requireScale(scene.scale, n);
+  if (!scene.units.empty() && scene.units.size() != static_cast<std::size_t>(n.components())) {
+    throw Misuse(fmt::format("{} units, but it has {} components", scene.units.size(), n.components()));
+  }
+  if (scene.exact) requireState("exact", scene.exact(scene.start.t), n);
+  for (const auto& output : scene.outputs) {
+    if (!output.value) throw Misuse(fmt::format("its output '{}' has no function `value`", output.name));
+  }
+}
+
 // Columns of panels that the scene does not have would be left out of its figures without a word. With other settings
 // than the defaults a scene may have fewer components.
 template <class Real>
@@ -280,14 +303,15 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
   Scene<Real> scene = withNameOf(entry, [&] { return make(completed); });
   if (!scene.system) throw Misuse("scene " + entry.id + " makes no system");
   scene.id = entry.id;
-  const State<Real>& s = scene.start;
-  const Index components = s.u.size() + s.v.size() + s.x.size() + s.z().size();
+  const Sizes sizes = withNameOf(entry, [&] { return checkedSizes(scene); });
+  const Index components = sizes.components();
   const auto names = static_cast<Index>(scene.names.size());
   if (names > 0 && names != components) {
     throw Misuse("scene " + entry.id + " names " + std::to_string(names) + " components, but it has " +
                  std::to_string(components) + ": u, v, x and z (setComponents)");
   }
   requireComponents(entry.id, scene.names, scene.scale);
+  withNameOf(entry, [&] { requireDescription(scene, sizes); });
   requirePanels(entry, scene, completed);
   return scene;
 }

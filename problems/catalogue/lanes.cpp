@@ -44,6 +44,10 @@ void requireLanes(const SceneEntry& entry, std::span<const Settings> settings) {
 std::shared_ptr<const System<Lanes>> makeLanes(const SceneEntry& entry, std::span<const Settings> settings,
                                                const SystemOptions& options) {
   requireLanes(entry, settings);
+  if (settings.size() != kLanes) {
+    throw Misuse("scene " + entry.id + " in lanes: " + std::to_string(settings.size()) + " settings, " +
+                 std::to_string(kLanes) + " are expected");
+  }
   Settings joined;
   for (const Parameter& p : entry.parameters) {
     std::string& text = joined[p.name] = valueOf(settings.front(), p);

@@ -83,10 +83,8 @@ Parameter elementsParameter(std::string default_value) {
 }
 
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices) {
-  Parameter p;
-  p.name = std::move(name);
-  p.meaning = std::move(meaning);
-  p.default_value = choices.front();
+  if (choices.empty()) throw Misuse("parameter " + name + " has no words: at least one is expected, the default");
+  Parameter p = numberParameter(std::move(name), "", std::move(meaning), choices.front(), 0, 0);
   p.choices = std::move(choices);
   return p;
 }
@@ -98,10 +96,7 @@ Parameter descriptionParameter(std::string name, std::string meaning, std::vecto
 }
 
 Parameter textParameter(std::string name, std::string meaning, std::string default_value) {
-  Parameter p;
-  p.name = std::move(name);
-  p.meaning = std::move(meaning);
-  p.default_value = std::move(default_value);
+  Parameter p = numberParameter(std::move(name), "", std::move(meaning), std::move(default_value), 0, 0);
   p.text = true;
   return p;
 }
@@ -212,6 +207,17 @@ void setComponents(Scene<Real>& scene, const std::vector<Component>& u, const st
 
 namespace {
 
+// A residual may write behind the last row, or read beyond the end of a short vector.
+template <class Real>
+std::shared_ptr<const System<Real>> checkedSystem(const Scene<Real>& scene) {
+  if (!scene.system) throw Misuse("its start cannot be completed before setProblem: it has no system");
+  const auto system = scene.system({});
+  requireSystem(system.get(), {});
+  if constexpr (std::is_same_v<Real, double>) requireRowsInside(*system, scene.start);
+  requireStart(*system, scene.start, scene.start.t);
+  return system;
+}
+
 // Gauss-Newton steps for (a, k, z) where dr/d(a, k, z) is singular, as the matrix in front of k of an electric circuit
 // is: what the residual does not determine stays as near to the given values as it can.
 template <class Real>
@@ -234,9 +240,7 @@ void solveRates(const System<Real>& system, State<Real>& state) {
 
 template <class Real>
 void completeStart(Scene<Real>& scene) {
-  const auto system = scene.system({});
-  if constexpr (std::is_same_v<Real, double>) requireRowsInside(*system, scene.start);
-  requireStart(*system, scene.start, scene.start.t);  // a residual may read beyond the end of a short vector
+  const auto system = checkedSystem(scene);
   ConsistentStart<Real> consistent(*system, DerivativeSource::kAutomatic, true, nullptr, scene.scale);
   StartReport report = consistent.apply(scene.start);
   if (report.outcome == Outcome::kNotFinite) {
@@ -298,9 +302,7 @@ Real correct(const Mat<Real>& G, const Vec<Real>& r, const std::vector<Index>& c
 
 template <class Real>
 void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) {
-  const auto system = scene.system({});
-  if constexpr (std::is_same_v<Real, double>) requireRowsInside(*system, scene.start);
-  requireStart(*system, scene.start, scene.start.t);
+  const auto system = checkedSystem(scene);
   const Index nu = system->sizes().nu;
   std::vector<std::string> known(scene.names.begin(),
                                  scene.names.begin() + std::min<std::ptrdiff_t>(2 * nu, std::ssize(scene.names)));

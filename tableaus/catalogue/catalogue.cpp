@@ -132,6 +132,9 @@ Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
                     "a file is one method; use one of the families",
                     id));
   }
+  if (max_stages < 1 || max_stages > kMaxStages) {
+    throw Misuse(fmt::format("max_stages = {}: 1 to {} is expected", max_stages, kMaxStages));
+  }
   const Family& family = familyOf(member ? member->family : id);
   // Members of stage order 0 are left out: their error estimate misses forces that depend on time only; see
   // EmbeddedEstimate.
@@ -148,9 +151,19 @@ Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
   return {std::move(members), static_cast<std::size_t>(start - least)};
 }
 
-int classicalOrder(std::string_view family, Index s) { return familyOf(family).orders(s).p; }
+namespace {
 
-int stageOrder(std::string_view family, Index s) { return familyOf(family).orders(s).q; }
+SimplifyingOrders ordersOf(std::string_view id, Index s) {
+  const Family& family = familyOf(id);
+  requireStages(family, s);
+  return family.orders(s);
+}
+
+}  // namespace
+
+int classicalOrder(std::string_view family, Index s) { return ordersOf(family, s).p; }
+
+int stageOrder(std::string_view family, Index s) { return ordersOf(family, s).q; }
 
 template Tableau<double> makeTableau(std::string_view);
 template Tableau<BigFloat> makeTableau(std::string_view);

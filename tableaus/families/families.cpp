@@ -108,11 +108,14 @@ const Family& familyOf(std::string_view id) {
   throw Misuse(unknownName("tableau family", id, known));
 }
 
+void requireStages(const Family& family, Index s) {
+  if (s >= family.minStages() && s <= kMaxStages) return;
+  throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s, family.minStages(),
+                           kMaxStages));
+}
+
 Tableau<BigFloat> constructFamily(const Family& family, Index s) {
-  if (s < family.minStages() || s > kMaxStages) {
-    throw Misuse(fmt::format("tableau '{0}_{1}': {1} stages, but {0} has {2} to {3}", family.id, s, family.minStages(),
-                             kMaxStages));
-  }
+  requireStages(family, s);
   const WorkingDigits digits(WorkingDigits::now() + kSpareDigits);
   const Vec<BigFloat> c = quadratureNodes(family.quadrature, s);
   const Mat<BigFloat> W = legendreBasis(c);

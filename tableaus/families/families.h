@@ -39,9 +39,12 @@ const Family* findFamily(std::string_view id);
 /// Throws Misuse for an unknown id, naming the nearest family.
 const Family& familyOf(std::string_view id);
 
-/// The s-stage member. Throws Misuse, naming the range, unless minStages() <= s <= kMaxStages. HW II, IV.5 in the
-/// orthonormal Legendre basis W: A = W X D^-1 W^T diag(b). The coefficients have kSpareDigits more than the working
-/// digits, of which at most the last 20 are wrong; coefficients that are zero are exactly zero.
+/// Throws Misuse, naming the range, unless minStages() <= s <= kMaxStages.
+void requireStages(const Family& family, Index s);
+
+/// The s-stage member. Throws Misuse as requireStages. HW II, IV.5 in the orthonormal Legendre basis W:
+/// A = W X D^-1 W^T diag(b). The coefficients have kSpareDigits more than the working digits, of which at most the last
+/// 20 are wrong; coefficients that are zero are exactly zero.
 Tableau<BigFloat> constructFamily(const Family& family, Index s);
 
 }  // namespace irk

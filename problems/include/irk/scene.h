@@ -149,8 +149,9 @@ void registerScene(SceneEntry entry);
 const SceneEntry& findScene(std::string_view id);
 
 /// Checks the settings against the scene's parameters, adds the defaults and builds the scene. Throws Misuse for an
-/// unknown id or parameter (naming the nearest one), for a value out of range (naming the range), and for a scalar
-/// that the scene does not offer.
+/// unknown id or parameter (naming the nearest one), for a value out of range (naming the range), for a scalar that the
+/// scene does not offer, and for a scene whose system, start, end, scale, names, units, exact solution or outputs do
+/// not fit each other.
 template <class Real>
 Scene<Real> makeScene(std::string_view id, const Settings& settings = {});
 /// The same for an entry that need not be in the catalogue.

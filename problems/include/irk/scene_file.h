@@ -62,7 +62,7 @@ Parameter smoothingParameter(std::string unit, std::string meaning, std::string 
 /// The number of finite elements, an integer.
 Parameter elementsParameter(std::string default_value);
 
-/// A choice among words, the default first.
+/// A choice among words, the default first. Throws Misuse for no words.
 Parameter wordParameter(std::string name, std::string meaning, std::vector<std::string> choices);
 
 /// A choice among descriptions of the same physics, such as sets of coordinates: the solution is the same with each.
@@ -167,7 +167,7 @@ void setProblem(Scene<Real>& scene, P problem) {
 }
 
 /// Computes start.w = (a, k, z) from start.u, v, x. Throws Misuse if the start is not consistent, which is a mistake in
-/// the scene.
+/// the scene, and for a scene without a system (setProblem).
 template <class Real>
 void completeStart(Scene<Real>& scene);
 

@@ -31,7 +31,7 @@ static std::shared_ptr<const System<Lanes>> lanesOf(const Settings& values, cons
 void requireLanes(const SceneEntry& entry, std::span<const Settings> settings);
 
 /// The scene's systems with kLanes settings, of which each is checked (completedSettings), side by side: lane i has
-/// those of settings[i]. Throws Misuse as requireLanes.
+/// those of settings[i]. Throws Misuse as requireLanes, and for another number of settings.
 std::shared_ptr<const System<Lanes>> makeLanes(const SceneEntry& entry, std::span<const Settings> settings,
                                                const SystemOptions& options);
 

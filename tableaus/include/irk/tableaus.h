@@ -31,11 +31,12 @@ bool isFamily(std::string_view id);
 
 /// The methods for variable order: the members of a family with stage order >= 1 and up to `max_stages` stages. For
 /// an id such as `radau_iia_5` that member is used first, and is always included; for a family's id the member whose
-/// number of stages is nearest to `first`. Throws Misuse as makeTableau, and for a tableau file.
+/// number of stages is nearest to `first`. Throws Misuse as makeTableau, for a tableau file, and for `max_stages` other
+/// than 1 to kMaxStages.
 template <class Real>
 Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first);
 
-/// Classical order p and stage order q of a family's s-stage member.
+/// Classical order p and stage order q of a family's s-stage member. Throws Misuse as makeTableau.
 int classicalOrder(std::string_view family, Index s);
 int stageOrder(std::string_view family, Index s);
 

@@ -62,7 +62,7 @@ TEST(Misuse, TableausMadeByHandAreChecked) {
         {"Integrator", place + message,
          [&] { Integrator<double>(makeSystem<double>(Riccati{}), bad, adaptive(1e-6)); }},
         {"in 50 digits", place + message,
-         [&] { Integrator<mp50>(makeSystem<mp50>(Riccati{}), bad.cast<mp50>(), adaptive(1e-6)); }},
+         [&] { Integrator<BigFloat>(makeSystem<BigFloat>(Riccati{}), bad.cast<BigFloat>(), adaptive(1e-6)); }},
         {"one of several", place + message,
          [&] {
            Integrator<double>(makeSystem<double>(Riccati{}), Methods<double>({good, bad}, 0), variable);
