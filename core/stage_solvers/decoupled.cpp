@@ -4,7 +4,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "core/base/small_product.h"
 #include "irk/multiprecision.h"
 
@@ -115,10 +115,10 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
     form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
   }
   if (setup_.threads > 1) {
-    FirstException thrown;
+    ParallelLoop loop;
 #pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
-    for (std::size_t k = done; k < blocks; ++k) thrown.run(k, [&] { outcomes_[k] = factorizeBlock(k); });
-    thrown.rethrow();
+    for (std::size_t k = done; k < blocks; ++k) loop.turn(k, [&] { outcomes_[k] = factorizeBlock(k); });
+    loop.rethrow();
   } else {
     for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "core/base/small_product.h"
 #include "core/stage_solvers/stage_solver.h"
 #include "irk/multiprecision.h"
@@ -126,12 +126,12 @@ bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   if (first > 0) R.leftCols(first).setZero();
   const StagePoints<Real> at = points(W);
   if (threads_ > 1) {
-    FirstException thrown;
+    ParallelLoop loop;
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (Index i = first; i < s; ++i) {
-      thrown.run(static_cast<std::size_t>(i), [&] { system_.evaluateStages(at, i, i + 1, R.data()); });
+      loop.turn(static_cast<std::size_t>(i), [&] { system_.evaluateStages(at, i, i + 1, R.data()); });
     }
-    thrown.rethrow();
+    loop.rethrow();
   } else {
     system_.evaluateStages(at, first, s, R.data());
   }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
@@ -80,10 +80,10 @@ Answers answersTo(const std::set<Question>& questions, const std::filesystem::pa
   std::optional<Progress> progress(std::in_place, out, "audit: references");
   for (const auto& question : open) progress->expect(question.scene);
   std::mutex mutex;
-  FirstException thrown;
+  ParallelLoop loop;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(jobs)
   for (std::size_t i = 0; i < open.size(); ++i) {
-    thrown.run(i, [&] {
+    loop.turn(i, [&] {
       if (interruptFlag()) return;
       const double start = wallSeconds();
       const Answer answer = answerOf(open[i], &interruptFlag());
@@ -95,7 +95,7 @@ Answers answersTo(const std::set<Question>& questions, const std::filesystem::pa
     });
   }
   progress.reset();
-  thrown.rethrow();
+  loop.rethrow();
   return answers;
 }
 

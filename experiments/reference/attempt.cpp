@@ -6,7 +6,7 @@
 #include <limits>
 #include <mutex>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
 
 namespace irk {
@@ -27,10 +27,10 @@ class Attempt {
 
   // The looser runs first: they tell what the stricter ones will cost.
   Attempted made() {
-    FirstException thrown;
+    ParallelLoop loop;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(watch_.jobs)
-    for (std::size_t i = 0; i < kReferenceRuns; ++i) thrown.run(i, [&] { makeRun(i); });
-    thrown.rethrow();
+    for (std::size_t i = 0; i < kReferenceRuns; ++i) loop.turn(i, [&] { makeRun(i); });
+    loop.rethrow();
     return std::move(result_);
   }
 

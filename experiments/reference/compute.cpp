@@ -8,7 +8,7 @@
 #include <mutex>
 #include <span>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
 #include "experiments/reference/agreement.h"
 #include "experiments/reference/integration.h"
@@ -125,11 +125,11 @@ std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
                                   const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch) {
   std::vector<Integrated> runs(kReferenceRuns * tasks.size());
   std::mutex mutex;
-  FirstException thrown;
+  ParallelLoop loop;
   // The last runs of a task have the finer tolerance and take longest: start with them.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(watch.jobs)
   for (std::size_t turn = 0; turn < runs.size(); ++turn) {
-    thrown.run(turn, [&] {
+    loop.turn(turn, [&] {
       const std::size_t i = runs.size() - 1 - turn, task = i / kReferenceRuns;
       const double start = threadSeconds();
       runs[i] = integrated(referenceRun(tasks[task], i % kReferenceRuns), times[task], {.stop = watch.stop});
@@ -137,7 +137,7 @@ std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
       if (watch.progress) watch.progress->finished(nameOf(tasks[task]), threadSeconds() - start);
     });
   }
-  thrown.rethrow();
+  loop.rethrow();
   std::vector<ComputedTask> computed;
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     const std::span all(runs);

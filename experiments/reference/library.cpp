@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/progress.h"
 #include "experiments/reference/agreement.h"
@@ -101,10 +101,10 @@ void ReferenceLibrary::prepare(const std::vector<RunSpec>& resolved, Progress* p
   }
   // All threads compute a single problem; of several problems each thread computes its own.
   const int threads = missing.size() == 1 ? 1 : options_.jobs, inside = missing.size() == 1 ? options_.jobs : 1;
-  FirstException thrown;
+  ParallelLoop loop;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t turn = 0; turn < missing.size(); ++turn) {
-    thrown.run(turn, [&] {
+    loop.turn(turn, [&] {
       const Together& problem = missing[turn];
       const double start = wallSeconds();
       const auto references = made(problem, inside, progress);
@@ -116,7 +116,7 @@ void ReferenceLibrary::prepare(const std::vector<RunSpec>& resolved, Progress* p
       }
     });
   }
-  thrown.rethrow();
+  loop.rethrow();
 }
 
 ReferenceLibrary::Shelf& ReferenceLibrary::shelfOf(const ReferenceQuestion& question) {

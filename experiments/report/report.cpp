@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "core/base/text.h"
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
@@ -101,18 +101,18 @@ bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& e
 // Returns the number of failures.
 int drawAll(const std::vector<Figure>& figures, const ReportOptions& options, std::ostream& err) {
   std::vector<std::string> messages(figures.size());
-  FirstException thrown;
+  ParallelLoop loop;
   int failures = 0;
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : failures)
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    thrown.run(i, [&] {
+    loop.turn(i, [&] {
       std::ostringstream text;
       if (!drawOne(figures[i], options, text)) ++failures;
       messages[i] = text.str();
     });
   }
   for (const auto& text : messages) err << text;
-  thrown.rethrow();
+  loop.rethrow();
   return failures;
 }
 

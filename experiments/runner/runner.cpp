@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
@@ -36,17 +36,17 @@ namespace {
 template <class F>
 void inParallel(WorkQueue& queue, int threads, F&& f) {
   std::atomic<std::size_t> turns = 0;
-  FirstException thrown;
+  ParallelLoop loop;
 #pragma omp parallel num_threads(threads)
   for (bool more = true; more;) {
-    thrown.run(turns++, [&] {
+    loop.turn(turns++, [&] {
       const auto i = queue.next();
       if (i) f(*i);
       more = i.has_value();
     });
-    more = more && !thrown.happened();
+    more = more && !loop.hasThrown();
   }
-  thrown.rethrow();
+  loop.rethrow();
 }
 
 bool asksForReference(const Series& series) { return series.runs.front().reference == ReferenceUse::kAuto; }

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/base/first_exception.h"
+#include "core/base/parallel_loop.h"
 #include "tests/core/support.h"
 #include "tests/misuse_table.h"
 
@@ -143,25 +143,34 @@ TEST(Reentry, AnIntegratorMayBeUsedAfterAnException) {
   }
 }
 
-TEST(FirstException, IsThatOfTheFirstTurn) {
+TEST(ParallelLoop, ThrowsTheExceptionOfTheFirstTurn) {
   for (int repetition = 0; repetition < 100; ++repetition) {
-    FirstException thrown;
+    ParallelLoop loop;
     std::atomic<int> made = 0;
 #pragma omp parallel for num_threads(4) schedule(dynamic)
     for (std::size_t i = 0; i < 64; ++i) {
-      thrown.run(i, [&] {
+      loop.turn(i, [&] {
         ++made;
         if (i % 2 == 1 && i > 20) throw std::runtime_error(std::to_string(i));
       });
     }
-    EXPECT_TRUE(thrown.happened());
-    EXPECT_EQ(thrownBy([&] { thrown.rethrow(); }), "21");
+    EXPECT_TRUE(loop.hasThrown());
+    EXPECT_EQ(thrownBy([&] { loop.rethrow(); }), "21");
     EXPECT_GE(made, 22) << "all turns before it are made";
   }
-  FirstException none;
-  none.run(0, [] {});
-  EXPECT_FALSE(none.happened());
+  ParallelLoop none;
+  none.turn(0, [] {});
+  EXPECT_FALSE(none.hasThrown());
   EXPECT_NO_THROW(none.rethrow());
+}
+
+TEST(ParallelLoop, WorksInTheDigitsOfTheThreadThatBeganIt) {
+  const WorkingDigits digits(100);
+  std::array<int, 16> of_turns{};
+  ParallelLoop loop;
+#pragma omp parallel for num_threads(4) schedule(static)
+  for (std::size_t i = 0; i < of_turns.size(); ++i) loop.turn(i, [&] { of_turns[i] = WorkingDigits::now(); });
+  for (const int of_turn : of_turns) EXPECT_EQ(of_turn, 100);
 }
 
 }  // namespace
