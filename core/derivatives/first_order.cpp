@@ -295,6 +295,13 @@ void FirstOrderForm<Real>::onTime(Index i, State<Real>& state) const {
 }
 
 template <class Real>
+void FirstOrderForm<Real>::jumpAtTime(Index i, State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  inner_->jumpAtTime(i, scene);
+  state.x << scene.u, scene.v, scene.x;
+}
+
+template <class Real>
 void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->jump(i, scene);

@@ -40,6 +40,7 @@ class FirstOrderForm final : public System<Real> {
   void jump(Index i, State<Real>& state) const override;
   std::vector<Real> times() const override { return inner_->times(); }
   void onTime(Index i, State<Real>& state) const override;
+  void jumpAtTime(Index i, State<Real>& state) const override;
   bool nonNegative(Index i) const override { return inner_->nonNegative(i); }
   std::string switchName(Index i) const override { return inner_->switchName(i); }
   Discontinuity discontinuity() const override { return inner_->discontinuity(); }

@@ -186,6 +186,7 @@ bool Trajectory<Real>::passesSingularPosition() {
 template <class Real>
 Outcome Trajectory<Real>::passTime(Index i) {
   system_.onTime(i, state_);
+  system_.jumpAtTime(i, state_);
   return restartAtSwitch();
 }
 

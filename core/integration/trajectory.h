@@ -49,7 +49,7 @@ class Trajectory {
 
   const State<Real>& state() const { return state_; }
   const State<Real>& next() const { return next_; }
-  /// Passes time i of the system's `times`: sets the mode after it and restarts.
+  /// Passes time i of the system's `times`: sets the mode and the state after it and restarts.
   [[nodiscard]] Outcome passTime(Index i);
   /// Sets the time to t_end, after a switch so close to it that the rest is too short for a step.
   void endAt(const Real& t_end) { state_.t = t_end; }

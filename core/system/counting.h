@@ -49,6 +49,10 @@ class CountingSystem final : public System<Real> {
     inner_.onTime(i, state);
     requireState("System::onTime", state, sizes());
   }
+  void jumpAtTime(Index i, State<Real>& state) const override {
+    inner_.jumpAtTime(i, state);
+    requireState("System::jumpAtTime", state, sizes());
+  }
   bool nonNegative(Index i) const override { return inner_.nonNegative(i); }
   bool usesVelocity() const override { return inner_.usesVelocity(); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }

@@ -18,7 +18,9 @@ template <class Real>
 void passTimes(const System<Real>& system, State<Real>& state) {
   const std::vector<Real> times = system.times();
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] == state.t) system.onTime(static_cast<Index>(i), state);
+    if (times[i] != state.t) continue;
+    system.onTime(static_cast<Index>(i), state);
+    system.jumpAtTime(static_cast<Index>(i), state);
   }
 }
 
@@ -47,8 +49,8 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
       return result;
     }
     state = solution.state;
-    passTimes(*setup.system, state);
     result.rows.push_back(componentsAndOutputs(setup.scene, state));
+    passTimes(*setup.system, state);
   }
   return result;
 }

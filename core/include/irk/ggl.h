@@ -13,7 +13,8 @@ namespace irk {
 template <class P, class Real>
 class GglSystem final : public System<Real> {
  public:
-  GglSystem(P problem, const SystemOptions& options) : scene_(std::move(problem), options), inner_(scene_.sizes()) {
+  GglSystem(P problem, const SystemOptions& options, const std::vector<Real>& kinks = {})
+      : scene_(std::move(problem), options, kinks), inner_(scene_.sizes()) {
     sizes_ = inner_;
     sizes_.nu = 0;
     sizes_.nx = 2 * inner_.nu + inner_.nx;
@@ -53,6 +54,11 @@ class GglSystem final : public System<Real> {
     State<Real> scene = toScene(state);
     scene_.onTime(i, scene);
     state.d = scene.d;
+  }
+  void jumpAtTime(Index i, State<Real>& state) const override {
+    State<Real> scene = toScene(state);
+    scene_.jumpAtTime(i, scene);
+    state.x << scene.u, scene.v, scene.x;
   }
   bool nonNegative(Index i) const override { return scene_.nonNegative(i); }
   std::string switchName(Index i) const override { return scene_.switchName(i); }

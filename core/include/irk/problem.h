@@ -50,6 +50,10 @@
 //     std::vector<Real> times() const;
 //     template <class T>
 //     void onTime(Index i, const Point<T>& p, T* d) const;
+//     // Changes u, v, x where they jump at time i, as at a blow or a dose; p.d is already the one after it. With every
+//     // treatment of switches. Not at t_end and at times up to the start, as onTime.
+//     template <class T>
+//     void jumpAtTime(Index i, const Point<T>& p, T* u, T* v, T* x) const;
 //
 //     // Whether x_i is never negative on an exact solution, as a concentration is. A success with x_i below zero by
 //     // more than a tolerance says so in a remark: reactions often run away from zero there.
@@ -69,6 +73,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "irk/ggl.h"
 #include "irk/problem_system.h"
@@ -96,21 +101,23 @@ std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<
 /// The system of a problem struct P in the formulation that the options name. Keeps a copy of the problem; the
 /// result is immutable and may be shared by threads, except in the formulations kFirstOrder and kFirstOrderPerStep
 /// (see firstOrderForm).
+/// `kinks`: times, ascending, at which data that the problem reads has a kink; they join its own times.
 /// Throws Misuse for invalid sizes (irk/system_check.h) and for options that the problem does not allow
 /// (see ProblemSystem).
 template <class Real, class P>
-std::shared_ptr<const System<Real>> makeSystem(P problem, const SystemOptions& options = {}) {
+std::shared_ptr<const System<Real>> makeSystem(P problem, const SystemOptions& options = {},
+                                               const std::vector<Real>& kinks = {}) {
   if (options.formulation == Formulation::kFirstOrder || options.formulation == Formulation::kFirstOrderPerStep) {
     const bool each_point = options.formulation == Formulation::kFirstOrder;
-    return firstOrderForm<Real>(std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options),
+    return firstOrderForm<Real>(std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options, kinks),
                                 each_point ? MassFactors::kEachPoint : MassFactors::kEachStep);
   }
   if constexpr (requires(const Vec<Real>& u, Real* g) { problem.constraints(g[0], u, g); }) {
     if (options.formulation == Formulation::kGgl && problem.sizes().constraints > 0) {
-      return std::make_shared<const GglSystem<P, Real>>(std::move(problem), options);
+      return std::make_shared<const GglSystem<P, Real>>(std::move(problem), options, kinks);
     }
   }
-  return std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options);
+  return std::make_shared<const ProblemSystem<P, Real>>(std::move(problem), options, kinks);
 }
 
 }  // namespace irk

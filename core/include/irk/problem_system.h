@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
+#include <concepts>
 #include <memory>
 #include <string>
 #include <utility>
@@ -31,8 +32,9 @@ class ProblemSystem final : public System<Real> {
  public:
   /// Throws Misuse for invalid sizes and times (core/include/irk/system_check.h), for unknown options, for `smooth`
   /// with a problem that switches but has no regularisation, and for `ignore` and `iterate` with a problem whose state
-  /// jumps, since they go on over switches.
-  ProblemSystem(P problem, const SystemOptions& options)
+  /// jumps, since they go on over switches. `kinks`: times, ascending, at which data that the problem reads has a kink;
+  /// they join the problem's own times.
+  ProblemSystem(P problem, const SystemOptions& options, const std::vector<Real>& kinks = {})
       : problem_(std::move(problem)), options_(options), sizes_(problem_.sizes()) {
     validate(options);
     requireSizes(sizes_, {.constraints = kHasConstraints, .switching = kHasSwitching});
@@ -47,7 +49,7 @@ class ProblemSystem final : public System<Real> {
           "illegal combination: discontinuity 'ignore' or 'iterate' with a scene whose state jumps at "
           "switches: steps go on over them; use 'locate'");
     }
-    if constexpr (kHasTimes) requireTimes(problem_.times());
+    setTimes(kinks);
     const int index = constraintIndex();
     const auto all = [](Index n, int power) { return std::vector<int>(static_cast<std::size_t>(n), power); };
     row_powers_ = all(sizes_.n(), 0);
@@ -101,13 +103,18 @@ class ProblemSystem final : public System<Real> {
       move(state, [&](const Point<Real>& p, Real* u, Real* v, Real* x) { problem_.snap(i, p, u, v, x); });
     }
   }
-  std::vector<Real> times() const override {
-    if constexpr (kHasTimes) return problem_.times();
-    return {};
-  }
+  std::vector<Real> times() const override { return times_; }
   void onTime(Index i, State<Real>& state) const override {
-    if constexpr (requires(const Point<Real>& p, Real* d) { problem_.onTime(i, p, d); }) {
-      change(state, [&](const Point<Real>& p, Real* d) { problem_.onTime(i, p, d); });
+    const Index own = own_time_[static_cast<std::size_t>(i)];
+    if constexpr (requires(const Point<Real>& p, Real* d) { problem_.onTime(own, p, d); }) {
+      if (own >= 0) change(state, [&](const Point<Real>& p, Real* d) { problem_.onTime(own, p, d); });
+    }
+  }
+  void jumpAtTime(Index i, State<Real>& state) const override {
+    const Index own = own_time_[static_cast<std::size_t>(i)];
+    if constexpr (requires(const Point<Real>& p, Real* y) { problem_.jumpAtTime(own, p, y, y, y); }) {
+      if (own < 0) return;
+      move(state, [&](const Point<Real>& p, Real* u, Real* v, Real* x) { problem_.jumpAtTime(own, p, u, v, x); });
     }
   }
   bool nonNegative(Index i) const override {
@@ -193,6 +200,20 @@ class ProblemSystem final : public System<Real> {
   };
 
   static constexpr bool kHasTimes = requires(const P& problem) { problem.times(); };
+
+  // The problem's times and the kinks, ascending and each once. Lanes have neither, nor an order.
+  void setTimes(const std::vector<Real>& kinks) {
+    if constexpr (std::totally_ordered<Real>) {
+      std::vector<Real> own;
+      if constexpr (kHasTimes) requireTimes(own = problem_.times());
+      for (std::size_t i = 0, k = 0; i < own.size() || k < kinks.size();) {
+        const bool kink = i == own.size() || (k < kinks.size() && kinks[k] < own[i]);
+        if (!kink && k < kinks.size() && kinks[k] == own[i]) ++k;
+        own_time_.push_back(kink ? -1 : static_cast<Index>(i));
+        times_.push_back(kink ? kinks[k++] : own[i++]);
+      }
+    }
+  }
 
   // Calls f(p, d) with the state and the discrete states that f may change.
   template <class F>
@@ -299,6 +320,8 @@ class ProblemSystem final : public System<Real> {
   Sizes sizes_;
   std::vector<int> row_powers_;
   ErrorPowers error_powers_;
+  std::vector<Real> times_;
+  std::vector<Index> own_time_;  // for each of them its number among the problem's times, or -1 for a kink
 };
 
 }  // namespace irk

@@ -199,6 +199,11 @@ class System {
     static_cast<void>(i);
     static_cast<void>(state);
   }
+  /// Changes u, v, x at time i where the problem makes them jump; called after onTime.
+  virtual void jumpAtTime(Index i, State<Real>& state) const {
+    static_cast<void>(i);
+    static_cast<void>(state);
+  }
   /// Whether x_i of the scene's unknowns is never negative on an exact solution, as a concentration is.
   virtual bool nonNegative(Index i) const {
     static_cast<void>(i);

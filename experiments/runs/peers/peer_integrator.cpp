@@ -124,6 +124,7 @@ StartReport PeerIntegrator::run(double t_end, const Monitor<double>& monitor) {
     report = runTo(times[i], std::exchange(new_run, false), monitor);
     if (report.outcome != Outcome::kSuccess) break;
     system_->onTime(static_cast<Index>(i), state_);
+    system_->jumpAtTime(static_cast<Index>(i), state_);
     report = settle(monitor);
   }
   return report.outcome == Outcome::kSuccess ? runTo(t_end, new_run, monitor) : report;

@@ -120,8 +120,8 @@ inline constexpr double kManyDigits = 1e-28, kFewDigits = 1e-19;
 namespace detail {
 
 struct Names {
-  int constraints, switching, onSwitch, jump, snap, smoothed, times, onTime, nonNegative, usesVelocity, start, exact,
-      with;
+  int constraints, switching, onSwitch, jump, snap, smoothed, times, onTime, jumpAtTime, nonNegative, usesVelocity,
+      start, exact, with;
 };
 /// A name is ambiguous in it if P has a member of this name, too.
 template <class P>
@@ -145,6 +145,8 @@ constexpr void requireForms() {
   IRK_FORM(smoothed, p.smoothed(at, y), "smoothed(const Point<T>& p, T* d) const");
   IRK_FORM(times, std::vector<Real>(p.times()), "std::vector<Real> times() const");
   IRK_FORM(onTime, p.onTime(Index(0), at, y), "onTime(Index i, const Point<T>& p, T* d) const");
+  IRK_FORM(jumpAtTime, p.jumpAtTime(Index(0), at, y, y, y),
+           "jumpAtTime(Index i, const Point<T>& p, T* u, T* v, T* x) const");
   IRK_FORM(nonNegative, bool(p.nonNegative(Index(0))), "bool nonNegative(Index i) const");
   IRK_FORM(usesVelocity, bool(p.usesVelocity()), "bool usesVelocity() const");
   IRK_FORM(start, p.start(s), "start(State<Real>& s) const");

@@ -138,6 +138,41 @@ TEST(Times, KinksNeedNoModeInAnyFormulation) {
   }
 }
 
+/// A wheel that blows make faster: at the times i = 0, 1, ... phi' grows by i + 1. phi'' = 0, and phi' = 1 at first.
+struct Blows : Wheel {
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.a[0] - p.u[0] * p.z[0];
+    r.u[1] = -p.a[1] - p.u[1] * p.z[0];
+  }
+  std::vector<double> times() const { return {0.5, 1.2}; }
+  template <class T>
+  void jumpAtTime(Index i, const Point<T>& p, T*, T* v, T*) const {
+    v[0] -= static_cast<double>(i + 1) * p.u[1];
+    v[1] += static_cast<double>(i + 1) * p.u[0];
+  }
+};
+
+// Times of data join those of the problem, whose numbers stay theirs. One of them is both.
+TEST(Times, StatesJumpThereInAnyFormulationAndBesideKinksOfData) {
+  const double t = 2, phi = 0.5 + 2 * 0.7 + 4 * 0.8;
+  for (const auto formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl,
+                                 Formulation::kFirstOrder}) {
+    IntegratorOptions options;
+    options.tolerances = {.rtol = 1e-10, .atol = 1e-10};
+    State<double> start({.nu = 2, .nx = 0, .nz = 1, .constraints = 1});
+    start.u << 1, 0;
+    start.v << 0, 1;
+    const auto system = makeSystem<double>(Blows{}, {.formulation = formulation}, {0.1, 0.5, 0.9, 1.9});
+    EXPECT_EQ(system->times(), (std::vector<double>{0.1, 0.5, 0.9, 1.2, 1.9}));
+    Integrator<double> integrator(system, makeTableau<double>("radau_iia_7"), options);
+    const auto solution = integrator.integrate(start, t);
+    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << idOf(formulation) << solution.detail;
+    EXPECT_NEAR(solution.state.u[0], std::cos(phi), 1e-8) << idOf(formulation);
+    EXPECT_NEAR(solution.state.v[1], 4 * std::cos(phi), 1e-7) << idOf(formulation);
+  }
+}
+
 /// x' = sin^2(pi (t - 1) / 4) from t = 1 to 9, else 0: x(10) = 4. The input vanishes at 1, 5 and 9, which are the nodes
 /// of a step of length 8 with three Lobatto stages.
 struct Asleep {
