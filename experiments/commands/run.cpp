@@ -23,6 +23,7 @@
 #include "experiments/runner/join_ranks.h"
 #include "experiments/runner/merge.h"
 #include "experiments/runner/shard_plan.h"
+#include "experiments/runner/skipped_runs.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/series_walk.h"
@@ -185,8 +186,9 @@ RunKeys makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ran
   ranks.meet();
   if (ranks.count() > 1) {
     open();  // includes the rows of the other ranks
-    requireRowsOfAll(study, keys, *store);
   }
+  recordSkippedRuns(study, keys, *store);
+  if (ranks.count() > 1) requireRowsOfAll(study, keys, *store);
   store->exportTables(keys, err);
   return keys;
 }

@@ -1,21 +1,53 @@
 // The processes that make one study together: this one alone, or the ranks that mpirun has started.
 #pragma once
 
-#include <cstddef>
+#include <condition_variable>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "experiments/runner/schedule/schedule.h"
 
 namespace irk {
 
-/// Distributes numbers on request over all threads of all ranks, each once.
+/// Distributes the pieces of a schedule on request over all threads of all ranks. Thread-safe.
 class WorkQueue {
  public:
   virtual ~WorkQueue() = default;
-  /// The next number; nullopt when all are distributed. Thread-safe.
-  virtual std::optional<std::size_t> next() = 0;
+  /// The next piece. Waits if there is none before another one is recorded. Nothing when all are recorded, and after
+  /// an interrupt or `close`.
+  virtual std::optional<Piece> next() = 0;
+  /// The piece is done. Call it for every piece from `next`, unless the caller ends.
+  virtual void record(const Piece& piece, const RunFacts& facts) = 0;
+  /// Ends all waiting of this process.
+  virtual void close() = 0;
+};
+
+/// The queue of one process.
+class ProcessQueue final : public WorkQueue {
+ public:
+  explicit ProcessQueue(Schedule schedule) : schedule_(std::move(schedule)) {}
+  std::optional<Piece> next() override;
+  void record(const Piece& piece, const RunFacts& facts) override;
+  void close() override;
+
+  /// Like `next`, but does not wait: nothing and `over` = false mean that there may be a piece later.
+  struct Now {
+    std::optional<Piece> piece;
+    bool over = false;
+  };
+  Now tryNext();
+
+ private:
+  Now nextNow();
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool closed_ = false;
+  Schedule schedule_;
 };
 
 /// All ranks call `queue` and `meet` in the same order, from one thread. After an interrupt no rank waits for another
@@ -25,11 +57,11 @@ class Ranks {
   virtual ~Ranks() = default;
   virtual int rank() const = 0;   ///< 0 <= rank < count
   virtual int count() const = 0;  ///< >= 1
-  /// Makes a queue of the pieces of work `order`. Only the list of rank 0 counts; rank 0 distributes its pieces in this
-  /// order, and the destructor of its queue waits until all other ranks have destroyed theirs. On rank 0, `given` is
-  /// called, in another thread, with each piece that another rank gets.
-  using Given = std::function<void(std::size_t)>;
-  virtual std::unique_ptr<WorkQueue> queue(std::vector<std::size_t> order, Given given) = 0;
+  /// Makes a queue of the pieces of a schedule. `schedule` is called on rank 0 only, which distributes the pieces; the
+  /// destructor of its queue waits until all other ranks have destroyed theirs. On rank 0, `given` is called, in
+  /// another thread, with each piece that another rank gets. Between ranks nothing is cancelled.
+  using Given = std::function<void(const Piece&)>;
+  virtual std::unique_ptr<WorkQueue> queue(const std::function<Schedule()>& schedule, Given given) = 0;
   /// Waits until all ranks have called it. It sleeps, so that waiting ranks do not disturb one that measures times.
   virtual void meet() = 0;
   /// The host of each rank. All ranks call it.

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <ostream>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -19,32 +19,27 @@
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
 #include "experiments/reference/library.h"
-#include "experiments/runner/costs.h"
+#include "experiments/runner/schedule/costs.h"
 #include "experiments/runner/shard_plan.h"
+#include "experiments/runner/skipped_runs.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/solution/trajectory.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_rules.h"
-#include "experiments/study/series_walk.h"
 #include "irk/misuse.h"
 
 namespace irk {
 namespace {
 
-// Calls f(i) on several threads for every i of the queue. After an exception all threads stop.
-template <class F>
-void inParallel(WorkQueue& queue, int threads, F&& f) {
-  std::atomic<std::size_t> turns = 0;
+// Calls `work` on several threads. After an exception `stop` is called, and the first exception is rethrown.
+template <class Work, class Stop>
+void onThreads(int threads, Work&& work, Stop&& stop) {
   ParallelLoop loop;
-#pragma omp parallel num_threads(threads)
-  for (bool more = true; more;) {
-    loop.turn(turns++, [&] {
-      const auto i = queue.next();
-      if (i) f(*i);
-      more = i.has_value();
-    });
-    more = more && !loop.hasThrown();
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (int i = 0; i < threads; ++i) {
+    loop.turn(static_cast<std::size_t>(i), work);
+    if (loop.hasThrown()) stop();
   }
   loop.rethrow();
 }
@@ -61,7 +56,7 @@ class Sweep {
         references_({.jobs = threadCount(options.jobs),
                      .stop = &interruptFlag(),
                      .tell = [this](const std::string& line) { told_.push_back(line); }}) {
-    lookForRows(out);
+    tellStaleRows(out);
     progress_.emplace(out, study.id);
     for (std::size_t i = 0; i < study.series.size(); ++i) {
       if (keys_.isLeftOut(i)) continue;
@@ -106,25 +101,20 @@ class Sweep {
 
   /// Throws the first exception of any thread.
   void run(int threads, Ranks& ranks) {
-    // Long series first, so that all threads end at about the same time.
-    const auto costs = ranks.rank() == 0 && is_any_missing_
-                           ? expectedCosts(
-                                 study_, [this](std::size_t i) { return keys_[i]; }, store_.runs())
-                           : std::vector<double>(study_.series.size());
-    std::stable_sort(work_.begin(), work_.end(), [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
-    const auto queue = ranks.queue(work_, [this](std::size_t i) { countAsGiven(i); });
-    inParallel(*queue, threads, [this](std::size_t i) { runSeries(i); });
+    const auto queue = ranks.queue([this] { return schedule(); }, [this](const Piece& piece) { countAsGiven(piece); });
+    const auto work = [&] {
+      while (const auto piece = queue->next()) makePiece(*piece, *queue);
+    };
+    onThreads(threads, work, [&] { queue->close(); });
   }
 
   RunKeys takeKeys() { return std::move(keys_); }
 
  private:
-  // Notes whether runs are missing, and tells how many are stale.
-  void lookForRows(std::ostream& out) {
+  void tellStaleRows(std::ostream& out) const {
     std::size_t stale = 0;
     keys_.forEach([&](std::uint64_t key, const std::string&) {
       const auto entry = store_.finished(key);
-      if (!entry) is_any_missing_ = true;
       if (entry && !store_.runs().isCurrent(*entry)) ++stale;
     });
     if (stale == 0) return;
@@ -143,74 +133,96 @@ class Sweep {
     });
   }
 
-  // Another rank makes the series: count its runs as done.
-  void countAsGiven(std::size_t index) {
-    const Series& series = study_.series[index];
-    const std::lock_guard lock(mutex_);
-    const std::size_t expected = expectedRuns(series);
-    for (std::size_t run = 0; run < expected; ++run) progress_->skipped(kindOf(series.runs[run], series.end));
+  // Called on rank 0 only.
+  Schedule schedule() {
+    costs_.emplace(
+        study_, [this](std::size_t i) { return keys_[i]; }, store_.runs());
+    return {study_,
+            work_,
+            {.costs = [this](std::size_t i) { return costsOf(i); },
+             .stored = [this](std::size_t i, std::size_t run) { return stored(i, run); },
+             .ended = [this](std::size_t i) { countAsEnded(i); }}};
   }
 
-  void runSeries(std::size_t index) {
-    const Series& series = study_.series[index];
-    const bool planned = series.end == SeriesEnd::kAsymptotic;
+  std::vector<double> costsOf(std::size_t index) {
+    const std::lock_guard lock(mutex_);
     const auto keys = keys_[index];
-    SeriesWalk walk(series);
-    std::size_t expected = expectedRuns(series);
-    while (const auto run = walk.next()) {
-      const RunSpec& spec = series.runs[*run];
-      const std::string kind = kindOf(planned ? series.runs.front() : spec, series.end);
-      if (expected > 0) {
-        --expected;
-      } else {
-        const std::lock_guard lock(mutex_);
-        progress_->expect(kind);
-      }
-      const auto facts = finishedOrMade(spec, keys[*run], kind, planned, tooLongRow(keys, walk));
-      if (!facts) return;
-      walk.record(*run, *facts);
+    auto costs = costs_->of(index);
+    for (std::size_t run = 0; run < keys.size(); ++run) {
+      if (store_.finished(keys[run])) costs[run] = 0;
     }
-    const std::string kind = kindOf(series.runs.front(), series.end);
-    const std::lock_guard lock(mutex_);
-    for (; expected > 0; --expected) progress_->skipped(kind);
+    return costs;
   }
 
-  std::optional<TableRow> tooLongRow(const std::vector<std::uint64_t>& keys, const SeriesWalk& walk) {
-    const auto run = walk.tooLong();
-    if (!run) return {};
+  // Called once for each run that is about to be handed out.
+  std::optional<RunFacts> stored(std::size_t index, std::size_t run) {
+    const Series series = study_.series[index];
+    const std::uint64_t key = keys_[index][run];
     const std::lock_guard lock(mutex_);
-    const store::Rows& runs = store_.runs();
-    return runs.row(*runs.find(keys[*run]));
+    announce(index, series, run);
+    const auto entry = store_.finished(key);
+    if (!entry || !hasSolution(key, series.runs[run])) return {};
+    progress_->skipped(progressKind(series, run));
+    return store::factsOf(store_.runs(), *entry, series.end == SeriesEnd::kAsymptotic);
   }
 
-  // nullopt after an interrupt.
-  std::optional<RunFacts> finishedOrMade(const RunSpec& spec, std::uint64_t key, const std::string& kind, bool planned,
-                                         const std::optional<TableRow>& too_long) {
-    if (interruptFlag()) return {};
+  static std::string progressKind(const Series& series, std::size_t run) {
+    const bool planned = series.end == SeriesEnd::kAsymptotic;
+    return kindOf(planned ? series.runs.front() : series.runs[run], series.end);
+  }
+
+  // Counts the run as one of the expected ones of its series, if there are any left, else as another one.
+  void announce(std::size_t index, const Series& series, std::size_t run) {
+    std::size_t& expected = expected_.try_emplace(index, expectedRuns(series)).first->second;
+    if (expected > 0) {
+      --expected;
+    } else {
+      progress_->expect(progressKind(series, run));
+    }
+  }
+
+  // Another rank makes the run: count it as done.
+  void countAsGiven(const Piece& piece) {
+    const Series series = study_.series[piece.series];
+    const std::lock_guard lock(mutex_);
+    progress_->skipped(progressKind(series, piece.run));
+  }
+
+  // The other expected runs of the series are not made.
+  void countAsEnded(std::size_t index) {
+    const Series series = study_.series[index];
+    const std::lock_guard lock(mutex_);
+    for (auto left = expected_.extract(index).mapped(); left > 0; --left) {
+      progress_->skipped(progressKind(series, series.runs.size() - left));
+    }
+  }
+
+  void makePiece(const Piece& piece, WorkQueue& queue) {
+    const Series series = study_.series[piece.series];
+    const RunSpec spec = series.runs[piece.run];
+    const std::string kind = progressKind(series, piece.run);
+    const double start = wallSeconds();
+    const RunRecord record = make(spec, piece.cancelled.get());
+    // The interrupt may have stopped the computation of its reference: the row would lack an error.
+    if (interruptFlag() && (isInterrupted(record) || spec.reference == ReferenceUse::kAuto)) return;
     {
       const std::lock_guard lock(mutex_);
-      const auto entry = store_.finished(key);
-      if (entry && hasSolution(key, spec)) {
-        progress_->skipped(kind);
-        return store::factsOf(store_.runs(), *entry, planned);
+      if (isInterrupted(record)) {
+        progress_->skipped(kind);  // cancelled
+      } else {
+        store(record, hexText(keys_[piece.series][piece.run]));
+        progress_->finished(kind, wallSeconds() - start);
       }
     }
-    const double start = wallSeconds();
-    const RunRecord record = too_long ? notMade(spec, *too_long, columns_) : make(spec);
-    if (record.outcome == name(Outcome::kInterrupted)) return {};
-    // The interrupt may have stopped the computation of its reference: the row would lack an error.
-    if (interruptFlag() && spec.reference == ReferenceUse::kAuto) return {};
-    const std::string text = hexText(key);
-    const std::lock_guard lock(mutex_);
-    if (study_.states) store_.addState(text, vectorText(componentsOf(record)), vectorText(barsOf(record)));
-    store_.addRun(runRow(text, study_.id, record));
-    if (too_long) {
-      progress_->skipped(kind);
-    } else {
-      progress_->finished(kind, wallSeconds() - start);
-    }
     const RunErrors& errors = record.errors;
-    return RunFacts{record.outcome, {errors.u, errors.v, errors.x, errors.z}};
+    queue.record(piece, {record.outcome, {errors.u, errors.v, errors.x, errors.z}});
+  }
+
+  static bool isInterrupted(const RunRecord& record) { return record.outcome == name(Outcome::kInterrupted); }
+
+  void store(const RunRecord& record, const std::string& key) {
+    if (study_.states) store_.addState(key, vectorText(componentsOf(record)), vectorText(barsOf(record)));
+    store_.addRun(runRow(key, study_.id, record));
   }
 
   // Whether the files that the study keeps for a finished run, state and trajectory, exist.
@@ -219,8 +231,9 @@ class Sweep {
     return !study_.trajectories || std::filesystem::exists(trajectoryPath(store_.folder(), spec));
   }
 
-  RunRecord make(const RunSpec& spec) {
+  RunRecord make(const RunSpec& spec, const std::atomic<bool>* cancelled) {
     Watch watch{&interruptFlag(), {}, {}, [this](const RunSpec& run) { return references_.of(run); }};
+    watch.cancelled = cancelled;
     watch.invariants = true;
     return withoutMachine(orRefused(spec, [&] {
       return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(store_.folder(), spec))
@@ -231,11 +244,11 @@ class Sweep {
   const Study& study_;
   store::Store& store_;
   RunKeys keys_;
-  const Table columns_{{}, runColumns(), {}};
   std::vector<std::size_t> work_;    // indices of series with missing runs
   std::vector<std::size_t> asking_;  // those of work_ whose runs may need a computed reference
-  bool is_any_missing_ = false;
-  std::mutex mutex_;
+  std::mutex mutex_;                 // of the store and of what follows
+  std::optional<Costs> costs_;
+  std::unordered_map<std::size_t, std::size_t> expected_;  // of begun series: the announced runs that are not counted
   std::optional<Progress> progress_;
   std::vector<std::string> told_;  // messages about references, to be printed
   ReferenceLibrary references_;
@@ -259,11 +272,13 @@ RunKeys runKeys(const Study& study, const RunnerOptions& options) {
     wanted.push_back({shard[i] == options.shard.index ? series.runs.size() : 0, series.block});
   }
   RunKeys keys(wanted);
-  std::vector<std::size_t> all(shard.size());
-  std::iota(all.begin(), all.end(), 0);
-  inParallel(*aloneRank()->queue(std::move(all), {}), threadCount(options.jobs), [&](std::size_t i) {
-    if (!keys.isLeftOut(i)) keys.set(i, keysOf(study.series[i]));
-  });
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < shard.size(); i = next++) {
+      if (!keys.isLeftOut(i)) keys.set(i, keysOf(study.series[i]));
+    }
+  };
+  onThreads(threadCount(options.jobs), work, [&] { next = shard.size(); });
   keys.finish();
   return keys;
 }
@@ -280,6 +295,7 @@ Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& p
   store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
   const auto alone = aloneRank();
   const auto keys = makeRuns(study, options, store, *alone, progress);
+  recordSkippedRuns(study, keys, store);
   store.exportTables(keys, progress);
   return readTable(store.folder() / "runs.csv");
 }

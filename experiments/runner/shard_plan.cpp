@@ -12,7 +12,7 @@
 #include "core/base/input_file.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
-#include "experiments/runner/costs.h"
+#include "experiments/runner/schedule/costs.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_spec.h"
 #include "experiments/tables/environment.h"
@@ -94,9 +94,9 @@ std::vector<int> shardsOf(const Study& study, const RunnerOptions& options) {
   if (!kept.empty()) return kept;
   std::ostream silent(nullptr);
   const store::Store earlier(options.results / study.id, study.id, store::Use::kRead, {}, silent);
-  const auto costs = expectedCosts(
+  const Costs costs(
       study, [&](std::size_t i) { return keysOf(study.series[i]); }, earlier.runs());
-  return balanced(costs, options.shard.count);
+  return balanced(costs.sums(), options.shard.count);
 }
 
 void keepShards(const Study& study, const RunnerOptions& options) {

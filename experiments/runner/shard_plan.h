@@ -13,7 +13,7 @@ namespace irk {
 std::vector<std::uint64_t> keysOf(const Series& series);
 
 /// The shard of each series, 1 to options.shard.count. It is read from results/<study>/shards_of_<n> if that file was
-/// written for these series; otherwise it is balanced by the times in results/<study> and by guesses (expectedCosts).
+/// written for these series; otherwise it is balanced by the times in results/<study> and by guesses (Costs).
 /// Throws Failure.
 std::vector<int> shardsOf(const Study& study, const RunnerOptions& options);
 

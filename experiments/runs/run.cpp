@@ -81,7 +81,9 @@ class PeerMethod {
 std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
   return [&watch, start, limit] {
     own::stillGoing(limit);
-    if (watch.stop && watch.stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
+    for (const auto* stop : {watch.stop, watch.cancelled}) {
+      if (stop && stop->load(std::memory_order_relaxed)) return Outcome::kInterrupted;
+    }
     const bool late = limit > 0 && threadSeconds() - start > limit;
     return late ? Outcome::kTimeout : Outcome::kSuccess;
   };

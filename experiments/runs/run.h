@@ -81,7 +81,7 @@ struct AcceptedStep {
   ValuesInside* inside = nullptr;  ///< valid during the callback; null if not asked for, or not known (peers)
 };
 
-/// The caller's stop flag and callbacks during a run. All are optional.
+/// The caller's stop flags and callbacks during a run. All are optional.
 struct Watch {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const AcceptedStep&)> accepted;
@@ -96,6 +96,7 @@ struct Watch {
   std::function<void(double part)> measuring = {};
   bool invariants = false;  ///< whether to follow the scene's invariants, which takes time in each step
   bool inside = false;      ///< whether `accepted` needs AcceptedStep::inside
+  const std::atomic<bool>* cancelled = nullptr;  ///< a stop flag of this run alone
 };
 
 /// Scene, method and integrator of a spec: built once, run as often as wanted. Use one object per thread.

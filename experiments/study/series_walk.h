@@ -29,7 +29,10 @@ class SeriesWalk {
 
   /// The next run of the series; nullopt when there is none left.
   std::optional<std::size_t> next();
-  /// Records the facts of the run that `next` returned.
+  /// Whether `next` may be called only after the run that it returned last has been recorded. Otherwise the runs may
+  /// be recorded later and in any order.
+  bool needsLast() const { return !planner_ || planner_->isProbing(); }
+  /// Records the facts of a run that `next` returned.
   void record(std::size_t run, const RunFacts& facts);
 
   /// The second of two runs in a row that took too long: later runs are not made but recorded with its outcome. One

@@ -24,6 +24,8 @@ class StepPlanner {
 
   /// Index of the next run among the candidates; nullopt when no further run is needed.
   std::optional<std::size_t> next();
+  /// Whether the next run depends on the last one that `next` returned. After the probe all runs are known.
+  bool isProbing() const { return probing_; }
 
   /// Records a successful run.
   void record(std::size_t index, const GroupErrors& errors) { runs_[index] = errors; }

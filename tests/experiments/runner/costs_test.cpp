@@ -1,5 +1,5 @@
 // Expected costs of series: from earlier rows where there are any; shards that all jobs of an array agree on.
-#include "experiments/runner/costs.h"
+#include "experiments/runner/schedule/costs.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ methods = ["radau_iia_2", "radau_iia_3", "gauss_2"]
 tolerances = [1e-3, 1e-4]
 )";
 
-class Costs : public StoredRuns {
+class ExpectedCosts : public StoredRuns {
  protected:
   // Makes the study's runs and gives them these times, by series.
   void runWithTimes(const std::vector<double>& seconds) {
@@ -39,19 +39,20 @@ class Costs : public StoredRuns {
   }
   std::vector<double> costs(const Study& of) {
     const Store earlier = reader();
-    return expectedCosts(
-        of, [&](std::size_t i) { return keysOf(of.series[i]); }, earlier.runs());
+    return Costs(
+               of, [&](std::size_t i) { return keysOf(of.series[i]); }, earlier.runs())
+        .sums();
   }
 };
 
-TEST_F(Costs, AreGuessedWithoutRows) {
+TEST_F(ExpectedCosts, AreGuessedWithoutRows) {
   const Study six = study(kSix);
   const auto guessed = costs(six);
   ASSERT_EQ(guessed.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(guessed[i], expectedCost(six.series[i]));
 }
 
-TEST_F(Costs, AreTheTimesOfEarlierRows) {
+TEST_F(ExpectedCosts, AreTheTimesOfEarlierRows) {
   const std::vector<double> seconds{1, 2, 4, 10, 20, 40};
   runWithTimes(seconds);
   const auto known = costs(study(kSix));
@@ -75,7 +76,7 @@ TEST_F(Costs, AreTheTimesOfEarlierRows) {
   EXPECT_DOUBLE_EQ(mixed[7], guess(7) * (3 * 70) / (guess(4) + guess(5) + guess(6)));
 }
 
-TEST_F(Costs, BalanceTheShards) {
+TEST_F(ExpectedCosts, BalanceTheShards) {
   runWithTimes({1, 1, 1, 1, 1, 5});
   RunnerOptions half = options();
   half.shard = {1, 2};
@@ -83,7 +84,7 @@ TEST_F(Costs, BalanceTheShards) {
 }
 
 // A job of the array that starts after others have been merged must not use other shards than they did.
-TEST_F(Costs, ThePlanOfTheFirstJobStays) {
+TEST_F(ExpectedCosts, ThePlanOfTheFirstJobStays) {
   runWithTimes({1, 1, 1, 1, 1, 5});
   RunnerOptions half = options();
   half.shard = {1, 2};

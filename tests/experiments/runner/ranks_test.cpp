@@ -20,23 +20,37 @@
 namespace irk {
 namespace {
 
+// Each run of a series that is planned run by run: a thread waits until the run before is recorded.
 TEST(WorkQueue, GivesEachPieceOnce) {
-  std::vector<std::size_t> order(1000);
-  std::iota(order.begin(), order.end(), 0);
-  const auto queue = aloneRank()->queue(order, {});
+  const Study study = parseStudy(
+      "orders = true\n[[block]]\nscene = \"kepler\"\nmethods = [\"gauss_1\", \"gauss_2\"]\nrefine_most = 40\n",
+      "small.toml", StudyVariant::kFull);
+  const auto schedule = [&] {
+    const auto costs = [&](std::size_t i) { return std::vector<double>(study.series[i].runs.size(), 1); };
+    return Schedule(study, {0, 1},
+                    {costs, [](std::size_t, std::size_t) { return std::optional<RunFacts>(); }, [](std::size_t) {}});
+  };
+  const auto queue = aloneRank()->queue(schedule, {});
   std::mutex mutex;
-  std::multiset<std::size_t> given;
+  std::multiset<std::pair<std::size_t, std::size_t>> given;
   const auto take = [&] {
-    while (const auto i = queue->next()) {
-      const std::lock_guard lock(mutex);
-      given.insert(*i);
+    while (const auto piece = queue->next()) {
+      {
+        const std::lock_guard lock(mutex);
+        given.emplace(piece->series, piece->run);
+      }
+      const double error = 1e-3 / static_cast<double>((piece->run + 1) * (piece->run + 1));
+      queue->record(*piece, {"success", {error, error, error, error}});
     }
   };
-  std::thread other(take);
+  std::thread other(take), third(take);
   take();
   other.join();
-  EXPECT_EQ(given.size(), 1000u);
-  EXPECT_EQ(std::set<std::size_t>(given.begin(), given.end()).size(), 1000u);
+  third.join();
+  EXPECT_GE(given.size(), 10u);
+  EXPECT_EQ(std::set(given.begin(), given.end()).size(), given.size());
+  EXPECT_EQ(given.count({0, 0}), 1u);
+  EXPECT_EQ(given.count({1, 0}), 1u);
   EXPECT_FALSE(queue->next());
 }
 
@@ -111,6 +125,24 @@ TEST_F(RanksOfMpi, FourMakeTheSameTableAsOne) {
   EXPECT_EQ(rowsInParts("four"), 36u) << "a run was made twice";
   ASSERT_EQ(statusOf(command("four", kFour)), 0);
   EXPECT_EQ(rowsInParts("four"), 36u) << "there was nothing left to make";
+}
+
+TEST_F(RanksOfMpi, FourSkipTheSameRunsAsOne) {
+  std::ofstream(folder_.path() / "small.toml") << R"(
+[defaults]
+max_steps = 60
+tolerances = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9]
+[[block]]
+scene = ["kepler", "van_der_pol"]
+configuration = "embedded"
+methods = ["radau_iia_2", "radau_iia_3", "gauss_2"]
+)";
+  ASSERT_EQ(statusOf(command("one")), 0) << output("one");
+  ASSERT_EQ(statusOf(command("four", kFour)), 0) << output("four");
+  const Table one = exported("one");
+  EXPECT_EQ(one.rows.size(), 48u);
+  EXPECT_NE(contentsOf(folder("one") / "runs.csv").find("not run: "), std::string::npos);
+  expectSame(exported("four"), one);
 }
 
 // srun sets these; whether the processes know of each other depends on how Slurm and MPI were built.

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "experiments/runner/costs.h"
+#include "experiments/runner/schedule/costs.h"
 #include "experiments/runner/shard_plan.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/program.h"
