@@ -22,17 +22,11 @@ bool allFinite(const Vec<Real>& x) {
   return std::all_of(x.begin(), x.end(), [](const Real& value) { return isfinite(value); });
 }
 
-template <class Real>
-std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> system) {
-  requireSystem(system.get(), {});
-  return system;
-}
-
 }  // namespace
 
 template <class Real>
 FirstOrderForm<Real>::FirstOrderForm(std::shared_ptr<const System<Real>> inner, MassFactors factors)
-    : inner_(checked(std::move(inner))),
+    : inner_((requireSystem(inner.get(), {}), std::move(inner))),
       inner_sizes_(inner_->sizes()),
       factors_(factors),
       at_(inner_sizes_),

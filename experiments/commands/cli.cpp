@@ -318,9 +318,8 @@ class Program {
   CLI::App app_;
   Action action_;
   bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false, sensitivity_ = false;
-  std::string stale_ = "keep", times_ = "all";
+  std::string stale_ = "keep", times_ = "all", jobs_ = "0", digits_ = "17", results_ = "results";
   std::string study_, shard_, what_, method_, shell_, out_ = "stability", format_ = "file";
-  std::string jobs_ = "0", digits_ = "17", results_ = "results";
   std::vector<std::string> folders_, methods_, load_, peers_;
   std::map<std::string, std::string> fields_;
   SolveOptions solve_;

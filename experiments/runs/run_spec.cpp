@@ -63,8 +63,8 @@ ScalarKind parseId<ScalarKind>(std::string_view id) {
     const bool in_range = digits >= ScalarKind::kLeastDigits && digits <= ScalarKind::kMostDigits;
     if (error == std::errc() && end == id.data() + id.size()) {
       if (in_range) return {digits};
-      throw Misuse(fmt::format("scalar '{}': mp{} to mp{} expected", id, ScalarKind::kLeastDigits,
-                               ScalarKind::kMostDigits));
+      throw Misuse(
+          fmt::format("scalar '{}': mp{} to mp{} expected", id, ScalarKind::kLeastDigits, ScalarKind::kMostDigits));
     }
   }
   return valueOf<ScalarKind>(id);

@@ -13,8 +13,8 @@ namespace irk {
 inline constexpr Index kMaxStages = 100;
 
 /// The coefficients A (s x s), b and c (s each), and b_hat (s) if there are embedded weights, with the orders that the
-/// family or the file declares. Integrators refuse (Misuse) other sizes, coefficients that are not finite, and orders that
-/// no method of s stages has. Whether the method has its orders is checked for files only.
+/// family or the file declares. Integrators refuse (Misuse) other sizes, coefficients that are not finite, and orders
+/// that no method of s stages has. Whether the method has its orders is checked for files only.
 template <class Real>
 struct Tableau {
   std::string id;        ///< e.g. `radau_iia_5`, or the file it came from

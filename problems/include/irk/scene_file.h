@@ -251,9 +251,9 @@ constexpr bool kHasConstraints = requires(const P& p, const Point<double>& at, d
 }  // namespace detail
 
 /// Completes the entry of a scene's struct by the makers of the scalars that this file is compiled for: double and
-/// BigFloat, or with IRK_DIGITS the one that it names: 16 for double, 50 for BigFloat, of any number of digits. A struct with `constraints` is of the kind
-/// kConstrained, unless its entry names another one. `static`: to gcc, functions of equal templates S in the unnamed
-/// namespaces of two files are one function.
+/// BigFloat, or with IRK_DIGITS the one that it names: 16 for double, 50 for BigFloat, of any number of digits. A
+/// struct with `constraints` is of the kind kConstrained, unless its entry names another one. `static`: to gcc,
+/// functions of equal templates S in the unnamed namespaces of two files are one function.
 template <template <class> class S>
 static SceneEntry sceneEntryOf(SceneEntry entry) {
   if (detail::kHasConstraints<S<double>> && entry.kind == SceneKind::kOde) entry.kind = SceneKind::kConstrained;
