@@ -82,6 +82,7 @@ void EnsembleScene::setStart(std::size_t i, State<double>& start) const {
 EnsembleMember EnsembleScene::member(std::size_t i) const {
   const auto make = [&](const Scene<double>& scene, std::shared_ptr<const System<double>> system) {
     EnsembleMember member{std::move(system), scene.start, std::isnan(t_end_) ? scene.t_end : t_end_};
+    requireInTables(scene, member.t_end);
     member.scale = toleranceScale(scene, spec_, member.system->sizes());
     setStart(i, member.start);
     return member;

@@ -117,6 +117,7 @@ std::map<Id, std::string>& hashes() {
 // Runs registrations with this file as their source.
 void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
   static SceneEntry next;
+  entry.folder = std::filesystem::absolute(source).parent_path().lexically_normal().string();
   next = std::move(entry);
   const Registration registration([] { registerScene(std::move(next)); });
   runRegistrations(source.string());
@@ -209,6 +210,25 @@ std::string hashOf(std::string_view kind, std::string_view id) {
   if (hashes().empty()) return "";
   const auto at = hashes().find({std::string(kind), std::string(id)});
   return at == hashes().end() ? "" : at->second;
+}
+
+std::string hashOfTables(const SceneEntry& scene, const Settings& settings) {
+  if (!scene.registered) return "";
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, Settings>, std::set<std::string>> known;  // a study has many runs of a scene
+  const std::pair name{scene.id, settings};
+  std::unique_lock lock(mutex);
+  auto found = known.find(name);
+  if (found == known.end()) {
+    lock.unlock();
+    std::set<std::string> files;
+    for (const auto& table : makeScene<double>(scene, settings).tables) files.insert(table.file);
+    lock.lock();
+    found = known.emplace(name, std::move(files)).first;
+  }
+  std::string all;
+  for (const auto& file : found->second) all += ' ' + hexText(fnv1a(readInputFile(file)));
+  return all.empty() ? "" : hexText(fnv1a(all));
 }
 
 }  // namespace irk::own

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "irk/scene.h"
+
 namespace irk::own {
 
 /// Whether a text names a file of C++ or an FMU: it ends with `.cpp` or `.fmu`.
@@ -31,6 +33,11 @@ std::string loadFile(const std::filesystem::path& file);
 /// scene or the name of an axis; empty for what belongs to the program. Part of a run's key. Safe from any number of
 /// threads, but not beside loadFile.
 std::string hashOf(std::string_view kind, std::string_view id);
+
+/// The hash of the contents of the files that a scene's tables read with these settings (irk/table.h); empty for a
+/// scene without tables. Part of a run's key, beside hashOf. Throws Misuse as makeScene. Safe from any number of
+/// threads.
+std::string hashOfTables(const SceneEntry& scene, const Settings& settings);
 
 /// The hash of a loaded file, by its name; empty for others.
 std::string hashOfFile(const std::string& file);

@@ -21,7 +21,8 @@ std::string keyText(const ReferenceQuestion& question) {
     const bool is_given = given != question.settings.end();
     settings += fmt::format("{}={};", parameter.name, is_given ? given->second : parameter.default_value);
   }
-  return fmt::format("scene={};source={};{}t_end={};smooth={};code={}", scene.id, sourceOf(scene), settings,
+  const std::string tables = own::hashOfTables(scene, question.settings);
+  return fmt::format("scene={};source={}{};{}t_end={};smooth={};code={}", scene.id, sourceOf(scene), tables, settings,
                      numberText(question.t_end), question.smooth, buildInfo().code);
 }
 

@@ -18,9 +18,9 @@ struct ReferenceQuestion {
 
 ReferenceQuestion referenceQuestion(const RunSpec& resolved);
 
-/// Everything that determines the reference, as one text: scene, the scene's source, all settings with their
+/// Everything that determines the reference, as one text: scene, the scene's source and tables, all settings with their
 /// defaults, t_end, whether the problem is the regularized one, and the code of this program. The hash of this text
-/// names the file in the cache. Throws Misuse for an unknown scene.
+/// names the file in the cache. Throws Misuse as makeScene.
 std::string keyText(const ReferenceQuestion& question);
 
 /// For messages: `slider_crank torque_off_at=0.5 smooth, t = 1`; of several that differ in t_end only, ascending,

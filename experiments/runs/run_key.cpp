@@ -61,6 +61,15 @@ std::string coefficients(const RunSpec& spec) {
   return known[name] = text;
 }
 
+// Empty for a scene that cannot be made: its run is refused.
+std::string tablesOf(const RunSpec& spec) {
+  try {
+    return own::hashOfTables(findScene(spec.scene), settingsAtStep(spec));
+  } catch (const Misuse&) {
+    return "";
+  }
+}
+
 // Hashes of the users' files that the spec needs; empty for a spec of the program's own parts.
 std::string ownFiles(const RunSpec& spec) {
   std::string text;
@@ -69,6 +78,8 @@ std::string ownFiles(const RunSpec& spec) {
     if (!hash.empty()) text.append(";").append(kind).append(" from=").append(hash);
   };
   add("scene", spec.scene);
+  const std::string tables = tablesOf(spec);
+  if (!tables.empty()) text += ";tables=" + tables;
   for (const auto& field : specFields()) {
     if (field.kind == FieldKind::kAxis) add(field.name, field.get(spec));
   }

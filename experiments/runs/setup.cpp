@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/number_text.h"
@@ -94,7 +95,9 @@ Vec<double> toleranceScale(const Scene<Real>& scene, const RunSpec& spec, const 
 
 template <class Real>
 Scene<Real> sceneOf(const RunSpec& spec) {
-  return makeScene<Real>(spec.scene, settingsAtStep(spec));
+  auto scene = makeScene<Real>(spec.scene, settingsAtStep(spec));
+  if (!std::isnan(spec.t_end)) requireInTables(scene, spec.t_end);
+  return scene;
 }
 
 template <class Real>

@@ -300,7 +300,9 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
   const Settings completed = completedSettings(entry.id, entry.parameters, settings);
   const auto& make = makerOf<Real>(entry);
   if (!make) refuseScalar<Real>(entry);
+  const TableReadings readings(entry.folder);
   Scene<Real> scene = withNameOf(entry, [&] { return make(completed); });
+  scene.tables = readings.all();
   if (!scene.system) throw Misuse("scene " + entry.id + " makes no system");
   scene.id = entry.id;
   const Sizes sizes = withNameOf(entry, [&] { return checkedSizes(scene); });
@@ -317,10 +319,24 @@ Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings) {
 }
 
 template <class Real>
+void requireInTables(const Scene<Real>& scene, double t_end) {
+  const auto t0 = static_cast<double>(scene.start.t);
+  for (const TableRead& table : scene.tables) {
+    const double first = std::strtod(table.first.c_str(), nullptr), last = std::strtod(table.last.c_str(), nullptr);
+    if (std::min(t0, t_end) >= first && std::max(t0, t_end) <= last) continue;
+    throw Misuse(fmt::format("scene {}: {} has {} from t = {} to {}, and the run goes from {:g} to {:g}", scene.id,
+                             table.file, table.column, table.first, table.last, t0, t_end));
+  }
+}
+
+template <class Real>
 Scene<Real> makeScene(std::string_view id, const Settings& settings) {
   return makeScene<Real>(findScene(id), settings);
 }
 
+template void requireInTables(const Scene<double>&, double);
+template void requireInTables(const Scene<mp50>&, double);
+template void requireInTables(const Scene<mp100>&, double);
 template Scene<double> makeScene<double>(const SceneEntry&, const Settings&);
 template Scene<BigFloat> makeScene<BigFloat>(const SceneEntry&, const Settings&);
 template Scene<double> makeScene<double>(std::string_view, const Settings&);

@@ -26,7 +26,7 @@ constexpr double kLargestQuantity = 1e15;
 constexpr double kMaxElements = 10000;
 
 void check(std::string_view scene, const Parameter& p, const std::string& text) {
-  if (p.text || text == p.default_value) return;
+  if (p.text || isTable(p, text) || text == p.default_value) return;
   if (!p.choices.empty()) {
     for (const std::string& choice : p.choices) {
       if (text == choice) return;
@@ -38,8 +38,9 @@ void check(std::string_view scene, const Parameter& p, const std::string& text) 
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
   const bool fits = !p.whole || value == std::floor(value);
   if (!is_number || !fits || value < p.min || value > p.max) {
-    throw Misuse(fmt::format("scene {}: parameter {} = '{}' must be a {}number in [{}, {}]{}{}", scene, p.name, text,
-                             p.whole ? "whole " : "", p.min, p.max, p.unit.empty() ? "" : " ", p.unit));
+    throw Misuse(fmt::format("scene {}: parameter {} = '{}' must be a {}number in [{}, {}]{}{}{}", scene, p.name, text,
+                             p.whole ? "whole " : "", p.min, p.max, p.unit.empty() ? "" : " ", p.unit,
+                             p.table ? ", or a table: file.csv or file.csv:column" : ""));
   }
 }
 

@@ -101,7 +101,7 @@ std::shared_ptr<const System<Real>> firstOrderForm(std::shared_ptr<const System<
 /// The system of a problem struct P in the formulation that the options name. Keeps a copy of the problem; the
 /// result is immutable and may be shared by threads, except in the formulations kFirstOrder and kFirstOrderPerStep
 /// (see firstOrderForm).
-/// `kinks`: times, ascending, at which data that the problem reads has a kink; they join its own times.
+/// `kinks`: times, ascending, at which data that the problem reads has a kink (irk/table.h); they join its own times.
 /// Throws Misuse for invalid sizes (irk/system_check.h) and for options that the problem does not allow
 /// (see ProblemSystem).
 template <class Real, class P>

@@ -67,6 +67,18 @@ void irk_scene_component(void* self, int i, char* name, char* unit, double* scal
  * guesses of w, and d, all 0 when it is called. w and z are then computed. Without it all is left as it is. */
 void irk_scene_start(void* self, double* t, double* y, double* w, double* d);
 
+/* --- Tables of measured data. These two functions belong to the program, which loads the library: declared here, to be
+ * called by it. */
+
+typedef struct irk_table irk_table;
+/* In irk_scene_open: the column y of a CSV file over its column t, linear between the rows, or with cubic other than 0
+ * a monotone cubic. The file lies beside the library; irk/table.h says what it looks like. The rows at which the table
+ * has a kink join the `times`, and the file's content is part of the scene. The table lives until irk_scene_close. NULL
+ * if it cannot be read: irk_scene_open then returns a number other than 0, and needs no message. */
+const irk_table* irk_table_open(const char* file, const char* t, const char* y, int cubic);
+/* A run does not leave the times of the table. */
+double irk_table_value(const irk_table* table, double t);
+
 /* --- The equations: one of the first two. */
 
 /* f of M(t, y) w = f(t, y) (the rows of u'' and x') and of 0 = f(t, y) (the algebraic rows). */

@@ -164,6 +164,7 @@ void readOthers(const Variables& variables, FmuDescription& fmu) {
     FmuVariable v = variables.read(node);
     const bool state = is_state.contains(v.reference);
     const bool exact = initial.empty() || initial == "exact";
+    v.input = causality == "input" && type == FmuType::kReal;
     const bool can_be_set = causality == "parameter" || causality == "input" || (state && exact);
     if (can_be_set && !v.start.empty()) {
       fmu.settable.push_back(std::move(v));

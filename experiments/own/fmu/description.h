@@ -15,7 +15,8 @@ struct FmuVariable {
   std::string name, unit, meaning;
   unsigned reference = 0;
   FmuType type = FmuType::kReal;
-  std::string start;  ///< as in the file; empty: none
+  std::string start;   ///< as in the file; empty: none
+  bool input = false;  ///< it may change at any time; of numbers of the type kReal only
   double min = -1e300, max = 1e300;
   double nominal = 1;
 };

@@ -50,6 +50,9 @@ class Fmi2Instance final : public CommonInstance {
   bool product(const double* seed, double* to) override {
     return good(get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, to));
   }
+  bool setInputs(const std::vector<unsigned>& references, const std::vector<double>& values) override {
+    return good(set_real_(instance_, references.data(), references.size(), values.data()));
+  }
   bool values(const std::vector<unsigned>& references, double* to) override {
     return good(get_real_(instance_, references.data(), references.size(), to));
   }
@@ -69,7 +72,7 @@ class Fmi2Instance final : public CommonInstance {
     const int whole = static_cast<int>(value);
     fmiStatus status = fmiOK;
     if (variable.type == FmuType::kReal) {
-      status = get<fmi2SetRealTYPE>("fmi2SetReal")(instance_, &reference, 1, &value);
+      status = set_real_(instance_, &reference, 1, &value);
     } else if (variable.type == FmuType::kInteger) {
       status = get<fmi2SetIntegerTYPE>("fmi2SetInteger")(instance_, &reference, 1, &whole);
     } else {
@@ -100,6 +103,7 @@ class Fmi2Instance final : public CommonInstance {
   fmi2EnterContinuousTimeModeTYPE* enter_continuous_ =
       get<fmi2EnterContinuousTimeModeTYPE>("fmi2EnterContinuousTimeMode");
   fmi2CompletedIntegratorStepTYPE* step_ = get<fmi2CompletedIntegratorStepTYPE>("fmi2CompletedIntegratorStep");
+  fmi2SetRealTYPE* set_real_ = get<fmi2SetRealTYPE>("fmi2SetReal");
   fmi2GetRealTYPE* get_real_ = get<fmi2GetRealTYPE>("fmi2GetReal");
   fmi2GetDirectionalDerivativeTYPE* get_product_ =
       fmu_.description.directional_derivatives ? get<fmi2GetDirectionalDerivativeTYPE>("fmi2GetDirectionalDerivative")

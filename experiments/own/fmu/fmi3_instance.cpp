@@ -43,6 +43,9 @@ class Fmi3Instance final : public CommonInstance {
     return good(
         get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, n_, to, n_));
   }
+  bool setInputs(const std::vector<unsigned>& references, const std::vector<double>& values) override {
+    return good(set_real_(instance_, references.data(), references.size(), values.data(), values.size()));
+  }
   bool values(const std::vector<unsigned>& references, double* to) override {
     return good(get_real_(instance_, references.data(), references.size(), to, references.size()));
   }
@@ -54,7 +57,7 @@ class Fmi3Instance final : public CommonInstance {
     const bool truth = value != 0;
     fmiStatus status = fmiOK;
     if (variable.type == FmuType::kReal) {
-      status = get<fmi3SetFloat64TYPE>("fmi3SetFloat64")(instance_, &reference, 1, &value, 1);
+      status = set_real_(instance_, &reference, 1, &value, 1);
     } else if (variable.type == FmuType::kInteger) {
       status = get<fmi3SetInt32TYPE>("fmi3SetInt32")(instance_, &reference, 1, &whole, 1);
     } else {
@@ -84,6 +87,7 @@ class Fmi3Instance final : public CommonInstance {
   fmi3EnterContinuousTimeModeTYPE* enter_continuous_ =
       get<fmi3EnterContinuousTimeModeTYPE>("fmi3EnterContinuousTimeMode");
   fmi3CompletedIntegratorStepTYPE* step_ = get<fmi3CompletedIntegratorStepTYPE>("fmi3CompletedIntegratorStep");
+  fmi3SetFloat64TYPE* set_real_ = get<fmi3SetFloat64TYPE>("fmi3SetFloat64");
   fmi3GetFloat64TYPE* get_real_ = get<fmi3GetFloat64TYPE>("fmi3GetFloat64");
   fmi3GetDirectionalDerivativeTYPE* get_product_ =
       fmu_.description.directional_derivatives ? get<fmi3GetDirectionalDerivativeTYPE>("fmi3GetDirectionalDerivative")

@@ -50,6 +50,7 @@ class FmuInstance {
   virtual bool returnToStart() = 0;
 
   virtual bool setPoint(double t, const double* states) = 0;
+  virtual bool setInputs(const std::vector<unsigned>& references, const std::vector<double>& values) = 0;
   virtual bool states(double* to) = 0;
   virtual bool nominals(double* to) = 0;
   virtual bool derivatives(double* to) = 0;

@@ -22,12 +22,19 @@ double defaultOf(const FmuVariable& variable) {
 
 }  // namespace
 
-FmuRun::FmuRun(std::shared_ptr<const FmuModel> model, const double* values)
+FmuRun::FmuRun(std::shared_ptr<const FmuModel> model, const ParameterValues& values)
     : model_(std::move(model)), slot_(model_->only ? model_->only : std::make_shared<FmuSlot>()) {
   const FmuDescription& fmu = model_->fmu.description;
   for (std::size_t i = 0; i < fmu.settable.size(); ++i) {
-    if (values[i] != defaultOf(fmu.settable[i])) values_.emplace_back(&fmu.settable[i], values[i]);
+    const auto table = values.tables.find(i);
+    const bool is_table = table != values.tables.end();
+    const double value = is_table ? table->second(fmu.start) : values.numbers[i];
+    if (value != defaultOf(fmu.settable[i])) values_.emplace_back(&fmu.settable[i], value);
+    if (!is_table) continue;
+    inputs_.push_back(table->second);
+    input_references_.push_back(fmu.settable[i].reference);
   }
+  input_values_.resize(inputs_.size());
   for (const auto& output : fmu.outputs) outputs_.push_back(output.reference);
   states_.resize(fmu.states.size());
   rates_.resize(fmu.states.size());
@@ -55,7 +62,7 @@ void FmuRun::settle(Epoch& epoch) {
   if (indicators_.empty() || !instance.derivatives(rates_.data())) return;
   const double ahead = kAtOnce * (model_->fmu.description.stop - model_->fmu.description.start);
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = epoch.after[i] + ahead * rates_[i];
-  if (!instance.setPoint(epoch.t + ahead, states_.data()) || !instance.indicators(indicators_.data())) return;
+  if (!moveTo(epoch.t + ahead, states_.data()) || !instance.indicators(indicators_.data())) return;
   const std::vector<double> before = epoch.signs;
   setSigns(epoch);
   if (epoch.signs == before) return;
@@ -92,7 +99,7 @@ void FmuRun::beginAnew() {
 // Repeats the event with which a remembered epoch begins.
 void FmuRun::repeat(std::size_t number) {
   Epoch again = epochs_[number];
-  slot_->instance->setPoint(again.t, again.before.data());
+  moveTo(again.t, again.before.data());
   again.event = slot_->instance->event();
   settle(again);
   slot_->epoch = number;
@@ -117,9 +124,16 @@ std::unique_lock<std::mutex> FmuRun::enter(double number) {
   return lock;
 }
 
+bool FmuRun::moveTo(double t, const double* states) {
+  FmuInstance& instance = *slot_->instance;
+  if (!instance.setPoint(t, states)) return false;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) input_values_[i] = inputs_[i](t);
+  return inputs_.empty() || instance.setInputs(input_references_, input_values_);
+}
+
 bool FmuRun::setPoint(double t, const double* y) {
   for (std::size_t k = 0; k < states_.size(); ++k) states_[model_->order[k]] = y[k];
-  return slot_->instance->setPoint(t, states_.data());
+  return moveTo(t, states_.data());
 }
 
 // The rows of u'' are the derivatives of v.
@@ -169,12 +183,12 @@ void FmuRun::goBehindRoot(std::size_t i, double sign, double& t) {
   double ahead = kAtOnce * (model_->fmu.description.stop - model_->fmu.description.start);
   for (int k = 0; k < kDoublings; ++k, ahead *= 2) {
     for (std::size_t j = 0; j < at.size(); ++j) states_[j] = at[j] + ahead * rates_[j];
-    if (!instance.setPoint(t + ahead, states_.data()) || !is_behind()) continue;
+    if (!moveTo(t + ahead, states_.data()) || !is_behind()) continue;
     t += ahead;
     return;
   }
   states_ = at;
-  instance.setPoint(t, states_.data());
+  moveTo(t, states_.data());
 }
 
 double FmuRun::event(std::size_t i, double t, const double* y, double number) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/own/fmu/model.h"
+#include "experiments/own/foreign/scene_functions.h"
 
 namespace irk::own {
 
@@ -17,8 +18,8 @@ namespace irk::own {
 /// assumed that the FMU remembers nothing between events.
 class FmuRun {
  public:
-  /// `values`: of the settable variables, in their order.
-  FmuRun(std::shared_ptr<const FmuModel> model, const double* values);
+  /// `values`: of the settable variables, in their order; of inputs also tables over time.
+  FmuRun(std::shared_ptr<const FmuModel> model, const ParameterValues& values);
   ~FmuRun();
   FmuRun(const FmuRun&) = delete;
   FmuRun& operator=(const FmuRun&) = delete;
@@ -54,6 +55,7 @@ class FmuRun {
   void beginAnew();
   void repeat(std::size_t epoch);
   bool setPoint(double t, const double* y);
+  bool moveTo(double t, const double* states);
   void settle(Epoch& epoch);
   void goBehindRoot(std::size_t i, double sign, double& t);
   void setSigns(Epoch& epoch) const;
@@ -61,6 +63,9 @@ class FmuRun {
 
   std::shared_ptr<const FmuModel> model_;
   std::vector<FmuValue> values_;
+  std::vector<TimeTable<double>> inputs_;
+  std::vector<unsigned> input_references_;
+  std::vector<double> input_values_;
   std::shared_ptr<FmuSlot> slot_;
   std::vector<Epoch> epochs_;
   std::vector<double> states_, rates_, indicators_;  // in the FMU's order

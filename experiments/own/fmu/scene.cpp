@@ -91,6 +91,7 @@ Parameter parameterOf(const FmuVariable& v) {
       numberParameter(v.name, v.unit, v.meaning, numberText(value), std::min(v.min, value), std::max(v.max, value));
   p.whole = v.type != FmuType::kReal;
   if (v.type == FmuType::kBoolean) p.min = 0, p.max = 1;
+  p.table = v.input;
   return p;
 }
 
@@ -100,8 +101,8 @@ ForeignSource sourceOf(const std::shared_ptr<const FmuModel>& model) {
   source.derivatives = "its directional derivatives are no derivatives of its rates";
   describe(source.functions);
   evaluate(source.functions, fmu.directional_derivatives);
-  source.open = [model](const double* parameters, void** self, char*) {
-    *self = new FmuRun(model, parameters);  // deleted by `close`
+  source.open = [model](const ParameterValues& values, void** self, char*) {
+    *self = new FmuRun(model, values);  // deleted by `close`
     return 0;
   };
   for (const auto& variable : fmu.settable) source.parameters.push_back(parameterOf(variable));

@@ -51,19 +51,38 @@ void centralDifference(const F& evaluate, const double* point, std::size_t n, co
   for (std::size_t i = 0; i < rows; ++i) derivative[i] = (own.above[i] - own.below[i]) / (2 * s);
 }
 
+struct Opening;
+thread_local Opening* opening = nullptr;
+
+/// As long as it exists, irk_scene_open is called on this thread.
+struct Opening {
+  explicit Opening(std::deque<irk_table>& opened) : tables(opened) { opening = this; }
+  ~Opening() { opening = nullptr; }
+  Opening(const Opening&) = delete;
+  Opening& operator=(const Opening&) = delete;
+
+  std::deque<irk_table>& tables;
+  std::string refusal;  // why a table cannot be read
+};
+
 }  // namespace
 
-ForeignModel::ForeignModel(const ForeignSource& source, const std::vector<double>& parameters) : source_(source) {
+// Calls irk_scene_open, which may open tables.
+void ForeignModel::open(const ParameterValues& values) {
+  GuardedText message("irk_scene_open");
+  const Opening now(tables_);
+  const int status = source_.open(values, &self_, message.data());
+  if (status == 0 && now.refusal.empty()) return;
+  const std::string why = now.refusal.empty() ? message.text() : now.refusal;
+  throw Misuse(why.empty() ? "irk_scene_open refuses these parameters" : why);
+}
+
+ForeignModel::ForeignModel(const ForeignSource& source, const ParameterValues& values) : source_(source) {
   static std::atomic<std::uint64_t> count = 0;
   number_ = ++count;
   const auto guard = std::unique_lock(*source_.one_at_a_time);
-  if (source_.open) {
-    GuardedText message("irk_scene_open");
-    if (source_.open(parameters.data(), &self_, message.data()) != 0) {
-      const std::string why = message.text();
-      throw Misuse(why.empty() ? "irk_scene_open refuses these parameters" : why);
-    }
-  }
+  if (source_.open) open(values);
+  kinks_ = detail::kinksSoFar<double>();
   irk_scene_sizes n{};
   functions().size(self_, &n);
   sizes_ = {
@@ -269,3 +288,18 @@ void ForeignModel::differentiateConstraints(int level, const double* point, cons
 }
 
 }  // namespace irk::own
+
+// Exceptions must not pass through code in C.
+extern "C" const irk_table* irk_table_open(const char* file, const char* t, const char* y, int cubic) {
+  using namespace irk;
+  if (!own::opening) return nullptr;
+  try {
+    const auto by = cubic != 0 ? Interpolation::kCubic : Interpolation::kLinear;
+    return &own::opening->tables.emplace_back(irk_table{TimeTable<double>(file, t, y, by)});
+  } catch (const std::exception& error) {
+    own::opening->refusal = error.what();
+    return nullptr;
+  }
+}
+
+extern "C" double irk_table_value(const irk_table* table, double t) { return table->table(t); }

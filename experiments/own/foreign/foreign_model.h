@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "experiments/own/foreign/scene_functions.h"
 #include "irk/system.h"
+
+struct irk_table {
+  irk::TimeTable<double> table;
+};
 
 namespace irk::own {
 
@@ -24,7 +29,7 @@ struct PointLayout {
 class ForeignModel {
  public:
   /// Opens the scene. Throws Misuse where it says that it cannot be made, and for sizes that cannot be.
-  ForeignModel(const ForeignSource& source, const std::vector<double>& parameters);
+  ForeignModel(const ForeignSource& source, const ParameterValues& values);
   ~ForeignModel();
   ForeignModel(const ForeignModel&) = delete;
   ForeignModel& operator=(const ForeignModel&) = delete;
@@ -35,6 +40,8 @@ class ForeignModel {
   const Sizes& sizes() const { return sizes_; }
   int outputs() const { return outputs_; }
   int timesCount() const { return times_; }
+  /// Of its tables and of those among its parameters, ascending.
+  const std::vector<double>& kinks() const { return kinks_; }
   int algebraicIndex() const { return algebraic_index_; }
   const PointLayout& layout() const { return layout_; }
   /// Of the rows besides those of position constraints.
@@ -66,6 +73,7 @@ class ForeignModel {
   bool mass(const double* point, const double* d, double* M) const;
 
  private:
+  void open(const ParameterValues& values);
   void requireFunctions() const;
   void readEntries();
   double increment(const double* point, const double* direction) const;
@@ -75,6 +83,8 @@ class ForeignModel {
 
   ForeignSource source_;
   void* self_ = nullptr;
+  std::deque<irk_table> tables_;  // which irk_scene_open has opened
+  std::vector<double> kinks_;
   Sizes sizes_;
   int outputs_ = 0, times_ = 0, algebraic_index_ = 1;
   bool concurrent_ = false;

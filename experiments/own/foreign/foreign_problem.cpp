@@ -67,8 +67,9 @@ void JumpingForeignProblem<kIndex>::jump(Index i, const Point<double>& p, double
 namespace {
 
 template <class P>
-std::shared_ptr<const System<double>> systemOf(P problem, const SystemOptions& options) {
-  auto system = std::make_shared<const ProblemSystem<P, double>>(std::move(problem), options);
+std::shared_ptr<const System<double>> systemOf(const P& problem, const SystemOptions& options) {
+  const auto& kinks = problem.model->kinks();
+  auto system = std::make_shared<const ProblemSystem<P, double>>(problem, options, kinks);
   if (options.formulation == Formulation::kFirstOrder) return firstOrderForm<double>(system, MassFactors::kEachPoint);
   if (options.formulation == Formulation::kFirstOrderPerStep) {
     return firstOrderForm<double>(system, MassFactors::kEachStep);

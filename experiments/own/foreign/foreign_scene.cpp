@@ -117,9 +117,28 @@ SceneKind kindOf(const ForeignModel& model) {
   return model.algebraicIndex() == 2 ? SceneKind::kIndex2 : SceneKind::kIndex1;
 }
 
-std::vector<double> valuesOfParameters(const ForeignSource& source, const Settings& settings) {
-  std::vector<double> values;
-  for (const auto& parameter : source.parameters) values.push_back(number<double>(settings, parameter.name));
+// `torque.csv` or `torque.csv:M`: the first column is the time, and a column is called as the parameter, or M.
+TimeTable<double> tableIn(const std::string& text, const std::string& parameter) {
+  constexpr std::string_view kEnd = ".csv";
+  const auto end = text.find(kEnd) + kEnd.size();
+  if (end < text.size() && text[end] != ':') {
+    throw Misuse(fmt::format("parameter {} = '{}': file.csv or file.csv:column is expected", parameter, text));
+  }
+  return {text.substr(0, end), "", end < text.size() ? text.substr(end + 1) : parameter};
+}
+
+ParameterValues valuesOfParameters(const ForeignSource& source, const Settings& settings) {
+  ParameterValues values;
+  for (const auto& parameter : source.parameters) {
+    const std::string& text = settings.at(parameter.name);
+    if (isTable(parameter, text)) {
+      const TimeTable<double> table = tableIn(text, parameter.name);
+      values.tables.emplace(values.numbers.size(), table);
+      values.numbers.push_back(table(table.first()));
+    } else {
+      values.numbers.push_back(number<double>(settings, parameter.name));
+    }
+  }
   return values;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -36,11 +37,17 @@ struct SceneFunctions {
   decltype(irk_scene_outputs)* outputs = nullptr;
 };
 
+/// The values of a scene's parameters, in their order. Where one is a table, the number is its value at the first row.
+struct ParameterValues {
+  std::vector<double> numbers;
+  std::map<std::size_t, TimeTable<double>> tables;  ///< by the parameter's number
+};
+
 /// What scenes with any values of the parameters have in common.
 struct ForeignSource {
   SceneFunctions functions;
   /// As irk_scene_open; empty if scenes have no `self`. It keeps the library loaded.
-  std::function<int(const double* parameters, void** self, char* message)> open;
+  std::function<int(const ParameterValues& values, void** self, char* message)> open;
   std::vector<Parameter> parameters;
   /// Held during each call unless the scene is concurrent.
   std::shared_ptr<std::mutex> one_at_a_time = std::make_shared<std::mutex>();

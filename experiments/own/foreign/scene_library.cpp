@@ -85,8 +85,8 @@ SceneEntry entryIn(const Library& library) {
   auto* const open = library->find<decltype(irk_scene_open)>("irk_scene_open");
   if (!open && !source.parameters.empty()) throw Misuse("it has parameters, but no function irk_scene_open");
   if (open) {
-    source.open = [library, open](const double* parameters, void** self, char* message) {
-      return open(parameters, self, message);
+    source.open = [library, open](const ParameterValues& values, void** self, char* message) {
+      return open(values.numbers.data(), self, message);
     };
   }
   GuardedText title("irk_scene_title");
@@ -105,6 +105,7 @@ bool holdsScene(const std::filesystem::path& library) {
 LibraryScene sceneOfLibrary(const std::filesystem::path& path) {
   const auto library = std::make_shared<const SharedLibrary>(path);
   explainCrashes(path);
+  const TableReadings readings(path.parent_path().string());
   try {
     return {entryIn(library), library->hash()};
   } catch (const Misuse& misuse) {

@@ -11,6 +11,7 @@
 
 #include "irk/multiprecision.h"
 #include "irk/problem.h"
+#include "irk/table.h"
 
 namespace irk {
 
@@ -31,6 +32,7 @@ struct Parameter {
   bool is_time = false;              ///< a time during the run: the audit draws it between start and end
   bool only_smooth = false;          ///< has an effect only with discontinuity `smooth`
   bool text = false;                 ///< any text; neither a number nor one of several words
+  bool table = false;                ///< for numbers: a table over time is allowed, `file.csv` or `file.csv:column`
 };
 
 /// A scene over one scalar, with fixed parameters. A value type: copies are independent and own all that they need.
@@ -55,6 +57,7 @@ struct Scene {
     bool invariant = false;  ///< constant on the exact solution: `irk solve` prints its largest change
   };
   std::vector<Output> outputs;
+  std::vector<TableRead> tables;  ///< what it has read; makeScene sets it
 
   Sizes sizes() const { return system({})->sizes(); }
 };
@@ -135,6 +138,7 @@ struct SceneEntry {
   /// it.
   bool registered = false;
   std::string source = {};
+  std::string folder = {};  ///< of the files that its tables name; empty: the working folder
 };
 
 /// All scenes: those of the library sorted by id, then those that were registered. Ids never change.
@@ -157,6 +161,10 @@ Scene<Real> makeScene(std::string_view id, const Settings& settings = {});
 /// The same for an entry that need not be in the catalogue.
 template <class Real>
 Scene<Real> makeScene(const SceneEntry& entry, const Settings& settings);
+
+/// Throws Misuse if a table of the scene does not have all times from its start to t_end.
+template <class Real>
+void requireInTables(const Scene<Real>& scene, double t_end);
 
 /// A reference value of problems/reference/*.csv.
 struct Reference {

@@ -27,8 +27,10 @@
 // `start`, `exact` and `frame`. Scenes need it that have several sets of coordinates.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <string>
@@ -70,6 +72,11 @@ Parameter descriptionParameter(std::string name, std::string meaning, std::vecto
 
 /// Any text, such as the name of a file with measured data; without blanks and ';'.
 Parameter textParameter(std::string name, std::string meaning, std::string default_value);
+
+/// Whether a value of this parameter names a table (Parameter::table), and not a number.
+inline bool isTable(const Parameter& parameter, const std::string& text) {
+  return parameter.table && text.find(".csv") != text.npos;
+}
 
 /// Returns the settings completed with defaults. Throws Misuse unless every setting names a parameter and lies within
 /// its range.
@@ -155,16 +162,26 @@ constexpr void requireForms() {
 #undef IRK_FORM
 }
 
+/// The kinks of the tables that the scene has read so far, ascending.
+template <class Real>
+std::vector<Real> kinksSoFar() {
+  std::vector<Real> kinks;
+  for (const auto& text : kinksRead()) kinks.push_back(decimal<Real>(text.c_str()));
+  std::sort(kinks.begin(), kinks.end());
+  kinks.erase(std::unique(kinks.begin(), kinks.end()), kinks.end());
+  return kinks;
+}
+
 }  // namespace detail
 
 /// Sets scene.system from a problem struct, which is copied, and scene.start to zeros of its sizes: to be called before
-/// the start is filled. Throws Misuse for sizes that cannot be.
+/// the start is filled, and after its tables are made (irk/table.h). Throws Misuse for sizes that cannot be.
 template <class Real, class P>
 void setProblem(Scene<Real>& scene, P problem) {
   detail::requireForms<Real, P>();
   scene.start = State<Real>(makeSystem<Real>(problem)->sceneSizes());
-  scene.system = [problem = std::move(problem)](const SystemOptions& options) {
-    return makeSystem<Real>(problem, options);
+  scene.system = [problem = std::move(problem), kinks = detail::kinksSoFar<Real>()](const SystemOptions& options) {
+    return makeSystem<Real>(problem, options, kinks);
   };
 }
 
@@ -284,6 +301,10 @@ static SceneEntry sceneEntryOf() {
   SceneEntry S() { return sceneEntryOf<::S>(); } \
   }
 #else
-#define IRK_SCENE(S) \
-  IRK_REGISTER { ::irk::registerScene(::irk::sceneEntryOf<S>()); }
+#define IRK_SCENE(S)                                                         \
+  IRK_REGISTER {                                                             \
+    auto entry = ::irk::sceneEntryOf<S>();                                   \
+    entry.folder = ::std::filesystem::path(__FILE__).parent_path().string(); \
+    ::irk::registerScene(::std::move(entry));                                \
+  }
 #endif
