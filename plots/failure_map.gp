@@ -19,9 +19,9 @@ if (!exists("y_max")) y_max = 1e300
 file = data.'/runs.csv'
 
 # Causes of failure: name in the table, mark, label.
-causes = "newton_failed step_too_small max_steps timeout singular not_finite inconsistent_start chattering stalled drift inaccurate refused"
-cause_points = "2 1 8 10 4 6 12 3 14 9 13 0"
-cause_titles = "'Newton fails' 'step too small' 'too many steps' 'too slow' 'singular' 'not finite' 'inconsistent start' 'chattering' 'steps stay tiny' 'drift' 'errors add up' 'not allowed'"
+causes = "newton_failed step_too_small max_steps timeout singular not_finite inconsistent_start chattering stalled drift no_event inaccurate refused"
+cause_points = "2 1 8 10 4 6 12 3 14 9 11 13 0"
+cause_titles = "'Newton fails' 'step too small' 'too many steps' 'too slow' 'singular' 'not finite' 'inconsistent start' 'chattering' 'steps stay tiny' 'drift' 'no such event' 'errors add up' 'not allowed'"
 causeTitle(k) = word(cause_titles, k)
 causePoint(k) = k > 0 ? int(word(cause_points, k)) : 0
 

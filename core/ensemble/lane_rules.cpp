@@ -62,6 +62,9 @@ IntegratorOptions legalInLanes(const IntegratorOptions& options) {
   requireSame(options.step.estimate, lanes.step.estimate);
   requireSame(options.guards, lanes.guards);
   requireSame(options.tolerances.norm, lanes.tolerances.norm);
+  if (!options.stop_at.empty() || options.steady > 0) {
+    throw Misuse("an ensemble in lanes with stop_at or steady: all lanes go to t_end; without lanes: --single");
+  }
   if (hasFixedSteps(options.step)) {
     throw Misuse("an ensemble in lanes with control 'fixed': lanes choose their steps by the error estimate");
   }

@@ -86,13 +86,14 @@ IntegratorOptions independentOptions(const IntegratorOptions& first) {
   second.jacobian_point = JacobianPoint::kPredicted;
   second.newton.kind = NewtonKind::kBroyden;
   second.order = OrderControl::kVariable;
+  second.stop_at = first.stop_at;
   return second;
 }
 
 template <class Real>
 ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                          const Tolerances& tolerances, const Vec<double>& scale, Solution<Real>& second_result,
-                         const Monitor<Real>& monitor) {
+                         const Monitor<Real>& monitor, const std::optional<Real>& t_end) {
   const Index nu = start.u.size(), nx = start.x.size();
   const Sizes sizes{.nu = nu, .nx = nx, .nz = start.w.size() - nu - nx, .discrete = start.d.size()};
   requireState("the result", result, sizes);
@@ -106,7 +107,7 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
     switches.add(at);
     if (monitor.located) monitor.located(at);
   };
-  second_result = second.integrate(start, result.t, watched);
+  second_result = second.integrate(start, t_end ? *t_end : result.t, watched);
   ErrorBar bar;
   if (second_result.outcome != Outcome::kSuccess) {
     bar.u = unknown(result.u.size());
@@ -122,6 +123,7 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   bar.v = distances<Real>(result.v, other.v) + switches.v;
   bar.x = distances<Real>(result.x, other.x) + switches.x;
   bar.z = distances<Real>(result.z(), other.z());
+  if (t_end) bar.t = std::abs(static_cast<double>(Real(result.t - other.t)));
   weigh(other, tolerances, scale, bar);
   return bar;
 }
@@ -133,7 +135,8 @@ double largestErrorBar(const Tolerances& tolerances) {
 #define IRK_ERROR_BAR(Real)                                                                                       \
   template IntegratorOptions independentOptions<Real>(const IntegratorOptions&);                                  \
   template ErrorBar measureErrorBar(const State<Real>&, Integrator<Real>&, const State<Real>&, const Tolerances&, \
-                                    const Vec<double>&, Solution<Real>&, const Monitor<Real>&);
+                                    const Vec<double>&, Solution<Real>&, const Monitor<Real>&,                    \
+                                    const std::optional<Real>&);
 IRK_ERROR_BAR(double)
 IRK_ERROR_BAR(BigFloat)
 #undef IRK_ERROR_BAR

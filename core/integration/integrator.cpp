@@ -12,6 +12,7 @@
 #include "core/derivatives/first_order.h"
 #include "core/integration/memory_check.h"
 #include "core/integration/rules.h"
+#include "core/integration/stop_rule.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
 #include "core/system/counting.h"
@@ -81,35 +82,54 @@ class Integrator<Real>::Run {
       : system_(checked(std::move(system), scale)),
         schemes_(methods.members),
         options_(legal(options, *system_, schemes_, methods.start)),
+        stop_rule_(*system_, options_, scale),
         counted_(*system_, counters_, options_.threads),
         trajectory_(counted_, schemes_, methods.start, options_, scale, counters_) {}
 
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     const InUse use(in_use_, "Integrator::integrate");
     counters_ = {};
-    monitor_ = &monitor;
+    monitor_ = follow(monitor);
     requireStart(*system_, start, t_end);
     const std::string not_finite = notFinite(start);
     if (!not_finite.empty()) return {Outcome::kNotFinite, "at the start: " + not_finite, start, counters_};
     requireNoMemory(*system_, start, t_end);
     length_ = static_cast<double>(Real(t_end - start.t));
     beginTimes(start.t, t_end);
-    const Outcome outcome = trajectory_.begin(start, length_, monitor);
+    const Outcome outcome = trajectory_.begin(start, length_, *monitor_);
     if (outcome != Outcome::kSuccess) return trajectory_.failed(outcome, 0, "no step taken");
     const bool fixed = hasFixedSteps(options_.step);
-    const Stop stop = fixed ? fixedSteps(t_end) : adaptiveSteps(t_end);
-    return stop ? trajectory_.failed(stop.outcome, stop.h, stop.what) : trajectory_.success();
+    Stop stop = fixed ? fixedSteps(t_end) : adaptiveSteps(t_end);
+    const std::string missed = stop ? std::string() : stop_rule_.missed();
+    if (!missed.empty()) stop = {Outcome::kNoEvent, 0, missed};
+    if (stop) return trajectory_.failed(stop.outcome, stop.h, stop.what);
+    Solution<Real> solution = trajectory_.success();
+    const std::string told = solution.outcome == Outcome::kSuccess ? stop_rule_.told() : "";
+    if (!told.empty()) solution.detail = told + (solution.detail.empty() ? "" : "; ") + solution.detail;
+    return solution;
   }
 
  private:
   const State<Real>& state() const { return trajectory_.state(); }
+
+  // The monitor of the integration that begins: the caller's, and with it the rule that may end it.
+  const Monitor<Real>* follow(const Monitor<Real>& callers) {
+    stop_rule_.begin();
+    if (!stop_rule_.waitsForSwitch()) return &callers;
+    following_ = callers;
+    following_.switched = [this, told = callers.switched](const SwitchRecord<Real>& change) {
+      stop_rule_.switched(change.index);
+      if (told) told(change);
+    };
+    return &following_;
+  }
 
   Stop fixedSteps(const Real& t_end) {
     const Grid<Real> grid(state().t, t_end, length_, options_.step.h);
     if (grid.count > static_cast<double>(options_.step.max_steps)) {
       return {Outcome::kMaxSteps, static_cast<double>(grid.h), "too many steps asked for"};
     }
-    for (std::int64_t i = 0; i < grid.steps(); ++i) {
+    for (std::int64_t i = 0; i < grid.steps() && !stop_rule_.reached(); ++i) {
       Stop stop = fixedStep(grid.h, grid.end(i), grid.isWhole(i));
       if (stop) return stop;
     }
@@ -119,7 +139,7 @@ class Integrator<Real>::Run {
   // Goes to `end` by one step: of size h if `whole`, else of the length that is left. Times of the system and located
   // switches split the step.
   Stop fixedStep(const Real& h, const Real& end, bool whole) {
-    while (state().t < end) {
+    while (state().t < end && !stop_rule_.reached()) {
       const Real stop_at = beforeTime(end);
       if (stop_at < end) whole = false;
       const Real step = whole ? h : Real(stop_at - state().t);
@@ -130,6 +150,7 @@ class Integrator<Real>::Run {
       if (result.outcome != Outcome::kSuccess) return {result.outcome, size, "step not solved"};
       Outcome outcome = trajectory_.commit(result, step, stop_at);
       if (outcome == Outcome::kSuccess) {
+        stop_rule_.stepped(state());
         reach(stop_at);
         outcome = passTimes();
       }
@@ -145,7 +166,7 @@ class Integrator<Real>::Run {
     stall_.begin(static_cast<double>(state().t));
     last_steps_.begin();
     too_small_ = Outcome::kStepTooSmall;
-    for (std::int64_t attempts = 0; state().t < t_end; ++attempts) {
+    for (std::int64_t attempts = 0; state().t < t_end && !stop_rule_.reached(); ++attempts) {
       if (Stop stop = askCaller(h)) return stop;
       if (Stop stop = cannotGoOn(attempts, h, t_end)) return stop;
       if (Stop stop = adaptiveStep(h, beforeTime(t_end))) return stop;
@@ -203,6 +224,7 @@ class Integrator<Real>::Run {
       return {};
     }
     if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
+    stop_rule_.stepped(state());
     h = std::min(trajectory_.nextSize(result, size, h), options_.step.h_max);
     reach(t_end);
     return {};
@@ -264,12 +286,14 @@ class Integrator<Real>::Run {
   std::shared_ptr<const System<Real>> system_;
   SchemeList<Real> schemes_;
   IntegratorOptions options_;
+  StopRule<Real> stop_rule_;
   Counters counters_;
   CountingSystem<Real> counted_;
   Trajectory<Real> trajectory_;
   StallDetector stall_;
   LastSteps<Real> last_steps_;
   const Monitor<Real>* monitor_ = nullptr;
+  Monitor<Real> following_;
   double length_ = 0;
   std::vector<Real> times_;                     // of the system, those before the end
   std::size_t next_time_ = 0;                   // the first that is not yet reached

@@ -31,6 +31,21 @@ OptionField number(std::string name, auto member, const Range& range, std::strin
   return field;
 }
 
+// Texts of runs separate fields by ';'.
+OptionField stopField() {
+  return {.name = "stop_at",
+          .meaning = "The integration ends as a success right behind this switch, or behind the k-th of this name.",
+          .form = "NAME or NAME:k, a switch of the scene",
+          .get = [](const Options& o) { return o.stop_at; },
+          .set =
+              [](Options& o, std::string_view text) {
+                if (text.find_first_of(";\n") != text.npos) {
+                  throw Misuse("stop_at = '" + std::string(text) + "': ';' is not allowed here");
+                }
+                o.stop_at = text;
+              }};
+}
+
 bool isModified(const Options& o) {
   static constexpr std::string_view kIds[] = {"modified", "modified_only", "paper_rule", "modified_each_step",
                                               "modified_step_change"};
@@ -132,6 +147,9 @@ std::span<const OptionField> optionFields() {
              "Tolerance of a step's error relative to the scale of the component.", noTolerance),
       number("max_steps", IRK_MEMBER(step.max_steps), Range::integers(1, kMaxAttempts),
              "The integration fails after this many attempted steps."),
+      stopField(),
+      number("steady", IRK_MEMBER(steady), Range::from(0),
+             "The integration ends as a success where all rates are below this part of the components; 0 = at t_end."),
       number("threads", IRK_MEMBER(threads), Range::integers(1, kMaxThreads),
              "Threads inside one integration; the numbers do not depend on it."),
   });

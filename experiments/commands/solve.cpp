@@ -87,11 +87,14 @@ void printDigits(std::ostream& out, const RunErrors& errors) {
 void printRecord(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   const auto& spec = record.spec;
   fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method, idOf(spec.formulation));
-  fmt::print(out, "{}{}{}, t = {:.15g}\n", record.outcome, record.detail.empty() ? "" : ": ", record.detail, record.t);
+  const double t_bar = record.error_bar.t;
+  fmt::print(out, "{}{}{}, t = {:.15g}{}\n", record.outcome, record.detail.empty() ? "" : ": ", record.detail, record.t,
+             std::isnan(t_bar) ? "" : fmt::format(" +- {:.1e}", t_bar));
   printComponents(out, record, names);
   printErrorBar(out, record.error_bar);
   if (!std::isnan(record.errors.all)) {
     fmt::print(out, "error {:.3e}\n", record.errors.all);
+    if (!std::isnan(record.errors.t)) fmt::print(out, "error of the time {:.3e}\n", record.errors.t);
     if (spec.reference_times > 1 && !std::isnan(record.errors_over_time.all)) {
       fmt::print(out, "largest error at {} times {:.3e}\n", spec.reference_times, record.errors_over_time.all);
     }
@@ -101,7 +104,9 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   } else if (!record.errors.remark.empty()) {
     fmt::print(out, "{}\n", record.errors.remark);
   } else if (record.succeeded()) {
-    fmt::print(out, "error unknown: no reference at t = {:.15g}; --reference makes one\n", record.t);
+    const std::string& stop_at = spec.options.stop_at;
+    const auto where = stop_at.empty() ? fmt::format("t = {:.15g}", record.t) : "the switch " + stop_at;
+    fmt::print(out, "error unknown: no reference at {}; --reference makes one\n", where);
   }
   record.counters.forEach([&out](const char* name, std::int64_t count) {
     if (count > 0) fmt::print(out, "{:<22} {}\n", name, count);

@@ -69,6 +69,7 @@ void addErrorBar(const RunErrorBar& bar, Json& json) {
   Json& groups = json["error_bar"] = Json::object();
   for (const auto& [group, values] : {std::pair{"u", &bar.u}, {"v", &bar.v}, {"x", &bar.x}, {"z", &bar.z}})
     groups[group] = std::vector<double>(values->begin(), values->end());
+  if (!std::isnan(bar.t)) json["error_bar_t"] = bar.t;
   json["error_bar_tolerances"] = bar.tolerances;
   if (!bar.component.empty()) json["error_bar_component"] = bar.component;
   if (!bar.problem.empty()) json["error_bar_remark"] = bar.problem;
@@ -108,6 +109,7 @@ std::string solveJson(const RunRecord& record, int indent) {
   addNames(sceneOf<double>(record.spec), json);
   json["error"] = record.errors.all;
   if (record.spec.reference_times > 1) json["error_over_time"] = record.errors_over_time.all;
+  if (!std::isnan(record.errors.t)) json["error_t"] = record.errors.t;
   json["mescd"] = record.errors.mescd();
   json["scd"] = record.errors.scd();
   json["drift"] = record.errors.drift;

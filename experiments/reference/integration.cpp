@@ -50,6 +50,7 @@ Integrated integratedIn(const RunSpec& spec, const std::vector<std::string>& tim
     }
     state = solution.state;
     result.rows.push_back(componentsAndOutputs(setup.scene, state));
+    if (!spec.options.stop_at.empty()) result.rows.back().push_back(BigFloat(state.t));
     passTimes(*setup.system, state);
   }
   return result;

@@ -50,13 +50,13 @@ using Together = std::vector<ReferenceQuestion>;
 // The questions of these runs, each once.
 std::vector<Together> neededBy(const std::vector<RunSpec>& resolved) {
   std::set<std::string> seen;
-  std::map<std::tuple<std::string, Settings, bool>, Together> problems;
+  std::map<std::tuple<std::string, Settings, bool, std::string>, Together> problems;
   for (const auto& spec : resolved) {
     if (spec.reference != ReferenceUse::kAuto) continue;
     try {
       auto question = referenceQuestion(spec);
       if (!seen.insert(keyText(question)).second || !needsReference(spec)) continue;
-      problems[{question.scene, question.settings, question.smooth}].push_back(std::move(question));
+      problems[{question.scene, question.settings, question.smooth, question.stop_at}].push_back(std::move(question));
     } catch (const Misuse&) {  // the run will be refused
     }
   }

@@ -50,6 +50,7 @@ ReferenceSpecs specsInFiftyDigits(const ReferenceQuestion& question, const Refer
   for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     specs[i] = referenceRun({question.scene, of}, i);
     if (question.smooth) specs[i].discontinuity = Discontinuity::kSmooth;
+    specs[i].options.stop_at = question.stop_at;
   }
   return specs;
 }
@@ -60,6 +61,7 @@ ReferenceSpecs specsInDouble(const ReferenceQuestion& question, double length, c
   asked.settings = question.settings;
   asked.t_end = question.t_end;
   if (question.smooth) asked.discontinuity = Discontinuity::kSmooth;
+  asked.options.stop_at = question.stop_at;
   ReferenceSpecs specs;
   for (std::size_t i = 0; i < kReferenceRuns; ++i) {
     const bool fine = i >= 2, radau = i % 2 == 1;
@@ -180,6 +182,7 @@ class Making {
   std::vector<std::string> namesOf() const {
     auto names = scene_.names;
     for (const auto& output : scene_.outputs) names.push_back(output.name);
+    if (!last().stop_at.empty()) names.emplace_back(kEventTime);
     return names;
   }
   // As errors are measured (runs/run_errors.cpp).

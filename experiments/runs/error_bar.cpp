@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/options/fixed_steps.h"
 #include "experiments/base/clock.h"
+#include "experiments/base/decimal.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/setup.h"
 #include "irk/error_bar.h"
@@ -73,6 +75,8 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   Monitor<Real> monitor;
   double t = static_cast<double>(scene.start.t);
   const double t0 = t, length = static_cast<double>(result.t) - t0;
+  // The second integration ends at its own time of the switch.
+  const auto t_end = spec.options.stop_at.empty() ? std::nullopt : std::optional(decimalNumber<Real>(spec.t_end));
   monitor.interrupt = [&] {
     if (watch.progress) watch.progress(length > 0 ? (t - t0) / length : 1);
     return watch.interrupt();
@@ -80,13 +84,14 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   if (watch.progress) monitor.accepted = [&t](const StepRecord<Real>& step) { t = static_cast<double>(step.t); };
   Solution<Real> second;
   const ErrorBar bar = measureErrorBar(result, integrator, scene.start, spec.options.tolerances,
-                                       toleranceScale(scene, spec, scene.sizes()), second, monitor);
+                                       toleranceScale(scene, spec, scene.sizes()), second, monitor, t_end);
   RunErrorBar measured;
   measured.u = bar.u, measured.v = bar.v, measured.x = bar.x, measured.z = bar.z;
   measured.problem = bar.problem;
   measured.cpu_s = threadSeconds() - began;
   if (!bar.known()) return measured;
   measured.tolerances = bar.tolerances;
+  measured.t = bar.t;
   const auto worst = static_cast<std::size_t>(std::max<Index>(bar.worst, 0));
   if (worst < scene.names.size()) measured.component = scene.names[worst];
   const Index nu = result.u.size(), nx = result.x.size();

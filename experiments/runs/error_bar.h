@@ -16,6 +16,7 @@ struct RunErrorBar {
   Vec<double> u, v, x, z;  ///< absolute, in the units of the components; NaN: unknown. Empty: not asked for
   /// The largest of u, v, x in tolerances.
   double tolerances = std::numeric_limits<double>::quiet_NaN();
+  double t = tolerances;  ///< of the time of the switch at which the run has ended (stop_at)
   std::string component;  ///< the name of the component with the largest one
   /// The largest |e| / max(|y|, scale), the measure of RunErrors, over u, v, x and over z.
   double error = tolerances, error_z = tolerances;

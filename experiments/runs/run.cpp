@@ -210,10 +210,15 @@ class Prepared final : public PreparedRun {
   }
 
   // The errors of a state; `spec` is the spec of a run to the state's time.
-  RunErrors errorsAt(const State<Real>& state, const RunSpec& spec, const Watch& watch) const {
+  RunErrors errorsAt(const State<Real>& state, RunSpec spec, const Watch& watch) const {
     const ToleranceRatio ratio = toleranceRatio();
-    if (!watch.reference || !needsReference(spec)) return errorsOf(scene_, references_, state, ratio);
-    const MadeReference made = watch.reference(spec);
+    const double t = static_cast<double>(state.t);
+    const bool makes = watch.reference && needsReference(spec = endingAt(spec, t));
+    // At a switch a state is compared with that of another run at its own time of the switch, and with nothing else.
+    if (!makes && !spec.options.stop_at.empty()) return errorsByComputed(scene_, {}, state, ratio);
+    if (!makes) return errorsOf(scene_, references_, state, ratio);
+    MadeReference made = watch.reference(spec);
+    for (auto& value : made.values) value.t = t;
     RunErrors errors = errorsByComputed(scene_, made.values, state, ratio);
     if (errors.reference == ReferenceKind::kNone) errors.remark = made.problem;
     return errors;

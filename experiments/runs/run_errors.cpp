@@ -198,6 +198,9 @@ RunErrors errorsByComputed(const Scene<Real>& scene, const std::vector<Reference
   RunErrors& errors = comparison.errors;
   const RunErrors& accuracies = comparison.accuracies;
   errors.drift = driftOf(scene, state);
+  for (const Reference& one : computed) {
+    if (one.component == kEventTime) errors.t = distanceOf(state.t, decimalNumber<Real>(one.value));
+  }
   compare(comparison, computed, state);
   if (std::isnan(errors.all)) return errors;
   errors.reference = ReferenceKind::kComputed;

@@ -28,6 +28,7 @@ struct RunErrors {
   double u = all, v = all, x = all, z = all;
   double mixed = all;     ///< the largest |y - ref| / (atol / rtol + |ref|); NaN also if atol / rtol is not known
   double relative = all;  ///< the largest |y - ref| / |ref| of those with ref != 0
+  double t = all;         ///< |t - ref| of a run that ends at a switch (stop_at); else NaN
   /// Largest |g| over the position constraints g(t, u) = 0 of the scene. NaN without constraints.
   double drift = all;
   ReferenceKind reference = ReferenceKind::kNone;
@@ -46,6 +47,9 @@ struct ToleranceRatio {
   double atol_over_rtol = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known, or without meaning
   Vec<double> scale = {};  ///< of u, v, x, z: the magnitudes that atol is multiplied by; empty: 1, as for outputs
 };
+
+/// How a computed reference calls the time of the switch at which its runs end. No component has this name.
+inline constexpr std::string_view kEventTime = "time of the event";
 
 /// The larger errors of two times. Errors are unknown if one of the times has no reference. An error that is not
 /// measurable at one time takes its value at the other.

@@ -128,6 +128,11 @@ RunSpec resolved(RunSpec spec) {
       throw Misuse(unknownName("parameter of " + spec.scene, name, known));
     }
   }
+  const bool stops = !spec.options.stop_at.empty() || spec.options.steady > 0;
+  if (stops && spec.reference_times > 1) {
+    throw Misuse(fmt::format("illegal combination: reference_times = {} with stop_at or steady: the end is not known",
+                             spec.reference_times));
+  }
   Settings values = spec.settings;
   std::erase_if(values, [](const auto& setting) { return setting.second.ends_with("/h"); });  // known with the step
   static_cast<void>(completedSettings(spec.scene, parameters, values));

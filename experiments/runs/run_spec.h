@@ -101,7 +101,7 @@ struct RunSpec {
 };
 
 /// Fills in the scene's t_end and removes settings that equal their defaults, so that equal runs have equal specs.
-/// Throws Misuse for an unknown scene or setting.
+/// Throws Misuse for an unknown scene or setting, and for reference times of a run whose end is not known.
 RunSpec resolved(RunSpec spec);
 
 /// Replaces every value `X/h` of the settings by X / h, for stiffness that grows as the step shrinks: `lambda=-1e8/h`

@@ -25,6 +25,7 @@ constexpr std::string_view kErrors[] = {"error",
                                         "error_v",
                                         "error_x",
                                         "error_z",
+                                        "error_t",
                                         "drift",
                                         kInvariant,
                                         "mescd",
@@ -76,7 +77,7 @@ std::vector<std::string> runColumns() {
   append(columns, kFirst);
   append(columns, kDerived);
   append(columns, laterFields());
-  columns.emplace_back("outcome");
+  columns.insert(columns.end(), {"outcome", "t"});
   append(columns, kErrors);
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
   append(columns, kTimes);
@@ -90,10 +91,10 @@ TableRow runRow(const std::string& key, const std::string& study, const RunRecor
   for (const auto name : kFirst) row.push_back(findField(name).get(record.spec));
   row.insert(row.end(), {record.family, std::to_string(record.stages), integratorName(record.spec)});
   for (const auto name : laterFields()) row.push_back(findField(name).get(record.spec));
-  row.push_back(record.outcome);
+  row.insert(row.end(), {record.outcome, numberText(record.t)});
   const RunErrors& e = record.errors;
   for (const double error :
-       {e.all, e.u, e.v, e.x, e.z, e.drift, largestChange(record.invariants), e.mescd(), e.scd(), e.accuracy})
+       {e.all, e.u, e.v, e.x, e.z, e.t, e.drift, largestChange(record.invariants), e.mescd(), e.scd(), e.accuracy})
     row.push_back(numberText(error));
   const RunErrors& largest = record.errors_over_time;
   for (const double error : {largest.all, largest.u, largest.v, largest.x, largest.z}) row.push_back(numberText(error));

@@ -110,7 +110,8 @@ Kind kindOf(const std::string& column) {
       "drift",     "invariant_change", "mescd",        "scd",           "reference_accuracy",
       "cpu_s",     "cpu_setup_s",      "cpu_median_s", "memory_gb",     "cpu_error_bar_s",
       "error",     "error_u",          "error_v",      "error_x",       "error_z",
-      "error_bar", "error_bar_z",      "cpu_spread",   "calibration_s", "error_bar_tolerances"};
+      "error_bar", "error_bar_z",      "cpu_spread",   "calibration_s", "error_bar_tolerances",
+      "t",         "error_t"};
   const auto isAmong = [&column](const auto& names) {
     return std::find(std::begin(names), std::end(names), column) != std::end(names);
   };

@@ -335,8 +335,7 @@ Scene<Real> makeScene(std::string_view id, const Settings& settings) {
 }
 
 template void requireInTables(const Scene<double>&, double);
-template void requireInTables(const Scene<mp50>&, double);
-template void requireInTables(const Scene<mp100>&, double);
+template void requireInTables(const Scene<BigFloat>&, double);
 template Scene<double> makeScene<double>(const SceneEntry&, const Settings&);
 template Scene<BigFloat> makeScene<BigFloat>(const SceneEntry&, const Settings&);
 template Scene<double> makeScene<double>(std::string_view, const Settings&);

@@ -1,6 +1,8 @@
 // The error bar of a result: its distance from a second, independent integration.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "irk/integrator.h"
@@ -13,6 +15,8 @@ struct ErrorBar {
   /// The largest of |e_i| / (atol scale_i + rtol |y_i|) over u, v and x, with y of the second result; NaN if the bar is
   /// unknown.
   double tolerances = std::numeric_limits<double>::quiet_NaN();
+  /// |t - second t| of a run that ends at a switch (stop_at); NaN of others.
+  double t = std::numeric_limits<double>::quiet_NaN();
   Index worst = -1;     ///< the component of (u, v, x) with the largest of them
   std::string problem;  ///< why the bar is unknown, in one line; empty if it is known
 
@@ -38,10 +42,13 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// the same thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the
 /// second integration fails, the bar is unknown and `problem` says why. Throws Misuse as Integrator::integrate, and for
 /// a result of other sizes than the start, a scale or tolerances out of range.
+/// A run with the option stop_at has ended at a switch: `second` has the same option, ends at its own time of the
+/// switch, and may go up to t_end, which is then given.
 template <class Real>
 [[nodiscard]] ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                                        const Tolerances& tolerances, const Vec<double>& scale,
-                                       Solution<Real>& second_result, const Monitor<Real>& monitor = {});
+                                       Solution<Real>& second_result, const Monitor<Real>& monitor = {},
+                                       const std::optional<Real>& t_end = {});
 
 /// A success should be right to this many tolerances: 1000, and 1e-9 beside it, where round-off is.
 double largestErrorBar(const Tolerances& tolerances);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "irk/misuse.h"
@@ -249,6 +250,12 @@ struct IntegratorOptions {
   OrderControl order = OrderControl::kFixed;
   Guards guards = Guards::kAll;
   StepOptions step;
+  /// The name of a switch, or NAME:k: the integration ends as a success right behind the first, or k-th, switch of this
+  /// name, and as no_event if t_end comes first. Empty: it ends at t_end.
+  std::string stop_at = {};
+  /// > 0: the integration ends as a success at the first step's end with |y_i'| <= steady max(|y_i|, scale_i) for all
+  /// u, v and x, and as no_event if t_end comes first. In 1 / unit of t. 0: it ends at t_end.
+  double steady = 0;
 };
 
 /// Throws Misuse for an option out of range; the message names field, value and range. core/integration/rules.h checks

@@ -22,6 +22,7 @@ enum class Outcome {
   kChattering,         ///< switches follow each other while no time passes
   kStalled,            ///< steps stay so small that the end is out of reach
   kDrift,              ///< the state at the end violates the position constraints, or a step those that are left out
+  kNoEvent,            ///< the integration reached t_end before what it should end at (stop_at, steady)
   kInaccurate,         ///< the error bar of the result exceeds 1000 tolerances (irk/error_bar.h)
 };
 
@@ -57,6 +58,8 @@ constexpr std::string_view name(Outcome outcome) {
       return "stalled";
     case Outcome::kDrift:
       return "drift";
+    case Outcome::kNoEvent:
+      return "no_event";
     case Outcome::kInaccurate:
       return "inaccurate";
   }

@@ -11,11 +11,13 @@ constexpr ColumnText kRunColumns[] = {
     {"integrator", "",
      "The solver in figures and summaries: the configuration with its method, or the other library's."},
     {"outcome", "", "success, or how the run failed: outcomes.md."},
+    {"t", "the scene's time unit", "The time that the run has reached: t_end, or that of the event at which it ended."},
     {"error", "", "The largest |y - ref| / max(|ref|, scale) of all components and outputs at t_end."},
     {"error_u", "", "The same over the positions u."},
     {"error_v", "", "The same over the velocities v."},
     {"error_x", "", "The same over the first-order unknowns x."},
     {"error_z", "", "The same over the algebraic unknowns z, such as multipliers."},
+    {"error_t", "the scene's time unit", "The error of the time at which a switch ended the run (stop_at)."},
     {"drift", "that of the constraint", "The largest |g| of the position constraints at t_end."},
     {"invariant_change", "",
      "The largest change of an invariant, such as an energy, over the magnitude of its value at the start. The change "

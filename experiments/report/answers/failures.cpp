@@ -148,6 +148,7 @@ std::string causeTitle(std::string_view outcome) {
                                                               {"chattering", "chattering"},
                                                               {"stalled", "steps stay tiny"},
                                                               {"drift", "drift"},
+                                                              {"no_event", "no such event"},
                                                               {"inaccurate", "error bar too large"},
                                                               {"refused", "not allowed"}};
   const auto found = titles.find(outcome);

@@ -109,6 +109,9 @@ void refuseIllegal(const PeerEntry& peer, const RunSpec& spec, const Sizes& scen
     refuse(peer, spec.discontinuity, "the library has no root finding");
   }
   if (spec.constraints != ConstraintUse::kAll) refuse(peer, spec.constraints, "it takes all constraints");
+  if (!spec.options.stop_at.empty() || spec.options.steady > 0) {
+    throw Misuse("illegal combination: method '" + peer.id + "' with stop_at or steady: a peer goes to t_end");
+  }
   if (scene.constraints > 0) refuseFormulation(peer, spec.formulation);
 }
 

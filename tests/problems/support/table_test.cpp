@@ -65,9 +65,9 @@ TEST_F(Tables, AreLinearBetweenTheRowsAndDeclareTheirKinks) {
 TEST_F(Tables, HaveAllDigitsOfTheirText) {
   write("torque.csv", "t,M\n0,0\n0.3,0.1\n1,1\n");
   const TableReadings readings(folder_.string());
-  const TimeTable<mp50> torque("torque.csv", "t", "M");
-  EXPECT_EQ(torque.kinks().front(), mp50("0.3"));
-  EXPECT_LT(abs(torque(mp50("0.15")) - mp50("0.05")), mp50(1e-49));
+  const TimeTable<BigFloat> torque("torque.csv", "t", "M");
+  EXPECT_EQ(torque.kinks().front(), BigFloat("0.3"));
+  EXPECT_LT(abs(torque(BigFloat("0.15")) - BigFloat("0.05")), BigFloat(1e-49));
 }
 
 // The slopes at the rows 0, 1, 3, 4 by the formulas of Fritsch & Butland, with the secants 1, 2, 0:
