@@ -8,6 +8,7 @@
 #include "experiments/base/decimal.h"
 #include "experiments/own/stuck.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/in_digits.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/texts/component_names.h"

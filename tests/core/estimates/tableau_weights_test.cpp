@@ -64,18 +64,12 @@ Solution<double> run(const P& problem, const State<double>& start, double t_end,
   return integrator.integrate(start, t_end, monitor);
 }
 
-State<double> riccatiStart() {
-  State<double> start(Riccati{}.sizes());
-  start.x << 1.5;
-  return start;
-}
-
 // The estimate of one step has the leading term h^(p+1), p the lower of the two orders.
 void expectOrder(const Tableau<double>& method, int p) {
   double coarse = 0, fine = 0;
   const double h = 0.02;
-  ASSERT_EQ(run(Riccati{}, riccatiStart(), h, method, 1, &coarse, h).outcome, Outcome::kSuccess);
-  ASSERT_EQ(run(Riccati{}, riccatiStart(), h / 2, method, 1, &fine, h / 2).outcome, Outcome::kSuccess);
+  ASSERT_EQ(run(Riccati{}, riccatiStart<double>(), h, method, 1, &coarse, h).outcome, Outcome::kSuccess);
+  ASSERT_EQ(run(Riccati{}, riccatiStart<double>(), h / 2, method, 1, &fine, h / 2).outcome, Outcome::kSuccess);
   EXPECT_NEAR(std::log2(coarse / fine), p + 1, 0.25) << method.id;
 }
 TEST(TableauWeights, TheEstimateHasTheLowerOrder) {
@@ -86,7 +80,7 @@ TEST(TableauWeights, TheEstimateHasTheLowerOrder) {
 TEST(TableauWeights, TheErrorFollowsTheTolerance) {
   for (const auto& method : {sdirk4(), trBdf2()}) {
     for (const double tolerance : {1e-4, 1e-7}) {
-      const auto solution = run(Riccati{}, riccatiStart(), 3, method, tolerance);
+      const auto solution = run(Riccati{}, riccatiStart<double>(), 3, method, tolerance);
       ASSERT_EQ(solution.outcome, Outcome::kSuccess) << method.id << ": " << solution.detail;
       // Each step errs by a tolerance at most, in a norm with the weight 1 + |x|, and the equation damps.
       const double most = 3.5 * tolerance * static_cast<double>(solution.counters.steps_accepted);

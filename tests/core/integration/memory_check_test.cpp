@@ -45,7 +45,7 @@ struct Noisy {
 };
 
 template <class P>
-std::string refusal(const P& problem, double t_end, Formulation formulation = Formulation::kIndex2) {
+std::string refusalOfRun(const P& problem, double t_end, Formulation formulation = Formulation::kIndex2) {
   State<double> start(problem.sizes());
   start.x[0] = 1;
   try {
@@ -59,7 +59,7 @@ std::string refusal(const P& problem, double t_end, Formulation formulation = Fo
 TEST(MemoryCheck, AHistoryInTheProblemIsRefused) {
   for (const double delay : {0.1, 1.0, 2.0}) {
     for (const Formulation formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
-      const std::string message = refusal(DelayByHand{delay}, 5, formulation);
+      const std::string message = refusalOfRun(DelayByHand{delay}, 5, formulation);
       EXPECT_NE(message.find("row 0 of the residual"), std::string::npos) << delay << message;
       EXPECT_NE(message.find("keeps no history"), std::string::npos) << delay << message;
     }
@@ -67,9 +67,9 @@ TEST(MemoryCheck, AHistoryInTheProblemIsRefused) {
 }
 
 TEST(MemoryCheck, NoiseIsRefusedAboveEightDigitsOnly) {
-  EXPECT_NE(refusal(Noisy{1e-3}, 1), "");
-  EXPECT_EQ(refusal(Noisy{1e-12}, 1), "");
-  EXPECT_EQ(refusal(Noisy{0}, 1), "");
+  EXPECT_NE(refusalOfRun(Noisy{1e-3}, 1), "");
+  EXPECT_EQ(refusalOfRun(Noisy{1e-12}, 1), "");
+  EXPECT_EQ(refusalOfRun(Noisy{0}, 1), "");
 }
 
 /// Not finite for x > 1: where a residual is not defined, nothing is compared.
@@ -82,7 +82,7 @@ struct RootDomain {
   }
 };
 TEST(MemoryCheck, PointsOutsideOfTheDomainAreNotJudged) {
-  EXPECT_EQ(refusal(RootDomain{}, 0.5), "");
+  EXPECT_EQ(refusalOfRun(RootDomain{}, 0.5), "");
   State<double> start(RootDomain{}.sizes());
   start.x[0] = 1;
   EXPECT_NO_THROW(requireNoMemory(*makeSystem<double>(RootDomain{}, {}), start, 0.5));

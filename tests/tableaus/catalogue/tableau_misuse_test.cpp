@@ -28,7 +28,7 @@ TEST(TableauMisuse, IdsAndNumbersOfStagesAreChecked) {
       {"beyond any integer", "stages, but gauss has 1 to 100", tableau("gauss_99999999999999999999")},
       {"no file", "no_such_tableau.txt", tableau("no_such_tableau.txt")},
       {"a folder", "/", tableau("/")},
-      {"in 50 digits", "'0' stages, but gauss has 1 to 100", [] { (void)makeTableau<mp50>("gauss_0"); }},
+      {"in 50 digits", "'0' stages, but gauss has 1 to 100", [] { (void)makeTableau<BigFloat>("gauss_0"); }},
       {"max_stages", "max_stages = 0: 1 to 100 is expected", methods("radau_iia", 0)},
       {"max_stages of a member", "max_stages = -3: 1 to 100 is expected", methods("radau_iia_3", -3)},
       {"max_stages, many", "max_stages = 101: 1 to 100 is expected", methods("radau_iia", 101)},

@@ -58,7 +58,7 @@ TEST(EmbeddedWeights, AreReadCheckedAndWritten) {
   EXPECT_TRUE(report.ok) << report.text;
   EXPECT_TRUE(contains(report.text, "b_hat: the sum is 1, by all rooted trees the order is 3"));
   EXPECT_TRUE(contains(report.text, "R_hat(inf) = "));
-  EXPECT_EQ(parseTableau(writeTableau(file), "x").tableau.b_hat, file.tableau.cast<mp80>().b_hat);
+  EXPECT_EQ(parseTableau(writeTableau(file), "x").tableau.b_hat, file.tableau.cast<BigFloat>().b_hat);
   EXPECT_EQ(file.tableau.cast<double>().order_hat, 3);
 }
 
