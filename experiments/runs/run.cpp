@@ -8,7 +8,6 @@
 #include "experiments/base/decimal.h"
 #include "experiments/own/stuck.h"
 #include "experiments/runs/fields.h"
-#include "experiments/runs/in_digits.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/texts/component_names.h"
@@ -77,6 +76,9 @@ class PeerMethod {
   PeerIntegrator integrator_;
 };
 
+// In which a thread works while it makes the run.
+int digitsOf(const RunSpec& spec) { return spec.scalar.isDouble() ? WorkingDigits::now() : spec.scalar.digits; }
+
 // Returns a function that is called before each step. It tells whether the caller or the time limit ends the run, which
 // began at `start`.
 std::function<Outcome()> interruption(const Watch& watch, double start, double limit) {
@@ -100,6 +102,7 @@ class Prepared final : public PreparedRun {
         references_(references(spec_.scene, settingsAtStep(spec_))) {}
 
   RunRecord execute(const Watch& watch) override {
+    const WorkingDigits digits(digitsOf(spec_));
     Monitor<Real> monitor;
     const double start = threadSeconds();
     monitor.interrupt = interruption(watch, start, spec_.time_limit);
@@ -142,11 +145,18 @@ class Prepared final : public PreparedRun {
     return result;
   }
 
-  void integrate() override { last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome; }
+  void integrate() override {
+    const WorkingDigits digits(digitsOf(spec_));
+    last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
+  }
 
-  void setUp() override { (void)method_.newIntegrator(); }
+  void setUp() override {
+    const WorkingDigits digits(digitsOf(spec_));
+    (void)method_.newIntegrator();
+  }
 
   void wholeCall() override {
+    const WorkingDigits digits(digitsOf(spec_));
     auto integrator = method_.newIntegrator();
     last_ = integrator.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
   }
@@ -298,26 +308,14 @@ void requireKnownStep(const RunSpec& spec) {
 
 }  // namespace
 
-double largestChange(const std::vector<InvariantChange>& invariants) {
-  constexpr double kRoundOff = 1e-9;
-  double largest = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& one : invariants) {
-    const double start = std::abs(one.start);
-    const double change = start <= kRoundOff * one.change ? one.change : one.change / start;
-    if (std::isnan(change)) return change;
-    largest = std::fmax(largest, change);
-  }
-  return largest;
-}
-
 std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   validate(spec);
   requireKnownStep(spec);
   own::stillGoing(spec.time_limit);
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
+  const WorkingDigits digits(digitsOf(spec));
   if (spec.scalar.isDouble()) return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
-  return std::make_unique<InDigits>(
-      spec.scalar.digits, [&spec] { return std::make_unique<Prepared<BigFloat, RungeKutta<BigFloat>>>(spec); });
+  return std::make_unique<Prepared<BigFloat, RungeKutta<BigFloat>>>(spec);
 }
 
 RunRecord execute(const RunSpec& spec, const Watch& watch) { return prepare(spec)->execute(watch); }

@@ -32,11 +32,6 @@ struct InvariantChange {
   double change;
 };
 
-/// The largest change of all invariants, each divided by the magnitude of its value at the start. A value below 1e-9 of
-/// the change counts as 0, as the energy of a beam that is straight but for round-off, and does not divide. NaN without
-/// invariants.
-double largestChange(const std::vector<InvariantChange>& invariants);
-
 struct RunRecord {
   RunSpec spec;
   std::string family;

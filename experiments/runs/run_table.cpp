@@ -72,6 +72,18 @@ std::vector<std::string_view> laterFields() {
 
 }  // namespace
 
+double largestChange(const std::vector<InvariantChange>& invariants) {
+  constexpr double kRoundOff = 1e-9;
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& one : invariants) {
+    const double start = std::abs(one.start);
+    const double change = start <= kRoundOff * one.change ? one.change : one.change / start;
+    if (std::isnan(change)) return change;
+    largest = std::fmax(largest, change);
+  }
+  return largest;
+}
+
 std::vector<std::string> runColumns() {
   std::vector<std::string> columns{"key", "study"};
   append(columns, kFirst);

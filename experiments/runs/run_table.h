@@ -52,4 +52,9 @@ bool notMeasurableAt(const Table& table, const TableRow& row);
 /// that is not measurable, the bound below which it lies. NaN if none is known.
 double errorBoundAt(const Table& table, const TableRow& row);
 
+/// The largest change of all invariants, each divided by the magnitude of its value at the start. A value below 1e-9 of
+/// the change counts as 0, as the energy of a beam that is straight but for round-off, and does not divide. NaN without
+/// invariants.
+double largestChange(const std::vector<InvariantChange>& invariants);
+
 }  // namespace irk

@@ -10,6 +10,9 @@
 namespace irk {
 namespace {
 
+// Eigen allows 40. Eigenvalues that coincide are found one digit after the other.
+constexpr Index kIterationsPerRow = 1000;
+
 constexpr double kLargestCondition = 1e38;  // 80 digits resolve its square
 
 BigFloat magnitude(const BigFloat& re, const BigFloat& im) { return sqrt(re * re + im * im); }
@@ -86,7 +89,9 @@ std::complex<double> Eigenvalue::rounded() const { return {static_cast<double>(r
 std::vector<Eigenvalue> eigenvalues(const Mat<BigFloat>& matrix) {
   const WorkingDigits digits(kAnalysisDigits);
   if (matrix.rows() == 0) return {};
-  const Eigen::RealSchur<Mat<BigFloat>> schur(matrix, false);
+  Eigen::RealSchur<Mat<BigFloat>> schur(matrix.rows());
+  schur.setMaxIterations(kIterationsPerRow * matrix.rows());
+  schur.compute(matrix, false);
   if (schur.info() != Eigen::Success) throw std::runtime_error("the QR iteration does not converge");
   return ofSchurForm(schur.matrixT());
 }

@@ -152,7 +152,8 @@ TEST(Misuse, FactoriesThatMakeNothingAreRefused) {
 
 class WrongSystem final : public System<double> {
  public:
-  Sizes n{.nu = 1, .nx = 1, .discrete = 1, .switches = 1}, scene = n;
+  static constexpr Sizes kRight{.nu = 1, .nx = 1, .discrete = 1, .switches = 1};
+  Sizes n = kRight, scene = kRight;
   std::vector<int> rows{0, 0};
   ErrorPowers errors{{0}, {0}, {0}, {}};
   std::vector<double> at{};

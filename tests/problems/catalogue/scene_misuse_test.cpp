@@ -113,7 +113,7 @@ TEST(SceneMisuse, EntriesAreChecked) {
        registered([](E& e) { e.parameters.assign(2, numberParameter("k", "", "", "1", 0, 1)); })},
       {"words", "parameter w has no words", [] { (void)wordParameter("w", "", {}); }},
       {"descriptions", "parameter w has no words", [] { (void)descriptionParameter("w", "", {}); }},
-      {"no scalar", "scalar = 'BigFloat': scene pair offers double",
+      {"no scalar", "scalar = 'mp50': scene pair offers double",
        [] { (void)makeScene<BigFloat>(entryWith([](Made&) {}), {}); }},
       {"no parameters", "scene pair has no parameters, not 'k'",
        [] {
