@@ -61,6 +61,5 @@ IRK_REGISTER {
        .make = {[](const irk::IntegratorOptions& options, const irk::Sizes& sizes, const irk::Scheme<double>& scheme) {
                   return std::make_unique<ChordNewton>(options, sizes, scheme);
                 },
-                {},
                 {}}});
 }

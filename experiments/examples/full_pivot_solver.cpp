@@ -49,6 +49,5 @@ IRK_REGISTER {
        .coupled = true,
        .storage = irk::Storage::kDense,
        .make = {[](const irk::StageSolverSetup<double>& setup) { return std::make_unique<FullPivotSolver>(setup); },
-                {},
                 {}}});
 }

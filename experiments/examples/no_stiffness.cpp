@@ -6,5 +6,5 @@ IRK_REGISTER {
   irk::registerStrategy<irk::JacobianTerms>(
       {.id = {"no_stiffness"},
        .meaning = "without dr/du",
-       .change = {[](const irk::Sizes&, irk::Linearization<double>& D) { D.d2.setZero(); }, {}, {}}});
+       .change = {[](const irk::Sizes&, irk::Linearization<double>& D) { D.d2.setZero(); }, {}}});
 }

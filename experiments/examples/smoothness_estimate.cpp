@@ -32,6 +32,5 @@ IRK_REGISTER {
       {.id = {"smoothness"},
        .meaning = "the highest Legendre coefficients of the stages",
        .make = {[](const irk::StepAttemptSetup<double>& setup) { return std::make_unique<SmoothnessEstimate>(setup); },
-                {},
                 {}}});
 }

@@ -17,7 +17,8 @@ inline std::vector<std::string> otherValues(const SpecField& field, const RunSpe
                                                                         {"settings", {"torque_off_at=0.25"}},
                                                                         {"method", {"gauss_4"}},
                                                                         {"t_end", {"0.5"}},
-                                                                        {"atol_of", {"theta=1e-3"}}};
+                                                                        {"atol_of", {"theta=1e-3"}},
+                                                                        {"stop_at", {"impact:2"}}};
   const auto known = texts.find(field.name);
   auto values = known == texts.end() ? otherValues<RunSpec>(field) : known->second;
   std::erase_if(values, [&](const std::string& value) {

@@ -73,7 +73,7 @@ TEST(RunSpec, ErrorsNameFieldValueAndWhatIsAllowed) {
   EXPECT_TRUE(containsAll(set("atol", "nan"), {"atol", "nan", "> 0"}));
   EXPECT_TRUE(containsAll(set("max_steps", "0"), {"max_steps", "0", "1"}));
   EXPECT_TRUE(containsAll(set("newton", "simplifed"), {"newton", "simplifed", "'simplified'"}));
-  EXPECT_TRUE(containsAll(set("scalar", "mp5"), {"scalar", "mp5", "'mp50'"}));
+  EXPECT_TRUE(containsAll(set("scalar", "mp5"), {"scalar", "mp5", "mp30 to mp1000"}));
   EXPECT_TRUE(containsAll(set("scene", "slider_krank"), {"slider_krank", "'slider_crank'"}));
   EXPECT_TRUE(containsAll(set("settings", "k"), {"setting", "'k'", "name=value"}));
   EXPECT_TRUE(containsAll(misuseOf([] { findField("solvr"); }), {"solvr", "'solver'"}));
