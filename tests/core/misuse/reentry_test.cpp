@@ -1,10 +1,14 @@
 // The life of an integrator: moved from, called from its own callbacks, and exceptions of callbacks and systems.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "core/base/parallel_loop.h"
 #include "tests/core/support.h"
@@ -143,17 +147,28 @@ TEST(Reentry, AnIntegratorMayBeUsedAfterAnException) {
   }
 }
 
+// Calls f(i) for i < n on four threads that take the next i when they are free.
+void onFourThreads(std::size_t n, const std::function<void(std::size_t)>& f) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k) {
+    threads.emplace_back([&] {
+      for (std::size_t i = next++; i < n; i = next++) f(i);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
 TEST(ParallelLoop, ThrowsTheExceptionOfTheFirstTurn) {
   for (int repetition = 0; repetition < 100; ++repetition) {
     ParallelLoop loop;
     std::atomic<int> made = 0;
-#pragma omp parallel for num_threads(4) schedule(dynamic)
-    for (std::size_t i = 0; i < 64; ++i) {
+    onFourThreads(64, [&](std::size_t i) {
       loop.turn(i, [&] {
         ++made;
         if (i % 2 == 1 && i > 20) throw std::runtime_error(std::to_string(i));
       });
-    }
+    });
     EXPECT_TRUE(loop.hasThrown());
     EXPECT_EQ(thrownBy([&] { loop.rethrow(); }), "21");
     EXPECT_GE(made, 22) << "all turns before it are made";
@@ -168,8 +183,7 @@ TEST(ParallelLoop, WorksInTheDigitsOfTheThreadThatBeganIt) {
   const WorkingDigits digits(100);
   std::array<int, 16> of_turns{};
   ParallelLoop loop;
-#pragma omp parallel for num_threads(4) schedule(static)
-  for (std::size_t i = 0; i < of_turns.size(); ++i) loop.turn(i, [&] { of_turns[i] = WorkingDigits::now(); });
+  onFourThreads(of_turns.size(), [&](std::size_t i) { loop.turn(i, [&] { of_turns[i] = WorkingDigits::now(); }); });
   for (const int of_turn : of_turns) EXPECT_EQ(of_turn, 100);
 }
 
