@@ -292,6 +292,7 @@ template <class Real>
 void FirstOrderForm<Real>::jumpAtTime(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->jumpAtTime(i, scene);
+  requireState("System::jumpAtTime", scene, inner_sizes_);
   state.x << scene.u, scene.v, scene.x;
 }
 

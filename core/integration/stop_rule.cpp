@@ -48,10 +48,10 @@ StopRule<Real>::StopRule(const System<Real>& system, const IntegratorOptions& op
   std::vector<std::string> known;
   for (Index i = 0; i < system.sizes().switches; ++i) known.push_back(system.switchName(i));
   if (known.empty()) throw Misuse("stop_at '" + stop_at_ + "': the scene has no switches");
-  const bool is_name = std::find(known.begin(), known.end(), name) != known.end();
-  count_ = is_name ? 1 : takeCount(name);
+  const auto isKnown = [&] { return std::find(known.begin(), known.end(), name) != known.end(); };
+  count_ = isKnown() ? 1 : takeCount(name);
   for (const auto& one : known) waits_for_.push_back(one == name);
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
+  if (!isKnown()) {
     throw Misuse("stop_at: " + unknownName("switch", name, known));
   }
 }

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "irk/rigid.h"
 #include "irk/scene_file.h"
 #include "problems/mechanisms/heavy_top_motion.h"
 
@@ -21,25 +22,9 @@ namespace {
 using heavy_top::Data;
 using heavy_top::Motion;
 
-template <class T>
-struct Vector {
-  T x, y, z;
-};
-
-/// The vector part of conj(e) o v: G(e) v. E and V are vectors from `first` on.
-template <class T, class E, class V>
-Vector<T> bodyRate(const E& e, const V& v, Index i) {
-  return {e[i] * v[i + 1] - e[i + 1] * v[i] - e[i + 2] * v[i + 3] + e[i + 3] * v[i + 2],
-          e[i] * v[i + 2] - e[i + 2] * v[i] - e[i + 3] * v[i + 1] + e[i + 1] * v[i + 3],
-          e[i] * v[i + 3] - e[i + 3] * v[i] - e[i + 1] * v[i + 2] + e[i + 2] * v[i + 1]};
-}
-
-/// e o (0, w) = G^T w.
-template <class T, class E>
-std::array<T, 4> product(const E& e, Index i, const Vector<T>& w) {
-  return {-e[i + 1] * w.x - e[i + 2] * w.y - e[i + 3] * w.z, e[i] * w.x + e[i + 2] * w.z - e[i + 3] * w.y,
-          e[i] * w.y + e[i + 3] * w.x - e[i + 1] * w.z, e[i] * w.z + e[i + 1] * w.y - e[i + 2] * w.x};
-}
+using rigid::bodyRate;
+using rigid::product;
+using rigid::Vector;
 
 /// The body's y-axis in space, of the length |e|^2: homogeneous of degree 2 in e.
 template <class E>

@@ -29,6 +29,7 @@ namespace irk {
 /// they are 50. A parallel region starts with the default: pass `now()` on to its threads.
 class WorkingDigits {
  public:
+  /// A double has up to 17 digits. 2000 are twice the digits that a run may have: block forms are made with twice.
   static constexpr int kLeast = 17, kDefault = 50, kMost = 2000;
 
   /// Throws Misuse for digits outside of kLeast .. kMost.
@@ -126,7 +127,7 @@ class BigFloat {
   friend class BigFloatResult;
 
   using Limb = unsigned long;
-  static constexpr int kInside = 8;  // limbs of 64 bits
+  static constexpr int kInside = 8;  // limbs of 64 bits: 150 digits, three times the default
 
   static BigFloat sum(const BigFloat& a, const BigFloat& b);
   static BigFloat difference(const BigFloat& a, const BigFloat& b);
@@ -162,8 +163,7 @@ class BigFloat {
   };
 };
 
-/// The number of decimal digits of a vector, a matrix or a number in which one computes: rounds every entry to the
-/// working digits. In double nothing is to be done.
+/// A copy of a vector or matrix whose entries are rounded to the working digits; in double the same numbers.
 template <class Derived>
 auto roundedToWork(const Eigen::MatrixBase<Derived>& y) {
   using Number = typename Derived::Scalar;
