@@ -28,9 +28,6 @@ constexpr double kWorthUpdates = 0.1;
 // With fewer unknowns the updates cost more than an iteration (van_der_pol: a tenth of the run).
 constexpr Index kUpdatesFrom = 3;
 
-// The round-off of increments has not been measured yet.
-constexpr double kUnknownFloor = -1;
-
 // theta before any step has shown one: assumes no contraction.
 constexpr double kUnknownTheta = 1;
 
@@ -76,7 +73,6 @@ class SimplifiedNewton : public NewtonBase<Real> {
   void forget() override {
     eta_ = theta_ = 1;
     slowest_ = kUnknownTheta;
-    floor_ = kUnknownFloor;
   }
 
  protected:
@@ -111,8 +107,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
         // Increments at round-off no longer contract; above round-off this is divergence.
         const bool may_stagnate = theta >= kSlowContraction && norm <= kStagnationUnits * this->round_off_;
-        if (may_stagnate && (norm >= kSlowContraction * before_previous || norm <= kRoundOffUnits * floor(c, W)))
-          return result;
+        if (may_stagnate && norm >= kSlowContraction * before_previous) return result;
         eta = of_step = etaOf(theta);
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
         const bool slow =
@@ -147,27 +142,22 @@ class SimplifiedNewton : public NewtonBase<Real> {
   bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, double norm) {
     return adaptive_ && norm <= kLargestRoundOff && norm <= kRoundOffUnits * measuredFloor(c, W);
   }
-  // The same round-off, measured at the first use after `forget`.
-  double floor(NewtonContext<Real>& c, const Mat<Real>& W) {
-    if (floor_ == kUnknownFloor) {
-      increment_ = this->R_;
-      floor_ = measuredFloor(c, W);
-      this->R_ = increment_;
-    }
-    return floor_;
-  }
-  // Round-off of an increment: for a change of w in the last digits of the sums that it enters, the part of the
-  // increment that the change does not explain. With a singular matrix in front of k, or with large terms that cancel,
-  // the residual has much more round-off than eps. 0 if it cannot be measured.
+  // Round-off of an increment: half the second difference of the residual for a change of w in the last digits of the
+  // sums that it enters, which is all round-off since the linear part cancels; Moré & Wild, SIAM J. Sci. Comput. 33
+  // (2011). What the matrix leaves of a first difference is no measure: a matrix that contracts by 1/2 leaves half of
+  // the change. With a singular matrix in front of k, or with large terms that cancel, the residual has much more
+  // round-off than eps. 0 if it cannot be measured.
   double measuredFloor(NewtonContext<Real>& c, const Mat<Real>& W) {
     if (!this->residual(c, W)) return 0;
     before_ = this->R_;
     lastDigits(c, W);
     changed_ = W + change_;
     if (!this->residual(c, changed_)) return 0;
-    this->R_ -= before_;
+    before_ -= Real(0.5) * this->R_;
+    changed_ = W - change_;
+    if (!this->residual(c, changed_)) return 0;
+    this->R_ = before_ - Real(0.5) * this->R_;
     c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
-    this->R_ -= change_;
     return c.norm.increment(this->R_, this->first_, this->row_weights_);
   }
   // Sets change_ to last digits of w, and of u, v, x to which h^2 a, h a and h k are added; with alternating signs.
@@ -194,9 +184,8 @@ class SimplifiedNewton : public NewtonBase<Real> {
 
   IncrementLimit limit_;
   bool adaptive_;
-  Mat<Real> increment_, before_, change_, changed_;  // of `floor`; empty until its first use
+  Mat<Real> before_, change_, changed_;  // of `measuredFloor`; empty until its first use
   double eta_ = 1, theta_ = 1;
-  double floor_ = kUnknownFloor;    // round-off of an increment, in tolerances
   double slowest_ = kUnknownTheta;  // theta of the last step's last increment, the third or a later one
 };
 
