@@ -1,14 +1,8 @@
 // A heavy top in Euler parameters: the benchmark of O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012)
 // 121-137, after M. Geradin, A. Cardona, Flexible Multibody Dynamics, Wiley 2001.
 //
-// The unit quaternion e turns the body's axes into those of space; Omega is the angular velocity in the body's axes:
-//   e' = e o (0, Omega) / 2,   Omega = 2 G(e) e',   (0, G(e) v) the product of conj(e) and v.
-// Lagrange's equations of the kinetic energy 2 e'^T G^T J G e' (Nikravesh, Computer-Aided Analysis of Mechanical
-// Systems, 1988, 11.2) are
-//   4 G^T J G e'' + 8 G'^T J G e' = f - lambda e,   0 = (e^T e - 1) / 2.
-// The mass matrix is singular along e; with the constraint the motion is determined.
+// The equations of the quaternion e stand in irk/rigid.h; here lambda has the other sign, f - lambda e.
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
 #include "irk/rigid.h"
@@ -26,30 +20,11 @@ using rigid::bodyRate;
 using rigid::product;
 using rigid::Vector;
 
-/// The body's y-axis in space, of the length |e|^2: homogeneous of degree 2 in e.
+constexpr Vector<double> kAxis{0, 1, 0};  // of symmetry, in the body
+/// The same in space, of the length |e|^2.
 template <class E>
 auto axisOf(const E& e, Index i) {
-  const auto &e0 = e[i], &e1 = e[i + 1], &e2 = e[i + 2], &e3 = e[i + 3];
-  using T = std::decay_t<decltype(e0)>;
-  return Vector<T>{2 * (e1 * e2 - e0 * e3), e0 * e0 - e1 * e1 + e2 * e2 - e3 * e3, 2 * (e2 * e3 + e0 * e1)};
-}
-
-/// The derivative of axis . f with respect to e.
-template <class T, class E>
-std::array<T, 4> axisForce(const E& e, Index i, const Vector<T>& f) {
-  return {2 * (e[i] * f.y + e[i + 1] * f.z - e[i + 3] * f.x), 2 * (e[i + 2] * f.x - e[i + 1] * f.y + e[i] * f.z),
-          2 * (e[i + 1] * f.x + e[i + 2] * f.y + e[i + 3] * f.z), 2 * (e[i + 2] * f.z - e[i] * f.x - e[i + 3] * f.y)};
-}
-
-/// The inertia's rows, 4 G^T J G e'' + 8 G'^T J G e', with J = diag(J1, J3, J1).
-template <class T, class Real>
-std::array<T, 4> inertia(const Point<T>& p, Index i, const Real& J1, const Real& J3) {
-  const Vector<T> w = bodyRate<T>(p.u, p.v, i), rate = bodyRate<T>(p.u, p.a, i);
-  const auto accelerated = product<T>(p.u, i, {J1 * rate.x, J3 * rate.y, J1 * rate.z});
-  const auto turned = product<T>(p.v, i, {J1 * w.x, J3 * w.y, J1 * w.z});
-  std::array<T, 4> rows;
-  for (std::size_t k = 0; k < 4; ++k) rows[k] = 4 * accelerated[k] + 8 * turned[k];
-  return rows;
+  return rigid::turned(e, i, kAxis);
 }
 
 /// u = (x, y, z, e): position of the centre of mass and Euler parameters. The multipliers are the force on the joint
@@ -62,14 +37,11 @@ struct Absolute {
   Sizes sizes() const { return {.nu = 7, .nz = 4, .constraints = 4}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
-    const auto rows = inertia<T, Real>(p, kFirst, d.J1, d.J3);
-    const auto force = axisForce<T>(p.u, kFirst, {d.l * p.z[0], d.l * p.z[1], d.l * p.z[2]});
     for (Index i = 0; i < 3; ++i) r.u[i] = -d.m * p.a[i] - p.z[i];
     r.u[2] -= d.m * d.g;
-    for (Index i = 0; i < 4; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      r.u[kFirst + i] = force[k] - rows[k] - p.u[kFirst + i] * p.z[3];
-    }
+    for (Index i = kFirst; i < 7; ++i) r.u[i] = -p.u[i] * p.z[3];
+    rigid::addTurnedForce(&r.u[kFirst], p.u, kFirst, kAxis, {d.l * p.z[0], d.l * p.z[1], d.l * p.z[2]});
+    rigid::subtractTurningInertia(&r.u[kFirst], p, kFirst, Vector<Real>{d.J1, d.J3, d.J1});
   }
   template <class T, class U, class G>
   void constraints(const T&, const U& u, G&& g) const {
@@ -77,7 +49,7 @@ struct Absolute {
     g[0] = u[0] - d.l * axis.x;
     g[1] = u[1] - d.l * axis.y;
     g[2] = u[2] - d.l * axis.z;
-    g[3] = (u[3] * u[3] + u[4] * u[4] + u[5] * u[5] + u[6] * u[6] - 1) * 0.5;
+    g[3] = rigid::norm(u, kFirst);
   }
 };
 
@@ -90,16 +62,14 @@ struct FixedPoint {
   Sizes sizes() const { return {.nu = 4, .nz = 1, .constraints = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
-    const auto rows = inertia<T, Real>(p, kFirst, d.transverseInertia(), d.J3);
-    const auto weight = axisForce<T>(p.u, kFirst, {T(0.0), T(0.0), T(-d.m * d.g * d.l)});
-    for (Index i = 0; i < 4; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      r.u[i] = weight[k] - rows[k] - p.u[i] * p.z[0];
-    }
+    const Real across = d.transverseInertia();
+    for (Index i = 0; i < 4; ++i) r.u[i] = -p.u[i] * p.z[0];
+    rigid::addTurnedForce(&r.u[kFirst], p.u, kFirst, kAxis, {T(0.0), T(0.0), T(-d.m * d.g * d.l)});
+    rigid::subtractTurningInertia(&r.u[kFirst], p, kFirst, Vector<Real>{across, d.J3, across});
   }
   template <class T, class U, class G>
   void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + u[3] * u[3] - 1) * 0.5;
+    g[0] = rigid::norm(u, kFirst);
   }
 };
 
