@@ -124,14 +124,15 @@ bool isDrawn(const Figure& figure, const ReportOptions& options) {
 }
 
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options) {
-  return gnuplotCommands(figure, options, options.results / figure.study);
+  return gnuplotCommands(figure, options, options.results / figure.study, figureFolder(options) / figure.name);
 }
 
-std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data) {
+std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data,
+                            const std::filesystem::path& out) {
   // Tools that scripts start would take a path that begins with a dash for an option.
   const std::string before = data.string().starts_with('-') ? "./" : "";
   return fmt::format("{}data='{}{}'; out='{}'; {}", areQuick(options) ? "quick=1; " : "", before, data.string(),
-                     (figureFolder(options) / figure.name).string(), figure.assignments);
+                     out.string(), figure.assignments);
 }
 
 std::string shellCommand(const Figure& figure, const ReportOptions& options) {

@@ -43,8 +43,9 @@ bool isDrawn(const Figure& figure, const ReportOptions& options);
 
 /// The assignments for `gnuplot -e`. With results of --quick they set `quick`, so that style.gp marks the figure.
 std::string gnuplotCommands(const Figure& figure, const ReportOptions& options);
-/// The same for tables in another folder.
-std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data);
+/// The same for tables in the folder `data` and files OUT.svg and OUT.png.
+std::string gnuplotCommands(const Figure& figure, const ReportOptions& options, const std::filesystem::path& data,
+                            const std::filesystem::path& out);
 /// The shell's command that draws the figure again, in the folder `home`.
 std::string shellCommand(const Figure& figure, const ReportOptions& options);
 

@@ -84,14 +84,51 @@ void requireResults(const std::string& study, const std::vector<Figure>& figures
                             commandOf(study)));
 }
 
+/// The files of a figure while gnuplot draws it: they get their names when they are whole, so that reports that are
+/// made at the same time neither mix nor miss files.
+class NewFigure {
+ public:
+  explicit NewFigure(std::filesystem::path figure)
+      : figure_(std::move(figure)), beside_(newBeside(figure_.string() + ".svg")) {}
+  ~NewFigure() {
+    clear();
+    std::error_code none;
+    std::filesystem::remove(beside_, none);
+  }
+  NewFigure(const NewFigure&) = delete;
+  NewFigure& operator=(const NewFigure&) = delete;
+
+  /// The name of the new files without .svg and .png.
+  const std::filesystem::path& out() const { return beside_; }
+  /// Removes what has been drawn.
+  void clear() const {
+    std::error_code none;
+    for (const auto* ending : kEndings) std::filesystem::remove(beside_.string() + ending, none);
+  }
+  /// Gives the new files their names. A file of an earlier drawing must not be taken for one of this drawing.
+  void close() const {
+    std::error_code missing;
+    for (const auto* ending : kEndings) {
+      std::filesystem::rename(beside_.string() + ending, figure_.string() + ending, missing);
+      if (missing) std::filesystem::remove(figure_.string() + ending);
+    }
+  }
+
+ private:
+  static constexpr const char* kEndings[] = {".svg", ".png"};
+  std::filesystem::path figure_, beside_;
+};
+
 // Returns whether the figure is drawn. An own figure without any row is a mistake; a built-in one belongs to a study
 // that is not complete.
 bool drawOne(const Figure& figure, const ReportOptions& options, std::ostream& err) {
-  // The file of an earlier drawing must not be taken for this one.
-  for (const auto* ending : {".svg", ".png"}) std::filesystem::remove(figureFolder(options) / (figure.name + ending));
+  const NewFigure files(figureFolder(options) / figure.name);
   const auto drawn = drawnRows(figure, options);
   const auto data = drawn ? drawn->folder() : options.results / figure.study;
-  if (!drawFigure(figure.script, gnuplotCommands(figure, options, data), options.home, err)) return false;
+  const bool made = drawFigure(figure.script, gnuplotCommands(figure, options, data, files.out()), options.home, err);
+  if (!made) files.clear();
+  files.close();
+  if (!made) return false;
   if (!figure.is_own || isDrawn(figure, options)) return true;
   fmt::print(err, "figure {} is not drawn: it selects no rows\n", figure.name);
   return false;
