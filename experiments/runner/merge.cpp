@@ -25,7 +25,9 @@ std::vector<std::string> decidedColumns() {
 /// Compares the rows of equal runs in several stores.
 class Comparing {
  public:
-  Comparing(const std::vector<const Store*>& stores, MergeReport& report) : stores_(stores), report_(report) {}
+  Comparing(const std::vector<const Store*>& stores, MergeReport& report) : stores_(stores), report_(report) {
+    for (const auto* store : stores_) classes_.try_emplace(store, store->runs(), store->environments());
+  }
 
   void compare(std::uint64_t key) {
     const Store* first = nullptr;
@@ -41,14 +43,13 @@ class Comparing {
     }
     if (!first) return;
     if (duplicate) ++report_.duplicate;
-    const auto& environment = first->runs().name(first->runs().find(key)->environment);
-    ++processors_[first->processor(environment)];
+    ++rows_[classes_.at(first).of(*first->runs().find(key))];
   }
 
-  // The number of rows that do not come from the processor with most rows.
+  // The number of rows whose times are not of the timing class with most rows.
   std::size_t foreign() const {
     std::size_t all = 0, most = 0;
-    for (const auto& [processor, rows] : processors_) {
+    for (const auto& [timing_class, rows] : rows_) {
       all += rows;
       most = std::max(most, rows);
     }
@@ -77,7 +78,8 @@ class Comparing {
   MergeReport& report_;
   const Table names_{{}, runColumns(), {}};
   const std::vector<std::string> columns_ = decidedColumns();
-  std::map<std::string, std::size_t> processors_;
+  std::map<const Store*, TimingClasses> classes_;
+  std::map<std::string, std::size_t> rows_;  // by timing class
 };
 
 void countNotOfStudy(const RunKeys& keys, const std::vector<const Store*>& stores, MergeReport& report) {
@@ -131,7 +133,8 @@ std::map<std::string, std::string> studiesIn(const std::vector<std::unique_ptr<S
 
 std::string textOf(const MergeReport& report) {
   auto text = fmt::format(
-      "expected {}, found {}, missing {}, duplicate {}, foreign (another processor) {}, not of the study {}, "
+      "expected {}, found {}, missing {}, duplicate {}, foreign (another processor, compiler or library) {}, not of "
+      "the study {}, "
       "conflicts {}\n",
       report.expected, report.found, report.missing, report.duplicate, report.foreign, report.not_of_study,
       report.conflicts.size());

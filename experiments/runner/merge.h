@@ -23,7 +23,7 @@ struct Conflict {
 struct MergeReport {
   std::size_t expected = 0, found = 0, missing = 0;
   std::size_t duplicate = 0;  ///< runs found in more than one folder
-  std::size_t foreign = 0;    ///< runs made on another processor than most
+  std::size_t foreign = 0;    ///< runs whose times are of another timing class than most
   std::size_t not_of_study = 0;
   std::vector<Conflict> conflicts;
   std::vector<std::size_t> missing_series;  ///< series with missing runs, by their numbers in the study

@@ -14,7 +14,6 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_walk.h"
-#include "experiments/tables/environment.h"
 
 namespace irk {
 namespace {
@@ -65,7 +64,7 @@ class Counting {
     ++counts.finished;
     if (!success) ++counts.failed;
     if (stale) ++counts.stale;
-    if (isForeign(entry.environment)) ++counts.foreign;
+    if (!store_.timedHere(entry)) ++counts.foreign;
     const double seconds = numberAt(names_, runs.row(entry), "cpu_s");
     if (!std::isnan(seconds)) {
       const std::string kind = kindOf(series.runs[run], series.end);
@@ -81,12 +80,6 @@ class Counting {
     status_.timing_seconds_left += missing * std::max(seconds, timing.min_time_s);
   }
 
-  bool isForeign(std::uint16_t environment) {
-    const auto [at, added] = foreign_.try_emplace(environment);
-    if (added) at->second = store_.processor(store_.runs().name(environment)) != processorName();
-    return at->second;
-  }
-
   RunCounts& part(const std::string& id) {
     const auto at =
         std::find_if(status_.parts.begin(), status_.parts.end(), [&](const auto& s) { return s.first == id; });
@@ -99,7 +92,6 @@ class Counting {
   const Table names_{{}, runColumns(), {}};
   StudyStatus status_;
   TimeLeft time_;
-  std::map<std::uint16_t, bool> foreign_;
   std::unordered_set<std::uint64_t> earlier_;
 };
 

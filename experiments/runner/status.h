@@ -21,7 +21,7 @@ struct RunCounts {
   std::size_t finished = 0;
   std::size_t failed = 0;   ///< any outcome but success
   std::size_t stale = 0;    ///< made by other code
-  std::size_t foreign = 0;  ///< made on another processor
+  std::size_t foreign = 0;  ///< timed with another processor, compiler or library than those of this program
   void add(const RunCounts& other);
 };
 

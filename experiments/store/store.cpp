@@ -171,14 +171,6 @@ std::size_t Store::takeOver(const Store& other) {
   return take(runs_, other.runs_);
 }
 
-std::string Store::processor(std::string_view environment) const {
-  const auto entry = environments_.find(keyNumber(environment));
-  if (!entry) return "unknown";
-  static const auto columns = environmentColumns();
-  static const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "cpu") - columns.begin());
-  return environments_.row(*entry)[at];
-}
-
 void Store::forEachRun(const RunKeys& keys, const TakeRun& take) const {
   keys.forEach([&](std::uint64_t key, const std::string& blocks) {
     const auto entry = runs_.find(key);

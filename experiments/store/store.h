@@ -38,7 +38,7 @@ struct StoreOptions {
   IfLocked if_locked = IfLocked::kRefuse;
 };
 
-/// The head entry of a runs.csv whose times are left out because they come from several processors. Its value names
+/// The head entry of a runs.csv whose times are left out because they are of several timing classes. Its value names
 /// them.
 inline constexpr std::string_view kTimesRefused = "times refused";
 
@@ -71,9 +71,7 @@ class Store {
   /// Copies the rows of `other` that this store does not have. Returns the number of copied runs.
   std::size_t takeOver(const Store& other);
 
-  /// The processor of an environment; `unknown` if there is none.
-  std::string processor(std::string_view environment) const;
-  /// Whether the times of the valid row were measured on this processor.
+  /// Whether the times of the row are of this program's timing class (tables/timing_class.h).
   bool timedHere(const Entry& entry) const;
 
   /// Calls `take` for each of these runs that has a row, in their order, with the names of its blocks.
@@ -83,7 +81,7 @@ class Store {
   /// Writes runs.csv, environments.csv and, if there are any, states.csv and calibrations.csv: the rows of these keys
   /// in this order, with a column of blocks if the keys have them. Each file is written beside its target and renamed.
   /// A row of runs whose key is not that of its own settings is set aside and left out, with a line on `messages`; its
-  /// run counts as not made. Returns the reason if times of several processors are refused, or an empty text.
+  /// run counts as not made. Returns the reason if times of several timing classes are refused, or an empty text.
   std::string exportTables(const RunKeys& keys, std::ostream& messages);
 
  private:
