@@ -14,6 +14,8 @@
 namespace irk::report {
 namespace {
 
+constexpr const char* kScenes = "scenes";  // not an answer: a section of its own
+
 constexpr PublishedFigure kPublishedFigures[] = {
     {"solver", "profile"},
     {"solver", "work_precision_mechanisms"},
@@ -29,7 +31,7 @@ constexpr PublishedFigure kPublishedFigures[] = {
     {"paper", "stages_slider_crank"},
     {"paper", "discontinuity_time"},
     {"paper", "contraction"},
-    {"paper", "small_steps_error"},
+    {kScenes, "scene_gallery"},
 };
 
 // The HTML of a cell of the report's page, without the elements that only its style needs. A bar would end the cell.
@@ -67,16 +69,21 @@ std::string figureText(const Figure& figure, bool quick) {
                      quick ? " (Quick run: preliminary.)" : "", figure.caption);
 }
 
+std::string figuresOf(std::string_view section, const std::vector<Figure>& figures, bool quick) {
+  std::string text;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    if (kPublishedFigures[i].answer == section) text += figureText(figures[i], quick);
+  }
+  return text;
+}
+
 // The folded rows of an answer are in its table.
 std::string answerText(const Answer& answer, const std::vector<Figure>& figures, bool quick) {
   std::string text = fmt::format("## {}\n\n", answer.question);
   for (const auto& sentence : answer.sentences) text += sentence + "\n\n";
   text += markdownTable(answer.shown);
   if (!answer.note.empty()) text += answer.note + "\n\n";
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    if (kPublishedFigures[i].answer == answer.id) text += figureText(figures[i], quick);
-  }
-  return text;
+  return text + figuresOf(answer.id, figures, quick);
 }
 
 std::string claimsText(const ReportOptions& options) {
@@ -168,7 +175,10 @@ std::string publishedPage(const ReportOptions& options, const std::vector<Answer
       "times are those of one machine.\n\n",
       quick ? " --quick" : "");
   for (const auto& answer : answers) text += answerText(answer, figures, quick);
-  return text + claimsText(options) + tablesText() + "## Origin\n\n" + originText(runs) +
+  text += claimsText(options);
+  text += "## The scenes\n\n[problems](../../problems/README.md) says what each of them is.\n\n" +
+          figuresOf(kScenes, figures, quick);
+  return text + tablesText() + "## Origin\n\n" + originText(runs) +
          "`irk compare FOLDER FOLDER` says what differs between two publications.\n";
 }
 

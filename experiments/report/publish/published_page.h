@@ -14,7 +14,7 @@ namespace irk::report {
 
 /// A figure of plots/figures.txt, below the answer that it belongs to.
 struct PublishedFigure {
-  std::string_view answer;  ///< solver, orders, failures or paper
+  std::string_view answer;  ///< solver, orders, failures, paper; scenes: the section of the scenes
   std::string_view name;
 };
 std::span<const PublishedFigure> publishedFigures();
