@@ -119,14 +119,14 @@ std::string ConsistentStart<Real>::dependentConstraints(const State<Real>& state
   if (!frame.finite || frame.regular()) return {};
   std::ostringstream text;
   text << "the constraints have rank " << frame.rank << " of " << frames.constraints() << ' ' << kStart
-       << ", t = " << static_cast<double>(state.t);
+       << ", t = " << sceneTime(system_, state.t);
   return text.str();
 }
 
 // Checks that all residuals are finite and that the constraints hold.
 template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
-  const double t = static_cast<double>(state.t);
+  const double t = sceneTime(system_, state.t);
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
     system_.evaluate(level, pointOf(state), VecView<Real>(r_.data(), r_.size()));
     for (Index i = 0; i < r_.size(); ++i) {
@@ -179,7 +179,7 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
 // `tolerated`, relative to 1 + |w|, is accepted.
 template <class Real>
 StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, double tolerated) {
-  const double t = static_cast<double>(state.t);
+  const double t = sceneTime(system_, state.t);
   const VecView<Real> rows(r_.data(), r_.size());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   Index worst = 0;
@@ -231,7 +231,7 @@ StartReport ConsistentStart<Real>::keep(const State<Real>& state, const char* pl
     return r_;
   };
   const Vec<Real> r = residual(system_, state);
-  const double t = static_cast<double>(state.t);
+  const double t = sceneTime(system_, state.t);
   const Index worst = worstRow(r);
   if (!std::isfinite(static_cast<double>(r[worst]))) {
     return report(Outcome::kNotFinite, place, t, worst, "residual", static_cast<double>(r[worst]));

@@ -11,6 +11,7 @@
 #include "core/derivatives/weighted_changes.h"
 #include "core/options/fixed_steps.h"
 #include "core/system/counting.h"
+#include "core/system/reversed.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -40,12 +41,13 @@ std::string violationAt(const System<Real>& system, Level level, const State<Rea
   const auto constraints = [&](const State<Real>& at) { return constraintsAt(constrained, level, at); };
   const Vec<Real> r = constraints(state);
   const Vec<double> most = allowed * weightedChanges(state, moves, r, constraints);
+  const double sign = level == Level::kVelocity && isReversed(system) ? -1 : 1;
   for (const Index i : numbers) {
-    const double value = static_cast<double>(r[i]);
+    const double value = sign * static_cast<double>(r[i]);
     if (std::abs(value) <= most[i]) continue;
     std::ostringstream text;
     text << (level == Level::kPosition ? "constraint g" : "constraint rate dg/dt") << "[" << i << "] = " << value
-         << " at t = " << static_cast<double>(state.t) << ", allowed " << most[i];
+         << " at t = " << sceneTime(system, state.t) << ", allowed " << most[i];
     return text.str();
   }
   return {};
@@ -71,6 +73,16 @@ const System<Real>& constrainedIn(const System<Real>& system) {
   const System<Real>& inner = uncounted(system);
   const auto* first_order = dynamic_cast<const FirstOrderForm<Real>*>(&inner);
   return first_order ? first_order->inner() : inner;
+}
+
+template <class Real>
+bool isReversed(const System<Real>& system) {
+  return dynamic_cast<const ReversedSystem<Real>*>(&constrainedIn(system)) != nullptr;
+}
+
+template <class Real>
+double sceneTime(const System<Real>& system, const Real& t) {
+  return static_cast<double>(isReversed(system) ? opposite(t) : t);
 }
 
 template <class Real>
@@ -120,7 +132,7 @@ std::string fixedRowViolation(const System<Real>& system, const State<Real>& sta
     const double value = static_cast<double>(r[i]);
     if (other[i] != r[i] || std::abs(value) <= most[i]) continue;
     std::ostringstream text;
-    text << "row " << i << " = " << value << " at t = " << static_cast<double>(state.t) << ", allowed " << most[i]
+    text << "row " << i << " = " << value << " at t = " << sceneTime(system, state.t) << ", allowed " << most[i]
          << ": it reads neither a, k nor z, so that only a jump of u, v or x could satisfy it";
     return text.str();
   }
@@ -133,6 +145,8 @@ double allowedInFixedRows(const IntegratorOptions& options) {
 
 #define IRK_CHECKS(Real)                                                                                         \
   template const System<Real>& constrainedIn(const System<Real>&);                                               \
+  template bool isReversed(const System<Real>&);                                                                 \
+  template double sceneTime(const System<Real>&, const Real&);                                                   \
   template std::string constraintViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double); \
   template std::string leftOutViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);    \
   template std::string fixedRowViolation(const System<Real>&, const State<Real>&, const Vec<double>&, double);

@@ -14,6 +14,14 @@ namespace irk {
 template <class Real>
 const System<Real>& constrainedIn(const System<Real>& system);
 
+/// Whether its time is that of the scene backwards (ReversedSystem).
+template <class Real>
+bool isReversed(const System<Real>& system);
+
+/// The time t of the system in that of the scene, for messages.
+template <class Real>
+double sceneTime(const System<Real>& system, const Real& t);
+
 /// Checks g(t, u) = 0 and dg/dt = 0 in every formulation; the first-order form has eliminated these constraints, and
 /// its inner system is checked. Returns an empty text, or which constraint is violated, by how much, and the allowed
 /// value: `allowed` times the change of the constraint if every component changes by its weight. A residual far above

@@ -163,7 +163,7 @@ void ConstraintFrames<Real>::evaluate(const State<Real>& state, const Real& t, c
                                       ConstraintFrame& out) {
   place(state, t);
   setPositions(u);
-  out.t = static_cast<double>(t);
+  out.t = sceneTime(system_, t);
   for (Index j = 0; j < positions_; ++j) out.u[j] = static_cast<double>(u[j]);
   dual_.copy(pointOf(at_));
   const auto chunk = static_cast<Index>(kChunk);

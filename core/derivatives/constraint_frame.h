@@ -11,7 +11,7 @@ namespace irk {
 /// Q nu x m, R m x m, u nu, with the nu positions and those m constraints of the scene that are not left out. Positions
 /// are divided by their scale.
 struct ConstraintFrame {
-  double t = 0;
+  double t = 0;  ///< in the time of the scene
   Vec<double> u;
   Mat<double> Gt, Q, R;
   Index rank = 0;  ///< how many gradients are independent of those before them, but for round-off

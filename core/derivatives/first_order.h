@@ -9,6 +9,7 @@
 
 #include "core/derivatives/differentiator.h"
 #include "core/derivatives/rate_lu.h"
+#include "core/system/reversed.h"
 #include "irk/problem.h"
 
 namespace irk {
@@ -52,6 +53,10 @@ class FirstOrderForm final : public System<Real> {
 
   /// Its states are those of toScene; its constraints hold for the positions of y as well.
   const System<Real>& inner() const { return *inner_; }
+  /// The first-order form of the inner system over -t. Throws Misuse as ReversedSystem.
+  std::shared_ptr<const System<Real>> backward() const {
+    return std::make_shared<const FirstOrderForm>(std::make_shared<const ReversedSystem<Real>>(inner_), factors_);
+  }
   /// Factorizations of D0 since the last fromScene.
   std::int64_t massFactorizations() const { return factorizations_; }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/base/constants.h"
+#include "core/derivatives/constraint_check.h"
 #include "core/integration/component_name.h"
 #include "irk/multiprecision.h"
 
@@ -179,7 +180,7 @@ std::string Amounts<Real>::belowZero() const {
   std::ostringstream text;
   text.precision(2);
   text << componentName(sizes_, 2 * sizes_.nu + first_x_ + worst->i) << " falls to " << worst->value
-       << " at t = " << worst->t
+       << " at t = " << sceneTime(system_, Real(worst->t))
        << (worst->declared ? ", but it is never negative on an exact solution"
                            : ", but its rate at zero does not lead below zero");
   if (negative_.size() > 1) text << "; " << negative_.size() - 1 << " more components, too";

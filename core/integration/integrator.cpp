@@ -9,7 +9,7 @@
 #include "core/base/constants.h"
 #include "core/base/in_use.h"
 #include "core/control/stall_detector.h"
-#include "core/derivatives/first_order.h"
+#include "core/integration/backward.h"
 #include "core/integration/memory_check.h"
 #include "core/integration/rules.h"
 #include "core/integration/stop_rule.h"
@@ -77,17 +77,20 @@ struct Grid {
 template <class Real>
 class Integrator<Real>::Run {
  public:
-  Run(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods, const IntegratorOptions& options,
-      const Vec<double>& scale)
+  Run(std::shared_ptr<const System<Real>> system, const SchemeList<Real>& schemes, std::size_t start,
+      const IntegratorOptions& options, const Vec<double>& scale)
       : system_(checked(std::move(system), scale)),
-        schemes_(methods.members),
-        options_(legal(options, *system_, schemes_, methods.start)),
+        schemes_(schemes),
+        start_(start),
+        options_(legal(options, *system_, schemes_, start)),
+        scale_(scale),
         stop_rule_(*system_, options_, scale),
         counted_(*system_, counters_, options_.threads),
-        trajectory_(counted_, schemes_, methods.start, options_, scale, counters_) {}
+        trajectory_(counted_, schemes_, start, options_, scale, counters_) {}
 
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     const InUse use(in_use_, "Integrator::integrate");
+    if (liesBefore(t_end, start.t)) return integrateBackward(start, t_end, monitor);
     counters_ = {};
     monitor_ = follow(monitor);
     requireStart(*system_, start, t_end);
@@ -111,6 +114,18 @@ class Integrator<Real>::Run {
 
  private:
   const State<Real>& state() const { return trajectory_.state(); }
+
+  // The reversed system is integrated forward, in -t.
+  Solution<Real> integrateBackward(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
+    requireState("start", start, system_->sceneSizes());
+    if (!backward_) {
+      backward_ = std::make_unique<Run>(reversedSystem(system_), schemes_, start_, options_, scale_);
+    }
+    requireNoJumps(*backward_->system_, start, t_end);
+    Solution<Real> solution = backward_->integrate(reversed(start), opposite(t_end), reversed(monitor));
+    solution.state = reversed(solution.state);
+    return solution;
+  }
 
   // The monitor of the integration that begins: the caller's, and with it the rule that may end it.
   const Monitor<Real>* follow(const Monitor<Real>& callers) {
@@ -285,7 +300,9 @@ class Integrator<Real>::Run {
   std::atomic_flag in_use_;
   std::shared_ptr<const System<Real>> system_;
   SchemeList<Real> schemes_;
+  std::size_t start_;
   IntegratorOptions options_;
+  Vec<double> scale_;
   StopRule<Real> stop_rule_;
   Counters counters_;
   CountingSystem<Real> counted_;
@@ -298,12 +315,14 @@ class Integrator<Real>::Run {
   std::vector<Real> times_;                     // of the system, those before the end
   std::size_t next_time_ = 0;                   // the first that is not yet reached
   Outcome too_small_ = Outcome::kStepTooSmall;  // the outcome of a step below the smallest size
+  std::unique_ptr<Run> backward_;               // made for the first t_end before a start
 };
 
 template <class Real>
 Integrator<Real>::Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
                              const IntegratorOptions& options, const Vec<double>& scale)
-    : run_(std::make_unique<Run>(std::move(system), methods, options, scale)) {}
+    : run_(std::make_unique<Run>(std::move(system), SchemeList<Real>(methods.members), methods.start, options, scale)) {
+}
 template <class Real>
 Integrator<Real>::~Integrator() = default;
 template <class Real>

@@ -68,7 +68,7 @@ void requireNoMemory(const System<Real>& system, const State<Real>& start, const
   }
   for (const std::size_t k : {std::size_t{1}, std::size_t{0}}) {
     evaluate(points[k], again);
-    requireSame(first[k], again, magnitude, static_cast<double>(points[k].t));
+    requireSame(first[k], again, magnitude, sceneTime(users, points[k].t));
   }
 }
 

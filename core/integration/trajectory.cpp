@@ -281,7 +281,7 @@ void Trajectory<Real>::noteChattering(Index i) {
   ++counters_.chattering;
   if (counters_.chattering > 1) return;
   std::ostringstream text;
-  text << "chattering: " << switches_.describe(i) << " switches in every step at t = " << static_cast<double>(state_.t);
+  text << "chattering: " << switches_.describe(i) << " switches in every step at t = " << sceneTime(system_, state_.t);
   addNote(text.str());
 }
 
@@ -317,7 +317,7 @@ Solution<Real> Trajectory<Real>::failed(Outcome outcome, double h, const std::st
   if (positions_ && positions_->explains(outcome, state_)) return solution(Outcome::kSingular, positions_->found());
   std::ostringstream text;
   text.precision(6);
-  text << what << " at t = " << static_cast<double>(state_.t) << ", h = " << h;
+  text << what << " at t = " << sceneTime(system_, state_.t) << ", h = " << h;
   if (blamed_ >= 0) text << ", " << switches_.describe(blamed_);
   return solution(outcome, text.str());
 }

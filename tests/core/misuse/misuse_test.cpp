@@ -300,7 +300,6 @@ TEST(Misuse, ErrorBarsOfImpossibleResultsAreRefused) {
       {"empty", "the result: x: 0 numbers, 1", measured([](auto& a) { a.result = State<double>(); })},
       {"start", "start: x: 3 numbers, 1", measured([](auto& a) { a.start = a.result = State<double>({.nx = 3}); })},
       {"no end", "t_end = nan", measured([](auto& a) { a.result.t = kNotANumber; })},
-      {"an end before the start", "t_end = 1 lies before the start, t = 2", measured([](auto& a) { a.start.t = 2; })},
       {"scale", "scale: 3 numbers, 1 are expected", measured([](auto& a) { a.scale.setOnes(3); })},
       {"a scale", "scale[0] = 0: a finite number > 0", measured([](auto& a) { a.scale.setZero(1); })},
       {"rtol", "rtol = -1 is out of range: >= 0", measured([](auto& a) { a.tolerances.rtol = -1; })},
