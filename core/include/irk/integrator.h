@@ -28,10 +28,12 @@ class Integrator {
   /// Not while `integrate` is under way.
   Integrator(Integrator&&) noexcept;
 
-  /// Integrates from `start` (in the scene's unknowns u, v, x, z) to t_end. Numerical failures are returned as
+  /// Integrates from `start` (in the scene's unknowns u, v, x, z) to t_end. If t_end < start.t, it goes backward in
+  /// time: `monitor` then sees falling times and negative step sizes. Numerical failures are returned as
   /// Solution::outcome (kNotFinite for a start with a NaN); Solution::state is then the last accepted state.
   /// Throws Misuse, before the first step, for a start whose sizes differ from the scene's, for times that are
-  /// not finite, and for t_end < start.t; for a call while another one of this object is under way, as from `monitor`;
+  /// not finite; for t_end < start.t with a system that has switches, a discrete state or, at a declared time on the
+  /// way, a jump, which cannot be undone; for a call while another one of this object is under way, as from `monitor`;
   /// for an object that has been moved from; and for a system that makes states of other sizes than its own. Exceptions
   /// of `monitor` and of the system leave this call, with any number of threads; the object may be used again.
   /// `monitor` is called during this call only.
