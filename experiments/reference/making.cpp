@@ -95,7 +95,7 @@ class Making {
       attemptOpen("in 50 digits", specsInFiftyDigits(last(), of), of.tolerance * kFiner, in_fifty_);
     }
     for (const auto& strictness : kStrictnesses) {
-      const double length = last().t_end - static_cast<double>(scene_.start.t);
+      const double length = std::abs(last().t_end - static_cast<double>(scene_.start.t));
       attemptOpen("in double", specsInDouble(last(), length, strictness), kDoubleRoundOff, in_double_);
     }
     for (const std::size_t k : open()) {

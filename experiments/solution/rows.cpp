@@ -61,7 +61,9 @@ void SolutionRows::show() {
 
 // The points before the end of the step.
 void SolutionRows::fill(const AcceptedStep& step) {
-  for (; next_ < times_.points && time(next_) < step.t; ++next_) {
+  const bool backward = t_end_ < start_;
+  const auto isInside = [&](double t) { return backward ? t > step.t : t < step.t; };
+  for (; next_ < times_.points && isInside(time(next_)); ++next_) {
     if (!step.inside && times_.steps) continue;
     if (!step.inside) {
       throw Misuse("--points: this method gives the solution at the ends of its steps only; leave --points out");
