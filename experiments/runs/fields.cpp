@@ -116,8 +116,10 @@ Field<RunSpec> methodField() {
 // A number, or `scene` for the scene's own end (NaN).
 Field<RunSpec> endField() {
   auto field = numberField<RunSpec>(
-      "t_end", "The time at which the integration ends; scene = the scene's own.", kAnyNumber,
-      [](auto& s) -> auto& { return s.t_end; });
+      "t_end",
+      "The time at which the integration ends; scene = the scene's own. Before the start: irk solve goes backward in "
+      "time.",
+      kAnyNumber, [](auto& s) -> auto& { return s.t_end; });
   field.get = [get = field.get](const RunSpec& s) { return std::isnan(s.t_end) ? "scene" : get(s); };
   field.set = [set = field.set](RunSpec& s, std::string_view text) {
     if (text == "scene") {

@@ -121,6 +121,10 @@ void irk_scene_times(void* self, double* times);
 /* Changes d after time i. */
 void irk_scene_on_time(void* self, int i, double t, const double* y, const double* w, double* d);
 
+/* Changes u, v and x in y at time i, as at a blow or a dose; d is already the one after it. Not called at the end, and
+ * not for times up to the start. */
+void irk_scene_jump_at_time(void* self, int i, double t, double* y, const double* d);
+
 /* --- Quantities derived from the state. */
 
 /* Quantity i: name and unit; *invariant other than 0: it is constant on the exact solution (an energy). */

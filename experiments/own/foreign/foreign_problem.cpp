@@ -49,19 +49,30 @@ void ForeignProblem<kIndex>::discreteAfter(Index i, const double* point, Few<dou
 }
 
 template <int kIndex>
-void JumpingForeignProblem<kIndex>::jump(Index i, const Point<double>& p, double* u, double* v, double* x) const {
-  const ForeignModel& scene = *this->model;
-  const auto point = packed(scene.layout(), p);
+void ForeignProblem<kIndex>::moveTo(Jump* jump, const char* name, Index i, const Point<double>& p, double* u, double* v,
+                                    double* x) const {
+  const auto point = packed(model->layout(), p);
   const auto d = valuesOf(p.d);
-  const auto count = static_cast<std::size_t>(scene.layout().y);
-  GuardedNumbers y("irk_scene_jump", "y", count, {scene.layout().yOf(point.data()), count});
-  const auto guard = scene.lock();
-  scene.functions().jump(scene.self(), static_cast<int>(i), point[0], y.data(), d.data());
+  const auto count = static_cast<std::size_t>(model->layout().y);
+  GuardedNumbers y(name, "y", count, {model->layout().yOf(point.data()), count});
+  const auto guard = model->lock();
+  jump(model->self(), static_cast<int>(i), point[0], y.data(), d.data());
   y.requireInside();
   const double* from = y.data();
   std::copy_n(from, p.u.size(), u);
   std::copy_n(from + p.u.size(), p.v.size(), v);
   std::copy_n(from + 2 * p.u.size(), p.x.size(), x);
+}
+
+template <int kIndex>
+void ForeignProblem<kIndex>::jumpAtTime(Index i, const Point<double>& p, double* u, double* v, double* x) const {
+  auto* const function = model->functions().jump_at_time;
+  if (function) moveTo(function, "irk_scene_jump_at_time", i, p, u, v, x);
+}
+
+template <int kIndex>
+void JumpingForeignProblem<kIndex>::jump(Index i, const Point<double>& p, double* u, double* v, double* x) const {
+  this->moveTo(this->model->functions().jump, "irk_scene_jump", i, p, u, v, x);
 }
 
 namespace {

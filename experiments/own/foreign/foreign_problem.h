@@ -148,9 +148,14 @@ struct ForeignProblem {
   void onTime(Index i, const Point<T>& p, T* d) const {
     if (model->functions().on_time) changeDiscrete(i, p, d, model->functions().on_time, "irk_scene_on_time");
   }
+  void jumpAtTime(Index i, const Point<double>& p, double* u, double* v, double* x) const;
   std::string switchName(Index i) const;
 
  protected:
+  using Jump = void(void*, int, double, double*, const double*);
+  /// Sets u, v and x to what `jump`, the scene's function `name`, makes of those of p.
+  void moveTo(Jump* jump, const char* name, Index i, const Point<double>& p, double* u, double* v, double* x) const;
+
   using Change = void(void*, int, double, const double*, const double*, double*);
 
   template <class Row, class Value>

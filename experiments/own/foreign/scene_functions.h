@@ -33,6 +33,7 @@ struct SceneFunctions {
   decltype(irk_scene_jump)* jump = nullptr;
   decltype(irk_scene_times)* times = nullptr;
   decltype(irk_scene_on_time)* on_time = nullptr;
+  decltype(irk_scene_jump_at_time)* jump_at_time = nullptr;
   decltype(irk_scene_output)* output = nullptr;
   decltype(irk_scene_outputs)* outputs = nullptr;
 };

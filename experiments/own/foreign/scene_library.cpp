@@ -37,6 +37,7 @@ SceneFunctions functionsOf(const SharedLibrary& library) {
   find(f.jump, "irk_scene_jump");
   find(f.times, "irk_scene_times");
   find(f.on_time, "irk_scene_on_time");
+  find(f.jump_at_time, "irk_scene_jump_at_time");
   find(f.output, "irk_scene_output");
   find(f.outputs, "irk_scene_outputs");
   return f;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
 
 #include "irk/dependent_constraints.h"
@@ -111,6 +113,45 @@ TEST(LeftOut, EndsTheRunWhereItDoesNotFollowFromTheOthers) {
     EXPECT_EQ(solution.outcome, Outcome::kDrift) << idOf(formulation);
     EXPECT_LT(solution.state.t, 1) << idOf(formulation);
     EXPECT_NE(solution.detail.find("left out at the start"), std::string::npos) << solution.detail;
+  }
+}
+
+/// A platform on three rods that somebody has set up wrongly.
+struct Damaged {
+  const char* what;
+  std::function<void(Platform&, State<double>&, SystemOptions&)> damage;
+  Outcome outcome;
+  const char* text;
+};
+
+TEST(LeftOut, ADamagedMechanismEndsByName) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Damaged> cases = {
+      {"moved aside", [](auto&, auto& s, auto&) { s.u[0] += 0.01; }, Outcome::kInconsistentStart, "g["},
+      {"turned", [](auto&, auto& s, auto&) { s.u[2] = 0.1; }, Outcome::kInconsistentStart, "g["},
+      {"along the rods", [](auto&, auto& s, auto&) { s.v[1] = 1; }, Outcome::kInconsistentStart, "dg/dt"},
+      {"turning", [](auto&, auto& s, auto&) { s.v[2] = 1; }, Outcome::kInconsistentStart, "dg/dt"},
+      {"no position", [=](auto&, auto& s, auto&) { s.u[1] = nan; }, Outcome::kNotFinite, "u[1]"},
+      {"no velocity", [=](auto&, auto& s, auto&) { s.v[0] = nan; }, Outcome::kNotFinite, "v[0]"},
+      {"none left out", [](auto&, auto&, auto& o) { o.left_out = {}; }, Outcome::kSingular, "rank 2 of 3"},
+      {"two left out",
+       [](auto&, auto&, auto& o) {
+         o.left_out = {0, 1};
+       },
+       Outcome::kDrift, "left out at the start"},
+      {"the third is short", [](auto& p, auto&, auto&) { p.third = 0.5; }, Outcome::kDrift, "left out at the start"},
+      {"the third has no length", [](auto& p, auto&, auto&) { p.third = 0; }, Outcome::kDrift,
+       "left out at the start"}};
+  for (const auto& [what, damage, outcome, text] : cases) {
+    Platform platform;
+    State<double> start = platform.start();
+    SystemOptions options{.left_out = leftOutOf(platform)};
+    damage(platform, start, options);
+    Integrator<double> integrator(makeSystem<double>(platform, options), makeTableau<double>("radau_iia_5"),
+                                  adaptive(1e-9));
+    const auto solution = integrator.integrate(start, 2);
+    EXPECT_EQ(solution.outcome, outcome) << what << ": " << solution.detail;
+    EXPECT_NE(solution.detail.find(text), std::string::npos) << what << ": " << solution.detail;
   }
 }
 

@@ -65,6 +65,23 @@ TEST_F(SolveOut, PointsAreEquallySpacedAndOnTheSolution) {
   }
 }
 
+// Kepler's orbit begins at an apsis, which mirrors the motion: q1(-t) = q1(t), q2(-t) = -q2(t).
+TEST_F(SolveOut, BackwardPointsAreTheMirrorOfForwardOnes) {
+  const Table forward = table({"kepler", "--tol", "1e-9", "--t-end", "2", "--points", "9"});
+  const Table backward = table({"kepler", "--tol", "1e-9", "--t-end", "-2", "--points", "9", "--bars"});
+  ASSERT_EQ(backward.rows.size(), 9u);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_NEAR(cell(backward, i, "t"), -0.25 * static_cast<double>(i), 1e-15);
+    EXPECT_NEAR(cell(backward, i, "q1"), cell(forward, i, "q1"), 1e-7) << i;
+    EXPECT_NEAR(cell(backward, i, "q2"), -cell(forward, i, "q2"), 1e-7) << i;
+    EXPECT_NEAR(cell(backward, i, "q2'"), cell(forward, i, "q2'"), 1e-7) << i;
+  }
+  const Table steps = table({"kepler", "--tol", "1e-9", "--t-end", "-2"});
+  double time = 0;
+  for (std::size_t i = 1; i < steps.rows.size(); ++i) time += cell(steps, i, "h");
+  EXPECT_NEAR(time, -2, 1e-12);
+}
+
 TEST_F(SolveOut, AlsoInFiftyDigits) {
   const Table rows = table({"riccati_tracking", "--scalar", "mp50", "--step", "0.25", "--method", "radau_iia_5",
                             "--t-end", "1", "--points", "11"});

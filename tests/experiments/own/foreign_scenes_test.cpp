@@ -1,6 +1,7 @@
 // Scenes in shared libraries: irk/scene_c.h.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "experiments/own/files.h"
@@ -105,6 +106,26 @@ TEST_F(OwnFiles, ADamagedSceneInALibraryIsALine) {
     EXPECT_NE(ran.text.find(text), std::string::npos) << damage << ": " << ran.text;
     EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << damage << ": " << ran.text;
   }
+}
+
+// x(3) = 2 (e^-1 + 1) e^-2 by hand: the state jumps at declared times, with every treatment of switches.
+TEST(ForeignScene, TheStateJumpsAtDeclaredTimes) {
+  for (const auto& treatment : {Discontinuity::kLocate, Discontinuity::kIgnore}) {
+    RunSpec spec = specOf(own::loadFile(kScenes + "doses.so"));
+    spec.t_end = 3;
+    spec.discontinuity = treatment;
+    const auto setup = makeSetup<double>(spec);
+    auto integrator = setup.integrator();
+    const auto made = integrator.integrate(setup.scene.start, 3);
+    ASSERT_EQ(made.outcome, Outcome::kSuccess) << made.detail;
+    EXPECT_NEAR(made.state.x[0], 2 * (std::exp(-1.0) + 1) * std::exp(-2.0), 1e-7);
+  }
+}
+
+TEST_F(OwnFiles, AJumpAtATimeWritesTheStateOnly) {
+  const Ran ran = irk("solve " + kScenes + "doses.so --method radau_iia_3 --tol 1e-6", "IRK_DAMAGE=behind");
+  EXPECT_EQ(ran.status, 2) << ran.text;
+  EXPECT_NE(ran.text.find("irk_scene_jump_at_time writes y[1], but y has 1 numbers"), std::string::npos) << ran.text;
 }
 
 TEST_F(OwnFiles, WhatIsNoSceneIsRefused) {
