@@ -96,8 +96,9 @@ class Ida final : public Peer {
     });
   }
   static int roots(double t, N_Vector y, N_Vector yp, double* g, void* self) {
-    static_cast<Ida*>(self)->problem_.switching(t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), g);
-    return 0;
+    auto& problem = static_cast<Ida*>(self)->problem_;
+    problem.switching(t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), g);
+    return sundials::statusOfRoots(t, g, problem.layout().switches);
   }
 
   PeerProblem& problem_;

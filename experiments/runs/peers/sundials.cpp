@@ -8,6 +8,7 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace irk::sundials {
@@ -84,6 +85,11 @@ bool Workspace::fill(const PeerJacobian& J, SUNMatrix to) const {
       std::copy(J.values.begin(), J.values.end(), SUNSparseMatrix_Data(to));
       return true;
   }
+}
+
+int statusOfRoots(double t, const double* g, Index count) {
+  const bool finite = std::isfinite(t) && std::all_of(g, g + count, [](double value) { return std::isfinite(value); });
+  return finite ? 0 : -1;
 }
 
 Outcome outcomeOf(int flag) {

@@ -62,6 +62,10 @@ class Workspace {
   std::string message_;
 };
 
+/// What a function of roots returns after `count` values g at t: an error if any of them is not finite. SUNDIALS would
+/// look for the root for ever.
+int statusOfRoots(double t, const double* g, Index count);
+
 /// The outcome of an integrator's return value; the three integrators agree on the values used here.
 Outcome outcomeOf(int flag);
 

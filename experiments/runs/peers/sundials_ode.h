@@ -45,8 +45,9 @@ class OdePeer final : public Peer {
         to, [&](PeerJacobian& J) { return peer.problem_.jacobian(t, N_VGetArrayPointer(y), nullptr, 0, J); });
   }
   static int roots(double t, N_Vector y, double* g, void* self) {
-    static_cast<OdePeer*>(self)->problem_.switching(t, N_VGetArrayPointer(y), nullptr, g);
-    return 0;
+    auto& problem = static_cast<OdePeer*>(self)->problem_;
+    problem.switching(t, N_VGetArrayPointer(y), nullptr, g);
+    return statusOfRoots(t, g, problem.layout().switches);
   }
 
   PeerProblem& problem_;

@@ -28,8 +28,8 @@ class Drawing {
  public:
   /// Writes rows by column; columns that a row does not give get `other`.
   void put(const std::string& name, const std::vector<std::string>& columns, const std::vector<Cells>& rows,
-           const std::string& other = "nan") {
-    Table table{{{"study", "made_up"}}, columns, {}};
+           const std::string& other = "nan", const TableHead& head = {{"study", "made_up"}}) {
+    Table table{head, columns, {}};
     for (const auto& cells : rows) {
       TableRow row;
       for (const auto& column : columns) {

@@ -146,6 +146,24 @@ TEST(FigureLabels, ManySwitchesAreMarkedByShortLines) {
   EXPECT_EQ(many.occurrences("short lines: contact"), 1);
 }
 
+// One panel per scene; a table with other settings has none, and a constant is a line.
+TEST(FigureLabels, TheGalleryHasAPanelPerScene) {
+  Drawing drawing;
+  const auto put = [&](const std::string& name, const std::string& scene) {
+    std::vector<Cells> rows;
+    for (int i = 0; i < 5; ++i) rows.push_back({{"t", exact(i)}, {"u", exact(i * i)}, {"w", "3"}});
+    drawing.put(name + ".radau_iia_5.csv", {"t", "u", "w"}, rows, "nan",
+                {{"study", "trajectory of " + scene}, {"panels", "\"position in m|u w|1\" \"speed|w|1\""}});
+  };
+  put("arm", "arm");
+  put("arm_k_100", "arm");
+  put("beam", "beam");
+  const Svg svg = drawing.draw("scenes/scene_gallery.gp", "log_values='arm'");
+  for (const char* name : {">arm<", ">beam<"}) EXPECT_EQ(svg.occurrences(name), 1) << name;
+  EXPECT_EQ(svg.occurrences("arm_k_100"), 0);
+  EXPECT_EQ(svg.occurrences("<g id=\"gnuplot_plot_2"), 2) << "two curves in each panel";
+}
+
 // irk run --peers: the user's solver is drawn where the figure names curves of other libraries, and only there.
 TEST(FigureLabels, WorkByShowsSolversThatWereGiven) {
   Drawing drawing;

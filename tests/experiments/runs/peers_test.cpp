@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "experiments/runs/fields.h"
@@ -211,6 +212,25 @@ TEST(Peers, IgnoredSwitchesAreLeftToTheErrorEstimate) {
     EXPECT_EQ(end.counters.switches, 1) << peer.id;
     EXPECT_EQ(end.counters.located_events, 0) << peer.id;
     EXPECT_LT(relayError(end.state.u[0]), 0.3) << peer.id;
+  }
+}
+
+/// Its switching function is infinite beyond its root.
+struct BrokenRelay : Relay {
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.u[0] < T(0.5) ? T(-1.0) : T(std::numeric_limits<double>::infinity());
+  }
+};
+
+// SUNDIALS would look for the root for ever.
+TEST(Peers, ASwitchingFunctionThatIsNotFiniteEndsTheRun) {
+  auto scene = relayScene();
+  scene.system = [](const SystemOptions& options) { return makeSystem<double>(BrokenRelay{}, options); };
+  for (const auto& peer : builtinPeers()) {
+    if (!peer.finds_roots) continue;
+    PeerIntegrator integrator(peer, scene, peerSpec(peer.id, "scene=stick_slip;discontinuity=locate"));
+    EXPECT_EQ(integrator.integrate(scene.start, kRelayEnd).outcome, Outcome::kNotFinite) << peer.id;
   }
 }
 

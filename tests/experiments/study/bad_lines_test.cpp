@@ -149,7 +149,7 @@ TEST_F(Lines, ValuesOutOfRange) {
                  {2, {"solve", "kepler", "--threads", "0"}, "threads"},
                  {2, {"solve", "kepler", "--threads", "1.5"}, "1.5"},
                  {2, {"solve", "kepler", "--max-steps", "0"}, "max_steps"},
-                 {2, {"solve", "kepler", "--t-end", "-1"}, "-1"},
+                 {2, {"solve", "kepler", "--t-end", "nan"}, "nan"},
                  {2, {"solve", "kepler", "--set", "ee=0.5"}, "ee"},
                  {2, {"solve", "kepler", "--set", "e"}, "'e'"},
                  {2, {"solve", "kepler", "--set", "e=0.1", "--set", "e=0.2"}, "twice"},

@@ -1,8 +1,8 @@
 # All scenes at a glance: the first panel of each scene's solution, each curve over its own range, without numbers.
-#   gnuplot -e "data='results/scenes'; out='gallery'" scene_gallery.gp
-# Reads the tables <scene>.<method>.csv of the folder, but not those with other settings. Options: method, log_time and log_values (the scenes that are drawn
-# over a logarithmic time, from the first step on, and with logarithmic values).
-load system('dirname "'.ARG0.'"')."/style.gp"
+#   gnuplot -e "data='results/scenes'; out='gallery'" scenes/scene_gallery.gp
+# Reads the tables <scene>.<method>.csv of the folder, but not those with other settings. Options: method, log_time and
+# log_values (the scenes that are drawn over a logarithmic time, from the first step on, and with logarithmic values).
+load system('dirname "'.ARG0.'"')."/../style.gp"
 if (!exists("method")) method = 'radau_iia_5'
 if (!exists("log_time")) log_time = ''
 if (!exists("log_values")) log_values = ''
@@ -26,10 +26,11 @@ seriesColour(k) = int(word(family_colours, k == 2 ? 3 : k == 3 ? 4 : k % 8 == 0 
 
 columns = 6
 lines = (n + columns - 1) / columns
-margin_left = 0.015; margin_right = 0.015; margin_top = 0.025; margin_bottom = 0.008
-gap_x = 0.02; gap_y = 0.26 / lines
+height = 40.0 + 110 * lines
+margin_left = 0.015; margin_right = 0.015; margin_top = 24 / height; margin_bottom = 8 / height
+gap_x = 0.02; gap_y = 30 / height
 do for [format in formats] {
-  eval open(format, 960, 40 + 110 * lines)
+  eval open(format, 960, height)
   set multiplot
   unset key; unset grid; unset xlabel; unset ylabel
   do for [i = 1 : n] {
