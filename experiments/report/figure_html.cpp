@@ -44,7 +44,8 @@ std::string fileNameOf(const std::string& assignments) {
 // solutions of its scenes and cases.
 std::vector<std::string> tablesOf(const Figure& figure, const ReportOptions& options) {
   const auto folder = options.results / figure.study;
-  std::vector<std::string> names = readScript(options.home, std::filesystem::path(figure.script).stem()).tables;
+  std::vector<std::string> names =
+      readScript(options.home, std::filesystem::path(figure.script).replace_extension()).tables;
   if (const auto file = fileNameOf(figure.assignments); !file.empty()) {
     names = {file + ".csv"};
   } else if (names.empty()) {

@@ -31,9 +31,9 @@ std::vector<std::string> matches(const std::string& text, const char* pattern) {
 
 std::vector<std::string> scriptNames(const std::filesystem::path& home) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(home / "plots")) {
-    const auto& path = entry.path();
-    if (path.extension() == ".gp" && path.stem() != "style") names.push_back(path.stem());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(home / "plots")) {
+    auto path = entry.path().lexically_relative(home / "plots");
+    if (path.extension() == ".gp" && path.stem() != "style") names.push_back(path.replace_extension());
   }
   std::sort(names.begin(), names.end());
   return names;

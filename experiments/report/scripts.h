@@ -14,7 +14,7 @@ struct Script {
   std::vector<std::string> tables;   ///< the *.csv of its lines `# Reads ...`
 };
 
-/// Throws Misuse naming the nearest script of `home`/plots.
+/// `name`: its path in `home`/plots without .gp. Throws Misuse naming the nearest script.
 Script readScript(const std::filesystem::path& home, const std::string& name);
 
 /// Throws Misuse with file and line, and the nearest name, for an unknown script, an option that the script does not

@@ -52,11 +52,10 @@ TEST_F(OwnFigures, ScriptsSayWhatTheyTake) {
   EXPECT_EQ(options, (std::set<std::string>{"at_end", "variant", "variants", "cases", "titles", "costs", "quantity",
                                             "only", "columns"}));
   EXPECT_EQ(script.tables, std::vector<std::string>{"runs.csv"});
-  // Every built-in figure has legal options only. Scripts in folders are not for the figures of users.
+  // Every built-in figure has legal options only.
   for (const auto& figure : readFigures(std::filesystem::path(IRK_SOURCE_DIR) / "plots" / "figures.txt")) {
-    const std::filesystem::path file = figure.script;
-    if (file.has_parent_path()) continue;
-    const auto known = readScript(IRK_SOURCE_DIR, file.stem()).options;
+    const auto path = std::filesystem::path(figure.script).replace_extension();
+    const auto known = readScript(IRK_SOURCE_DIR, path).options;
     for (const std::string name : {"scene", "block", "settings", "cases", "only", "columns", "families", "parameter"}) {
       const bool given = ("; " + figure.assignments).find("; " + name + "=") != std::string::npos;
       EXPECT_TRUE(!given || std::find(known.begin(), known.end(), name) != known.end()) << figure.name << ": " << name;
