@@ -1,9 +1,11 @@
 #include "experiments/analyses/phases.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -211,17 +213,21 @@ double batchSeconds(const std::function<void()>& call) {
   }
 }
 
-std::vector<std::string> uncoveredRuns(const Table& phases) {
-  std::vector<std::string> lines;
+std::string doubtfulShares(const Table& phases) {
+  std::size_t doubtful = 0;
+  double least = kMaxCovered, most = kMinCovered;
   for (const auto& row : phases.rows) {
     const double covered = numberAt(phases, row, "covered");
     if (covers(covered)) continue;
-    lines.push_back(fmt::format(
-        "{} {} {} {} {} rtol={}: the parts cover {:.3g} of the run, not {} to {}", textAt(phases, row, "scene"),
-        textAt(phases, row, "settings"), textAt(phases, row, "method"), textAt(phases, row, "solver"),
-        textAt(phases, row, "derivatives"), textAt(phases, row, "rtol"), covered, kMinCovered, kMaxCovered));
+    ++doubtful;
+    least = std::fmin(least, covered);
+    most = std::fmax(most, covered);
   }
-  return lines;
+  if (doubtful == 0) return {};
+  return fmt::format(
+      "the shares of {} of {} runs are doubtful: their parts cover {:.3g} to {:.3g} of the run's time, not {} to {}; "
+      "phases.csv has all of them, --fresh measures again",
+      doubtful, phases.rows.size(), least, most, kMinCovered, kMaxCovered);
 }
 
 Table phaseTable(const Study& study, const RunFile& runs, std::ostream& out) {
@@ -253,10 +259,12 @@ Analysis phasesAnalysis() {
           .reads = "runs.csv",
           .writes = "phases.csv",
           .one_method = "the parts of a run are timed with one method's matrices",
-          .run = [](const AnalysisInput& in) {
+          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
             const Table phases = phaseTable(in.study, in.runs, in.progress);
             writeTable(in.folder / "phases.csv", phases);
-            return uncoveredRuns(phases);
+            const std::string doubt = doubtfulShares(phases);
+            if (!doubt.empty()) fmt::print(in.progress, "{}: {}\n", in.study.id, doubt);
+            return {};
           }};
 }
 

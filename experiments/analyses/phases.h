@@ -4,7 +4,6 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
-#include <vector>
 
 #include "experiments/analyses/run_file.h"
 #include "experiments/study/study.h"
@@ -19,9 +18,9 @@ namespace irk {
 /// by run_s). Studies with variable order are refused.
 Table phaseTable(const Study& study, const RunFile& runs, std::ostream& progress);
 
-/// One line for each row whose parts cover less than 0.9 or more than 1.1 of the whole run. Such shares are
-/// unreliable.
-std::vector<std::string> uncoveredRuns(const Table& phases);
+/// How many rows have parts that cover less than 0.9 or more than 1.1 of the whole run, as on a busy machine: their
+/// shares are unreliable. Empty if none has.
+std::string doubtfulShares(const Table& phases);
 
 /// Seconds per call: the mean over a batch so long that reading the clock takes less than 1 % of it.
 double batchSeconds(const std::function<void()>& call);

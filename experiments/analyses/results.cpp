@@ -1,5 +1,8 @@
 #include "experiments/analyses/results.h"
 
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
 #include <fstream>
 #include <ostream>
 #include <string>
@@ -41,6 +44,16 @@ void tellDrift(const std::string& study, const std::filesystem::path& runs, std:
   if (drift.empty()) return;
   out << study << (study.empty() ? "" : ": ") << "the times are doubtful: " << drift
       << "; calibrations.csv has all of them, --fresh measures again\n";
+}
+
+void tellDrifts(const std::vector<std::filesystem::path>& folders, std::ostream& out) {
+  std::vector<std::string> doubtful;
+  for (const auto& folder : folders) {
+    if (!timesDrift(folder / "runs.csv").empty()) doubtful.push_back(folder.filename());
+  }
+  if (doubtful.empty()) return;
+  fmt::print(out, "the times of {} studies are doubtful, the machine was busy: {}\n", doubtful.size(),
+             fmt::join(doubtful, ", "));
 }
 
 std::vector<std::string> writeSummaries(const Study& study, const RunFile& runs, const std::filesystem::path& folder,

@@ -21,6 +21,8 @@ std::string refusedTimes(const std::filesystem::path& runs);
 std::string timesDrift(const std::filesystem::path& runs);
 /// Prints the doubts about times, if there are any.
 void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out);
+/// The same for many studies in one line, which does not get lost between theirs.
+void tellDrifts(const std::vector<std::filesystem::path>& folders, std::ostream& out);
 
 /// Writes the tables of the study's analyses (experiments/study/analysis.h). If times come from several processors
 /// (store::kTimesRefused), it writes no profile, and costs without times. Returns one line for every number that must

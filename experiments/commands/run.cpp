@@ -296,16 +296,21 @@ int paperCommand(const RunOptions& options, Streams streams) {
   const InterruptScope interrupts;
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // continue with the other studies if one fails
+  std::vector<std::filesystem::path> folders;
   const StudiesProgress progress = paperProgress(options.variant);
   const double start = wallSeconds();
   for (std::size_t i = 0; i < std::size(kPaperStudies); ++i) {
     const auto id = kPaperStudies[i].id;
     fmt::print(streams.err, "paper: {}\n", progress.line(i, wallSeconds() - start));
-    const int status = runOne(loadStudy(id, options.variant), {}, options.runner, *alone, streams);
+    const Study study = loadStudy(id, options.variant);
+    folders.push_back(studyFolder(study, options.runner));
+    const int status = runOne(study, {}, options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;
     worst = std::max(worst, status);
   }
-  return std::max(worst, reportCommand(options.runner.results.string(), streams));
+  worst = std::max(worst, reportCommand(options.runner.results.string(), streams));
+  tellDrifts(folders, streams.err);
+  return worst;
 }
 
 int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::string& results, Streams streams) {
