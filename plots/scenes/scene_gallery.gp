@@ -26,8 +26,9 @@ seriesColour(k) = int(word(family_colours, k == 2 ? 3 : k == 3 ? 4 : k % 8 == 0 
 
 columns = 6
 lines = (n + columns - 1) / columns
-height = 40.0 + 110 * lines
-margin_left = 0.015; margin_right = 0.015; margin_top = 24 / height; margin_bottom = 8 / height
+top = exists("quick") ? 40 : 24  # the mark of quick runs stands above the titles
+height = top + 16.0 + 110 * lines
+margin_left = 0.015; margin_right = 0.015; margin_top = top / height; margin_bottom = 8 / height
 gap_x = 0.02; gap_y = 30 / height
 do for [format in formats] {
   eval open(format, 960, height)
