@@ -12,10 +12,9 @@ file = data.'/'.file_name.'.csv'
 
 # A panel is "label|columns|factor", with a factor for conversion to another unit; a column a:b draws b over a with
 # equal scales (an orbit). The program writes the scene's panels and the label of the time axis into the table's head.
-fromHead(key) = system("sed -n 's/^# ".key.": //p' '".file."' 2>/dev/null")
-if (!exists("panels")) panels = fromHead('panels')
-time_label = fromHead('time')
-panels_note = fromHead('panels_note')
+if (!exists("panels")) panels = fromHead(file, 'panels')
+time_label = fromHead(file, 'time')
+panels_note = fromHead(file, 'panels_note')
 if (time_label eq '') time_label = 't'
 
 # The table's own column names.
@@ -48,8 +47,6 @@ jump_note = jump_name.(strlen(kinds) > 60 ? 'switches' : kinds[3 : *])
 if (panels eq '') {  # a table of an older program
   do for [c in header] { if (!position("t h error newton_iterations switches", c) && words(panels) < 8) { panels = panels.sprintf(' "%s|%s"', c, c) } }
 }
-over(c) = strstrt(c, ':') ? c[1 : strstrt(c, ':') - 1] : 't'
-of(c) = strstrt(c, ':') ? c[strstrt(c, ':') + 1 : strlen(c)] : c
 there(c) = position(header, over(c)) && position(header, of(c))
 label(p) = p[1 : strstrt(p, '|') - 1]
 behind(p) = p[strstrt(p, '|') + 1 : strlen(p)]
@@ -66,8 +63,6 @@ do for [i = 1 : words(panels)] {
   if (words(shown(p)) > 0) { kept = kept.sprintf(' "%s|%s|%s"', label(p), shown(p), factor(p)) }
 }
 n = words(kept)
-seriesColour(k) = int(word(family_colours, (k == 2 ? 3 : k == 3 ? 4 : k == 1 ? 1 : k) % 8 + (k % 8 == 0 ? 8 : 0)))
-seriesDash(k) = (k - 1) % 4 + 1
 
 if (n == 0) { eval absence(scene." in ".file) }
 

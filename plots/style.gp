@@ -66,6 +66,14 @@ familyColour(f) = known(f) ? int(word(family_colours, known(f))) : 0x000000
 familyPoint(f) = known(f) ? int(word(family_points, known(f))) : 6
 familyDash(f) = known(f) % 2 + 1
 
+# --- Solutions over time: series k of a panel, and what the table of a solution says of itself and of its panels. An item of
+# a panel is a column, or `over:of`, a column over another one.
+seriesColour(k) = int(word(family_colours, k == 2 ? 3 : k == 3 ? 4 : k % 8 == 0 ? 8 : k % 8))
+seriesDash(k) = (k - 1) % 4 + 1
+fromHead(file, key) = system("sed -n 's/^# ".key.": //p' '".file."' 2>/dev/null")
+over(item) = strstrt(item, ':') ? item[1 : strstrt(item, ':') - 1] : 't'
+of(item) = strstrt(item, ':') ? item[strstrt(item, ':') + 1 : strlen(item)] : item
+
 # --- Stages: more stages are darker, from orange over violet and blue to black; hollow marks turn into filled ones.
 stage_shades = "0xF59E2A 0xE2553D 0xBE2A78 0x7B2FBE 0x2F4BCB 0x14307A 0x101018 0x101018"
 shadeAt(s) = 6.0 * (s > 20 ? 1 : log(s) / log(20))

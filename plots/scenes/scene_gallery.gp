@@ -9,7 +9,6 @@ if (!exists("log_values")) log_values = ''
 least_value = 1e-24  # on a logarithmic axis
 most_points = 150  # of a curve: more are not seen in a small panel
 
-fromHead(file, key) = system("sed -n 's/^# ".key.": //p' '".file."' 2>/dev/null")
 path(name) = data.'/'.name.'.'.method.'.csv'
 isPlain(name) = fromHead(path(name), 'study') eq 'trajectory of '.name
 plain(list, k) = k == 0 ? "" : plain(list, k - 1).(isPlain(word(list, k)) ? ' '.word(list, k) : '')
@@ -19,10 +18,6 @@ n = words(files)
 if (n == 0) { eval absence("trajectories in ".data) }
 between(text, first) = (cut = text[first : strlen(text)], strstrt(cut, '|') ? cut[1 : strstrt(cut, '|') - 1] : cut)
 contentOf(p) = between(p, strstrt(p, '|') + 1)
-over(c) = strstrt(c, ':') ? c[1 : strstrt(c, ':') - 1] : 't'
-of(c) = strstrt(c, ':') ? c[strstrt(c, ':') + 1 : strlen(c)] : c
-seriesDash(k) = (k - 1) % 4 + 1
-seriesColour(k) = int(word(family_colours, k == 2 ? 3 : k == 3 ? 4 : k % 8 == 0 ? 8 : k % 8))
 
 columns = 6
 lines = (n + columns - 1) / columns
