@@ -29,8 +29,7 @@ void weigh(const State<Real>& second, const Tolerances& t, const Vec<double>& sc
   const auto add = [&](const Vec<double>& errors, const auto& y) {
     for (Index i = 0; i < errors.size(); ++i, ++place) {
       const double magnitude = place < scale.size() ? scale[place] : 1;
-      const double weight = t.atol * magnitude + t.rtol * std::abs(static_cast<double>(y[i]));
-      const double size = errors[i] / weight;
+      const double size = errors[i] / t.of(magnitude, static_cast<double>(y[i]));
       // A component that is not finite is the worst one.
       if (bar.worst < 0 || size > bar.tolerances || std::isnan(size)) {
         bar.tolerances = std::isnan(size) ? std::numeric_limits<double>::infinity() : size;

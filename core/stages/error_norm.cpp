@@ -68,27 +68,18 @@ ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& toleran
 
 template <class Real>
 void ErrorNorm<Real>::update(const State<Real>& y) {
-  const auto leaveOut = [&] {
-    constexpr double kNothing = std::numeric_limits<double>::infinity();
-    if (leaves_multipliers_out_) {
-      weight_.segment(2 * sizes_.nu + sizes_.nx, sizes_.constraints).setConstant(kNothing);
-    }
-  };
-  if (tolerances_.norm == NormKind::kAbsolute) {
-    weight_.setConstant(tolerances_.atol);
-    return leaveOut();
-  }
   const auto weigh = [&](Index offset, const auto& part) {
     for (Index i = 0; i < part.size(); ++i) {
-      weight_[offset + i] =
-          tolerances_.atol * scale_[offset + i] + tolerances_.rtol * std::abs(static_cast<double>(part[i]));
+      weight_[offset + i] = tolerances_.of(scale_[offset + i], static_cast<double>(part[i]));
     }
   };
   weigh(0, y.u);
   weigh(sizes_.nu, y.v);
   weigh(2 * sizes_.nu, y.x);
   weigh(2 * sizes_.nu + sizes_.nx, y.z());
-  leaveOut();
+  if (!leaves_multipliers_out_) return;
+  constexpr double kNothing = std::numeric_limits<double>::infinity();
+  weight_.segment(2 * sizes_.nu + sizes_.nx, sizes_.constraints).setConstant(kNothing);
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 // The axes: interchangeable strategies with stable ids, and the options of an integration.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -229,6 +230,11 @@ struct Tolerances {
   double rtol = 1e-6;
   double atol = 1e-6;  ///< multiplied by the component's scale
   NormKind norm = NormKind::kMixed;
+
+  /// That of a component of this magnitude with the value y: atol scale + rtol |y|; atol with NormKind::kAbsolute.
+  double of(double scale, double y) const {
+    return norm == NormKind::kAbsolute ? atol : atol * scale + rtol * std::abs(y);
+  }
 };
 
 /// All options of an integration.

@@ -74,6 +74,27 @@ TEST(ErrorBar, IsTheErrorOfTheResult) {
   }
 }
 
+// In the paper's norm a tolerance is atol, whatever the magnitude and the value of the component.
+TEST(ErrorBar, CountsToleranceByTheNorm) {
+  const GrowingError problem{-1};
+  IntegratorOptions options = embedded(1e-4);
+  options.tolerances.rtol = 1e-2;
+  State<double> result = problem.start();
+  result.t = 1.5;
+  const auto tolerances = [&](NormKind norm, double scale) {
+    options.tolerances.norm = norm;
+    Integrator<double> other(makeSystem<double>(problem, {}), makeMethods<double>("lobatto_iiic", 13, 4),
+                             independentOptions<double>(options));
+    Solution<double> second;
+    return measureErrorBar(result, other, problem.start(), options.tolerances, Vec<double>::Constant(3, scale), second)
+        .tolerances;
+  };
+  // The errors of the start as a result: sin 1.5 of u, 1 - cos 1.5 of v.
+  EXPECT_NEAR(tolerances(NormKind::kAbsolute, 1e-9) / (std::sin(1.5) / 1e-4), 1, 0.01);
+  EXPECT_NEAR(tolerances(NormKind::kAbsolute, 1e3) / (std::sin(1.5) / 1e-4), 1, 0.01);
+  EXPECT_NEAR(tolerances(NormKind::kMixed, 1) / ((1 - std::cos(1.5)) / (1e-4 + 1e-2 * std::cos(1.5))), 1, 0.03);
+}
+
 /// y' = -y until t = 1, then no number.
 struct EndsAtOne {
   Sizes sizes() const { return {.nx = 1}; }
