@@ -5,6 +5,7 @@
 
 #include "core/base/constants.h"
 #include "core/options/fixed_steps.h"
+#include "core/system/along_rates.h"
 #include "irk/multiprecision.h"
 #include "irk/system_check.h"
 
@@ -53,10 +54,12 @@ struct SwitchErrors {
   explicit SwitchErrors(const State<Real>& s)
       : u(Vec<double>::Zero(s.u.size())), v(Vec<double>::Zero(s.v.size())), x(Vec<double>::Zero(s.x.size())) {}
 
+  // A switch that comes earlier by the error leaves another state behind, which then goes on for that time.
   void add(const LocatedSwitch<Real>& at) {
-    u += at.time_error * distances<Real>(at.before.v, at.behind.v);
-    v += at.time_error * distances<Real>(at.before.a(), at.behind.a());
-    x += at.time_error * distances<Real>(at.before.k(), at.behind.k());
+    const State<Real> earlier = alongRates(at.earlier, at.behind, Real(at.time_error));
+    u += distances<Real>(earlier.u, at.behind.u);
+    v += distances<Real>(earlier.v, at.behind.v);
+    x += distances<Real>(earlier.x, at.behind.x);
   }
 };
 

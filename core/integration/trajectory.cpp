@@ -9,6 +9,7 @@
 #include "core/derivatives/first_order.h"
 #include "core/integration/component_name.h"
 #include "core/integration/end_check.h"
+#include "core/system/along_rates.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
 
@@ -67,7 +68,9 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   round_off_ = 0;
   last_rejection_ = nullptr;
   last_h_ = Real(0);
+  earlier_.reset();
   attempt_->begin(length);
+  modes_->begin(static_cast<double>(start.t), length);
   attempt_->keepPieces(monitor.inside);
   jacobian_.forgetPattern();
   restart();
@@ -170,9 +173,12 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
     return Outcome::kChattering;
   }
   if (!monitor_->located) return restartAtSwitch();
-  const State<Real> before = system_.toScene(state_);
+  earlier_ = alongRates(state_, state_, Real(-step.time_error));
   const Outcome outcome = restartAtSwitch();
-  if (outcome == Outcome::kSuccess) monitor_->located({step.time_error, before, system_.toScene(state_)});
+  if (outcome == Outcome::kSuccess) {
+    monitor_->located({step.time_error, system_.toScene(*earlier_), system_.toScene(state_)});
+  }
+  earlier_.reset();
   return outcome;
 }
 
@@ -255,6 +261,10 @@ template <class Real>
 Outcome Trajectory<Real>::settle() {
   const SwitchReport report = switches_.settle(state_, Jumps::kDone, [this](Index i) {
     ++counters_.switches;
+    if (earlier_) {
+      earlier_->d = state_.d;
+      system_.jump(i, *earlier_);
+    }
     tell(i);
   });
   blamed_ = report.outcome == Outcome::kSuccess ? -1 : report.index;

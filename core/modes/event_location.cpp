@@ -223,7 +223,8 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     const Real lasts = slope > Real(0) ? Real(noise / slope) : Real(0);  // the round-off
     resolution = least + lasts;
     result.resolution = static_cast<double>(resolution);
-    result.time_error = static_cast<double>(Real(least + lasts / Real(2)));
+    const Real late = slope > Real(0) && g > Real(0) ? std::min(Real(g / slope), least) : least;
+    result.time_error = static_cast<double>(Real(late + epsilon<Real>() * abs(next.t) + lasts / Real(2)));
     if (due >= 0) {
       high = step;
       due_at_high = true;

@@ -15,7 +15,7 @@ struct Location {
   Index index = -1;       ///< of the switching function, or of one that is not finite
   Real h{};               ///< size of the step that ends at `next`
   double resolution = 0;  ///< to which the time of the switch can be known
-  double time_error = 0;  ///< of the switch, by two units of round-off of the state; below `resolution`
+  double time_error = 0;  ///< how late the state is, with the round-off of t, and of the state (two units)
   AttemptResult attempt;  ///< of that step
 };
 
@@ -28,6 +28,10 @@ class EventLocator {
  public:
   /// Keeps references.
   EventLocator(const System<Real>& system, double tolerance);
+
+  /// See SwitchScan.
+  void begin(double t, double length, std::int64_t looks) { scan_.begin(t, length, looks); }
+  void switched(Index i, const Real& t) { scan_.switched(i, t); }
 
   /// Call it after a solved step of size h from `from` to `next`. Without a switch nothing changes; otherwise `next`
   /// becomes the end of the shorter step of size Location::h.

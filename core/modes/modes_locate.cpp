@@ -1,5 +1,6 @@
 // `locate`: the mode is constant, and the first root of a switching function ends the step.
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "core/modes/event_location.h"
@@ -19,8 +20,12 @@ double locationTolerance(const IntegratorOptions& options) {
 template <class Real>
 class LocatedAfterStep final : public ModesAfterStep<Real> {
  public:
-  LocatedAfterStep(const System<Real>& system, const IntegratorOptions& options) {
+  LocatedAfterStep(const System<Real>& system, const IntegratorOptions& options) : looks_(options.step.looks) {
     if (system.sizes().switches > 0) locator_.emplace(system, locationTolerance(options));
+  }
+
+  void begin(double t, double length) override {
+    if (locator_) locator_->begin(t, length, looks_);
   }
 
   CommittedStep<Real> accept(StepAttempt<Real>& attempt, const AttemptResult& solved, const State<Real>& from,
@@ -40,6 +45,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
         step.index = -1;
       }
     }
+    if (at.found && step.outcome == Outcome::kSuccess) locator_->switched(at.index, from.t + at.h);
     step.at_switch = at.found;
     step.resolution = at.resolution;
     step.time_error = at.time_error;
@@ -47,6 +53,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
   }
 
  private:
+  std::int64_t looks_;
   std::optional<EventLocator<Real>> locator_;  // none if there are no switches to look for
 };
 

@@ -74,6 +74,11 @@ template <class Real>
 class ModesAfterStep {
  public:
   virtual ~ModesAfterStep() = default;
+  /// Called at the start t of an integration over an interval of this length.
+  virtual void begin(double t, double length) {
+    static_cast<void>(t);
+    static_cast<void>(length);
+  }
   /// Whether switches that are due at the start are carried out there.
   virtual bool settlesAtStart() const { return true; }
   /// Whether an integration starts anew after a step in which the mode changed.

@@ -38,7 +38,8 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// of the tolerance the second result is nearly exact beside the first, so that their distance is the error itself:
 /// over 700 drawn runs of scenes that nobody tuned for, the median of bar over true error is 1.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
-/// located switch adds the error of its time (LocatedSwitch) times the change of (v, a, k) in it. Both can miss
+/// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
+/// saltation matrix of Leine and Nijmeijer 2004, chapter 7.3, times that error; LocatedSwitch). Both can miss
 /// the same thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the
 /// second integration fails, the bar is unknown and `problem` says why. Throws Misuse as Integrator::integrate, and for
 /// a result of other sizes than the start, a scale or tolerances out of range.

@@ -50,9 +50,9 @@ struct SwitchRecord {
 /// One switch that was located, as it is passed. States are in the scene's unknowns and valid during the callback only.
 template <class Real>
 struct LocatedSwitch {
-  double time_error;          ///< by the round-off of its function and the tolerance of its location
-  const State<Real>& before;  ///< u, v, x, and (a, k, z) of the mode before it
-  const State<Real>& behind;  ///< the same behind it
+  double time_error;           ///< by the round-off of its function and the tolerance of its location
+  const State<Real>& earlier;  ///< u, v, x behind it, had it been passed earlier by time_error
+  const State<Real>& behind;   ///< u, v, x, and (a, k, z), behind it
 };
 
 /// Callbacks; each may be empty. They are called from within Integrator::integrate, on the caller's thread.

@@ -1,6 +1,10 @@
-// A problem with more discrete states and switching functions than fit into fixed memory.
+// Problems with many switching functions, and with functions that switch much more often than a step ends.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "irk/integrator.h"
 #include "tests/core/located.h"
 
 namespace irk::test {
@@ -52,6 +56,105 @@ TEST(ManySwitches, AreImpliedWhereTheyAreNotLocated) {
   const auto [solution, events] = run(Tanks{}, fullTanks(), 4, Discontinuity::kIgnore, adaptive(1e-6));
   ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   for (Index i = 0; i < kTanks; ++i) EXPECT_NEAR(solution.state.x[i], 0, 1e-4) << i;
+}
+
+/// A filter x' = d - x behind pulses: d = 1 while the carrier cos(100 t) is above 1/2.
+struct CarrierPulses {
+  Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.d[0] - p.x[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    using std::cos;
+    const T above = cos(100 * p.t) - 0.5;
+    g[0] = p.d[0] > T(0.5) ? T(-above) : above;
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = 1 - p.d[0];
+  }
+  // x(t) from x(0) = 0, by the exact solution between the pulses.
+  static double exact(double t) {
+    double x = 0, since = 0, d = 1;
+    const auto goTo = [&](double time) {
+      x = d + (x - d) * std::exp(since - time);
+      since = time;
+    };
+    for (int k = 1; std::numbers::pi * (k - 1) / 100 < t; ++k) {
+      const double turn = std::numbers::pi * (k / 2 * 2) / 100, third = std::numbers::pi / 300;
+      const double next = k % 2 == 1 ? turn + third : turn - third;  // falls at odd k, rises at even k
+      if (next >= t) break;
+      goTo(next);
+      d = 1 - d;
+    }
+    goTo(t);
+    return x;
+  }
+};
+
+// One method, or Radau IIA of variable order.
+template <class P>
+Solution<double> integrated(const P& problem, const State<double>& start, double t_end, int stages, double tol) {
+  IntegratorOptions options = located(tol);
+  options.step.estimate = ErrorEstimate::kEmbedded;
+  const auto system = makeSystem<double>(problem, {});
+  if (stages > 0) {
+    const std::string method = "radau_iia_" + std::to_string(stages);
+    return Integrator<double>(system, makeTableau<double>(method), options).integrate(start, t_end);
+  }
+  options.order = OrderControl::kVariable;
+  return Integrator<double>(system, makeMethods<double>("radau_iia", 13, 3), options).integrate(start, t_end);
+}
+
+// A solution that hardly changes has long steps, in each of which the carrier would have many periods.
+TEST(ManySwitches, PulsesShorterThanAStepAreAllFound) {
+  State<double> start(CarrierPulses{}.sizes());
+  start.d[0] = 1;
+  for (const double tol : {1e-3, 1e-6}) {
+    for (const int stages : {0, 3, 5}) {
+      const auto solution = integrated(CarrierPulses{}, start, 5, stages, tol);
+      ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+      EXPECT_EQ(solution.counters.located_events, 159) << tol << ", stages " << stages;
+      EXPECT_NEAR(solution.state.x[0], CarrierPulses::exact(5), 100 * tol);
+    }
+  }
+}
+
+/// A shaft with one revolution in 1/8 s that starts from rest in 1/2 s, and the pulses of an encoder: d counts the
+/// half revolutions.
+struct Encoder {
+  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::exp;
+    r.u[0] = 2 * (16 * std::numbers::pi - p.v[0]) - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    using std::sin;
+    const bool odd = std::fmod(valueOf(p.d[0]), 2) > 0.5;
+    g[0] = odd ? sin(p.u[0]) : T(-sin(p.u[0]));
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = p.d[0] + 1;
+  }
+};
+
+TEST(ManySwitches, AnEncoderLosesNoPulse) {
+  State<double> start(Encoder{}.sizes());
+  start.u[0] = -0.1;
+  start.d[0] = 1;
+  const double v = 16 * std::numbers::pi, end = 4;
+  const double angle = start.u[0] + v * (end - (1 - std::exp(-2 * end)) / 2);
+  for (const int stages : {0, 3, 5}) {
+    const auto solution = integrated(Encoder{}, start, end, stages, 1e-7);
+    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+    EXPECT_NEAR(solution.state.u[0], angle, 1e-4);
+    EXPECT_EQ(solution.state.d[0], std::floor(angle / std::numbers::pi) + 2);
+  }
 }
 
 }  // namespace
