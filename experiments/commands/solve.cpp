@@ -84,12 +84,27 @@ void printDigits(std::ostream& out, const RunErrors& errors) {
   fmt::print(out, "digits: mescd {}, scd {}\n", text(errors.mescd()), text(errors.scd()));
 }
 
+// The first ones, of a run with many.
+void printSwitches(std::ostream& out, const RunRecord& record) {
+  constexpr std::size_t kShown = 20;
+  const std::size_t shown = record.switches.size() > 2 * kShown ? kShown : record.switches.size();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto& [t, name] = record.switches[i];
+    fmt::print(out, "switch {:<15} t = {:.15g}\n", name, t);
+  }
+  if (shown == record.switches.size()) return;
+  fmt::print(out, "and {} more switches; --json has them all\n", record.switches.size() - shown);
+}
+
 void printRecord(std::ostream& out, const RunRecord& record, const std::vector<std::string>& names) {
   const auto& spec = record.spec;
   fmt::print(out, "{} {}  {}  {}\n", spec.scene, settingsText(spec.settings), spec.method, idOf(spec.formulation));
   const double t_bar = record.error_bar.t;
-  fmt::print(out, "{}{}{}, t = {:.15g}{}\n", record.outcome, record.detail.empty() ? "" : ": ", record.detail, record.t,
+  const bool remarks = record.succeeded() && !record.detail.empty();
+  const std::string cause = remarks || record.detail.empty() ? "" : ": " + record.detail;
+  fmt::print(out, "{}{}, t = {:.15g}{}\n", record.outcome, cause, record.t,
              std::isnan(t_bar) ? "" : fmt::format(" +- {:.1e}", t_bar));
+  if (remarks) fmt::print(out, "remark: {}\n", record.detail);
   printComponents(out, record, names);
   printErrorBar(out, record.error_bar);
   if (!std::isnan(record.errors.all)) {
@@ -115,9 +130,7 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
     fmt::print(out, "invariant {:<12} changes by at most {:.3e}{}{}\n", invariant, change, unit.empty() ? "" : " ",
                unit);
   }
-  for (const auto& [t, name] : record.switches) {
-    fmt::print(out, "switch {:<15} t = {:.15g}\n", name, t);
-  }
+  printSwitches(out, record);
   fmt::print(out, "{:<22} {:.3g}\n", "cpu_s", record.cpu_s);
 }
 
