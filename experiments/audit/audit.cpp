@@ -84,20 +84,23 @@ double largestBar(const Result& result, const Vec<double>& scale, Index first, I
   return largest;
 }
 
+// Whether its tolerances are in the units of the components, whatever their magnitudes.
+bool isAbsolute(const RunSpec& spec) { return spec.options.tolerances.norm == NormKind::kAbsolute; }
+
 StateErrors errorsOf(const RunSpec& spec, const std::string& family, const Result& result, const Answer& answer) {
   StateErrors errors;
   const Index size = result.state.size();
   const auto scene = makeScene<double>(spec.scene, spec.settings);
   const Sizes n = scene.sizes();
   const Index judged = 2 * n.nu + n.nx;
-  errors.bar = largestBar(result, scene.scale, 0, judged);
-  errors.bar_of_multipliers = largestBar(result, scene.scale, judged, size);
+  const Vec<double> scale = isAbsolute(spec) ? Vec<double>::Ones(n.components()) : scene.scale;
+  errors.bar = largestBar(result, scale, 0, judged);
+  errors.bar_of_multipliers = largestBar(result, scale, judged, size);
   const Vec<double>& reference = answer.stateFor(family);
   if (size == 0 || reference.size() != size) return errors;
-  errors.judged = scaledDifference(result.state, reference, scene.scale, 0, judged);
-  errors.multipliers = scaledDifference(result.state, reference, scene.scale, judged, size);
-  const MeasuredResult measured{result.state,   result.bars, reference, scene.scale, spec.options.tolerances,
-                                answer.accuracy};
+  errors.judged = scaledDifference(result.state, reference, scale, 0, judged);
+  errors.multipliers = scaledDifference(result.state, reference, scale, judged, size);
+  const MeasuredResult measured{result.state, result.bars, reference, scale, spec.options.tolerances, answer.accuracy};
   errors.in_tolerances = errorInTolerances(measured, judged);
   errors.part_of_cover = partOfCover(measured, judged);
   return errors;
@@ -126,7 +129,7 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
   StateErrors errors;
   if (isAtTheEnd(text("outcome"))) errors = errorsOf(spec, text("family"), result, known);
   const Tolerances& tolerances = spec.options.tolerances;
-  const double tolerance = std::max(tolerances.rtol, tolerances.atol);
+  const double tolerance = isAbsolute(spec) ? tolerances.atol : std::max(tolerances.rtol, tolerances.atol);
   const Judgement judgement = judge({succeededAt(runs, row), tolerance, errors.judged, known.accuracy, known.kappa});
   const auto collections = collectionsOf(spec.scene);
   return {std::to_string(number),

@@ -17,7 +17,7 @@ double partOfCover(const MeasuredResult& r, Index judged) {
     if (std::isnan(r.bars[i]) || std::isnan(r.reference[i])) continue;
     const double scale = i < r.scale.size() ? r.scale[i] : 1;
     const double magnitude = std::max(std::abs(r.reference[i]), scale);
-    const double tolerance = r.tolerances.atol * scale + r.tolerances.rtol * std::abs(r.state[i]);
+    const double tolerance = r.tolerances.of(scale, r.state[i]);
     const double cover = kCoverageFactor * (r.bars[i] + tolerance) + (kCoverageRoundOff + r.accuracy) * magnitude;
     const double part = std::abs(r.state[i] - r.reference[i]) / cover;
     // Not a number: neither the result nor its bar is finite, or there is no solution.
@@ -31,8 +31,7 @@ double errorInTolerances(const MeasuredResult& r, Index judged) {
   for (Index i = 0; i < judged; ++i) {
     if (std::isnan(r.reference[i])) continue;
     const double scale = i < r.scale.size() ? r.scale[i] : 1;
-    const double tolerance = r.tolerances.atol * scale + r.tolerances.rtol * std::abs(r.reference[i]);
-    const double size = std::abs(r.state[i] - r.reference[i]) / tolerance;
+    const double size = std::abs(r.state[i] - r.reference[i]) / r.tolerances.of(scale, r.reference[i]);
     largest = std::fmax(largest, std::isfinite(size) ? size : std::numeric_limits<double>::infinity());
   }
   return largest;

@@ -23,9 +23,13 @@
 //   accumulated       steps max(kappa, 1) tolerance: what errors of one tolerance in each step can add up to. A wrong
 //                     success above it has a step whose error was not seen; below it, the method keeps its word in each
 //                     step, and nothing but an estimate of the global error could tell.
-// Since 2026-11-26: successes with an error above the bar among those set aside; successes with an error of the
-// multipliers z, or at one of the earlier reference times of the run, above the bar. A closed form that is infinite
-// says that there is no solution at this time: each success is wrong. The error bar is judged by thresholds.h.
+// Since 2026-11-27, after the draws of that day: a run with norm = absolute has its tolerance in the units of its
+// components, whatever their magnitudes, and so has its error: scale is 1. Before, runs of e5 (magnitude 1.7e-24) with
+// an error of 1e-11 were called wrong though their tolerance was 1e-2. And a closed form is evaluated in 50 digits
+// where the scene has them: in double precision that of sampled_control has errors of 1e-11. Since 2026-11-26:
+// successes with an error above the bar among those set aside; successes with an error of the multipliers z, or at one
+// of the earlier reference times of the run, above the bar. A closed form that is infinite says that there is no
+// solution at this time: each success is wrong. The error bar is judged by thresholds.h.
 #pragma once
 
 #include <limits>

@@ -16,6 +16,7 @@
 #include "experiments/runs/final_states.h"
 #include "experiments/study/dice.h"
 #include "irk/misuse.h"
+#include "irk/multiprecision.h"
 
 namespace irk::audit {
 namespace {
@@ -92,10 +93,18 @@ class Search {
   }
   bool complete(const Vec<double>& y) const { return y.size() >= judged() && y.head(judged()).allFinite(); }
 
+  // In 50 digits where the scene has them: its rounding must not be taken for an error of a run.
+  Vec<double> closedForm() const {
+    const SceneEntry& entry = findScene(question_.scene);
+    if (!entry.make_big_float) return components(scene_.exact(question_.t_end));
+    const auto scene = makeScene<BigFloat>(question_.scene, settings_);
+    return components(scene.exact(decimalNumber<BigFloat>(question_.t_end))).template cast<double>();
+  }
+
   // Uses the closed form, if there is one for all of u, v, x.
   bool exact() {
     if (!scene_.exact) return false;
-    const Vec<double> exact = components(scene_.exact(question_.t_end));
+    const Vec<double> exact = closedForm();
     if (exact.size() < judged() || exact.head(judged()).hasNaN()) return false;
     keep("exact", exact, 0);
     if (!complete(exact)) {

@@ -235,6 +235,7 @@ RunSpec solveSpec(const SolveOptions& options) {
 std::string largeErrorText(const RunRecord& record) {
   const auto& options = record.spec.options;
   if (!record.succeeded() || options.step.control == StepControl::kFixed) return {};
+  if (options.tolerances.norm == NormKind::kAbsolute) return {};  // its tolerances know no magnitudes, errors here do
   const double tolerance = std::max(options.tolerances.rtol, options.tolerances.atol);
   double error = 0;
   for (const RunErrors* errors : {&record.errors, &record.errors_over_time}) {

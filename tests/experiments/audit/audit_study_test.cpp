@@ -153,7 +153,8 @@ TEST_F(SmallAudit, FindsADamagedResult) {
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const auto spec = drawn[i].spec;
       if (textAt(table, table.rows[i], "judgement") != "right") continue;
-      const auto scale = makeScene<double>(spec.scene, spec.settings).scale;
+      const bool absolute = spec.options.tolerances.norm == NormKind::kAbsolute;
+      const auto scale = absolute ? Vec<double>() : makeScene<double>(spec.scene, spec.settings).scale;
       const Vec<double>& state = states.at(table.rows[i][1]);
       const double size = std::max(std::abs(state[0]), scale.size() > 0 ? scale[0] : 1);
       other.at(table.rows[i][1])[0] = state[0] + times * bar(numberAt(table, table.rows[i], "tolerance")) * size;

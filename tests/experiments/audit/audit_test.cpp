@@ -129,6 +129,15 @@ TEST(AuditReference, IsExactOrFromAFileOrComputed) {
   EXPECT_GT((smooth.state - file.state).norm(), 1e-8);
 }
 
+// The value is that of radau_iia_9 in 50 digits with a tolerance of 1e-25. In double precision the closed form loses
+// eleven digits: the controller is unstable, and so is its sum of exponentials.
+TEST(AuditReference, EvaluatesClosedFormsInFiftyDigits) {
+  const auto unstable = answer("sampled_control", "Kd=17.2 Kp=68.2 Ts=0.136 c=20.7 d=1.88 m=0.272 r=0.778");
+  EXPECT_EQ(unstable.source, "exact");
+  EXPECT_NEAR(unstable.state[0] / 9798.6285682219387714370689, 1, 1e-15);
+  EXPECT_NEAR(unstable.state[1] / -1345367.1411197789741827118, 1, 1e-15);
+}
+
 // A success where there is no solution is wrong, whatever its value.
 TEST(AuditReference, SaysWhereThereIsNoSolution) {
   for (const auto& [scene, end] : {std::pair("solution_end", 0.5), {"blow_up", 1}, {"bead_cross", 0.7}}) {
@@ -195,6 +204,9 @@ TEST(AuditCoverage, MeasuresErrorsInTheTolerancesOfEachComponent) {
   EXPECT_NEAR(sizeOf(vec({3, 5}), vec({kUnknown, 4}), 2), 1 / (1e-4 + 1e-2 * 4), 1e-6);
   EXPECT_TRUE(std::isnan(sizeOf(vec({3}), vec({kUnknown}), 1)));
   EXPECT_EQ(sizeOf(vec({3}), vec({kInfinity}), 1), kInfinity);
+  const Tolerances absolute{1e-2, 1e-4, NormKind::kAbsolute};
+  EXPECT_NEAR(errorInTolerances({vec({3.1}), {}, vec({3}), vec({2}), absolute, 0}, 1), 1000, 1e-9);
+  EXPECT_NEAR(partOfCover({vec({3.1}), vec({0}), vec({3}), vec({2}), absolute, 0}, 1), 1000. / 3, 1e-6);
 }
 
 // One component, scale 2, tolerances 1e-3 (absolute) and 1e-2 (relative): at y = 3 one tolerance is 0.032.
