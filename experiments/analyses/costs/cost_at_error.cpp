@@ -77,6 +77,14 @@ double seriesCostAtError(const Table& runs, const RunSeries& series, std::string
   return costAtError(std::move(points), target);
 }
 
+bool isComparable(const Table& costs, const TableRow& row) {
+  const auto& cause = textAt(costs, row, "cause");
+  if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable) return false;
+  if (!costs.hasColumn("least_tolerance")) return true;
+  const double least = numberAt(costs, row, "least_tolerance");
+  return !(least > numberAt(costs, row, "target_error") * (1 + 1e-9));
+}
+
 void writeCosts(const RunFile& runs, const std::vector<double>& targets, const std::filesystem::path& file) {
   const Table& names = runs.names();
   auto columns = seriesColumns(names);

@@ -31,6 +31,11 @@ double costAtError(std::vector<CostPoint> points, double target);
 /// bound below which it lies.
 double seriesCostAtError(const Table& runs, const RunSeries& series, std::string_view cost, double target);
 
+/// Whether a row of cpu_at_error.csv says that a solver reaches an error or does not: false where the error is not
+/// known or not measurable, where the solver cannot be applied, and where all its tolerances were larger than the
+/// error.
+bool isComparable(const Table& costs, const TableRow& row);
+
 /// The columns of a series, then target_error, cpu_s, residuals, newton_iterations, jacobians, factorizations,
 /// reached (0 if the series does not reach the error; its costs are then nan), cause (the reason: `no reference`,
 /// `below the reference's accuracy`, `not accurate enough`, or `no success: ` with the outcome of the last run),

@@ -97,21 +97,12 @@ void appendProfile(const TableRow& start, std::vector<Time> times, const Ids& so
   }
 }
 
-// Whether the solver had a tolerance as small as this error. With larger tolerances only, not reaching the error is no
-// failure.
-bool wasAsked(const Table& costs, const TableRow& row) {
-  if (!costs.hasColumn("least_tolerance")) return true;
-  const double least = numberAt(costs, row, "least_tolerance");
-  return !(least > numberAt(costs, row, "target_error") * (1 + 1e-9));
-}
-
 AllCosts readCosts(TableFile& file) {
   AllCosts all;
   const Table& costs = file.names();
   while (const auto next = file.next()) {
     const TableRow& row = *next;
-    const auto& cause = textAt(costs, row, "cause");
-    if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable || !wasAsked(costs, row)) continue;
+    if (!isComparable(costs, row)) continue;
     const double cost = numberAt(costs, row, "cpu_s");
     const auto& scene = textAt(costs, row, "scene");
     all.given.push_back({fnv1a(scene + " " + textAt(costs, row, "settings")),

@@ -75,7 +75,7 @@ double ratio(const Costs& costs, const std::string& slow, const std::string& fas
     const auto other = b->second.find(problem);
     if (other != b->second.end() && std::isfinite(cost) && std::isfinite(other->second)) mean.add(cost / other->second);
   }
-  return mean.value();
+  return 2 * mean.count() < solvable(costs) ? std::numeric_limits<double>::quiet_NaN() : mean.value();
 }
 
 std::map<std::string, int> wins(const Costs& costs) {
@@ -92,14 +92,14 @@ std::map<std::string, int> wins(const Costs& costs) {
 
 std::string comparison(double factor, const Ranked& best, const Ranked& other, int problems) {
   if (other.solver.empty()) return "no other reaches this error";
-  std::string text = std::isnan(factor) ? fmt::format("no problem in common with `{}`", other.solver)
+  std::string text = std::isnan(factor) ? fmt::format("too few problems in common with `{}` for a ratio", other.solver)
                      : factor < 1 / kAsFast
                          ? fmt::format("{} times as slow as `{}`", factorText(1 / factor), other.solver)
                      : factor < kAsFast ? fmt::format("as fast as `{}`", other.solver)
                                         : fmt::format("{} times as fast as `{}`", factorText(factor), other.solver);
   if (other.solved < best.solved) {
     text += fmt::format(", which solves {} of {}", other.solved, problems);
-    if (other.given < problems) text += fmt::format(" and was not given {}", problems - other.given);
+    if (other.given < problems) text += fmt::format(" and was not asked for {}", problems - other.given);
   }
   return text;
 }

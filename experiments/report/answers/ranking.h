@@ -22,15 +22,16 @@ std::vector<Ranked> ranking(const Costs& costs);
 /// The number of problems that some solver solves.
 int solvable(const Costs& costs);
 
-/// The geometric mean of the cost of `slow` over that of `fast`, of the problems that both solve; NaN if there are
-/// none.
+/// The geometric mean of the cost of `slow` over that of `fast`, of the problems that both solve; NaN if these are
+/// fewer than half of the problems that some solver solves.
 double ratio(const Costs& costs, const std::string& slow, const std::string& fast);
 
 /// In how many problems each solver is the cheapest, ties counted for all of them.
 std::map<std::string, int> wins(const Costs& costs);
 
-/// `1.8 times as fast as x`, where `factor` is the cost of `other` over that of `best`; adds what `other` does not
-/// solve of `problems`. Without a name in `other`: that no other solver reaches the error.
+/// `1.8 times as fast as x`, where `factor` is the cost of `other` over that of `best`, NaN if too few problems give
+/// one; adds what `other` does not solve of `problems`. Without a name in `other`: that no other solver reaches the
+/// error.
 std::string comparison(double factor, const Ranked& best, const Ranked& other, int problems);
 
 }  // namespace irk::report

@@ -56,12 +56,12 @@ std::vector<std::string> kindsOf(const Table& table) {
   return kinds;
 }
 
-// Those of kAskedErrors that the study compares.
+// Those of kAskedErrors that the study compares, and that some solver was asked for.
 std::vector<double> errorsOf(const Table& costs) {
   std::vector<double> errors;
   for (const double asked : kAskedErrors) {
     const bool compared = std::any_of(costs.rows.begin(), costs.rows.end(), [&](const TableRow& row) {
-      return std::abs(numberAt(costs, row, "target_error") / asked - 1) < 1e-9;
+      return isComparable(costs, row) && std::abs(numberAt(costs, row, "target_error") / asked - 1) < 1e-9;
     });
     if (compared) errors.push_back(asked);
   }
@@ -143,12 +143,6 @@ std::string solvedText(const Ranked& solver, int problems) {
   return fmt::format("{}&nbsp;{}/{}", escapeHtml(solver.solver), solver.solved, problems);
 }
 
-// `12`; in brackets where the two solve fewer than half of the problems.
-std::string overLibrary(const Choice& c) {
-  const std::string text = factorText(c.over_library);
-  return !c.library.solver.empty() && 2 * c.library.solved < c.problems ? "(" + text + ")" : text;
-}
-
 // `a` or `b` for mechanisms (23 times as fast as `x`, the best of the other libraries, which solves 13 of 17)
 std::string clauseOf(const Choice& c) {
   if (c.best.solver.empty()) return fmt::format("no solver for {}", kindTitle(c.kind));
@@ -196,7 +190,7 @@ void appendRow(const Choice& c, Answer& answer) {
     const auto& [runs, failed, wrong] = c.outcomes;
     row.cells.insert(row.cells.end(), {"<b>" + solvedText(c.best, c.problems) + "</b>",
                                        names.empty() ? "–" : fmt::format("{}", fmt::join(shown_names, ", ")),
-                                       solvedText(c.library, c.problems), overLibrary(c),
+                                       solvedText(c.library, c.problems), factorText(c.over_library),
                                        fmt::format("{} of {}", failed, runs), fmt::format("{} of {}", wrong, runs)});
   }
   answer.shown.rows.push_back(std::move(row));
@@ -207,8 +201,7 @@ void appendRow(const Choice& c, Answer& answer) {
 Costs costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose) {
   Costs found;
   for (const auto& row : costs.rows) {
-    const auto& cause = textAt(costs, row, "cause");
-    if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable || !choose(row)) continue;
+    if (!isComparable(costs, row) || !choose(row)) continue;
     const std::string problem =
         fmt::format("{} {} {} {}", textAt(costs, row, "scene"), textAt(costs, row, "settings"),
                     costs.hasColumn("t_end") ? textAt(costs, row, "t_end") : "", textAt(costs, row, "target_error"));
@@ -241,13 +234,14 @@ Answer solverAnswer(const claims::ResultTables& tables) {
     for (const auto& choice : choices) appendRow(choice, answer);
     answer.note =
         "4/4: reaches the error in 4 of 4 problems; the others fail or end with a larger error. Problems that no "
-        "solver "
-        "brings to this error are left out. Fastest: the solver that reaches the error in most problems, among equals "
+        "solver brings to this error are left out. Fastest: the solver that reaches the error in most problems, among "
+        "equals "
         "the one with the least CPU time. As good: at most 1.15 times its time, and at most one problem less; smaller "
         "differences are noise of the clock. Times are compared by the geometric mean over the problems that both "
-        "solve; in brackets: fewer than half of the problems. Failed and wrong runs are those of the fastest solver at "
-        "all tolerances; wrong: "
-        "success with an error above 1000 tolerances. `variable` is Radau IIA of variable order, "
+        "solve, and not at all where these are fewer than half. A solver counts where one of its tolerances is at most "
+        "the error; with larger ones only it was not asked for it. Failed and wrong runs are those of the fastest "
+        "solver at all tolerances; wrong: success with an error above 1000 tolerances. `variable` is Radau IIA of "
+        "variable order, "
         "`irk solve SCENE --configuration variable`; `embedded:radau_iia_5` is `--configuration embedded --method "
         "radau_iia_5`, and so for others; what has no colon is an integrator of another library.";
     answer.links = {{"#profile", "performance profiles"}, {"#study_work_precision", "all diagrams"}};

@@ -32,6 +32,7 @@ std::string cell(const Table& table, std::size_t row, std::string_view column) {
 }
 
 const double kNever = std::numeric_limits<double>::infinity();
+const double kNone = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Ranking, PrefersWhoSolvesMoreThenWhoIsFaster) {
   const Costs costs{{"sure", {{"p1", 4}, {"p2", 4}}},
@@ -48,6 +49,8 @@ TEST(Ranking, PrefersWhoSolvesMoreThenWhoIsFaster) {
   EXPECT_NEAR(ranked[0].factor, 2, 1e-12) << "4 over 1 and 4 over 4: geometric mean";
   EXPECT_NEAR(ratio(costs, "slow", "sure"), 2, 1e-12);
   EXPECT_NEAR(ratio(costs, "fast", "sure"), 0.25, 1e-12) << "of the problem that both solve";
+  EXPECT_TRUE(std::isnan(ratio({{"sure", {{"p1", 4}, {"p2", 4}, {"p3", 4}}}, {"fast", {{"p1", 1}}}}, "fast", "sure")))
+      << "fewer than half";
   EXPECT_TRUE(std::isnan(ratio(costs, "never", "sure")));
   EXPECT_TRUE(std::isnan(ratio(costs, "unknown", "sure")));
   EXPECT_EQ(solvable(costs), 2);
@@ -68,7 +71,9 @@ TEST(Ranking, ComparesTheSecondBest) {
   EXPECT_EQ(comparison(2, best, next, 4), "2.0 times as fast as `next`");
   EXPECT_EQ(comparison(1.05, best, next, 4), "as fast as `next`");
   EXPECT_EQ(comparison(0.5, best, partial, 4),
-            "2.0 times as slow as `partial`, which solves 2 of 4 and was not given 1");
+            "2.0 times as slow as `partial`, which solves 2 of 4 and was not asked for 1");
+  EXPECT_EQ(comparison(kNone, best, partial, 4),
+            "too few problems in common with `partial` for a ratio, which solves 2 of 4 and was not asked for 1");
   EXPECT_EQ(comparison(1, best, {}, 4), "no other reaches this error");
 }
 
@@ -120,6 +125,35 @@ TEST(SolverAnswer, NamesTheFastestByKindAndError) {
   EXPECT_TRUE(
       containsAll(answer.sentences.at(0), {"For an error of 1e-8", "`variable` for the IVP test set",
                                            "4.0 times as fast as `cvode_bdf`", "no solver for systems with switches"}));
+}
+
+// A solver that was given larger tolerances only is not said to fail, and an error that nobody was asked for is not
+// said to be reached by nobody.
+TEST(SolverAnswer, CountsWhoWasAskedForTheError) {
+  const auto cost = [](const char* scene, const char* solver, const char* error, const char* time, const char* least) {
+    const bool reached = std::string_view(time) != "nan";
+    return Cells{{"scene", scene},
+                 {"integrator", solver},
+                 {"target_error", error},
+                 {"cpu_s", time},
+                 {"least_tolerance", least},
+                 {"cause", reached ? "" : "not accurate enough"},
+                 {"reached", reached ? "1" : "0"},
+                 {"block", "ivp_all"}};
+  };
+  claims::ResultTables tables = solverTables();
+  tables.put(
+      "work_precision", "cpu_at_error",
+      tableOf(
+          {"scene", "settings", "integrator", "target_error", "cpu_s", "least_tolerance", "cause", "reached", "block"},
+          {cost("robertson", "variable", "1e-8", "1", "1e-10"), cost("hires", "variable", "1e-8", "1", "1e-10"),
+           cost("robertson", "cvode_bdf", "1e-8", "3", "1e-8"), cost("hires", "cvode_bdf", "1e-8", "nan", "1e-6"),
+           cost("robertson", "variable", "1e-11", "nan", "1e-10")}));
+  const Answer answer = solverAnswer(tables);
+  ASSERT_EQ(answer.table.rows.size(), 1u) << "no row for 1e-11";
+  EXPECT_EQ(cell(answer.table, 0, "solver"), "variable");
+  EXPECT_EQ(cell(answer.table, 0, "over_library"), "3");
+  EXPECT_TRUE(containsAll(answer.sentences.at(0), {"which solves 1 of 2 and was not asked for 1"}));
 }
 
 // The other side: another library is faster.
