@@ -117,8 +117,8 @@ Field<RunSpec> methodField() {
 Field<RunSpec> endField() {
   auto field = numberField<RunSpec>(
       "t_end",
-      "The time at which the integration ends; scene = the scene's own. Before the start: irk solve goes backward in "
-      "time.",
+      "The time at which the integration ends; scene = the scene's own. Before the start: the integration goes "
+      "backward in time.",
       kAnyNumber, [](auto& s) -> auto& { return s.t_end; });
   field.get = [get = field.get](const RunSpec& s) { return std::isnan(s.t_end) ? "scene" : get(s); };
   field.set = [set = field.set](RunSpec& s, std::string_view text) {

@@ -233,6 +233,25 @@ refine_most = 128
   }
 }
 
+// The planner of steps divides an interval that ends before the start.
+TEST(Runner, OrdersBackwardInTime) {
+  const Table orders = orderTable(runsOf(R"(
+orders = true
+[[block]]
+scene = "riccati_tracking"
+scalar = "mp50"
+t_end = [1, -1]
+methods = ["gauss_2", "radau_iia_2"]
+refine_most = 64
+)")
+                                      .runs);
+  ASSERT_EQ(orders.rows.size(), 4u);
+  for (const auto& row : orders.rows) {
+    EXPECT_NEAR(numberAt(orders, row, "order"), textAt(orders, row, "family") == "gauss" ? 4 : 3, 0.15);
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << textAt(orders, row, "reason");
+  }
+}
+
 // With z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
 TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
   const Table orders = orderTable(runsOf(R"(

@@ -134,14 +134,6 @@ TEST(StudyReader, RefusesWhatBlocksOfPeersDoNotTake) {
                           {"mine.toml:6", "newton"}));
 }
 
-TEST(StudyReader, RefusesEndsBeforeTheStart) {
-  EXPECT_EQ(misuseOfLines("tolerances = 0.1\nt_end = [1, -0.5]"),
-            "mine.toml:5: t_end = -0.5 lies before the start of kepler, t = 0");
-  EXPECT_EQ(misuseOfLines("refine_most = 8\nt_end = -1"),
-            "mine.toml:5: t_end = -1 lies before the start of kepler, t = 0");
-  EXPECT_NO_THROW(parse(kStart + "t_end = [\"scene\", 1]\n"));
-}
-
 // These texts ended the program inside toml++.
 TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
   EXPECT_TRUE(containsAll(misuseOfLines("[\n[[block]]\n"), {"mine.toml:4", "name"}));
