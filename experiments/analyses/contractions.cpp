@@ -137,10 +137,7 @@ Analysis contractionsAnalysis() {
           .reads = "runs.csv",
           .writes = "contractions.csv",
           .one_method = "the iterations of one method are counted",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeContractions(in.study, in.runs, in.folder / "contractions.csv");
-            return {};
-          }};
+          .run = [](const AnalysisInput& in) { writeContractions(in.study, in.runs, in.folder / "contractions.csv"); }};
 }
 
 }  // namespace irk

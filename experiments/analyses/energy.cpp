@@ -111,10 +111,7 @@ Analysis energyAnalysis() {
           .meaning = "what round-off does to an energy over many steps",
           .reads = "runs.csv",
           .writes = "energy.csv",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeEnergy(in.study, in.runs, in.folder / "energy.csv");
-            return {};
-          }};
+          .run = [](const AnalysisInput& in) { writeEnergy(in.study, in.runs, in.folder / "energy.csv"); }};
 }
 
 }  // namespace irk

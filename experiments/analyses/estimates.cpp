@@ -152,10 +152,7 @@ Analysis estimatesAnalysis() {
           .reads = "runs.csv",
           .writes = "estimates.csv",
           .one_method = "the error of a step is compared with one method's estimate",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeEstimates(in.study, in.runs, in.folder / "estimates.csv");
-            return {};
-          }};
+          .run = [](const AnalysisInput& in) { writeEstimates(in.study, in.runs, in.folder / "estimates.csv"); }};
 }
 
 }  // namespace irk

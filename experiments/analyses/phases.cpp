@@ -259,12 +259,11 @@ Analysis phasesAnalysis() {
           .reads = "runs.csv",
           .writes = "phases.csv",
           .one_method = "the parts of a run are timed with one method's matrices",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+          .run = [](const AnalysisInput& in) {
             const Table phases = phaseTable(in.study, in.runs, in.progress);
             writeTable(in.folder / "phases.csv", phases);
             const std::string doubt = doubtfulShares(phases);
             if (!doubt.empty()) fmt::print(in.progress, "{}: {}\n", in.study.id, doubt);
-            return {};
           }};
 }
 

@@ -56,15 +56,9 @@ void tellDrifts(const std::vector<std::filesystem::path>& folders, std::ostream&
              fmt::join(doubtful, ", "));
 }
 
-std::vector<std::string> writeSummaries(const Study& study, const RunFile& runs, const std::filesystem::path& folder,
-                                        std::ostream& progress) {
-  std::vector<std::string> doubts;
-  const std::string refusal = refusedTimes(runs.names().head);
-  if (!refusal.empty()) doubts.push_back(refusal);
-  for (const Analysis* analysis : study.analyses) {
-    for (auto& line : analysis->run({study, runs, folder, progress})) doubts.push_back(std::move(line));
-  }
-  return doubts;
+void writeSummaries(const Study& study, const RunFile& runs, const std::filesystem::path& folder,
+                    std::ostream& progress) {
+  for (const Analysis* analysis : study.analyses) analysis->run({study, runs, folder, progress});
 }
 
 }  // namespace irk

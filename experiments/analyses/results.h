@@ -25,9 +25,8 @@ void tellDrift(const std::string& study, const std::filesystem::path& runs, std:
 void tellDrifts(const std::vector<std::filesystem::path>& folders, std::ostream& out);
 
 /// Writes the tables of the study's analyses (experiments/study/analysis.h). If times come from several processors
-/// (store::kTimesRefused), it writes no profile, and costs without times. Returns one line for every number that must
-/// not be trusted; all tables are written nevertheless.
-[[nodiscard]] std::vector<std::string> writeSummaries(const Study& study, const RunFile& runs,
-                                                      const std::filesystem::path& folder, std::ostream& progress);
+/// (refusedTimes), it writes no profile, and costs without times.
+void writeSummaries(const Study& study, const RunFile& runs, const std::filesystem::path& folder,
+                    std::ostream& progress);
 
 }  // namespace irk

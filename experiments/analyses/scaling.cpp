@@ -136,11 +136,10 @@ Analysis scalingAnalysis() {
           .reads = "runs.csv",
           .writes = "scaling.csv scaling_slopes.csv",
           .one_method = "the time of a step is compared between methods of fixed stages",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+          .run = [](const AnalysisInput& in) {
             const Table scaling = scalingTable(in.study, in.runs, in.progress);
             writeTable(in.folder / "scaling.csv", scaling);
             writeTable(in.folder / "scaling_slopes.csv", scalingSlopes(scaling));
-            return {};
           }};
 }
 

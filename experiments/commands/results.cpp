@@ -150,7 +150,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
   merged.exportTables(keys, streams.err);
   keepFigures(figures, folder);
   const RunFile runs(folder / "runs.csv");
-  const auto doubts = writeSummaries(study, runs, folder, streams.err);
+  writeSummaries(study, runs, folder, streams.err);
   fmt::print(streams.out, "{}: {} runs of {} folders in {}\n", study.id, runs.rows(), options.folders.size(),
              folder.string());
   if (study.audit) {
@@ -158,9 +158,10 @@ int mergeCommand(MergeOptions options, Streams streams) {
     streams.out << audit::auditRuns(study, folder, threadCount(0), streams.err);
     if (interruptFlag()) return kInterruptedStatus;
   }
-  for (const auto& line : doubts) streams.err << line << '\n';
+  const std::string refusal = refusedTimes(runs.names().head);
+  if (!refusal.empty()) streams.err << refusal << '\n';
   tellDrift(study.id, folder / "runs.csv", streams.err);
-  return doubts.empty() ? 0 : 1;
+  return refusal.empty() ? 0 : 1;
 }
 
 int publishCommand(const PublishOptions& options, Streams streams) {

@@ -200,30 +200,29 @@ int runStored(const Study& study, const FigureTables& figures, const RunnerOptio
   const auto keys = makeAllRuns(study, options, ranks, opened, streams.err);
   keepFigures(figures, folder);
   const auto file = folder / "runs.csv";
-  std::vector<std::string> doubts;
-  if (const auto refusal = refusedTimes(file); !refusal.empty()) doubts.push_back(refusal);
   const bool whole = options.shard.count == 1;
-  const bool times = whole && study.timing.wanted && doubts.empty() && !interruptFlag();
+  const bool times = whole && study.timing.wanted && refusedTimes(file).empty() && !interruptFlag();
   if (ranks.asTheFirst(times)) timeTogether(study, keys, options, ranks, opened, streams.err);
   const store::Store& store = *opened;
   const Outcomes outcomes = outcomesOf(store, keys);
   if (!whole || !hasSummaries(study)) {
     printSummary(study, store, outcomes, streams.out);
   } else {
-    doubts = writeSummaries(study, RunFile(file), folder, streams.err);
+    writeSummaries(study, RunFile(file), folder, streams.err);
     printSummary(study, store, outcomes, streams.out);
     if (study.audit) {
       streams.out << audit::auditRuns(study, folder, threadCount(options.jobs), streams.err);
     }
   }
-  for (const auto& line : doubts) fmt::print(streams.err, "{}: {}\n", study.id, line);
+  const std::string refusal = refusedTimes(file);
+  if (!refusal.empty()) fmt::print(streams.err, "{}: {}\n", study.id, refusal);
   tellDrift(study.id, file, streams.err);
   if (outcomes.allRefused()) {
     printErrorLine(streams.err, refusalLine(study.id, store, outcomes));
   } else if (outcomes.refused) {
     fmt::print(streams.err, "{}\n", refusalLine(study.id, store, outcomes));
   }
-  if (!interruptFlag()) return doubts.empty() && !outcomes.allRefused() ? 0 : 1;
+  if (!interruptFlag()) return refusal.empty() && !outcomes.allRefused() ? 0 : 1;
   streams.err << "interrupted; finished runs are kept, the same command continues\n";
   return kInterruptedStatus;
 }

@@ -33,8 +33,8 @@ struct Analysis {
   std::string_view one_method = {};
   /// Another key of the study that this analysis requires; empty if none.
   std::string_view needs = {};
-  /// Writes the files. Returns one line for every number that is not reliable.
-  std::vector<std::string> (*run)(const AnalysisInput&);
+  /// Writes the files.
+  void (*run)(const AnalysisInput&);
 };
 
 /// In the order of execution: an analysis may read the files of those before it.

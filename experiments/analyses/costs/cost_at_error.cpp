@@ -113,15 +113,13 @@ void writeCosts(const RunFile& runs, const std::vector<double>& targets, const s
 }
 
 Analysis costAnalysis() {
-  return {.id = "cost",
-          .key = "targets",
-          .meaning = "what each method costs at the errors of `targets`",
-          .reads = "runs.csv",
-          .writes = "cpu_at_error.csv",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeCosts(in.runs, in.study.targets, in.folder / "cpu_at_error.csv");
-            return {};
-          }};
+  return {
+      .id = "cost",
+      .key = "targets",
+      .meaning = "what each method costs at the errors of `targets`",
+      .reads = "runs.csv",
+      .writes = "cpu_at_error.csv",
+      .run = [](const AnalysisInput& in) { writeCosts(in.runs, in.study.targets, in.folder / "cpu_at_error.csv"); }};
 }
 
 }  // namespace irk

@@ -66,10 +66,7 @@ Analysis gapsAnalysis() {
           .meaning = "the runs that are not right although another solver's run of the same problem is",
           .reads = "runs.csv",
           .writes = "gaps.csv",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeGaps(in.runs, in.folder / "gaps.csv");
-            return {};
-          }};
+          .run = [](const AnalysisInput& in) { writeGaps(in.runs, in.folder / "gaps.csv"); }};
 }
 
 }  // namespace irk

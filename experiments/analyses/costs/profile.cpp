@@ -154,14 +154,13 @@ Analysis profileAnalysis() {
           .reads = "cpu_at_error.csv",
           .writes = "profile.csv",
           .needs = "targets",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+          .run = [](const AnalysisInput& in) {
             // Without times no profile is written, and an older one must not remain beside these runs.
             if (refusedTimes(in.runs.names().head).empty()) {
               writeProfile(in.folder / "cpu_at_error.csv", in.folder / "profile.csv");
             } else {
               std::filesystem::remove(in.folder / "profile.csv");
             }
-            return {};
           }};
 }
 

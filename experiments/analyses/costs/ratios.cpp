@@ -147,10 +147,7 @@ Analysis ratiosAnalysis() {
           .reads = "runs.csv",
           .writes = "ratios.csv",
           .needs = "targets",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeRatios(in.runs, in.study.targets, in.folder / "ratios.csv");
-            return {};
-          }};
+          .run = [](const AnalysisInput& in) { writeRatios(in.runs, in.study.targets, in.folder / "ratios.csv"); }};
 }
 
 }  // namespace irk

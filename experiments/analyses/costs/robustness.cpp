@@ -98,10 +98,7 @@ Analysis robustnessAnalysis() {
           .meaning = "how many runs are right, fail, or are wrong, by collection, solver and tolerance",
           .reads = "runs.csv",
           .writes = "robustness.csv",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
-            writeRobustness(in.runs, in.folder / "robustness.csv");
-            return {};
-          }};
+          .run = [](const AnalysisInput& in) { writeRobustness(in.runs, in.folder / "robustness.csv"); }};
 }
 
 }  // namespace irk

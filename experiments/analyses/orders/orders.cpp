@@ -183,10 +183,9 @@ Analysis ordersAnalysis() {
           .meaning = "observed orders of convergence, with what theory says",
           .reads = "runs.csv",
           .writes = "orders.csv order_theory.csv",
-          .run = [](const AnalysisInput& in) -> std::vector<std::string> {
+          .run = [](const AnalysisInput& in) {
             writeOrders(in.runs, in.folder / "orders.csv");
             writeTheory(in.runs, in.folder / "order_theory.csv");
-            return {};
           }};
 }
 

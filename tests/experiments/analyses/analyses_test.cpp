@@ -57,7 +57,7 @@ TEST(Analyses, WriteTheFilesThatTheyDeclare) {
   const TemporaryFolder folder;
   const auto [study, runs] = runsOf(std::string("orders = true\ntargets = [1e-2]\nprofile = true\n") + kBlock);
   std::ostringstream quiet;
-  EXPECT_TRUE(writeSummaries(study, runs, folder.path(), quiet).empty());
+  writeSummaries(study, runs, folder.path(), quiet);
   std::set<std::string> files, said;
   for (const auto& file : std::filesystem::directory_iterator(folder.path()))
     files.insert(file.path().filename().string());

@@ -67,9 +67,9 @@ inline Table scalingTable(const Study& study, const Table& runs, std::ostream& p
 inline Table phaseTable(const Study& study, const Table& runs, std::ostream& progress) {
   return ofFile(runs, [&](const auto& file) { return phaseTable(study, RunFile(file), progress); });
 }
-inline std::vector<std::string> writeSummaries(const Study& study, const Table& runs,
-                                               const std::filesystem::path& folder, std::ostream& progress) {
-  return ofFile(runs, [&](const auto& file) { return writeSummaries(study, RunFile(file), folder, progress); });
+inline void writeSummaries(const Study& study, const Table& runs, const std::filesystem::path& folder,
+                           std::ostream& progress) {
+  ofFile(runs, [&](const auto& file) { writeSummaries(study, RunFile(file), folder, progress); });
 }
 
 }  // namespace irk

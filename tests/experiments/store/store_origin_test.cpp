@@ -101,7 +101,7 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
   }
   EXPECT_EQ(refusedTimes(folder() / "runs.csv"), refusal);
   writeTable(folder() / "profile.csv", {{}, {"ratio"}, {}});
-  EXPECT_EQ(writeSummaries(costs, refused, folder(), told_), std::vector{refusal});
+  writeSummaries(costs, refused, folder(), told_);
   EXPECT_FALSE(std::filesystem::exists(folder() / "profile.csv"));
   const Table cost = readTable(folder() / "cpu_at_error.csv");
   bool reached = false;
