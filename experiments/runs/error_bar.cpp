@@ -11,6 +11,7 @@
 #include "experiments/base/decimal.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/setup.h"
+#include "experiments/runs/texts/component_names.h"
 #include "irk/error_bar.h"
 #include "irk/multiprecision.h"
 
@@ -87,7 +88,7 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
                                        toleranceScale(scene, spec, scene.sizes()), second, monitor, t_end);
   RunErrorBar measured;
   measured.u = bar.u, measured.v = bar.v, measured.x = bar.x, measured.z = bar.z;
-  measured.problem = bar.problem;
+  measured.problem = withNames(bar.problem, scene.names, scene.sizes(), setup.system->sizes());
   measured.cpu_s = threadSeconds() - began;
   if (!bar.known()) return measured;
   measured.tolerances = bar.tolerances;

@@ -77,6 +77,18 @@ TEST(RunErrorBar, IsUnknownIfTheSecondIntegrationRunsOutOfTime) {
   EXPECT_TRUE(doubtOf(bar, spec).empty());
 }
 
+// There is no solution beyond t = 0.5.
+TEST(RunErrorBar, NamesTheComponentAtWhichTheSecondIntegrationFails) {
+  const auto spec = barSpec("scene=solution_end;rtol=1e-6;atol=1e-6");
+  State<double> end = sceneOf<double>(spec).start;
+  end.t = 0.6;
+  Solution<double> solution{Outcome::kSuccess, "", end, {}};
+  const auto bar =
+      measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, {[] { return Outcome::kSuccess; }, {}});
+  EXPECT_NE(bar.problem.find("largest error in y"), std::string::npos) << bar.problem;
+  EXPECT_EQ(bar.problem.find('['), std::string::npos) << bar.problem;
+}
+
 TEST(IndependentSpec, DiffersInAllThatAMethodIsMadeOf) {
   const auto spec = barSpec(
       "scene=slider_crank;configuration=paper;method=radau_iia_5;formulation=index3;rtol=1e-4;atol=1e-5;"
