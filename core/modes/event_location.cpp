@@ -167,6 +167,13 @@ Real further(const Real& before, const Real& g, const Real& slope, const Real& r
   return beyond < Real(kNewtonPart.value) * h ? beyond : h;
 }
 
+// How late a state is where a switch is due: g over its slope, up to the resolution of the search, and a digit of t.
+template <class Real>
+Real late(const Real& g, const Real& slope, const Real& least, const Real& t) {
+  using std::abs;
+  return (slope > Real(0) && g > Real(0) ? std::min(Real(g / slope), least) : least) + epsilon<Real>() * abs(t);
+}
+
 }  // namespace
 
 // Solves the step of size h and evaluates the switching functions at its end.
@@ -223,8 +230,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     const Real lasts = slope > Real(0) ? Real(noise / slope) : Real(0);  // the round-off
     resolution = least + lasts;
     result.resolution = static_cast<double>(resolution);
-    const Real late = slope > Real(0) && g > Real(0) ? std::min(Real(g / slope), least) : least;
-    result.time_error = static_cast<double>(Real(late + epsilon<Real>() * abs(next.t) + lasts / Real(2)));
+    result.time_error = static_cast<double>(Real(late(g, slope, least, next.t) + lasts / Real(2)));
     if (due >= 0) {
       high = step;
       due_at_high = true;
