@@ -43,17 +43,22 @@ class Comparing {
     }
     if (!first) return;
     if (duplicate) ++report_.duplicate;
-    ++rows_[classes_.at(first).of(*first->runs().find(key))];
+    const RowClass& of = classes_.at(first).of(*first->runs().find(key));
+    ++rows_[of.library][of.name];
   }
 
-  // The number of rows whose times are not of the timing class with most rows.
+  // The number of rows whose times are not of the timing class with most rows, among those of one library.
   std::size_t foreign() const {
-    std::size_t all = 0, most = 0;
-    for (const auto& [timing_class, rows] : rows_) {
-      all += rows;
-      most = std::max(most, rows);
+    std::size_t foreign = 0;
+    for (const auto& [library, classes] : rows_) {
+      std::size_t all = 0, most = 0;
+      for (const auto& [name, rows] : classes) {
+        all += rows;
+        most = std::max(most, rows);
+      }
+      foreign += all - most;
     }
-    return all - most;
+    return foreign;
   }
 
  private:
@@ -79,7 +84,7 @@ class Comparing {
   const Table names_{{}, runColumns(), {}};
   const std::vector<std::string> columns_ = decidedColumns();
   std::map<const Store*, TimingClasses> classes_;
-  std::map<std::string, std::size_t> rows_;  // by timing class
+  std::map<std::string, std::map<std::string, std::size_t>> rows_;  // by library and timing class
 };
 
 void countNotOfStudy(const RunKeys& keys, const std::vector<const Store*>& stores, MergeReport& report) {

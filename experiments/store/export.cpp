@@ -47,18 +47,23 @@ struct Store::Origins {
   };
   std::map<std::uint16_t, std::size_t> codes, environments;  // rows of each
   std::uint32_t first_date = ~0u, last_date = 0;
-  std::map<std::string, Measured> measured;  // by timing class
+  std::set<std::string> machines;
+  std::map<std::string, std::map<std::string, Measured>> measured;  // by library and timing class
 
   // The reason why their times are not joined; empty if they are.
   std::string refusalOfTimes() const {
-    if (measured.size() < 2) return {};
-    std::string text = fmt::format("times of {} timing classes (processor, compiler, flags, libraries) are not joined:",
-                                   measured.size());
-    for (const auto& [timing_class, its] : measured) {
-      text +=
-          fmt::format(" '{}' ({} rows, environments {}),", timing_class, its.rows, fmt::join(its.environments, " "));
+    std::size_t count = 0;
+    std::string text;
+    for (const auto& [library, classes] : measured) {
+      if (machines.size() < 2 && classes.size() < 2) continue;
+      count += classes.size();
+      for (const auto& [name, its] : classes) {
+        text += fmt::format(" '{}' ({} rows, environments {}),", name, its.rows, fmt::join(its.environments, " "));
+      }
     }
-    return text +
+    if (count == 0) return {};
+    return fmt::format("times of {} timing classes (processor, compiler, flags, libraries) are not joined:", count) +
+           text +
            " so runs.csv has none. Either --times here, which keeps those of this one and measures the others "
            "again if the study has a timing pass, or --fresh";
   }
@@ -74,7 +79,9 @@ Store::Origins Store::originsOf(const RunKeys& keys) const {
     origins.last_date = std::max(origins.last_date, entry.date);
     if (runs_.name(entry.outcome) != name(Outcome::kSuccess)) return;
     if (options_.times == Times::kHere && !timedHere(entry)) return;
-    auto& here = origins.measured[classes.of(entry)];
+    const RowClass& of = classes.of(entry);
+    origins.machines.insert(of.machine);
+    auto& here = origins.measured[of.library][of.name];
     ++here.rows;
     here.environments.insert(runs_.name(entry.cpu_environment));
   });

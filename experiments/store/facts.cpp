@@ -18,13 +18,19 @@ RunFacts factsOf(const Rows& runs, const Entry& entry, bool planned) {
 TimingClasses::TimingClasses(const Rows& runs, const Rows& environments)
     : runs_(runs), environments_(environments), method_(Table{{}, runs.columns(), {}}.column("method")) {}
 
-const std::string& TimingClasses::of(const Entry& entry) {
+const RowClass& TimingClasses::of(const Entry& entry) {
   const bool is_one = environments_.size() <= 1;
   const std::string library(is_one ? "" : libraryOfMethod(runs_.row(entry)[method_]));
-  const auto [at, added] = known_.try_emplace({entry.cpu_environment, library}, "unknown");
+  const auto [at, added] =
+      known_.try_emplace({entry.cpu_environment, library}, RowClass{"unknown", library, "unknown"});
   if (!added) return at->second;
   const auto environment = environments_.find(keyNumber(runs_.name(entry.cpu_environment)));
-  if (environment) at->second = timingClass(environments_.columns(), environments_.row(*environment), library);
+  if (!environment) return at->second;
+  const auto classWith = [&](const std::string& with) {
+    return timingClass(environments_.columns(), environments_.row(*environment), with);
+  };
+  at->second.machine = classWith("");
+  at->second.name = classWith(library);
   return at->second;
 }
 

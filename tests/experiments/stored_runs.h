@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <functional>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -58,6 +59,10 @@ class StoredRuns : public testing::Test {
   }
   // Marks the first `rows` rows as made and timed on another machine.
   void moveToOtherMachine(const std::string& tree, std::size_t rows) const {
+    moveToOther(tree, rows, {{"cpu", "Other processor"}, {"host", "elsewhere"}});
+  }
+  // The same, with an environment that differs in these columns.
+  void moveToOther(const std::string& tree, std::size_t rows, const std::map<std::string, std::string>& values) const {
     changePart(tree, [rows](Table& part) {
       for (std::size_t i = 0; i < rows; ++i) {
         part.rows[i][part.column("environment")] = "abc";
@@ -66,8 +71,7 @@ class StoredRuns : public testing::Test {
     });
     Table environments{{}, environmentColumns(), {thisEnvironment()}};
     environments.rows[0][0] = "abc";
-    environments.rows[0][environments.column("cpu")] = "Other processor";
-    environments.rows[0][environments.column("host")] = "elsewhere";
+    for (const auto& [column, value] : values) environments.rows[0][environments.column(column)] = value;
     writePartTable(folder(tree) / "parts" / "environments.0.csv", environments);
   }
 

@@ -135,6 +135,34 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
 
 // --- The key.
 
+// The library of another integrator belongs to the class of its own rows: a study that compares several has several
+// classes, whatever program has made them. Another version of the library is another matter.
+TEST_F(Origin, TimesOfDifferentLibrariesAreJoined) {
+  const std::string toml =
+      "[[block]]\nscene = \"kepler\"\nt_end = 0.5\nformulation = \"index1\"\n"
+      "methods = [\"radau_iia_2\", \"cvode_bdf\"]\ntolerances = [1e-3, 1e-4]\n";
+  const auto refusalWith = [&](const std::string& tree, const std::map<std::string, std::string>& values) {
+    run(tree, {}, toml);
+    moveToOther(tree, 4, values);  // all rows
+    changePart(tree, [](Table& part) {
+      for (const std::size_t i : {0, 2}) {  // one of each method is of this program again
+        for (const char* column : {"environment", "cpu_environment"}) {
+          part.rows[i][part.column(column)] = thisEnvironment().front();
+        }
+      }
+    });
+    return refusedTimes(run(tree, {}, toml).head);
+  };
+  EXPECT_EQ(refusalWith("newer", {{"commit", "0123456"}}), "");
+  const Table environments{{}, environmentColumns(), {thisEnvironment()}};
+  std::string libraries = textAt(environments, environments.rows[0], "libraries");
+  const auto at = libraries.find("SUNDIALS ");
+  ASSERT_NE(at, std::string::npos);
+  libraries.insert(at + 9, "99.");
+  const std::string refusal = refusalWith("other_sundials", {{"libraries", libraries}});
+  EXPECT_TRUE(containsAll(refusal, {"2 timing classes", "SUNDIALS 99.", "(1 rows, environments abc)"})) << refusal;
+}
+
 TEST(Key, HoldsDefaultsAndCoefficients) {
   RunSpec spec;
   spec.scene = "slider_crank";
