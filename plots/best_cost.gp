@@ -39,8 +39,6 @@ do for [i = 1 : n] { do for [v = 1 : count] { do for [k = 1 : targets] {
   Best[slot(i, v, k)] = best
   if (best < 1e300) { least = best < least ? best : least; most = best > most ? best : most }
 } } }
-curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F"
-curve_points = "7 5 9 11 4 6 8 10"
 colour(v) = by eq 'family' ? familyColour(word(values, v)) : int(word(curve_colours, v))
 pointOf(v) = by eq 'family' ? familyPoint(word(values, v)) : int(word(curve_points, v))
 dash(v) = by eq 'family' ? familyDash(word(values, v)) : (v - 1) % 4 + 1

@@ -60,8 +60,6 @@ do for [i = 1 : n] { do for [v = 2 : count] { do for [k = 1 : targets] {
   }
 } } }
 
-curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F"
-curve_points = "7 5 9 11 4 6 8 10"
 colour(v) = int(word(curve_colours, (v - 1) % 8 + 1))
 pointOf(v) = int(word(curve_points, (v - 1) % 8 + 1))
 dash(v) = (v - 1) % 4 + 1

@@ -28,9 +28,6 @@ in_data = ""
 do for [w in (withGiven(integrators, collected))] { in_data = in_data.(position(collected, w) ? " ".w : "") }
 integrators = in_data
 count = words(integrators)
-curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000 0x7FB800"
-curveColour(k) = int(word(curve_colours, (k - 1) % 11 + 1))
-curveDash(k) = (k - 1) % 4 + 1
 at(i, k) = ofTarget(i) && strcol("integrator") eq word(integrators, k)
 targetTitle(i) = word(targets, i) eq 'all' ? 'all errors' : 'error 10^{'.word(targets, i).'}'
 # Over all errors: "45/60" for a solver that was given 45 of 60 problems.

@@ -38,7 +38,7 @@ panels = families eq '' ? words(views) : words(families)
 columns = panels < columns ? panels : columns
 lines = (panels + columns - 1) / columns
 if (extent == 0) { extent = 1.6 * (Root_max > 2 ? Root_max : 2) }
-curveColour(m) = families eq '' ? int(word("0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9", (position(all, m) - 1) % 6 + 1)) : stageColour(stagesOf(m))
+colourOf(m) = families eq '' ? int(word("0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9", (position(all, m) - 1) % 6 + 1)) : stageColour(stagesOf(m))
 baseName(m) = m[strstrt(m, '/') ? strlen(system("dirname '".m."'")) + 2 : 1 : strlen(m)]
 curveTitle(m) = families eq '' ? baseName(m) : 's = '.sprintf("%d", stagesOf(m))
 panelTitle(p) = families ne '' ? familyTitle(word(families, p)) : viewOf(p) eq 'star' ? 'order star: |R| > |e^z| shaded' : 'stability: |R| ≤ 1 shaded'
@@ -97,13 +97,13 @@ do for [format in formats] {
     curves = ''
     do for [k = 1 : words(names)] { curves = curves.sprintf( \
       ", for [side in '1 -1'] $Contour_%d_%d using 1:($2 * side) with lines lw 1.5 lc rgb %d notitle", p, k, \
-      curveColour(word(names, k))) }
+      colourOf(word(names, k))) }
     eval sprintf("plot for [side in '1 -1'] $Share_%d using 1:($2 * side):3 with image notitle", p).curves.(shown ? marks : '')
   }
   if (legend_height > 0) {
     unset arrow; set size noratio
     eval legend(legend_height)
-    plot 2 notitle, for [m in legend_names] keyentry with lines lw 2 lc rgb curveColour(m) title curveTitle(m), \
+    plot 2 notitle, for [m in legend_names] keyentry with lines lw 2 lc rgb colourOf(m) title curveTitle(m), \
       for [k = 1 : 2 * starred] keyentry with points pt (k == 1 ? 6 : 2) lc rgb ink title word("zeros poles", k)
   }
   unset arrow

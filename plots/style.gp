@@ -66,6 +66,13 @@ familyColour(f) = known(f) ? int(word(family_colours, known(f))) : 0x000000
 familyPoint(f) = known(f) ? int(word(family_points, known(f))) : 6
 familyDash(f) = known(f) % 2 + 1
 
+# --- Curves of one panel, as of solvers: each its own colour and mark.
+curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000 0x7FB800 0x9E1B32 0x00A6A6 0xF08080"
+curve_points = "7 5 9 11 4 6 8 10 13 12 15 14 1"
+curveColour(k) = int(word(curve_colours, (k - 1) % words(curve_colours) + 1))
+curvePoint(k) = int(word(curve_points, (k - 1) % words(curve_points) + 1))
+curveDash(k) = (k - 1) % 4 + 1
+
 # --- Solutions over time: series k of a panel, and what the table of a solution says of itself and of its panels. An item of
 # a panel is a column, or `over:of`, a column over another one.
 seriesColour(k) = int(word(family_colours, k == 2 ? 3 : k == 3 ? 4 : k % 8 == 0 ? 8 : k % 8))

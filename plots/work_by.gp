@@ -86,12 +86,6 @@ name(k) = word(variants, k)
 # Tables write numbers with all their digits; labels are shortened.
 titleOf(k) = strlen(name(k)) > 10 && name(k)[1:2] eq '0.' ? sprintf("%.3g", real(name(k))) : label(variants, k)
 coarsest = coarsest > 1 ? 1 : coarsest   # an error of 100 % or more has no correct digit
-# Each curve has its own colour, mark and dash.
-curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000"
-curve_points = "7 5 9 11 4 6 8 10 13 12"
-curveColour(k) = int(word(curve_colours, (k - 1) % 10 + 1))
-curvePoint(k) = int(word(curve_points, (k - 1) % 10 + 1))
-curveDash(k) = (k - 1) % 4 + 1
 at(case, k) = chosen(case) && curveOf(0) eq name(k)
 
 if (!exists("columns")) columns = panels == 1 ? 1 : panels == 3 ? 3 : 2
