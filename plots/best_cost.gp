@@ -39,9 +39,9 @@ do for [i = 1 : n] { do for [v = 1 : count] { do for [k = 1 : targets] {
   Best[slot(i, v, k)] = best
   if (best < 1e300) { least = best < least ? best : least; most = best > most ? best : most }
 } } }
-colour(v) = by eq 'family' ? familyColour(word(values, v)) : int(word(curve_colours, v))
-pointOf(v) = by eq 'family' ? familyPoint(word(values, v)) : int(word(curve_points, v))
-dash(v) = by eq 'family' ? familyDash(word(values, v)) : (v - 1) % 4 + 1
+colour(v) = by eq 'family' ? familyColour(word(values, v)) : curveColour(v)
+pointOf(v) = by eq 'family' ? familyPoint(word(values, v)) : curvePoint(v)
+dash(v) = by eq 'family' ? familyDash(word(values, v)) : curveDash(v)
 titleOf(v) = by eq 'family' ? familyTitle(word(values, v)) : word(values, v)
 
 # Three panels in a row have no room for every decade.

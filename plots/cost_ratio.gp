@@ -60,9 +60,6 @@ do for [i = 1 : n] { do for [v = 2 : count] { do for [k = 1 : targets] {
   }
 } } }
 
-colour(v) = int(word(curve_colours, (v - 1) % 8 + 1))
-pointOf(v) = int(word(curve_points, (v - 1) % 8 + 1))
-dash(v) = (v - 1) % 4 + 1
 wordOf(v) = word(variants, v)
 # Tables write numbers with all their digits; labels are shortened.
 valueTitle(v) = strlen(wordOf(v)) > 10 && wordOf(v)[1:2] eq '0.' ? sprintf("%.3g", real(wordOf(v))) : wordOf(v)
@@ -101,15 +98,15 @@ do for [format in formats] {
         offset 1,0 noenhanced
       plot 1 with lines lw 1.6 lc rgb 0x888888 notitle, \
         for [v in seen] '+' using (target(int($0) + 1)):(ratio(i, number(v), int($0) + 1)) every ::0::(targets - 1) \
-          with linespoints lw 1.3 dt dash(number(v)) pt pointOf(number(v)) ps 0.8 lc rgb colour(number(v)) notitle, \
+          with linespoints lw 1.3 dt curveDash(number(v)) pt curvePoint(number(v)) ps 0.8 lc rgb curveColour(number(v)) notitle, \
         for [v in seen] '+' using (isLost(i, number(v), int($0) + 1) ? target(int($0) + 1) : outside): \
           (top * span ** (0.04 * (number(v) - 1))) every ::0::(targets - 1) \
-          with points pt failure_point ps 0.9 lw 2.4 lc rgb colour(number(v)) notitle
+          with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(number(v)) notitle
     }
     eval legend(legend_height)
     set key noenhanced
-    entries = "plot 2 notitle, for [v in seen] keyentry with linespoints lw 1.3 dt dash(number(v)) pt pointOf(number(v)) ps 0.8 " \
-      ."lc rgb colour(number(v)) title valueTitle(number(v)), keyentry with lines lw 1.6 lc rgb 0x888888 title wordOf(1)"
+    entries = "plot 2 notitle, for [v in seen] keyentry with linespoints lw 1.3 dt curveDash(number(v)) pt curvePoint(number(v)) ps 0.8 " \
+      ."lc rgb curveColour(number(v)) title valueTitle(number(v)), keyentry with lines lw 1.6 lc rgb 0x888888 title wordOf(1)"
     if (lost) { entries = entries.", keyentry with points pt failure_point ps 0.9 lw 2.4 lc rgb ink title 'not reached'" }
     eval entries
     eval framed

@@ -38,7 +38,7 @@ panels = families eq '' ? words(views) : words(families)
 columns = panels < columns ? panels : columns
 lines = (panels + columns - 1) / columns
 if (extent == 0) { extent = 1.6 * (Root_max > 2 ? Root_max : 2) }
-colourOf(m) = families eq '' ? int(word("0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9", (position(all, m) - 1) % 6 + 1)) : stageColour(stagesOf(m))
+colourOf(m) = families eq '' ? curveColour(position(all, m)) : stageColour(stagesOf(m))
 baseName(m) = m[strstrt(m, '/') ? strlen(system("dirname '".m."'")) + 2 : 1 : strlen(m)]
 curveTitle(m) = families eq '' ? baseName(m) : 's = '.sprintf("%d", stagesOf(m))
 panelTitle(p) = families ne '' ? familyTitle(word(families, p)) : viewOf(p) eq 'star' ? 'order star: |R| > |e^z| shaded' : 'stability: |R| ≤ 1 shaded'

@@ -68,7 +68,7 @@ familyDash(f) = known(f) % 2 + 1
 
 # --- Curves of one panel, as of solvers: each its own colour and mark.
 curve_colours = "0x0072B2 0xD55E00 0x009E73 0xCC79A7 0xE69F00 0x56B4E9 0x555555 0x8C6D1F 0x7B2FBE 0x000000 0x7FB800 0x9E1B32 0x00A6A6 0xF08080"
-curve_points = "7 5 9 11 4 6 8 10 13 12 15 14 1"
+curve_points = "7 5 9 11 4 6 8 10 13 12 15 14 1 3"
 curveColour(k) = int(word(curve_colours, (k - 1) % words(curve_colours) + 1))
 curvePoint(k) = int(word(curve_points, (k - 1) % words(curve_points) + 1))
 curveDash(k) = (k - 1) % 4 + 1

@@ -97,7 +97,7 @@ class Trajectory {
   ChatterDetector chatter_;
   InsideAttempt<Real> inside_;
   State<Real> state_, next_;
-  std::optional<State<Real>> earlier_;  // at a located switch, for the monitor: LocatedSwitch
+  std::optional<State<Real>> earlier_;  // at a switch that the monitor is told of: LocatedSwitch::earlier
   const Monitor<Real>* monitor_ = nullptr;
   double length_ = 0;
   std::string start_detail_;              // why the start is not consistent

@@ -39,7 +39,7 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// over 700 drawn runs of scenes that nobody tuned for, the median of bar over true error is 1.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
-/// saltation matrix of Leine and Nijmeijer 2004, chapter 7.3, times that error; LocatedSwitch). Both can miss
+/// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). Both can miss
 /// the same thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the
 /// second integration fails, the bar is unknown and `problem` says why. Throws Misuse as Integrator::integrate, and for
 /// a result of other sizes than the start, a scale or tolerances out of range.
