@@ -106,6 +106,8 @@ is(name, value) = value eq "" ? absent(name) : strcol(name) eq value
 has(name, wish) = wish eq "" || strcol(name) eq wish
 positive(x) = x > 0 ? x : NaN      # logarithmic axes
 succeeded(dummy) = strcol("outcome") eq "success"
+# A refused run is no failure: the solver cannot be applied to the scene, or not in this way.
+failedHere(dummy) = !succeeded(0) && strcol("outcome") ne "refused"
 
 # Tables of older programs have fewer columns.
 hasColumn(file, name) = strlen(system("grep -m1 -v '^#' '".file."' | tr ',' '\\n' | grep -x '".name."'")) > 0

@@ -55,12 +55,12 @@ do for [i = 1 : panels] {
     finest = E_min < finest ? E_min : finest
     if (exists("C_min")) { Least[i] = C_min; Most[i] = C_max }
   }
-  stats file using (chosen(caseOf(i)) && !succeeded(0) ? 1 : 0) name "N" nooutput
+  stats file using (chosen(caseOf(i)) && failedHere(0) ? 1 : 0) name "N" nooutput
   if (exists("N_sum") && N_sum > 0) {
     failures = failures + N_sum; Marks[i] = Marks[i] + N_sum
-    stats file using (chosen(caseOf(i)) && !succeeded(0) && !isFixed(0) ? 1 : 0) name "N" nooutput
+    stats file using (chosen(caseOf(i)) && failedHere(0) && !isFixed(0) ? 1 : 0) name "N" nooutput
     if (N_sum > 0) {
-      stats file using (chosen(caseOf(i)) && !succeeded(0) && !isFixed(0) ? asked(0) : NaN) name "F" nooutput
+      stats file using (chosen(caseOf(i)) && failedHere(0) && !isFixed(0) ? asked(0) : NaN) name "F" nooutput
       finest = F_min < finest ? F_min : finest
       coarsest = F_max > coarsest ? F_max : coarsest
     }
@@ -70,7 +70,7 @@ if (tried == 0) { eval absence(cases." in ".file) }
 # The legend lists only curves with a mark.
 collected = ""
 do for [i = 1 : panels] {
-  stats file using (chosen(caseOf(i)) && (error(0) > 0 || !succeeded(0)) ? collect(curveOf(0)) : 0) nooutput
+  stats file using (chosen(caseOf(i)) && (error(0) > 0 || failedHere(0)) ? collect(curveOf(0)) : 0) nooutput
 }
 drawn = collected
 wrong = 0; times = 1
@@ -121,7 +121,7 @@ do for [format in formats] {
       } else {
         plot for [k = 1 : count] file using (at(case, k) ? error(0) : NaN):(positive(column(c))) \
                with linespoints lw 1.3 dt curveDash(k) pt curvePoint(k) ps 0.7 lc rgb curveColour(k) notitle, \
-             for [k = 1 : count] file using (at(case, k) && !succeeded(0) ? (isFixed(0) ? 1.5 * coarsest : asked(0)) : outside):(level(k)) \
+             for [k = 1 : count] file using (at(case, k) && failedHere(0) ? (isFixed(0) ? 1.5 * coarsest : asked(0)) : outside):(level(k)) \
                with points pt failure_point ps 0.9 lw 2.4 lc rgb curveColour(k) notitle, \
              for [k = 1 : wrong] file using (chosen(case) && position(variants, curveOf(0)) && isWrong(0) ? error(0) : outside):(positive(column(c))) \
                with points pt wrong_point ps ring_size lw ring_width lc rgb failure_colour notitle
