@@ -145,7 +145,7 @@ TEST_F(Origin, TimesOfDifferentLibrariesAreJoined) {
     run(tree, {}, toml);
     moveToOther(tree, 4, values);  // all rows
     changePart(tree, [](Table& part) {
-      for (const std::size_t i : {0, 2}) {  // one of each method is of this program again
+      for (const std::size_t i : {0u, 2u}) {  // one of each method is of this program again
         for (const char* column : {"environment", "cpu_environment"}) {
           part.rows[i][part.column(column)] = thisEnvironment().front();
         }
