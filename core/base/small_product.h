@@ -6,39 +6,51 @@
 #include <type_traits>
 
 #include "core/base/small_size.h"
-#include "irk/lanes.h"
+#include "irk/scalar.h"
 
 namespace irk {
 namespace detail {
 
+/// Eight numbers in a vector register. A struct, because compilers warn of functions that return bare vectors.
+struct Eight {
+  double __attribute__((vector_size(8 * sizeof(double)))) v{};
+
+  friend Eight operator+(const Eight& a, const Eight& b) { return {a.v + b.v}; }
+  friend Eight operator*(double a, const Eight& b) { return {a * b.v}; }
+};
+
 /// y_0 to y_7.
-inline Lanes eightFrom(const double* y) {
-  Lanes all;
+inline Eight eightFrom(const double* y) {
+  Eight all;
   std::memcpy(&all.v, y, sizeof all.v);
   return all;
 }
 
 }  // namespace detail
 
-/// The sums of a product begin with 0, ...
+// What the sums of a product begin with: `(i, j)` for one of them, `eight(i, j)` for those of the rows i to i + 7.
+
+/// The sums begin with 0.
 template <class Real>
 struct FromZero {
   Real operator()(Index, Index) const { return Real(0); }
-  Lanes eight(Index, Index) const { return {}; }
+  detail::Eight eight(Index, Index) const { return {}; }
 };
-/// ... with y_i in each column, ...
+/// The sums begin with y_i in each column.
 template <class Real>
 struct FromColumn {
   const Real* y;
   Real operator()(Index i, Index) const { return y[i]; }
-  Lanes eight(Index i, Index) const { return detail::eightFrom(y + i); }
+  detail::Eight eight(Index i, Index) const { return detail::eightFrom(y + i); }
 };
-/// ... with y_i + factor_j slope_i.
+/// The sums begin with y_i + factor_j slope_i.
 template <class Real>
 struct FromLine {
   const Real *y, *slope, *factors;
   Real operator()(Index i, Index j) const { return y[i] + factors[j] * slope[i]; }
-  Lanes eight(Index i, Index j) const { return detail::eightFrom(y + i) + factors[j] * detail::eightFrom(slope + i); }
+  detail::Eight eight(Index i, Index j) const {
+    return detail::eightFrom(y + i) + factors[j] * detail::eightFrom(slope + i);
+  }
 };
 
 namespace detail {
@@ -105,9 +117,9 @@ template <class RightHand, class Start>
 [[gnu::always_inline]] inline void productOfEightRows(const double* A, Index stride, const RightHand& B, double* out,
                                                       Index out_stride, Index row, const Start& start) {
   for (Index j = 0; j < B.cols(); ++j) {
-    Lanes sum = start.eight(row, j);
+    Eight sum = start.eight(row, j);
     const double* const b = B.data() + j * B.rows();
-    for (Index k = 0; k < B.rows(); ++k) sum += b[k] * eightFrom(A + k * stride);
+    for (Index k = 0; k < B.rows(); ++k) sum = sum + b[k] * eightFrom(A + k * stride);
     std::memcpy(out + j * out_stride, &sum.v, sizeof sum.v);
   }
 }
@@ -121,7 +133,7 @@ template <class RightHand, class Start>
 template <class Real, class RightHand, class Start>
 void smallProduct(const Real* A, Index stride, Index rows, const RightHand& B, Real* out, Index out_stride,
                   const Start& start) {
-  constexpr auto kBlock = static_cast<Index>(kLanes);
+  constexpr Index kBlock = 8;
   if constexpr (!std::is_same_v<Real, double>) {
     for (Index i = 0; i < rows; ++i) detail::productRows<1>(A + i, stride, B, out + i, out_stride, i, start);
   } else {

@@ -141,8 +141,6 @@ void addEnsembleOptions(CLI::App& sub, SolveOptions& run, EnsembleArguments& ens
       ->type_name("TEXT");
   sub.add_option("--out", run.out, "Write the rows to FILE.csv instead of standard output.")->type_name("FILE");
   sub.add_flag("--json", run.json, "Print rows as JSON objects, one per line.");
-  sub.add_flag("--single", ensemble.single,
-               "A loop of single runs instead of eight in the lanes of a vector register.");
 }
 
 void addCompareOptions(CLI::App& sub, CompareOptions& options) {

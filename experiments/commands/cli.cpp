@@ -160,7 +160,7 @@ class Program {
   }
 
   void addEnsemble() {
-    auto* sub = verb(app_, "ensemble", "a small scene over a grid of parameters or starts, eight runs at a time",
+    auto* sub = verb(app_, "ensemble", "one scene over a grid of parameters or starts, a row per run",
                      [this](Streams s) { return takeFields(), ensembleCommand(ensemble_, s); });
     addEnsembleOptions(*sub, solve_, ensemble_);
     addLoad(*sub);

@@ -46,8 +46,8 @@ class SolveReferences {
   ReferenceLibrary library_;
 };
 
-/// The spec that the options describe. Throws Misuse.
-RunSpec solveSpec(const SolveOptions& options);
+/// The spec that the options describe; what they leave out is as in `defaults`. Throws Misuse.
+RunSpec solveSpec(const SolveOptions& options, RunSpec defaults = {});
 
 /// The JSON object that `irk solve --json` prints, see solve.schema.json; indent -1: in one line.
 std::string solveJson(const RunRecord& record, int indent = 2);
@@ -74,7 +74,6 @@ int solveSweep(const Sweep& sweep, Streams streams);
 struct EnsembleArguments {
   SolveOptions run;                 ///< its settings may have lists and ranges (gridAxis); json: JSON lines
   std::vector<std::string> starts;  ///< component=VALUES, likewise
-  bool single = false;              ///< a loop of single runs instead of lanes
   int jobs = 0;                     ///< threads; 0 = one per processor
 };
 /// Prints a row per member of a grid, or writes it to `run.out`: values, outcome, final state, counters. Returns 1 if a

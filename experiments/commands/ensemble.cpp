@@ -2,30 +2,33 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <deque>
-#include <fstream>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
+#include <optional>
 
 #include "core/base/number_text.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
 #include "experiments/ensembles/ensemble_run.h"
+#include "experiments/runs/fields.h"
 #include "experiments/tables/environment.h"
 #include "experiments/tables/table.h"
-#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
 
-// The spec without the grid. Strategies that the user does not set are those of lanes.
+// The spec without the grid. What the user does not choose is made for many runs: the strategies that take the least
+// time, and no error bars, which take another integration each.
 RunSpec specOf(SolveOptions options) {
   options.settings.clear();
-  if (!isGiven(options, "configuration")) options.fields.emplace_back("configuration", "embedded");
-  if (!isGiven(options, "newton")) options.fields.emplace_back("newton", "simplified");
-  return solveSpec(options);
+  RunSpec defaults;
+  if (!isGiven(options, "configuration")) findField("configuration").set(defaults, "embedded");
+  RunSpec spec = solveSpec(options, defaults);
+  if (!isGiven(options, axisName<ErrorBarUse>())) spec.error_bar = ErrorBarUse::kNone;
+  if (!isGiven(options, "t_end")) spec.t_end = std::numeric_limits<double>::quiet_NaN();
+  return spec;
 }
 
 Grid gridOf(const EnsembleArguments& arguments) {
@@ -35,32 +38,40 @@ Grid gridOf(const EnsembleArguments& arguments) {
   return {std::move(parameters), std::move(starts)};
 }
 
-TableRow columnsOf(const EnsembleScene& scene) {
+TableRow columnsOf(const Ensemble& ensemble, bool bars) {
   TableRow columns;
-  for (const GridAxis& axis : scene.grid().parameters()) columns.push_back(axis.name);
-  for (const GridAxis& axis : scene.grid().starts()) columns.push_back(axis.name + "_start");
+  for (const GridAxis& axis : ensemble.grid().parameters()) columns.push_back(axis.name);
+  for (const GridAxis& axis : ensemble.grid().starts()) columns.push_back(axis.name + "_start");
   columns.insert(columns.end(), {"outcome", "t"});
-  columns.insert(columns.end(), scene.names().begin(), scene.names().end());
+  columns.insert(columns.end(), ensemble.names().begin(), ensemble.names().end());
   Counters{}.forEach([&](const char* name, std::int64_t) { columns.emplace_back(name); });
+  if (bars) columns.emplace_back("error_bar_tolerances");
   columns.emplace_back("detail");
   return columns;
 }
 
-TableRow cellsOf(const EnsembleScene& scene, std::size_t i, const Solution<double>& solution) {
+// The final state with the digits of its scalar; `nan` for each of the components that a refused run does not have.
+TableRow stateOf(const RunRecord& record, std::size_t components) {
+  if (!record.digits.empty()) return record.digits;
+  TableRow state;
+  for (const Vec<double>* part : {&record.u, &record.v, &record.x, &record.z}) {
+    for (const double y : *part) state.push_back(numberText(y));
+  }
+  state.resize(components, "nan");
+  return state;
+}
+
+TableRow cellsOf(const Ensemble& ensemble, std::size_t i, bool bars, const RunRecord& record) {
   TableRow cells;
-  for (const std::string_view value : scene.grid().at(i)) cells.emplace_back(value);
-  const State<double>& state = solution.state;
-  cells.emplace_back(name(solution.outcome));
-  cells.push_back(numberText(state.t));
-  const auto append = [&](const auto& part) {
-    for (const double x : part) cells.push_back(numberText(x));
-  };
-  append(state.u);
-  append(state.v);
-  append(state.x);
-  append(state.z());
-  solution.counters.forEach([&](const char*, std::int64_t count) { cells.push_back(std::to_string(count)); });
-  cells.push_back(solution.detail);
+  for (const std::string_view value : ensemble.grid().at(i)) cells.emplace_back(value);
+  cells.push_back(record.outcome);
+  cells.push_back(numberText(record.t));
+  const TableRow state = stateOf(record, ensemble.names().size());
+  cells.insert(cells.end(), state.begin(), state.end());
+  record.counters.forEach([&](const char*, std::int64_t count) { cells.push_back(std::to_string(count)); });
+  const RunErrorBar& bar = record.error_bar;
+  if (bars) cells.push_back(numberText(bar.tolerances));
+  cells.push_back(record.detail + (record.detail.empty() || bar.problem.empty() ? "" : "; ") + bar.problem);
   return cells;
 }
 
@@ -77,8 +88,12 @@ std::string jsonLine(const TableRow& columns, const TableRow& cells) {
 /// Writes the rows in the order of the grid, each as soon as those before it are known.
 class MemberRows {
  public:
-  MemberRows(const EnsembleScene& scene, const RunSpec& spec, const EnsembleArguments& arguments, std::ostream& out)
-      : scene_(scene), columns_(columnsOf(scene)), json_(arguments.run.json), out_(out) {
+  MemberRows(const Ensemble& ensemble, const RunSpec& spec, const EnsembleArguments& arguments, std::ostream& out)
+      : ensemble_(ensemble),
+        bars_(spec.error_bar != ErrorBarUse::kNone),
+        columns_(columnsOf(ensemble, bars_)),
+        json_(arguments.run.json),
+        out_(out) {
     if (!arguments.run.out.empty()) {
       if (json_) throw Misuse("--out with --json: the file is CSV; leave one of them out");
       Table table{environmentHead("ensemble", arguments.jobs), columns_, {}};
@@ -86,15 +101,14 @@ class MemberRows {
       table.head.emplace_back("method", spec.method);
       table.head.emplace_back("rtol", numberText(spec.options.tolerances.rtol));
       table.head.emplace_back("atol", numberText(spec.options.tolerances.atol));
-      table.head.emplace_back("lanes", std::to_string(arguments.single ? 1 : kLanes));
       file_.emplace(arguments.run.out, table);
     } else if (!json_) {
       out_ << csvLine(columns_) << '\n';
     }
   }
-  void add(std::size_t i, const Solution<double>& solution) {
-    ++outcomes_[std::string(name(solution.outcome))];
-    waiting_[i] = cellsOf(scene_, i, solution);
+  void add(std::size_t i, const RunRecord& record) {
+    ++outcomes_[record.outcome];
+    waiting_[i] = cellsOf(ensemble_, i, bars_, record);
     for (auto row = waiting_.find(next_); row != waiting_.end(); row = waiting_.find(++next_)) {
       write(row->second);
       waiting_.erase(row);
@@ -113,7 +127,8 @@ class MemberRows {
     out_ << (json_ ? jsonLine(columns_, row) : csvLine(row)) << '\n';
   }
 
-  const EnsembleScene& scene_;
+  const Ensemble& ensemble_;
+  bool bars_;
   TableRow columns_;
   bool json_;
   std::ostream& out_;
@@ -127,14 +142,11 @@ class MemberRows {
 
 int ensembleCommand(const EnsembleArguments& arguments, Streams streams) {
   const RunSpec spec = specOf(arguments.run);
-  const double t_end = isGiven(arguments.run, "t_end") ? spec.t_end : std::numeric_limits<double>::quiet_NaN();
-  const EnsembleScene scene(spec, gridOf(arguments), t_end);
-  if (!arguments.single) static_cast<void>(LaneIntegrator(makeTableau<double>(spec.method), spec.options));
-  if (!arguments.single) static_cast<void>(scene.lanes());
-  MemberRows rows(scene, spec, arguments, streams.out);
+  const Ensemble ensemble(spec, gridOf(arguments));
+  MemberRows rows(ensemble, spec, arguments, streams.out);
   const InterruptScope interrupts;
-  const double seconds = runEnsemble(scene, spec, {!arguments.single, threadCount(arguments.jobs), &interruptFlag()},
-                                     [&](std::size_t i, const Solution<double>& solution) { rows.add(i, solution); });
+  const double seconds = runEnsemble(ensemble, threadCount(arguments.jobs), interruptFlag(),
+                                     [&](std::size_t i, const RunRecord& record) { rows.add(i, record); });
   rows.finish();
   std::size_t all = 0;
   std::string text;
@@ -142,10 +154,10 @@ int ensembleCommand(const EnsembleArguments& arguments, Streams streams) {
     all += count;
     text += fmt::format("{} {} {}", text.empty() ? ":" : ",", count, outcome);
   }
-  fmt::print(streams.err, "{} of {} runs{}; {:.3g} s of CPU time\n", all, scene.grid().size(), text, seconds);
+  fmt::print(streams.err, "{} of {} runs{}; {:.3g} s of CPU time\n", all, ensemble.grid().size(), text, seconds);
   if (interruptFlag()) return kInterruptedStatus;
   const auto succeeded = rows.outcomes().find(std::string(name(Outcome::kSuccess)));
-  return succeeded != rows.outcomes().end() && succeeded->second == scene.grid().size() ? 0 : kFailedStatus;
+  return succeeded != rows.outcomes().end() && succeeded->second == ensemble.grid().size() ? 0 : kFailedStatus;
 }
 
 }  // namespace irk

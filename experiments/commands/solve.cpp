@@ -206,8 +206,8 @@ std::string failureText(const RunRecord& record) {
 
 }  // namespace
 
-RunSpec solveSpec(const SolveOptions& options) {
-  RunSpec spec;
+RunSpec solveSpec(const SolveOptions& options, RunSpec defaults) {
+  RunSpec spec = std::move(defaults);
   findField("scene").set(spec, options.scene);
   for (const auto& setting : options.settings) {
     const std::size_t before = spec.settings.size();

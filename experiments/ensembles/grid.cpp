@@ -76,6 +76,7 @@ Grid::Grid(std::vector<GridAxis> parameters, std::vector<GridAxis> starts)
       size_ *= axis.values.size();
     }
   }
+  for (const GridAxis& axis : starts_) starts_size_ *= axis.values.size();
 }
 
 std::vector<std::string_view> Grid::at(std::size_t i) const {

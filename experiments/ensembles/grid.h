@@ -31,10 +31,13 @@ class Grid {
   const std::vector<GridAxis>& starts() const { return starts_; }
   /// The values of combination i: of the parameters, then of the starts.
   std::vector<std::string_view> at(std::size_t i) const;
+  /// The number of the combination of parameters in combination i. Neighbours that differ in their starts only have the
+  /// same one.
+  std::size_t parametersOf(std::size_t i) const { return i / starts_size_; }
 
  private:
   std::vector<GridAxis> parameters_, starts_;
-  std::size_t size_ = 1;
+  std::size_t size_ = 1, starts_size_ = 1;
 };
 
 }  // namespace irk

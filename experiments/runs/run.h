@@ -108,6 +108,10 @@ class PreparedRun {
   virtual void wholeCall() = 0;
   /// The names of the components u, v, x, z and of the scene's outputs.
   virtual std::vector<std::string> columns() const = 0;
+  /// Replaces components of u, v, x of the scene's start, given by name with decimal values, in all following runs. The
+  /// scene's exact solution and references are those of its own start: errors are unknown from now on. Throws Misuse
+  /// for another name and for a text that is no number.
+  virtual void startFrom(const Settings& components) = 0;
 };
 
 /// Builds the scene, method and integrator of a spec. Throws Misuse for every spec that can never work.

@@ -12,6 +12,7 @@
 #include "core/control/order_controller.h"
 #include "core/derivatives/constraint_check.h"
 #include "core/estimates/variable_order.h"
+#include "experiments/base/decimal.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "irk/dependent_constraints.h"
 #include "irk/multiprecision.h"
@@ -115,10 +116,27 @@ Setup<Real> setUp(RunSpec spec, Scene<Real> scene) {
   return {std::move(spec), std::move(scene), std::move(system), std::move(methods), std::move(scale)};
 }
 
+template <class Real>
+State<Real> startWith(const Scene<Real>& scene, const Settings& components) {
+  State<Real> start = scene.start;
+  const Index nu = start.u.size(), known = 2 * nu + start.x.size();
+  const std::vector<std::string> names(scene.names.begin(), scene.names.begin() + known);
+  for (const auto& [name, value] : components) {
+    const Index at = std::find(names.begin(), names.end(), name) - names.begin();
+    if (at == known) throw Misuse("--start: " + unknownName("component of u, v, x", name, names));
+    static_cast<void>(parseNumber("--start " + name, value, kAnyNumber));
+    Real& y = at < nu ? start.u[at] : at < 2 * nu ? start.v[at - nu] : start.x[at - 2 * nu];
+    y = decimalNumber<Real>(value);
+  }
+  return start;
+}
+
 template Vec<double> toleranceScale(const Scene<double>&, const RunSpec&, const Sizes&);
 template Vec<double> toleranceScale(const Scene<BigFloat>&, const RunSpec&, const Sizes&);
 template Scene<double> sceneOf(const RunSpec&);
 template Scene<BigFloat> sceneOf(const RunSpec&);
+template State<double> startWith(const Scene<double>&, const Settings&);
+template State<BigFloat> startWith(const Scene<BigFloat>&, const Settings&);
 template Setup<double> setUp(RunSpec, Scene<double>);
 template Setup<BigFloat> setUp(RunSpec, Scene<BigFloat>);
 template std::string Setup<double>::advice(Outcome) const;

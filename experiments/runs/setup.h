@@ -55,4 +55,9 @@ Setup<Real> makeSetup(const RunSpec& spec);
 template <class Real>
 Scene<Real> sceneOf(const RunSpec& spec);
 
+/// The scene's start with these values of components of u, v, x. Throws Misuse for another name and for a text that is
+/// no number.
+template <class Real>
+State<Real> startWith(const Scene<Real>& scene, const Settings& components);
+
 }  // namespace irk

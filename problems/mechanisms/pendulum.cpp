@@ -63,8 +63,7 @@ struct Pendulum {
             .parameters = {positiveParameter("m", "kg", "mass", "1"), positiveParameter("l", "m", "length", "1"),
                            positiveParameter("g", "m/s^2", "gravity", "9.81")},
             .panels = {{"positions", {"x", "y"}}, {"velocities", {"x'", "y'"}}, {"multiplier", {"lambda"}}},
-            .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<Pendulum>};
+            .reference_cases = {{.times = "0.5 1 5", .tolerance = kManyDigits}}};
   }
 };
 

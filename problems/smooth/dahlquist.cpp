@@ -37,8 +37,7 @@ struct Dahlquist {
             .literature = "HW II (IV.3)",
             .parameters = {numberParameter("lambda_re", "1/s", "real part of lambda", "-1", -1e15, 1e15),
                            numberParameter("lambda_im", "1/s", "imaginary part of lambda", "1", -1e15, 1e15)},
-            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<Dahlquist>};
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}};
   }
 };
 

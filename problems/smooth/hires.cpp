@@ -39,10 +39,9 @@ struct Hires {
             .shows = "a moderately stiff ODE of the standard test sets",
             .collections = {"ivp"},
             .literature = "IVP test set, HIRES; HW II (IV.10)",
-            .reference_cases =
-                {{.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
-                  .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<Hires>};
+            .reference_cases = {
+                {.times = "5 32.18122 64.36244 80 96.54366 128.72488 160.9061 193.08732 225.26854 257.44976 289.63098",
+                 .tolerance = kManyDigits}}};
   }
 };
 

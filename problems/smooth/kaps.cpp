@@ -35,8 +35,7 @@ struct Kaps {
             .kind = SceneKind::kSingularlyPerturbed,
             .stiffness = {.parameter = "eps", .reciprocal = true},
             .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3)},
-            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<Kaps>};
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}};
   }
 };
 

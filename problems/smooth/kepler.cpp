@@ -71,8 +71,7 @@ struct Kepler {
             .collections = {"probes"},
             .parameters = {numberParameter("e", "", "eccentricity", "0.6", 0, 0.99)},
             .panels = {{"orbit", {"q1:q2"}}, {"positions", {"q1", "q2"}}, {"velocities", {"q1'", "q2'"}}},
-            .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<Kepler>};
+            .reference_cases = {{.times = "10 30", .tolerance = kManyDigits}}};
   }
 };
 

@@ -32,8 +32,7 @@ struct MechanicalDae {
             .title = "two coordinates on a curve, gyroscopic and nonlinear forces",
             .shows = "orders of q, v and lambda in every formulation",
             .collections = {"probes"},
-            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<MechanicalDae>};
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}};
   }
 };
 

@@ -37,8 +37,7 @@ struct ProtheroRobinson {
             .kind = SceneKind::kStiffTest,
             .stiffness = {.parameter = "lambda"},
             .parameters = {numberParameter("lambda", "1/s", "stiffness", "-1e8", -1e15, 1e15)},
-            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<ProtheroRobinson>};
+            .reference_cases = {{.times = "0.25 0.5", .tolerance = kManyDigits}}};
   }
 };
 

@@ -33,8 +33,7 @@ struct VanDerPol {
             .parameters = {numberParameter("eps", "", "1 / stiffness", "1e-6", 1e-15, 1e3),
                            numberParameter("start_y2", "", "y2 at the start; IVP test set: 0", "-0.66", -1e3, 1e3)},
             .panels = {{"y1", {"y1"}}, {"y2", {"y2"}, "1e6", 1e-6}},
-            .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<VanDerPol>};
+            .reference_cases = {{.times = "0.2 0.4 0.5 0.6 0.8 1 1.2 1.4 1.6 1.8", .tolerance = kManyDigits}}};
   }
 };
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -14,7 +13,6 @@
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/differentiator.h"
 #include "irk/dependent_constraints.h"
-#include "irk/lanes.h"
 #include "irk/misuse.h"
 #include "irk/system_check.h"
 #include "problems/support/row_check.h"
@@ -129,13 +127,6 @@ BigFloat decimal<BigFloat>(const char* text) {
   return BigFloat(text);
 }
 
-template <>
-Lanes decimal<Lanes>(const char* text) {
-  Lanes all = std::strtod(text, nullptr);
-  for (std::size_t i = 1; (text = std::strchr(text, ';')) && i < kLanes; ++i) all.set(i, std::strtod(++text, nullptr));
-  return all;
-}
-
 template <class Real>
 Real number(const Settings& settings, const std::string& name) {
   const auto found = settings.find(name);
@@ -145,7 +136,7 @@ Real number(const Settings& settings, const std::string& name) {
   const char* const text = found->second.c_str();
   char* end = nullptr;
   static_cast<void>(std::strtod(text, &end));
-  if (end == text || (*end != '\0' && !(std::is_same_v<Real, Lanes> && *end == ';'))) {
+  if (end == text || *end != '\0') {
     throw Misuse(fmt::format("the parameter {} = '{}' is not a number", name, found->second));
   }
   return decimal<Real>(text);
@@ -155,10 +146,6 @@ template <class Real>
 Real piOf() {
   using std::acos;
   return acos(Real(-1));
-}
-template <>
-Lanes piOf<Lanes>() {
-  return piOf<double>();
 }
 
 std::vector<Component> named(const std::string& unit, std::initializer_list<const char*> names) {
@@ -328,7 +315,6 @@ void completeStart(Scene<Real>& scene, const std::vector<std::string>& unknown) 
 
 template double number<double>(const Settings&, const std::string&);
 template BigFloat number<BigFloat>(const Settings&, const std::string&);
-template Lanes number<Lanes>(const Settings&, const std::string&);
 template double piOf<double>();
 template BigFloat piOf<BigFloat>();
 template void setComponents<double>(Scene<double>&, const std::vector<Component>&, const std::vector<Component>&,

@@ -55,8 +55,7 @@ struct CarAxis {
             .collections = {"ivp", "multibody"},
             .literature = "IVP test set, CARAXIS",
             .panels = {{"heights of the ends", {"yl", "yr"}}},
-            .reference_cases = {{.tolerance = kFewDigits}},
-            .make_lanes = lanesOf<CarAxis>};
+            .reference_cases = {{.tolerance = kFewDigits}}};
   }
 };
 

@@ -38,8 +38,7 @@ struct ChemicalAkzo {
             .collections = {"ivp"},
             .literature = "IVP test set, CHEMAKZO",
             .kind = SceneKind::kIndex1,
-            .reference_cases = {{.times = "20", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<ChemicalAkzo>};
+            .reference_cases = {{.times = "20", .tolerance = kManyDigits}}};
   }
 };
 

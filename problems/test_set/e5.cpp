@@ -41,8 +41,7 @@ struct E5 {
             .collections = {"ivp"},
             .literature = "IVP test set, E5; HW II (IV.10)",
             .kind = SceneKind::kIndex1,
-            .reference_cases = {{.times = "10 1e5 1e9 1e11"}},
-            .make_lanes = lanesOf<E5>};
+            .reference_cases = {{.times = "10 1e5 1e9 1e11"}}};
   }
 };
 

@@ -26,8 +26,7 @@ struct Oregonator {
             .shows = "steps over ten decades: slow drifts and fast transitions",
             .collections = {"ivp"},
             .literature = "IVP test set, OREGO; HW II (IV.10)",
-            .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}},
-            .make_lanes = lanesOf<Oregonator>};
+            .reference_cases = {{.times = "30 180", .tolerance = kManyDigits}}};
   }
 };
 

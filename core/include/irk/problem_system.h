@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
-#include <concepts>
 #include <memory>
 #include <string>
 #include <utility>
@@ -201,17 +200,15 @@ class ProblemSystem final : public System<Real> {
 
   static constexpr bool kHasTimes = requires(const P& problem) { problem.times(); };
 
-  // The problem's times and the kinks, ascending and each once. Lanes have neither, nor an order.
+  // The problem's times and the kinks, ascending and each once.
   void setTimes(const std::vector<Real>& kinks) {
-    if constexpr (std::totally_ordered<Real>) {
-      std::vector<Real> own;
-      if constexpr (kHasTimes) requireTimes(own = problem_.times());
-      for (std::size_t i = 0, k = 0; i < own.size() || k < kinks.size();) {
-        const bool kink = i == own.size() || (k < kinks.size() && kinks[k] < own[i]);
-        if (!kink && k < kinks.size() && kinks[k] == own[i]) ++k;
-        own_time_.push_back(kink ? -1 : static_cast<Index>(i));
-        times_.push_back(kink ? kinks[k++] : own[i++]);
-      }
+    std::vector<Real> own;
+    if constexpr (kHasTimes) requireTimes(own = problem_.times());
+    for (std::size_t i = 0, k = 0; i < own.size() || k < kinks.size();) {
+      const bool kink = i == own.size() || (k < kinks.size() && kinks[k] < own[i]);
+      if (!kink && k < kinks.size() && kinks[k] == own[i]) ++k;
+      own_time_.push_back(kink ? -1 : static_cast<Index>(i));
+      times_.push_back(kink ? kinks[k++] : own[i++]);
     }
   }
 

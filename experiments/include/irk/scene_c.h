@@ -19,7 +19,7 @@
  * Matrices are stored by columns. Time is in s. `self` is what irk_scene_open has made, or NULL without this function.
  * Functions with a result return 0, or another number where they cannot be computed: then the step is made smaller.
  * They must depend on their arguments and on `self` only, since steps are repeated. Numbers are double: runs in 50
- * digits, lanes (irk ensemble needs --single) and the formulation ggl do not exist for such a scene. */
+ * digits and the formulation ggl do not exist for such a scene. */
 #ifndef IRK_SCENE_C_H
 #define IRK_SCENE_C_H
 

@@ -109,11 +109,6 @@ struct ReferenceCase {
   double step = 0;
 };
 
-struct Lanes;
-/// Makes the system of eight values per parameter, side by side: a completed setting is one number, or kLanes with ';'
-/// between. See irk/scene_lanes.h.
-using LanesMaker = std::shared_ptr<const System<Lanes>> (*)(const Settings& values, const SystemOptions& options);
-
 /// The description of a scene in the catalogue. Programs and figures take all that they know of a scene from it.
 struct SceneEntry {
   std::string id;
@@ -132,8 +127,6 @@ struct SceneEntry {
   /// offer this scalar.
   std::function<Scene<double>(const Settings&)> make = {};
   std::function<Scene<BigFloat>(const Settings&)> make_big_float = {};
-  /// For ensembles: `.make_lanes = lanesOf<FourBar>` (irk/scene_lanes.h). Null: the scene has no lanes.
-  LanesMaker make_lanes = nullptr;
   /// Set by registerScene: that it is not one of the library's, and the file that it comes from, if the program loaded
   /// it.
   bool registered = false;

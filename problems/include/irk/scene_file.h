@@ -41,7 +41,6 @@
 
 #include "irk/registration.h"
 #include "irk/scene.h"
-#include "irk/scene_lanes.h"
 
 namespace irk {
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/control/controller.h"
-#include "irk/ensemble.h"
 #include "irk/error_bar.h"
 #include "irk/multiprecision.h"
 #include "tests/core/support.h"
@@ -67,7 +66,6 @@ TEST(Misuse, TableausMadeByHandAreChecked) {
          [&] {
            Integrator<double>(makeSystem<double>(Riccati{}), Methods<double>({good, bad}, 0), variable);
          }},
-        {"LaneIntegrator", place + message, [&] { LaneIntegrator(bad, laneOptions({})); }},
     });
   }
   EXPECT_EQ(refusal([&] { Integrator<double>(makeSystem<double>(Riccati{}), good, adaptive(1e-6)); }), "");

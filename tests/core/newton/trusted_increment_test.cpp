@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "core/ensemble/lane_newton.h"
-#include "core/estimates/embedded.h"
 #include "core/steps/stepper.h"
 #include "irk/problem_system.h"
 #include "tests/core/support.h"
@@ -47,33 +45,6 @@ TEST(TrustedIncrement, ATinyContractionAfterAHugeIncrementDoesNotCount) {
   norm.update(start);
   const auto result = stepper.attempt(stepper.stages(), start, 1, end);
   EXPECT_EQ(result.outcome, Outcome::kNewtonFailed) << end.z()[0];
-}
-
-// The same step in lanes.
-TEST(TrustedIncrement, ItCountsInNoLaneEither) {
-  const Sizes sizes = Corner{}.sizes();
-  const ProblemSystem<Corner, Lanes> system(Corner{}, SystemOptions{});
-  const Scheme<double> scheme(makeTableau<double>("radau_iia_1"));
-  const double mu = EmbeddedEstimate<double>::weight(scheme.tableau);
-  const Lanes h = 1.0;
-  LaneState from(sizes);
-  LaneNorm norm(sizes, system.errorPowers(), {.rtol = 0, .atol = Corner::kTolerance});
-  LaneStages stages(scheme, sizes, system.rowPowers(), mu);
-  LaneNewton newton(scheme, sizes, system.rowPowers(), adaptive(Corner::kTolerance), mu);
-  LaneMask all;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    newton.restart(i);
-    all.set(i, true);
-  }
-  norm.update(from, h);
-  stages.use(system);
-  stages.begin(from, h);
-  std::vector<Lanes> W(static_cast<std::size_t>(sizes.n()));
-  stages.predict({}, W);
-  LaneCounters counters;
-  const LaneSolved solved = newton.solve(stages, norm, from, h, all, Lanes(newton.kappa(0, false)), W, counters);
-  EXPECT_FALSE(solved.solved.any()) << W[1][0];
-  for (const Outcome outcome : solved.outcome) EXPECT_EQ(outcome, Outcome::kNewtonFailed);
 }
 
 }  // namespace

@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "irk/integrator.h"
 #include "irk/misuse.h"
+#include "irk/problem.h"
 #include "irk/scene.h"
 #include "irk/tableaus.h"
 #include "irk/vanishes.h"
-#include "tests/core/ensemble/problems.h"
 
 namespace irk::test {
 namespace {
@@ -30,12 +29,10 @@ struct Undamped {
     r.u[0] = (-1 / length) * sin(p.u[0]) + p.u[1] * p.x[0] + cos(p.t) - p.a[0];
     r.u[1] = -p.u[1] * p.u[1] * p.u[1] - p.u[1] + p.u[0] - (1 + p.u[0] * p.u[0]) * p.a[1];
     r.x[0] = p.u[1] - p.x[0] - p.k[0];
-    if constexpr (!std::is_same_v<Real, Lanes>) {
-      if (!vanishes(damping) && p.t >= damped_from) r.u[0] -= damping * p.v[0];
-    }
+    if (!vanishes(damping) && p.t >= damped_from) r.u[0] -= damping * p.v[0];
   }
   bool usesVelocity() const { return !declared; }
-  static void start(State<double>& s, double) {
+  static void start(State<double>& s) {
     s.u << 1, -0.5;
     s.v << 0.3, 0.2;
   }
@@ -45,7 +42,7 @@ Solution<double> solved(const Undamped<double>& problem, const IntegratorOptions
                         Formulation formulation = Formulation::kIndex2) {
   const auto system = makeSystem<double>(problem, {formulation});
   State<double> start(system->sceneSizes());
-  Undamped<double>::start(start, 0);
+  Undamped<double>::start(start);
   return Integrator<double>(system, makeTableau<double>("radau_iia_3"), options).integrate(start, 3);
 }
 
@@ -123,21 +120,6 @@ TEST(VelocityFree, AResidualThatReadsVLaterFails) {
   const auto solution = solved({1.3, true, 0.1, 1}, {});
   EXPECT_EQ(solution.outcome, Outcome::kNotFinite) << solution.detail;
   EXPECT_LE(solution.state.t, 1);
-}
-
-TEST(VelocityFree, LanesEqualSingleRuns) {
-  const Members<Undamped> members{{1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9}, 3};
-  const IntegratorOptions options = lanesAt(1e-6);
-  const auto lanes = inLanes(members.ensemble(), inOrder(members.parameters.size()), "radau_iia_3", options);
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const EnsembleMember member = members.member(i);
-    Undamped<double> twin{members.parameters[i], false};
-    Integrator<double> integrator(makeSystem<double>(twin), makeTableau<double>("radau_iia_3"), options);
-    const auto single = integrator.integrate(member.start, member.t_end);
-    ASSERT_EQ(lanes[i].outcome, Outcome::kSuccess) << lanes[i].detail;
-    EXPECT_LT((lanes[i].state.u - single.state.u).norm(), 1e-8);
-    EXPECT_LT((lanes[i].state.v - single.state.v).norm(), 1e-8);
-  }
 }
 
 TEST(VelocityFree, WhatScenesDeclareIsTrue) {

@@ -6,7 +6,8 @@
 #include <sstream>
 
 #include "core/base/number_text.h"
-#include "experiments/ensembles/grid.h"
+#include "experiments/ensembles/ensemble_run.h"
+#include "experiments/runs/fields.h"
 #include "experiments/tables/table.h"
 #include "irk/misuse.h"
 #include "tests/experiments/program.h"
@@ -42,43 +43,115 @@ std::vector<nlohmann::json> objectsOf(const std::string& lines) {
   return all;
 }
 
-// All scenes with lanes: rows of lanes and of single runs agree, and those with an exact solution or a reference are
-// right.
-TEST(EnsembleVerb, RowsAreThoseOfSingleRuns) {
-  const std::vector<std::vector<std::string>> grids = {{"van_der_pol", "--set", "eps=1e-4..1e-1:11:log"},
-                                                       {"kaps", "--set", "eps=1e-6..1:11:log"},
-                                                       {"robertson", "--start", "y1=0.5..1:11"},
-                                                       {"hires", "--start", "y8=0.003..0.009:11"},
-                                                       {"orego", "--start", "y2=1..3:11", "--t-end", "30"},
-                                                       {"dahlquist", "--set", "lambda_re=-100..-1:11"},
-                                                       {"prothero_robinson", "--set", "lambda=-1000..-1:11"},
-                                                       {"kepler", "--set", "e=0.1..0.6:11", "--t-end", "6"},
-                                                       {"pendulum", "--set", "l=0.5..2:11", "--t-end", "2"},
-                                                       {"caraxis", "--formulation", "index2,"},
-                                                       {"mechanical_dae", "--formulation", "index1"},
-                                                       {"chemakzo", "--start", "y1=0.4,0.444"},
-                                                       {"e5", "--t-end", "1e5"}};
-  for (auto arguments : grids) {
-    SCOPED_TRACE(arguments.front());
-    if (arguments.back() == "index2,") arguments.back() = "index2";
-    arguments.insert(arguments.begin(), "ensemble");
-    arguments.insert(arguments.end(), {"--method", "radau_iia_3", "--tol", "1e-6", "--json", "--jobs", "2"});
-    const auto lanes = program(arguments);
-    arguments.push_back("--single");
-    const auto single = program(arguments);
-    ASSERT_EQ(lanes.status, 0) << lanes.err << lanes.out;
-    ASSERT_EQ(single.status, 0) << single.err;
-    const auto a = objectsOf(lanes.out), b = objectsOf(single.out);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      for (const auto& [key, value] : b[i].items()) {
-        if (!value.is_number_float() || !a[i][key].is_number()) continue;
-        EXPECT_NEAR(a[i][key].get<double>(), value.get<double>(), 1e-6 * (1e-3 + std::abs(value.get<double>()))) << key;
-      }
-      // Rounding changes a decision in some runs, see the tests of LaneIntegrator.
-      const auto steps = b[i]["steps_accepted"].get<double>();
-      EXPECT_NEAR(a[i]["steps_accepted"].get<double>(), steps, 0.01 * steps) << i;
+// Kinds of methods, scalars, scenes and formulations. Without options the strategies are those of `embedded`.
+TEST(EnsembleVerb, RowsAreThoseOfSolve) {
+  const struct {
+    std::vector<std::string> run;
+    std::string name, grid, last;
+  } cases[] = {
+      {{"van_der_pol"}, "eps", "1e-4..1e-2:3:log", "0.01"},
+      {{"kepler", "--method", "gauss_3", "--configuration", "default", "--t-end", "3"}, "e", "0.1,0.3", "0.3"},
+      {{"kepler", "--step", "0.1", "--configuration", "embedded"}, "e", "0.1,0.3", "0.3"},
+      {{"kepler", "--method", "cvode_bdf", "--t-end", "3"}, "e", "0.1,0.3", "0.3"},
+      {{"kepler", "--scalar", "mp30", "--t-end", "1", "--configuration", "default"}, "e", "0.1,0.3", "0.3"},
+      {{"hires", "--configuration", "variable", "--t-end", "10"}, "", "", ""},
+      {{"bouncing_mass"}, "m", "1,2", "2"},
+      {{"pendulum", "--formulation", "ggl", "--configuration", "embedded"}, "l", "0.5..2:3", "2"},
+      {{"pendulum", "--formulation", "index2_projected", "--configuration", "embedded"}, "l", "0.5..2:3", "2"},
+      {{"pendulum", "--formulation", "first_order", "--configuration", "embedded"}, "l", "0.5..2:3", "2"},
+  };
+  for (const auto& c : cases) {
+    std::vector<std::string> many = c.run, one = c.run;
+    many.insert(many.begin(), "ensemble"), one.insert(one.begin(), "solve");
+    if (!c.name.empty()) {
+      many.insert(many.end(), {"--set", c.name + "=" + c.grid});
+      one.insert(one.end(), {"--set", c.name + "=" + c.last});
     }
+    many.insert(many.end(), {"--json", "--jobs", "2"});
+    one.insert(one.end(), {"--json", "--error-bar", "none"});
+    if (c.run.size() == 1) one.insert(one.end(), {"--configuration", "embedded"});
+    const auto rows = program(many), single = program(one);
+    SCOPED_TRACE(c.run.front() + " " + (c.run.size() > 2 ? c.run[2] : ""));
+    ASSERT_EQ(rows.status, 0) << rows.err << rows.out;
+    ASSERT_EQ(single.status, 0) << single.err;
+    const auto row = objectsOf(rows.out).back(), expected = nlohmann::json::parse(single.out);
+    EXPECT_EQ(row["outcome"], expected["outcome"]);
+    EXPECT_EQ(row["steps_accepted"], expected["steps"]["accepted"]);
+    EXPECT_EQ(row["newton_iterations"], expected["counters"]["newton_iterations"]);
+    for (const char* group : {"u", "v", "x", "z"}) {
+      for (std::size_t i = 0; i < expected["names"][group].size(); ++i) {
+        const std::string name = expected["names"][group][i];
+        const auto& value = expected[group][i];
+        EXPECT_EQ(row[name].get<double>(),
+                  value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>())
+            << name;
+      }
+    }
+  }
+}
+
+// All that a record says of the result, with all digits.
+std::string textOf(const RunRecord& record) {
+  std::string text = record.outcome + " " + record.detail + " " + numberText(record.t);
+  for (const Vec<double>* part : {&record.u, &record.v, &record.x, &record.z}) {
+    for (const double y : *part) text += " " + numberText(y);
+  }
+  record.counters.forEach([&](const char*, std::int64_t count) { text += " " + std::to_string(count); });
+  return text;
+}
+
+std::vector<std::string> textsOf(const Ensemble& ensemble, int jobs) {
+  std::vector<std::string> texts(ensemble.grid().size());
+  runEnsemble(ensemble, jobs, false, [&](std::size_t i, const RunRecord& record) { texts[i] = textOf(record); });
+  return texts;
+}
+
+// What a thread has prepared and used for other starts, also for those that cannot be solved, gives the bits of a new
+// run.
+TEST(Ensemble, StartsOfEveryScene) {
+  for (const SceneEntry& entry : sceneCatalogue()) {
+    if (entry.registered) continue;
+    SCOPED_TRACE(entry.id);
+    RunSpec spec;
+    spec.scene = entry.id;
+    spec.method = "radau_iia_3";
+    findField("configuration").set(spec, "embedded");
+    spec.options.step.max_steps = 15;
+    const auto scene = makeScene<double>(entry.id);
+    const bool mechanism = scene.start.u.size() > 0;
+    const std::string name = scene.names[static_cast<std::size_t>(mechanism ? scene.start.u.size() : 0)];
+    const double own = mechanism ? scene.start.v[0] : scene.start.x[0];
+    GridAxis axis{name, {}};
+    for (const double change : {0.0, 1e-3, -1e-2, 1e300, 0.0}) axis.values.push_back(numberText(own + change));
+    const Ensemble ensemble(spec, Grid({}, {axis}));
+    const auto rows = textsOf(ensemble, 1);
+    EXPECT_EQ(rows, textsOf(ensemble, 3));
+    EXPECT_NE(rows[0], rows[1]);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto single = prepare(ensemble.spec(i));
+      single->startFrom(ensemble.start(i));
+      EXPECT_EQ(rows[i], textOf(single->execute({}))) << i;
+    }
+  }
+}
+
+// The scene's exact solution is that of its own start.
+TEST(Run, FromAnotherStartHasNoError) {
+  RunSpec spec;
+  spec.scene = "dahlquist";
+  spec.options.tolerances = {1e-12, 1e-12};
+  const auto own = execute(spec);
+  EXPECT_LT(own.errors.all, 1e-9);
+  const std::string name = makeScene<double>("dahlquist").names[0];
+  for (const char* method : {"radau_iia_5", "cvode_bdf"}) {
+    spec.method = method;
+    const auto run = prepare(spec);
+    run->startFrom({{name, "2"}});
+    const auto twice = run->execute({});
+    EXPECT_NEAR((twice.x - 2 * own.x).norm(), 0, 1e-9) << method;
+    EXPECT_TRUE(std::isnan(twice.errors.all)) << method;
+    EXPECT_THROW(run->startFrom({{"y9", "2"}}), Misuse);
+    EXPECT_THROW(run->startFrom({{name, "two"}}), Misuse);
   }
 }
 
@@ -138,23 +211,48 @@ TEST(EnsembleVerb, FailedMembersAreRows) {
   EXPECT_NE(rows[1]["detail"], "");
 }
 
-TEST(EnsembleVerb, RefusesWhatLanesCannotIntegrate) {
+TEST(EnsembleVerb, MeasuresErrorBarsOnRequest) {
+  const std::vector<std::string> grid = {"ensemble", "kaps", "--set", "eps=1e-3,1", "--json"};
+  const auto plain = program(grid);
+  auto arguments = grid;
+  arguments.insert(arguments.end(), {"--error-bar", "measured"});
+  const auto rows = objectsOf(program(arguments).out);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_FALSE(objectsOf(plain.out).front().contains("error_bar_tolerances"));
+  for (const auto& row : rows) {
+    EXPECT_GT(row["error_bar_tolerances"].get<double>(), 0);
+    EXPECT_LT(row["error_bar_tolerances"].get<double>(), 1000);
+  }
+}
+
+// Each value is in its range, but with a short rod the crank cannot turn.
+TEST(EnsembleVerb, RefusedMembersAreRows) {
+  const auto run = program({"ensemble", "spatial_slider_crank", "--set", "L=0.3,0.01,0.4", "--t-end", "0.1", "--json"});
+  EXPECT_EQ(run.status, 1) << run.err;
+  const auto rows = objectsOf(run.out);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1]["outcome"], "refused");
+  EXPECT_NE(rows[1]["detail"].get<std::string>().find("the crank cannot turn"), std::string::npos);
+  EXPECT_EQ(rows[1].size(), rows[0].size());
+  EXPECT_EQ(rows[2]["outcome"], "success");
+}
+
+TEST(EnsembleVerb, RefusesWhatNoMemberCanHave) {
   const struct {
     std::vector<std::string> arguments;
     std::string part;
   } cases[] = {
-      {{"bouncing_mass"}, "bouncing_mass has no lanes"},
       {{"kepler", "--set", "e=0.5..1.5:3"}, "0.99"},
       {{"kepler", "--set", "a=1"}, "'a'"},
       {{"kepler", "--start", "q3=1"}, "'q3'"},
       {{"kepler", "--start", "q1=x"}, "'x'"},
-      {{"kepler", "--method", "gauss_3"}, "gauss_3"},
-      {{"kepler", "--method", "cvode_bdf"}, "cvode_bdf"},
-      {{"kepler", "--newton", "broyden"}, "'broyden'"},
-      {{"kepler", "--configuration", "default"}, "lanes have"},
-      {{"kepler", "--scalar", "mp50"}, "mp50"},
-      {{"kepler", "--step", "0.1"}, "lanes have"},
-      {{"pendulum", "--formulation", "ggl"}, "ggl"},
+      {{"kepler", "--start", "q1=1,x"}, "'x'"},
+      {{"kepler", "--method", "gauss_33"}, "gauss_33"},
+      {{"kepler", "--method", "radau_iia"}, "radau_iia_5"},
+      {{"kepler", "--threads", "2"}, "--jobs"},
+      {{"kepler", "--reference"}, "references"},
+      {{"pendulum", "--constraints", "independent", "--start", "x=1"}, "independent"},
+      {{"kepler", "--single"}, "--single"},
   };
   for (const auto& c : cases) {
     std::vector<std::string> arguments = {"ensemble"};
@@ -164,7 +262,6 @@ TEST(EnsembleVerb, RefusesWhatLanesCannotIntegrate) {
     EXPECT_EQ(run.out, "") << c.part;
     EXPECT_NE(run.err.find(c.part), std::string::npos) << run.err;
   }
-  EXPECT_EQ(program({"ensemble", "bouncing_mass", "--set", "m=1,2", "--single"}).status, 0);
 }
 
 }  // namespace

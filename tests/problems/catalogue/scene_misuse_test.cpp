@@ -1,7 +1,6 @@
-// Scenes of a user that do not fit together, names that do not exist, and lanes without settings.
+// Scenes of a user that do not fit together, and names that do not exist.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <limits>
 #include <memory>
 
@@ -127,20 +126,6 @@ TEST(SceneMisuse, EntriesAreChecked) {
          (void)references("kepler", {{"ee", "0"}});
        }},
       {"collection", "unknown collection 'ipv'; did you mean 'ivp'?", [] { (void)scenesOf("ipv"); }},
-  });
-}
-
-TEST(SceneMisuse, LanesNeedEightSettingsOfOneScene) {
-  const SceneEntry& kepler = findScene("kepler");
-  const std::array<Settings, kLanes> eight{};
-  const auto lanes = [](const SceneEntry& entry, std::span<const Settings> settings) {
-    return [&entry, settings] { (void)makeLanes(entry, settings, {}); };
-  };
-  EXPECT_EQ(refusal(lanes(kepler, eight)), "");
-  expectRefusals({
-      {"none", "scene kepler in lanes: 0 settings, 8 are expected", lanes(kepler, {})},
-      {"some", "scene kepler in lanes: 3 settings, 8 are expected", lanes(kepler, std::span(eight).first(3))},
-      {"a scene without lanes", "scene hydraulic_arm has no lanes", lanes(findScene("hydraulic_arm"), eight)},
   });
 }
 
