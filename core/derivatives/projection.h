@@ -1,22 +1,12 @@
 // Projects velocities onto dg/dt = 0: after each step of the formulation `index2_projected`, and at the end of index 3.
 #pragma once
 
-#include <algorithm>
-
 #include "core/derivatives/differentiator.h"
 #include "core/derivatives/rate_lu.h"
 #include "irk/outcome.h"
 #include "irk/statistics.h"
 
 namespace irk {
-
-/// Whether the system's constraints are those of positions (index 3): velocities then satisfy dg/dt = 0 only to the
-/// error of a step.
-template <class Real>
-bool isIndex3(const System<Real>& system) {
-  const auto& powers = system.errorPowers().v;
-  return std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
-}
 
 /// Solves M (v - v0) + G^T mu = 0, dg/dt(t, u, v) = 0: v is the velocity nearest to v0 in the norm of M. HW II
 /// (VII.2). The matrix is that of the acceleration level, D0 = [-M, -G^T; G, 0]. dg/dt is linear in v, so that

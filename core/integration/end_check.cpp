@@ -11,7 +11,7 @@ namespace irk {
 template <class Real>
 EndCheck finish(const System<Real>& system, const IntegratorOptions& options, const ErrorNorm<Real>& norm,
                 State<Real>& state, Counters& counters) {
-  if (isIndex3(system)) {
+  if (system.errorPowers().isIndex3()) {
     const Outcome projected = VelocityProjection<Real>(system, options.derivatives, counters).apply(state);
     if (projected != Outcome::kSuccess) return {projected, "at the end: velocities cannot be projected on dg/dt = 0"};
   }

@@ -49,7 +49,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       state_(system.sizes()),
       next_(system.sizes()) {
   const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
-  if (isIndex3(system) && stops) {
+  if (system.errorPowers().isIndex3() && stops) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const bool constrained = constrainedIn(system).sizes().constraints > 0;

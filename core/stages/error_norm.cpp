@@ -61,7 +61,7 @@ template <class Real>
 ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale)
     : sizes_(system.sizes()),
       powers_(system.errorPowers()),
-      index3_(std::any_of(powers_.v.begin(), powers_.v.end(), [](int power) { return power > 0; })),
+      index3_(powers_.isIndex3()),
       tolerances_(tolerances),
       scale_(componentScale(sizes_, scale)),
       weight_(Vec<double>::Ones(sizes_.components())) {}

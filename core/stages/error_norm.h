@@ -27,7 +27,7 @@ class ErrorNorm {
 
   /// The weights sc of (u, v, x, z); 2 nu + nx + nz numbers.
   const Vec<double>& weights() const { return weight_; }
-  /// Whether velocities have index 2: the system is in index 3.
+  /// Whether the system is in index 3 (ErrorPowers::isIndex3).
   bool index3() const { return index3_; }
   /// The larger one of rtol and atol.
   double tolerance() const { return std::max(tolerances_.rtol, tolerances_.atol); }

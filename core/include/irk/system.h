@@ -1,6 +1,7 @@
 // The one equation: r(t; u, v, x; a, k, z) = 0 with v = u', a = u'', k = x'.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -142,6 +143,12 @@ enum class Level { kFormulated, kPosition, kVelocity, kAcceleration };
 struct ErrorPowers {
   std::vector<int> u, v, x, z;
   bool operator==(const ErrorPowers&) const = default;
+
+  /// Whether velocities have index 2: the constraints are those of positions (index 3), and velocities satisfy
+  /// dg/dt = 0 only to the error of a step.
+  bool isIndex3() const {
+    return std::any_of(v.begin(), v.end(), [](int power) { return power > 0; });
+  }
 };
 
 /// A system in residual form. Evaluations have no side effects, so that threads may share a system; FirstOrderForm is
