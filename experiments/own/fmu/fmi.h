@@ -41,14 +41,10 @@ typedef struct {
 typedef fmiInstance fmi2InstantiateTYPE(const char* instance, int kind /* 0: Model Exchange */, const char* guid,
                                         const char* resources, const fmi2CallbackFunctions* callbacks, int visible,
                                         int logging);
-typedef void fmi2FreeInstanceTYPE(fmiInstance);
 typedef fmiStatus fmi2SetupExperimentTYPE(fmiInstance, int has_tolerance, double tolerance, double start, int has_stop,
                                           double stop);
 typedef fmiStatus fmi2EnterInitializationModeTYPE(fmiInstance);
-typedef fmiStatus fmi2ExitInitializationModeTYPE(fmiInstance);
-typedef fmiStatus fmi2EnterEventModeTYPE(fmiInstance);
 typedef fmiStatus fmi2NewDiscreteStatesTYPE(fmiInstance, fmi2EventInfo*);
-typedef fmiStatus fmi2EnterContinuousTimeModeTYPE(fmiInstance);
 typedef fmiStatus fmi2CompletedIntegratorStepTYPE(fmiInstance, int no_former_state, int* enter_event_mode,
                                                   int* terminate);
 typedef fmiStatus fmi2GetRealTYPE(fmiInstance, const fmiReference*, size_t, double*);
@@ -61,6 +57,10 @@ typedef fmiStatus fmi2GetDirectionalDerivativeTYPE(fmiInstance, const fmiReferen
 
 /* --- The same functions in both versions: fmi2SetTime and fmi3SetTime, ... */
 
+typedef void fmiFreeInstanceTYPE(fmiInstance);
+typedef fmiStatus fmiExitInitializationModeTYPE(fmiInstance);
+typedef fmiStatus fmiEnterEventModeTYPE(fmiInstance);
+typedef fmiStatus fmiEnterContinuousTimeModeTYPE(fmiInstance);
 typedef fmiStatus fmiSetTimeTYPE(fmiInstance, double);
 typedef fmiStatus fmiSetContinuousStatesTYPE(fmiInstance, const double*, size_t);
 typedef fmiStatus fmiGetContinuousStatesTYPE(fmiInstance, double*, size_t);
@@ -79,14 +79,10 @@ typedef void fmi3LogMessageCallback(void* environment, fmiStatus status, const c
 typedef fmiInstance fmi3InstantiateModelExchangeTYPE(const char* instance, const char* token, const char* resources,
                                                      bool visible, bool logging, void* environment,
                                                      fmi3LogMessageCallback*);
-typedef void fmi3FreeInstanceTYPE(fmiInstance);
 typedef fmiStatus fmi3EnterInitializationModeTYPE(fmiInstance, bool has_tolerance, double tolerance, double start,
                                                   bool has_stop, double stop);
-typedef fmiStatus fmi3ExitInitializationModeTYPE(fmiInstance);
-typedef fmiStatus fmi3EnterEventModeTYPE(fmiInstance);
 typedef fmiStatus fmi3UpdateDiscreteStatesTYPE(fmiInstance, bool* again, bool* terminate, bool* nominals_changed,
                                                bool* states_changed, bool* has_next_time, double* next_time);
-typedef fmiStatus fmi3EnterContinuousTimeModeTYPE(fmiInstance);
 typedef fmiStatus fmi3CompletedIntegratorStepTYPE(fmiInstance, bool no_former_state, bool* enter_event_mode,
                                                   bool* terminate);
 typedef fmiStatus fmi3GetFloat64TYPE(fmiInstance, const fmiReference*, size_t, double*, size_t);

@@ -20,33 +20,8 @@ class Fmi2Instance final : public CommonInstance {
         fmu.description.name.c_str(), 0, fmu.description.token.c_str(), resources.c_str(), &callbacks_, 0, 0);
     if (!instance_) throw Misuse("fmi2Instantiate fails" + (message_.empty() ? "" : ": " + message_));
   }
-  ~Fmi2Instance() override {
-    if (!instance_) return;
-    forgetStart();
-    get<fmi2FreeInstanceTYPE>("fmi2FreeInstance")(instance_);
-  }
+  ~Fmi2Instance() override { free(); }
 
-  FmuEvent begin(const std::vector<FmuValue>& values, double start, double stop) override {
-    require(get<fmi2SetupExperimentTYPE>("fmi2SetupExperiment")(instance_, 0, 0, start, 1, stop),
-            "fmi2SetupExperiment");
-    for (const auto& [variable, value] : values) set(*variable, value);
-    require(get<fmi2EnterInitializationModeTYPE>("fmi2EnterInitializationMode")(instance_),
-            "fmi2EnterInitializationMode");
-    require(get<fmi2ExitInitializationModeTYPE>("fmi2ExitInitializationMode")(instance_), "fmi2ExitInitializationMode");
-    const FmuEvent event = settle();
-    keepStart();
-    return event;
-  }
-  FmuEvent event() override {
-    int wants_event = 0, terminates = 0;
-    if (fmu_.description.steps_completed) {
-      require(step_(instance_, 1, &wants_event, &terminates), "fmi2CompletedIntegratorStep");
-    }
-    require(enter_event_(instance_), "fmi2EnterEventMode");
-    FmuEvent event = settle();
-    event.terminates = event.terminates || terminates != 0;
-    return event;
-  }
   bool product(const double* seed, double* to) override {
     return good(get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, to));
   }
@@ -81,27 +56,30 @@ class Fmi2Instance final : public CommonInstance {
     require(status, ("setting " + variable.name).c_str());
   }
 
-  FmuEvent settle() {
-    FmuEvent event;
+  void initialize(const std::vector<FmuValue>& values, double start, double stop) override {
+    require(get<fmi2SetupExperimentTYPE>("fmi2SetupExperiment")(instance_, 0, 0, start, 1, stop),
+            "fmi2SetupExperiment");
+    for (const auto& [variable, value] : values) set(*variable, value);
+    require(get<fmi2EnterInitializationModeTYPE>("fmi2EnterInitializationMode")(instance_),
+            "fmi2EnterInitializationMode");
+  }
+  bool completeStep() override {
+    int wants_event = 0, terminates = 0;
+    require(step_(instance_, 1, &wants_event, &terminates), "fmi2CompletedIntegratorStep");
+    return terminates != 0;
+  }
+  bool update(FmuEvent& event) override {
     fmi2EventInfo info{};
-    for (int pass = 0; pass == 0 || (info.newDiscreteStatesNeeded && !info.terminateSimulation); ++pass) {
-      if (pass == kMaxEventPasses) refuseEndless();
-      info = {};
-      require(new_states_(instance_, &info), "fmi2NewDiscreteStates");
-      event.states_changed = event.states_changed || info.valuesOfContinuousStatesChanged != 0;
-    }
+    require(new_states_(instance_, &info), "fmi2NewDiscreteStates");
+    event.states_changed = event.states_changed || info.valuesOfContinuousStatesChanged != 0;
     event.terminates = info.terminateSimulation != 0;
     event.has_next_time = info.nextEventTimeDefined != 0;
     event.next_time = info.nextEventTime;
-    if (!event.terminates) require(enter_continuous_(instance_), "fmi2EnterContinuousTimeMode");
-    return event;
+    return info.newDiscreteStatesNeeded != 0;
   }
 
   fmi2CallbackFunctions callbacks_{};
-  fmi2EnterEventModeTYPE* enter_event_ = get<fmi2EnterEventModeTYPE>("fmi2EnterEventMode");
   fmi2NewDiscreteStatesTYPE* new_states_ = get<fmi2NewDiscreteStatesTYPE>("fmi2NewDiscreteStates");
-  fmi2EnterContinuousTimeModeTYPE* enter_continuous_ =
-      get<fmi2EnterContinuousTimeModeTYPE>("fmi2EnterContinuousTimeMode");
   fmi2CompletedIntegratorStepTYPE* step_ = get<fmi2CompletedIntegratorStepTYPE>("fmi2CompletedIntegratorStep");
   fmi2SetRealTYPE* set_real_ = get<fmi2SetRealTYPE>("fmi2SetReal");
   fmi2GetRealTYPE* get_real_ = get<fmi2GetRealTYPE>("fmi2GetReal");

@@ -14,31 +14,8 @@ class Fmi3Instance final : public CommonInstance {
         fmu.description.name.c_str(), fmu.description.token.c_str(), resources.c_str(), false, false, this, log);
     if (!instance_) throw Misuse("fmi3InstantiateModelExchange fails" + (message_.empty() ? "" : ": " + message_));
   }
-  ~Fmi3Instance() override {
-    if (!instance_) return;
-    forgetStart();
-    get<fmi3FreeInstanceTYPE>("fmi3FreeInstance")(instance_);
-  }
+  ~Fmi3Instance() override { free(); }
 
-  FmuEvent begin(const std::vector<FmuValue>& values, double start, double stop) override {
-    for (const auto& [variable, value] : values) set(*variable, value);
-    require(get<fmi3EnterInitializationModeTYPE>("fmi3EnterInitializationMode")(instance_, false, 0, start, true, stop),
-            "fmi3EnterInitializationMode");
-    require(get<fmi3ExitInitializationModeTYPE>("fmi3ExitInitializationMode")(instance_), "fmi3ExitInitializationMode");
-    const FmuEvent event = settle();
-    keepStart();
-    return event;
-  }
-  FmuEvent event() override {
-    bool wants_event = false, terminates = false;
-    if (fmu_.description.steps_completed) {
-      require(step_(instance_, true, &wants_event, &terminates), "fmi3CompletedIntegratorStep");
-    }
-    require(enter_event_(instance_), "fmi3EnterEventMode");
-    FmuEvent event = settle();
-    event.terminates = event.terminates || terminates;
-    return event;
-  }
   bool product(const double* seed, double* to) override {
     return good(
         get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, n_, to, n_));
@@ -66,26 +43,27 @@ class Fmi3Instance final : public CommonInstance {
     require(status, ("setting " + variable.name).c_str());
   }
 
-  FmuEvent settle() {
-    FmuEvent event;
-    bool again = true;
-    for (int pass = 0; again && !event.terminates; ++pass) {
-      if (pass == kMaxEventPasses) refuseEndless();
-      bool nominals_changed = false, states_changed = false;
-      again = event.has_next_time = false;
-      require(update_(instance_, &again, &event.terminates, &nominals_changed, &states_changed, &event.has_next_time,
-                      &event.next_time),
-              "fmi3UpdateDiscreteStates");
-      event.states_changed = event.states_changed || states_changed;
-    }
-    if (!event.terminates) require(enter_continuous_(instance_), "fmi3EnterContinuousTimeMode");
-    return event;
+  void initialize(const std::vector<FmuValue>& values, double start, double stop) override {
+    for (const auto& [variable, value] : values) set(*variable, value);
+    require(get<fmi3EnterInitializationModeTYPE>("fmi3EnterInitializationMode")(instance_, false, 0, start, true, stop),
+            "fmi3EnterInitializationMode");
+  }
+  bool completeStep() override {
+    bool wants_event = false, terminates = false;
+    require(step_(instance_, true, &wants_event, &terminates), "fmi3CompletedIntegratorStep");
+    return terminates;
+  }
+  bool update(FmuEvent& event) override {
+    bool again = false, nominals_changed = false, states_changed = false;
+    event.has_next_time = false;
+    require(update_(instance_, &again, &event.terminates, &nominals_changed, &states_changed, &event.has_next_time,
+                    &event.next_time),
+            "fmi3UpdateDiscreteStates");
+    event.states_changed = event.states_changed || states_changed;
+    return again;
   }
 
-  fmi3EnterEventModeTYPE* enter_event_ = get<fmi3EnterEventModeTYPE>("fmi3EnterEventMode");
   fmi3UpdateDiscreteStatesTYPE* update_ = get<fmi3UpdateDiscreteStatesTYPE>("fmi3UpdateDiscreteStates");
-  fmi3EnterContinuousTimeModeTYPE* enter_continuous_ =
-      get<fmi3EnterContinuousTimeModeTYPE>("fmi3EnterContinuousTimeMode");
   fmi3CompletedIntegratorStepTYPE* step_ = get<fmi3CompletedIntegratorStepTYPE>("fmi3CompletedIntegratorStep");
   fmi3SetFloat64TYPE* set_real_ = get<fmi3SetFloat64TYPE>("fmi3SetFloat64");
   fmi3GetFloat64TYPE* get_real_ = get<fmi3GetFloat64TYPE>("fmi3GetFloat64");

@@ -13,12 +13,18 @@ namespace irk::own {
 /// Passes of event mode after which an FMU is said not to settle.
 inline constexpr int kMaxEventPasses = 1000;
 
-/// The functions that both versions have under the names fmi2NAME and fmi3NAME, and the messages of the FMU.
+/// The functions that both versions have under the names fmi2NAME and fmi3NAME, the sequence of their calls, and the
+/// messages of the FMU.
 class CommonInstance : public FmuInstance {
  public:
   CommonInstance(const FmuLibrary& fmu, const std::string& prefix, const char* derivatives)
       : fmu_(fmu),
         n_(fmu.description.states.size()),
+        prefix_(prefix),
+        free_(get<fmiFreeInstanceTYPE>(prefix + "FreeInstance")),
+        exit_initialization_(get<fmiExitInitializationModeTYPE>(prefix + "ExitInitializationMode")),
+        enter_event_(get<fmiEnterEventModeTYPE>(prefix + "EnterEventMode")),
+        enter_continuous_(get<fmiEnterContinuousTimeModeTYPE>(prefix + "EnterContinuousTimeMode")),
         set_time_(get<fmiSetTimeTYPE>(prefix + "SetTime")),
         set_states_(get<fmiSetContinuousStatesTYPE>(prefix + "SetContinuousStates")),
         get_states_(get<fmiGetContinuousStatesTYPE>(prefix + "GetContinuousStates")),
@@ -34,6 +40,20 @@ class CommonInstance : public FmuInstance {
     for (const auto& state : fmu.description.states) references_.push_back(state.reference);
   }
 
+  FmuEvent begin(const std::vector<FmuValue>& values, double start, double stop) final {
+    initialize(values, start, stop);
+    require(exit_initialization_(instance_), prefix_ + "ExitInitializationMode");
+    const FmuEvent event = settle();
+    if (keep_state_ && !good(keep_state_(instance_, &start_))) start_ = nullptr;
+    return event;
+  }
+  FmuEvent event() final {
+    const bool terminates = fmu_.description.steps_completed && completeStep();
+    require(enter_event_(instance_), prefix_ + "EnterEventMode");
+    FmuEvent event = settle();
+    event.terminates = event.terminates || terminates;
+    return event;
+  }
   bool returnToStart() final { return start_ && good(set_state_(instance_, start_)); }
 
   bool setPoint(double t, const double* states) final {
@@ -48,6 +68,20 @@ class CommonInstance : public FmuInstance {
   }
 
  protected:
+  /// Gives the values to the FMU and enters initialization mode.
+  virtual void initialize(const std::vector<FmuValue>& values, double start, double stop) = 0;
+  /// Tells the FMU that a step is complete. Returns whether it ends the simulation.
+  virtual bool completeStep() = 0;
+  /// One pass of event mode; `event` has the result of the passes before. Returns whether another one is needed.
+  virtual bool update(FmuEvent& event) = 0;
+  /// To be called by destructors: while the FMU frees its memory it may use what the derived class has given to it.
+  void free() {
+    if (!instance_) return;
+    if (start_) free_state_(instance_, &start_);
+    free_(instance_);
+    instance_ = nullptr;
+  }
+
   // Sources put the name of the model before those of the functions.
   template <class Function>
   Function* get(const std::string& name) const {
@@ -57,21 +91,10 @@ class CommonInstance : public FmuInstance {
   }
   static bool good(fmiStatus status) { return status == fmiOK || status == fmiWarning; }
   /// Throws Misuse unless the call has worked.
-  void require(fmiStatus status, const char* function) const {
+  void require(fmiStatus status, const std::string& function) const {
     if (good(status)) return;
     throw Misuse(fmt::format("{} fails with status {}{}{}", function, static_cast<int>(status),
                              message_.empty() ? "" : ": ", message_));
-  }
-  [[noreturn]] static void refuseEndless() {
-    throw Misuse(fmt::format("event mode does not settle in {} passes", kMaxEventPasses));
-  }
-  /// To be called at the end of `begin`, and before the instance is freed.
-  void keepStart() {
-    if (keep_state_ && !good(keep_state_(instance_, &start_))) start_ = nullptr;
-  }
-  void forgetStart() {
-    if (start_) free_state_(instance_, &start_);
-    start_ = nullptr;
   }
   void keepMessage(fmiStatus status, const char* text) {
     if (status < fmiWarning || !text) return;
@@ -87,6 +110,25 @@ class CommonInstance : public FmuInstance {
   std::string message_;               // the FMU's last one about a failure
 
  private:
+  // From event mode to continuous-time mode.
+  FmuEvent settle() {
+    FmuEvent event;
+    bool again = true;
+    for (int pass = 0; again && !event.terminates; ++pass) {
+      if (pass == kMaxEventPasses) {
+        throw Misuse(fmt::format("event mode does not settle in {} passes", kMaxEventPasses));
+      }
+      again = update(event);
+    }
+    if (!event.terminates) require(enter_continuous_(instance_), prefix_ + "EnterContinuousTimeMode");
+    return event;
+  }
+
+  std::string prefix_;
+  fmiFreeInstanceTYPE* free_;
+  fmiExitInitializationModeTYPE* exit_initialization_;
+  fmiEnterEventModeTYPE* enter_event_;
+  fmiEnterContinuousTimeModeTYPE* enter_continuous_;
   fmiSetTimeTYPE* set_time_;
   fmiSetContinuousStatesTYPE* set_states_;
   fmiGetContinuousStatesTYPE* get_states_;
