@@ -17,7 +17,7 @@
 #include "experiments/kernels/benchmark_main.h"
 #include "experiments/kernels/direct_calls.h"
 #include "experiments/runs/fields.h"
-#include "experiments/runs/peers/loaded/hairer.h"
+#include "experiments/runs/peers/loaded/adapters.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/peers/problem/make_problem.h"
 #include "experiments/runs/setup.h"

@@ -1,4 +1,4 @@
-#include "experiments/runner/join_ranks.h"
+#include "experiments/runner/ranks.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,6 @@
 #include <cstdlib>
 
 #include "irk/misuse.h"
-
-#ifdef IRK_HAS_MPI
-#include "experiments/runner/mpi_ranks.h"
-#endif
 
 namespace irk {
 namespace {

@@ -1,6 +1,6 @@
 #ifdef IRK_HAS_MPI
 
-#include "experiments/runner/mpi_ranks.h"
+#include "experiments/runner/ranks.h"
 
 #include <mpi.h>
 

@@ -74,6 +74,12 @@ class Ranks {
 
 /// This process alone.
 std::unique_ptr<Ranks> aloneRank();
+/// The ranks of MPI_COMM_WORLD; only where CMake has found MPI. Initializes MPI; the destructor finalizes it. Throws
+/// Misuse if the MPI library does not support calls from several threads in turn.
+std::unique_ptr<Ranks> mpiRanks();
+/// The ranks of MPI_COMM_WORLD if mpirun or srun has started this process with others, else this process alone. Throws
+/// Misuse if every rank would make all runs: the program was built without MPI, or srun has started it without MPI.
+std::unique_ptr<Ranks> joinRanks();
 
 /// The ranks that measure times, in ascending order: the first one of each host. The others must be idle, because they
 /// would disturb the measurement.

@@ -1,4 +1,4 @@
-#include "experiments/runs/peers/loaded/c_peer.h"
+#include "experiments/runs/peers/loaded/adapters.h"
 
 #include <fmt/format.h>
 

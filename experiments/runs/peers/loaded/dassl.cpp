@@ -1,4 +1,4 @@
-#include "experiments/runs/peers/loaded/dassl.h"
+#include "experiments/runs/peers/loaded/adapters.h"
 
 #include <fmt/format.h>
 

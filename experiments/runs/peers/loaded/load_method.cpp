@@ -10,9 +10,7 @@
 #include "experiments/own/crash.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/peers/catalogue.h"
-#include "experiments/runs/peers/loaded/c_peer.h"
-#include "experiments/runs/peers/loaded/dassl.h"
-#include "experiments/runs/peers/loaded/hairer.h"
+#include "experiments/runs/peers/loaded/adapters.h"
 #include "irk/misuse.h"
 #include "irk/tableaus.h"
 
