@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/constants.h"
 #include "core/options/fixed_steps.h"
@@ -63,6 +64,72 @@ struct SwitchErrors {
   }
 };
 
+// Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both
+// ends of it, and by their rate in between, so that a component that passes through zero is none of them.
+template <class Real>
+class SmallComponents {
+ public:
+  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale)
+      : absolute_(tolerances.norm == NormKind::kAbsolute), scale_(scale) {
+    if (scale.size() == 0) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
+    of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
+    forEach(start, [&](Component& c, Index i, double y, double) {
+      c.tolerance = tolerances.of(scale_[i], 0);
+      c.begins_below = y < c.tolerance;
+      c.starts_at_zero = y == 0;
+      c.first = y;
+    });
+  }
+
+  void look(const StepRecord<Real>& step) {
+    const double h = std::abs(step.h);
+    forEach(step.state, [&](Component& c, Index, double y, double rate) {
+      if (c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = true;
+      c.begins_below = y < c.tolerance;
+      if (c.first == 0) c.first = y;
+    });
+  }
+
+  // The scale that leaves them to rtol; empty if there are none, and in the absolute norm. One that begins with zero
+  // has that of its first value.
+  Vec<double> relativeScale() const {
+    constexpr double nothing = 1e-100;
+    Vec<double> result;
+    if (absolute_) return result;
+    for (std::size_t i = 0; i < of_.size(); ++i) {
+      if (!of_[i].small) continue;
+      if (result.size() == 0) result = scale_;
+      result[static_cast<Index>(i)] = of_[i].starts_at_zero ? of_[i].first : nothing;
+    }
+    return result;
+  }
+
+ private:
+  struct Component {
+    double tolerance = 0;
+    double first = 0;  // the first magnitude that is not zero
+    bool starts_at_zero = false, begins_below = false, small = false;
+  };
+  // Calls f(component, its index, its magnitude, that of its rate).
+  template <class F>
+  void forEach(const State<Real>& s, F&& f) {
+    const auto size = [](const Real& value) { return std::abs(static_cast<double>(value)); };
+    const auto add = [&](Index i, const Real& y, const Real& rate) {
+      f(of_[static_cast<std::size_t>(i)], i, size(y), size(rate));
+    };
+    const Index nu = s.u.size();
+    for (Index i = 0; i < nu; ++i) {
+      add(i, s.u[i], s.v[i]);
+      add(nu + i, s.v[i], s.w[i]);
+    }
+    for (Index i = 0; i < s.x.size(); ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
+  }
+
+  bool absolute_;
+  Vec<double> scale_;
+  std::vector<Component> of_;
+};
+
 template <class Real>
 IntegratorOptions independentOptions(const IntegratorOptions& first) {
   IntegratorOptions second;
@@ -92,6 +159,70 @@ IntegratorOptions independentOptions(const IntegratorOptions& first) {
   return second;
 }
 
+namespace {
+
+// What a measurement is made for.
+template <class Real>
+struct Measured {
+  const State<Real>& result;
+  const State<Real>& start;
+  const Tolerances& tolerances;
+  const Vec<double>& scale;
+  const Monitor<Real>& monitor;
+  const std::optional<Real>& t_end;
+};
+
+template <class Real>
+ErrorBar unknownBar(const State<Real>& result, const Solution<Real>& second) {
+  ErrorBar bar;
+  bar.u = unknown(result.u.size());
+  bar.v = unknown(result.v.size());
+  bar.x = unknown(result.x.size());
+  bar.z = unknown(result.z().size());
+  bar.problem = "the second integration ended as " + std::string(name(second.outcome));
+  if (!second.detail.empty()) bar.problem += ": " + second.detail;
+  return bar;
+}
+
+// The bar by one integration with `second`, whose result it sets.
+template <class Real>
+ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real> watched, Solution<Real>& other) {
+  SwitchErrors<Real> switches(of.result);
+  watched.located = [&](const LocatedSwitch<Real>& at) {
+    switches.add(at);
+    if (of.monitor.located) of.monitor.located(at);
+  };
+  other = second.integrate(of.start, of.t_end ? *of.t_end : of.result.t, watched);
+  if (other.outcome != Outcome::kSuccess) return unknownBar(of.result, other);
+  ErrorBar bar;
+  bar.u = distances<Real>(of.result.u, other.state.u) + switches.u;
+  bar.v = distances<Real>(of.result.v, other.state.v) + switches.v;
+  bar.x = distances<Real>(of.result.x, other.state.x) + switches.x;
+  bar.z = distances<Real>(of.result.z(), other.state.z());
+  if (of.t_end) bar.t = std::abs(static_cast<double>(Real(of.result.t - other.state.t)));
+  weigh(other.state, of.tolerances, of.scale, bar);
+  return bar;
+}
+
+// The same with small components under control, within a limit of steps; unknown if there are none.
+template <class Real>
+ErrorBar relativeBar(Integrator<Real>& second, const Measured<Real>& of, const Vec<double>& relative_scale,
+                     Solution<Real>& other) {
+  if (relative_scale.size() == 0) return unknownBar(of.result, other);
+  std::int64_t left = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
+  Monitor<Real> watched = of.monitor;
+  watched.interrupt = [&] {
+    if (left-- <= 0) return Outcome::kTimeout;
+    return of.monitor.interrupt ? of.monitor.interrupt() : Outcome::kSuccess;
+  };
+  second.weighErrorsBy(relative_scale);
+  const ErrorBar bar = barBy(second, of, watched, other);
+  second.weighErrorsBy({});
+  return bar;
+}
+
+}  // namespace
+
 template <class Real>
 ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                          const Tolerances& tolerances, const Vec<double>& scale, Solution<Real>& second_result,
@@ -103,31 +234,19 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   IntegratorOptions checked;
   checked.tolerances = tolerances;
   validate(checked);
-  SwitchErrors<Real> switches(result);
+  const Measured<Real> of{result, start, tolerances, scale, monitor, t_end};
+  SmallComponents<Real> small(start, tolerances, scale);
   Monitor<Real> watched = monitor;
-  watched.located = [&](const LocatedSwitch<Real>& at) {
-    switches.add(at);
-    if (monitor.located) monitor.located(at);
+  watched.accepted = [&](const StepRecord<Real>& step) {
+    small.look(step);
+    if (monitor.accepted) monitor.accepted(step);
   };
-  second_result = second.integrate(start, t_end ? *t_end : result.t, watched);
-  ErrorBar bar;
-  if (second_result.outcome != Outcome::kSuccess) {
-    bar.u = unknown(result.u.size());
-    bar.v = unknown(result.v.size());
-    bar.x = unknown(result.x.size());
-    bar.z = unknown(result.z().size());
-    bar.problem = "the second integration ended as " + std::string(name(second_result.outcome));
-    if (!second_result.detail.empty()) bar.problem += ": " + second_result.detail;
-    return bar;
-  }
-  const State<Real>& other = second_result.state;
-  bar.u = distances<Real>(result.u, other.u) + switches.u;
-  bar.v = distances<Real>(result.v, other.v) + switches.v;
-  bar.x = distances<Real>(result.x, other.x) + switches.x;
-  bar.z = distances<Real>(result.z(), other.z());
-  if (t_end) bar.t = std::abs(static_cast<double>(Real(result.t - other.t)));
-  weigh(other, tolerances, scale, bar);
-  return bar;
+  const ErrorBar bar = barBy(second, of, watched, second_result);
+  Solution<Real> relative_result;
+  const ErrorBar relative = relativeBar(second, of, small.relativeScale(), relative_result);
+  if (!relative.known()) return bar;
+  second_result = std::move(relative_result);
+  return relative;
 }
 
 double largestErrorBar(const Tolerances& tolerances) {

@@ -15,6 +15,7 @@
 #include "core/integration/stop_rule.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
+#include "core/system/component_scale.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
 #include "irk/system_check.h"
@@ -112,6 +113,19 @@ class Integrator<Real>::Run {
     return solution;
   }
 
+  void weighErrorsBy(const Vec<double>& scale) {
+    const InUse use(in_use_, "Integrator::weighErrorsBy");
+    Vec<double> all = componentScale(system_->sizes(), scale_);
+    if (scale.size() > all.size() || !(scale.array() > 0).all() || !scale.allFinite()) {
+      throw Misuse("Integrator::weighErrorsBy: the scale needs at most " + std::to_string(all.size()) +
+                   " numbers, all > 0");
+    }
+    all.head(scale.size()) = scale;
+    trajectory_.weighErrorsBy(all);
+    if (backward_) backward_->weighErrorsBy(scale);
+    error_scale_ = scale;
+  }
+
  private:
   const State<Real>& state() const { return trajectory_.state(); }
 
@@ -120,6 +134,7 @@ class Integrator<Real>::Run {
     requireState("start", start, system_->sceneSizes());
     if (!backward_) {
       backward_ = std::make_unique<Run>(reversedSystem(system_), schemes_, start_, options_, scale_);
+      backward_->weighErrorsBy(error_scale_);
     }
     requireNoJumps(*backward_->system_, start, t_end);
     Solution<Real> solution = backward_->integrate(reversed(start), opposite(t_end), reversed(monitor));
@@ -302,7 +317,7 @@ class Integrator<Real>::Run {
   SchemeList<Real> schemes_;
   std::size_t start_;
   IntegratorOptions options_;
-  Vec<double> scale_;
+  Vec<double> scale_, error_scale_;
   StopRule<Real> stop_rule_;
   Counters counters_;
   CountingSystem<Real> counted_;
@@ -332,6 +347,12 @@ template <class Real>
 Solution<Real> Integrator<Real>::integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
   if (!run_) throw Misuse("Integrator::integrate: the object has been moved from");
   return run_->integrate(start, t_end, monitor);
+}
+
+template <class Real>
+void Integrator<Real>::weighErrorsBy(const Vec<double>& scale) {
+  if (!run_) throw Misuse("Integrator::weighErrorsBy: the object has been moved from");
+  run_->weighErrorsBy(scale);
 }
 
 IRK_INSTANTIATE_CLASS(Integrator)

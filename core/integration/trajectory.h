@@ -28,6 +28,8 @@ class Trajectory {
   Trajectory(const System<Real>& system, const SchemeList<Real>& schemes, std::size_t start,
              const IntegratorOptions& options, const Vec<double>& scale, Counters& counters);
 
+  /// Another scale of the error norm, from the next `begin` on.
+  void weighErrorsBy(const Vec<double>& scale) { norm_.setScale(scale); }
   /// Begins a new integration over `length`: carries out due switches and computes consistent (a, k, z).
   [[nodiscard]] Outcome begin(const State<Real>& start, double length, const Monitor<Real>& monitor);
 

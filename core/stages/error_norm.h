@@ -22,6 +22,9 @@ class ErrorNorm {
   /// determine them well, if they are computed anew at the end: their errors then do not enter the result.
   void leaveMultipliersOut() { leaves_multipliers_out_ = true; }
 
+  /// Another scale, of as many components, from the next update on.
+  void setScale(const Vec<double>& scale) { scale_ = scale; }
+
   /// Sets the weights from the magnitudes of `y`; call it before each step. In the absolute norm they are all atol.
   void update(const State<Real>& y);
 

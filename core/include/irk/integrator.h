@@ -40,6 +40,11 @@ class Integrator {
   [[nodiscard]] Solution<Real> integrate(const State<Real>& start, const Real& t_end,
                                          const Monitor<Real>& monitor = {});
 
+  /// The magnitudes that atol is multiplied by in the following integrations, instead of those of the constructor:
+  /// those of the first components of (u, v, x, z), all > 0. A component with a very small one is controlled by rtol
+  /// alone. Empty: those of the constructor again. Throws Misuse for other numbers, and during `integrate`.
+  void weighErrorsBy(const Vec<double>& scale);
+
  private:
   class Run;
   std::unique_ptr<Run> run_;

@@ -1,0 +1,162 @@
+// The error bar where components are below their absolute tolerance and matter later.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "irk/error_bar.h"
+#include "tests/core/trusted.h"
+
+namespace irk::test {
+namespace {
+
+struct SmallRun {
+  Solution<double> first, second;
+  ErrorBar bar;
+  std::int64_t steps = 0;  // of all integrations that measure
+};
+
+template <class P>
+SmallRun measuredSmall(const P& problem, const State<double>& start, double t_end, const IntegratorOptions& options) {
+  const auto system = makeSystem<double>(problem, {});
+  Integrator<double> one(system, makeTableau<double>("radau_iia_3"), options);
+  Integrator<double> other(system, makeMethods<double>("lobatto_iiic", 13, 4), independentOptions<double>(options));
+  SmallRun run;
+  run.first = one.integrate(start, t_end);
+  EXPECT_EQ(run.first.outcome, Outcome::kSuccess) << run.first.detail;
+  Monitor<double> monitor;
+  monitor.accepted = [&](const StepRecord<double>&) { ++run.steps; };
+  run.bar = measureErrorBar(run.first.state, other, start, options.tolerances, {}, run.second, monitor);
+  EXPECT_TRUE(run.bar.known()) << run.bar.problem;
+  return run;
+}
+
+void expectCovered(const Vec<double>& bars, const Vec<double>& result, const Vec<double>& exact, double tol) {
+  for (Index i = 0; i < exact.size(); ++i) {
+    const double error = std::abs(result[i] - exact[i]);
+    EXPECT_LE(error, 3 * (bars[i] + tol)) << "component " << i << " tol " << tol;
+    EXPECT_LE(bars[i], 1.1 * error + tol) << "component " << i << " tol " << tol;
+  }
+}
+
+/// A spiral that grows or decays with t - turn: x = r (cos w t, sin w t), r = r0 e^(t^2 / 2 - turn t). A delayed loss
+/// of stability: both components fall far below any tolerance and come back.
+struct SlowPassage {
+  double turn = 0;
+  double frequency = 3;
+  Sizes sizes() const { return {.nx = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T growth = p.t - turn;
+    r.x[0] = growth * p.x[0] - frequency * p.x[1] - p.k[0];
+    r.x[1] = frequency * p.x[0] + growth * p.x[1] - p.k[1];
+  }
+  Vec<double> exact(double r0, double t) const {
+    const double r = r0 * std::exp(t * (t / 2 - turn));
+    return Vec<double>{{r * std::cos(frequency * t), r * std::sin(frequency * t)}};
+  }
+};
+
+TEST(ErrorBarOfSmallComponents, CoversWhatComesBackFromFarBelowTheTolerance) {
+  for (const double turn : {0.0, 4.0, 9.0}) {  // with 9, r falls to 2.6e-18
+    const SlowPassage problem{turn};
+    State<double> start(problem.sizes());
+    const double r0 = turn == 0 ? 1e-9 : 1;
+    start.x[0] = r0;
+    const double t_end = turn == 0 ? 6.4 : 2 * turn;  // r is about 1
+    for (const double tol : {1e-3, 1e-5, 1e-8}) {
+      const SmallRun run = measuredSmall(problem, start, t_end, embedded(tol));
+      expectCovered(run.bar.x, run.first.state.x, problem.exact(r0, t_end), tol);
+      // What the bar is for: without a doubt of a result that is wrong.
+      if (tol == 1e-3) {
+        EXPECT_GT(run.bar.tolerances, 100) << turn;
+      }
+    }
+  }
+}
+
+/// u'' = 100 u: a pendulum that stands upright.
+struct Upright {
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = 100.0 * p.u[0] - p.a[0];
+  }
+};
+
+TEST(ErrorBarOfSmallComponents, CoversAnUnstableEquilibriumInSecondOrderForm) {
+  const Upright problem;
+  State<double> start(problem.sizes());
+  start.u[0] = 1e-9;  // and u' = 0: one of the components begins with zero
+  const double t_end = 2.1, turns = 10 * t_end;
+  for (const double tol : {1e-3, 1e-4}) {
+    const SmallRun run = measuredSmall(problem, start, t_end, embedded(tol));
+    expectCovered(run.bar.u, run.first.state.u, Vec<double>{{1e-9 * std::cosh(turns)}}, tol);
+    expectCovered(run.bar.v, run.first.state.v, Vec<double>{{1e-8 * std::sinh(turns)}}, 10 * tol);
+    EXPECT_GT(run.bar.tolerances, 100);
+  }
+}
+
+/// x' = -x + 1e-8 sin(1e6 t): a fast motion far below the tolerance.
+struct FastAndSmall {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.x[0] = -p.x[0] + 1e-8 * sin(1e6 * p.t) - p.k[0];
+  }
+};
+
+// It would take 1e6 steps. The effort has a limit, and the bar is then that of the second integration.
+TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
+  State<double> start(FastAndSmall{}.sizes());
+  start.x[0] = 1e-14;
+  const SmallRun run = measuredSmall(FastAndSmall{}, start, 1, embedded(1e-3));
+  EXPECT_LT(run.bar.tolerances, 1);
+  EXPECT_GT(run.steps, 5000);
+  EXPECT_LT(run.steps, 20000 + 1000);  // constants.h: 20 000 / unknowns
+}
+
+// A component that passes through zero is not small: one integration is enough.
+TEST(ErrorBarOfSmallComponents, DoesNotTakeZerosForSmallComponents) {
+  const SlowPassage oscillator{-1e-12, 3};  // its growth is t: integrate over a short time
+  State<double> start(oscillator.sizes());
+  start.x[0] = 1;
+  const SmallRun run = measuredSmall(oscillator, start, 1.5, embedded(1e-4));
+  EXPECT_EQ(run.steps, run.second.counters.steps_accepted);
+}
+
+// The norm weighs errors by the new scale, and by that of the constructor again.
+TEST(ErrorWeights, AreThoseOfTheScaleThatWasGivenLast) {
+  const SlowPassage problem{2};
+  State<double> start(problem.sizes());
+  start.x[0] = 1;
+  Integrator<double> integrator(makeSystem<double>(problem, {}), makeTableau<double>("radau_iia_3"), embedded(1e-4));
+  const auto steps = [&] { return integrator.integrate(start, 4).counters.steps_accepted; };
+  const std::int64_t before = steps();
+  integrator.weighErrorsBy(Vec<double>::Constant(2, 1e-30));
+  EXPECT_GT(steps(), before);
+  integrator.weighErrorsBy(Vec<double>::Constant(1, 1e3));
+  EXPECT_LE(steps(), before);
+  integrator.weighErrorsBy({});
+  EXPECT_EQ(steps(), before);
+  EXPECT_THROW(integrator.weighErrorsBy(Vec<double>::Constant(2, 0.0)), Misuse);
+  EXPECT_THROW(integrator.weighErrorsBy(Vec<double>::Constant(2, INFINITY)), Misuse);
+  EXPECT_THROW(integrator.weighErrorsBy(Vec<double>::Ones(3)), Misuse);
+}
+
+// In time that runs backward, too.
+TEST(ErrorWeights, HoldBackwardInTime) {
+  const SlowPassage problem{2};
+  State<double> start(problem.sizes());
+  start.x[0] = 1;
+  start.t = 4;
+  Integrator<double> integrator(makeSystem<double>(problem, {}), makeTableau<double>("radau_iia_3"), embedded(1e-4));
+  const auto steps = [&] { return integrator.integrate(start, 0).counters.steps_accepted; };
+  integrator.weighErrorsBy(Vec<double>::Constant(2, 1e-30));
+  const std::int64_t relative = steps();
+  integrator.weighErrorsBy({});
+  EXPECT_GT(relative, steps());
+}
+
+}  // namespace
+}  // namespace irk::test
