@@ -16,6 +16,12 @@ namespace {
 constexpr std::uintmax_t kMaxEvaluations = 200;
 // Solves of a step from which on every second one halves the bracket.
 constexpr int kSecants = 8;
+// More would not make the bracket smaller.
+template <class Real>
+int mostSolves() {
+  const double bits = -std::log2(static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon())));
+  return kSecants + 2 * static_cast<int>(std::ceil(bits));
+}
 
 template <class Real>
 Real epsilon() {
@@ -202,10 +208,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
   Real beyond(0);  // how far beyond the root of the dense output the switch is looked for
   Real slope = root.slope, noise(-1), last_step(0), last_g(0);
   result.index = root.index;
-  // Every second solve halves the bracket, from kSecants on: more would not make it smaller.
-  const double bits = -std::log2(static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon())));
-  const int most = kSecants + 2 * static_cast<int>(std::ceil(bits));
-  for (int solves = 0; solves < most; ++solves) {
+  for (int solves = 0; solves < mostSolves<Real>(); ++solves) {
     const bool settled = high - low <= resolution;
     if (settled) step = high;
     solveStep(attempt, from, step, next, result);

@@ -33,14 +33,14 @@ template <class Real>
 IntegratorOptions independentOptions(const IntegratorOptions& first);
 
 /// Measures the error of a `result` at the time result.t by a second integration of the same problem from `start` with
-/// `second`, which should have independentOptions. `second_result` is the result of the integration that measures. States are in the
-/// scene's unknowns; `scale`: magnitudes of their components as in Integrator, empty means 1. With a tenth
-/// of the tolerance the second result is nearly exact beside the first, so that their distance is the error itself:
-/// over 700 drawn runs of scenes that nobody tuned for, the median of bar over true error is 1.
+/// `second`, which should have independentOptions. `second_result` is the result of the integration that measures.
+/// States are in the scene's unknowns; `scale`: magnitudes of their components as in Integrator, empty means 1. With a
+/// tenth of the tolerance the second result is nearly exact beside the first, so that their distance is the error
+/// itself: over 700 drawn runs of scenes that nobody tuned for, the median of bar over true error is 1.
 /// Components that are below their absolute tolerance for whole steps of the second integration need not have a correct
 /// digit there, and may matter later: an epidemic of one case, a pendulum that stands upright, a delayed loss of
-/// stability. Two integrations may agree on a wrong result then. So a third one, which controls these components by rtol
-/// alone, takes the place of the second, if it takes no more steps than kBarEffort over the unknowns: a fast
+/// stability. Two integrations may agree on a wrong result then. So a third one, which controls these components by
+/// rtol alone, takes the place of the second, if it takes no more steps than kBarEffort over the unknowns: a fast
 /// motion far below the tolerance would need any number. Where the norm is absolute there is none.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
