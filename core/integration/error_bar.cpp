@@ -75,27 +75,31 @@ class SmallComponents {
     of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
     forEach(start, [&](Component& c, Index i, double y, double) {
       c.tolerance = tolerances.of(scale_[i], 0);
-      c.begins_below = y < c.tolerance;
       c.starts_at_zero = y == 0;
       c.first = y;
     });
   }
 
+  // An integration begins at `start`. What was found small before stays so.
+  void begin(const State<Real>& start) {
+    found_ = false;
+    forEach(start, [](Component& c, Index, double y, double) { c.begins_below = y < c.tolerance; });
+  }
   void look(const StepRecord<Real>& step) {
     const double h = std::abs(step.h);
     forEach(step.state, [&](Component& c, Index, double y, double rate) {
-      if (c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = true;
-      c.begins_below = y < c.tolerance;
       if (c.first == 0) c.first = y;
+      if (!c.small && !absolute_ && c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = found_ = true;
+      c.begins_below = y < c.tolerance;
     });
   }
+  // Whether this integration has found a further one.
+  bool found() const { return found_; }
 
-  // The scale that leaves them to rtol; empty if there are none, and in the absolute norm. One that begins with zero
-  // has that of its first value.
+  // The scale that leaves them to rtol; empty if there are none. One that begins with zero has that of its first value.
   Vec<double> relativeScale() const {
     constexpr double nothing = 1e-100;
     Vec<double> result;
-    if (absolute_) return result;
     for (std::size_t i = 0; i < of_.size(); ++i) {
       if (!of_[i].small) continue;
       if (result.size() == 0) result = scale_;
@@ -125,7 +129,8 @@ class SmallComponents {
     for (Index i = 0; i < s.x.size(); ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
   }
 
-  bool absolute_;
+  bool absolute_;  // the norm, in which no component can be left to rtol
+  bool found_ = false;
   Vec<double> scale_;
   std::vector<Component> of_;
 };
@@ -204,21 +209,32 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   return bar;
 }
 
-// The same with small components under control, within a limit of steps; unknown if there are none.
+// The same with all components under control that are found small on the way: the integration begins anew with each of
+// them. If that fails or takes too many steps, they are left as they are.
 template <class Real>
-ErrorBar relativeBar(Integrator<Real>& second, const Measured<Real>& of, const Vec<double>& relative_scale,
-                     Solution<Real>& other) {
-  if (relative_scale.size() == 0) return unknownBar(of.result, other);
+ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solution<Real>& other) {
   std::int64_t left = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
+  SmallComponents<Real> small(of.start, of.tolerances, of.scale);
   Monitor<Real> watched = of.monitor;
-  watched.interrupt = [&] {
-    if (left-- <= 0) return Outcome::kTimeout;
-    return of.monitor.interrupt ? of.monitor.interrupt() : Outcome::kSuccess;
+  watched.accepted = [&](const StepRecord<Real>& step) {
+    small.look(step);
+    if (of.monitor.accepted) of.monitor.accepted(step);
   };
-  second.weighErrorsBy(relative_scale);
-  const ErrorBar bar = barBy(second, of, watched, other);
-  second.weighErrorsBy({});
-  return bar;
+  for (;;) {
+    const Vec<double> relative_scale = small.relativeScale();
+    watched.interrupt = [&] {
+      const bool too_long = relative_scale.size() > 0 && left-- <= 0;
+      if (small.found() || too_long) return Outcome::kTimeout;
+      return of.monitor.interrupt ? of.monitor.interrupt() : Outcome::kSuccess;
+    };
+    small.begin(of.start);
+    second.weighErrorsBy(relative_scale);
+    const ErrorBar bar = barBy(second, of, watched, other);
+    second.weighErrorsBy({});
+    if (small.found()) continue;
+    if (bar.known() || relative_scale.size() == 0) return bar;
+    return barBy(second, of, of.monitor, other);
+  }
 }
 
 }  // namespace
@@ -234,19 +250,7 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   IntegratorOptions checked;
   checked.tolerances = tolerances;
   validate(checked);
-  const Measured<Real> of{result, start, tolerances, scale, monitor, t_end};
-  SmallComponents<Real> small(start, tolerances, scale);
-  Monitor<Real> watched = monitor;
-  watched.accepted = [&](const StepRecord<Real>& step) {
-    small.look(step);
-    if (monitor.accepted) monitor.accepted(step);
-  };
-  const ErrorBar bar = barBy(second, of, watched, second_result);
-  Solution<Real> relative_result;
-  const ErrorBar relative = relativeBar(second, of, small.relativeScale(), relative_result);
-  if (!relative.known()) return bar;
-  second_result = std::move(relative_result);
-  return relative;
+  return controlledBar<Real>(second, {result, start, tolerances, scale, monitor, t_end}, second_result);
 }
 
 double largestErrorBar(const Tolerances& tolerances) {

@@ -39,9 +39,10 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// itself: over 700 drawn runs of scenes that nobody tuned for, the median of bar over true error is 1.
 /// Components that are below their absolute tolerance for whole steps of the second integration need not have a correct
 /// digit there, and may matter later: an epidemic of one case, a pendulum that stands upright, a delayed loss of
-/// stability. Two integrations may agree on a wrong result then. So a third one, which controls these components by
-/// rtol alone, takes the place of the second, if it takes no more steps than kBarEffort over the unknowns: a fast
-/// motion far below the tolerance would need any number. Where the norm is absolute there is none.
+/// stability. Two integrations may agree on a wrong result then. So the second one begins anew with each
+/// component that it finds small, controls it by rtol alone, and is done as usual only if that fails or takes more
+/// steps than kBarEffort over the unknowns: a fast motion far below the tolerance would need any number. In the
+/// absolute norm no component is left to rtol.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
 /// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). Both can miss
