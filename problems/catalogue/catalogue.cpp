@@ -68,6 +68,7 @@ namespace irk {
   scene(SliderCrank) \
   scene(FlexibleSliderCrank) \
   scene(SlidingMass) \
+  scene(SlowPassage) \
   scene(SolutionEnd) \
   scene(SpatialSliderCrank) \
   scene(StickSlip) \
