@@ -33,6 +33,12 @@ SingularPositions<Real>::SingularPositions(const System<Real>& system, const Vec
 
 template <class Real>
 void SingularPositions<Real>::begin(const State<Real>& state) {
+  largest_ = 0;
+  restart(state);
+}
+
+template <class Real>
+void SingularPositions<Real>::restart(const State<Real>& state) {
   found_.clear();
   u_ = frames_.positions(state);
   frames_.evaluate(state, state.t, u_, last_);

@@ -24,9 +24,10 @@ class SingularPositions {
   /// Keeps a reference to the system. `scale` as for the error norm.
   SingularPositions(const System<Real>& system, const Vec<double>& scale);
 
-  /// Begins at a state, or anew after its positions have jumped. Where the constraints are dependent at this state,
-  /// nothing is watched.
+  /// Begins a run at a state. Where the constraints are dependent at this state, nothing is watched.
   void begin(const State<Real>& state);
+  /// The same after the positions have jumped during the run.
+  void restart(const State<Real>& state);
   /// Whether there is a singular position on the way of a step, the cubic polynomial through the positions and
   /// velocities at its ends. Nothing is evaluated while the gradients cannot have changed much: the step's Newton
   /// method has kept its `jacobian` because it contracts well, and the positions have moved by less than half the way

@@ -67,6 +67,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   note_.clear();
   round_off_ = 0;
   last_rejection_ = nullptr;
+  solved_ = false;
   last_h_ = Real(0);
   earlier_.reset();
   attempt_->begin(length);
@@ -110,13 +111,13 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
   norm_.update(state_);
   if (isShortAfterLast(h)) satisfyConstraints();
   const AttemptResult result = attempt_->attempt(state_, h, next_);
-  blamed_ = -1;
-  if (result.outcome != Outcome::kSuccess) {
-    ++counters_.steps_rejected_newton;
-    last_rejection_ = "Newton";
-    blamed_ = result.switched;
-    followOrder(1, 0);
-  }
+  const bool solved = result.outcome == Outcome::kSuccess;
+  solved_ = solved_ || solved;
+  blamed_ = solved ? -1 : result.switched;
+  if (solved) return result;
+  ++counters_.steps_rejected_newton;
+  last_rejection_ = "Newton";
+  followOrder(1, 0);
   return result;
 }
 
@@ -238,7 +239,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
-    if (positions_) positions_->begin(state_);
+    if (positions_) positions_->restart(state_);
     if (!report.determined) {
       norm_.update(state_);
       start_detail_ = fixedRowViolation(system_, state_, norm_.weights(), allowedInFixedRows(options_));
@@ -339,8 +340,8 @@ std::string Trajectory<Real>::rejections() const {
                      std::to_string(c.steps_rejected_error) + ", by Newton " + std::to_string(c.steps_rejected_newton);
   if (last_rejection_) text += std::string(", the last by ") + last_rejection_;
   if (c.located_events > 0) text += ", switches " + std::to_string(c.located_events);
-  const Index i = attempt_->worstComponent();
-  if (i >= 0) text += "; largest error in " + componentName(system_.sizes(), i);
+  const Index worst = solved_ ? attempt_->worstComponent() : -1;
+  if (worst >= 0) text += "; largest error in " + componentName(system_.sizes(), worst);
   return text + ")";
 }
 

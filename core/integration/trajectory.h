@@ -107,6 +107,7 @@ class Trajectory {
   double round_off_ = 0;                  // of Newton's method; the largest of the accepted steps, in tolerances
   Index blamed_ = -1;                     // the switching function that caused a failure
   const char* last_rejection_ = nullptr;  // cause of the last rejection; null: there was none
+  bool solved_ = false;                   // a step of this integration, with whose error a message may name a component
 };
 
 }  // namespace irk

@@ -247,7 +247,7 @@ TEST(EnsembleVerb, RefusesWhatNoMemberCanHave) {
       {{"kepler", "--start", "q3=1"}, "'q3'"},
       {{"kepler", "--start", "q1=x"}, "'x'"},
       {{"kepler", "--start", "q1=1,x"}, "'x'"},
-      {{"kepler", "--method", "gauss_33"}, "gauss_33"},
+      {{"kepler", "--method", "gauss_333"}, "gauss_333"},
       {{"kepler", "--method", "radau_iia"}, "radau_iia_5"},
       {{"kepler", "--threads", "2"}, "--jobs"},
       {{"kepler", "--reference"}, "references"},
