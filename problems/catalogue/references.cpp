@@ -1,9 +1,12 @@
 // Parses problems/reference/*.csv once. The text is embedded at build time (catalogue/embedded.cpp.in).
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "irk/scene_file.h"
 #include "problems/catalogue/embedded.h"
@@ -16,6 +19,7 @@ struct Row {
   Settings settings;
   Reference reference;
 };
+using RowsByScene = std::map<std::string, std::vector<Row>, std::less<>>;
 
 // Parses `name=value` pairs separated by blanks.
 Settings parseSettings(const std::string& text) {
@@ -46,7 +50,8 @@ Row parseRow(const std::string& line) {
   return row;
 }
 
-std::vector<Row> parseRows() {
+// Each scene's rows by time, the most accurate first.
+RowsByScene parseRows() {
   std::vector<Row> rows;
   std::istringstream in{std::string(kEmbeddedReferences)};
   for (std::string line; std::getline(in, line);) {
@@ -56,7 +61,9 @@ std::vector<Row> parseRows() {
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
     return std::tie(a.reference.t, a.reference.accuracy) < std::tie(b.reference.t, b.reference.accuracy);
   });
-  return rows;
+  RowsByScene by_scene;
+  for (Row& row : rows) by_scene[row.scene].push_back(std::move(row));
+  return by_scene;
 }
 
 // Compares numbers as numbers ("0.50" equals "0.5") and words as text.
@@ -71,12 +78,13 @@ bool sameValue(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::vector<Reference> references(std::string_view id, const Settings& settings) {
-  static const std::vector<Row> rows = parseRows();
+  static const RowsByScene rows = parseRows();
   const SceneEntry& entry = findScene(id);
   const Settings wanted = completedSettings(id, entry.parameters, settings);
   std::vector<Reference> found;
-  for (const Row& row : rows) {
-    if (row.scene != id) continue;
+  const auto of_scene = rows.find(id);
+  if (of_scene == rows.end()) return found;
+  for (const Row& row : of_scene->second) {
     const Settings given = completedSettings(id, entry.parameters, row.settings);
     const bool match = std::all_of(entry.parameters.begin(), entry.parameters.end(), [&](const Parameter& p) {
       return !p.changes_solution || sameValue(wanted.at(p.name), given.at(p.name));
