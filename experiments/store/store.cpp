@@ -13,6 +13,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/calibration.h"
+#include "experiments/store/row_checks.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
 #include "experiments/tables/new_file.h"
@@ -35,12 +36,14 @@ std::filesystem::path freeName(const std::filesystem::path& file) {
   return to;
 }
 
+std::string textOf(std::time_t seconds) { return fmt::format("{:%FT%TZ}", fmt::gmtime(seconds)); }
+
 // The date of a request to make runs again: now, or if the clock has been set back, after all former requests.
 std::string afterAllRequests(const Rows& runs) {
   std::uint32_t last = 0;
   runs.forEach([&last](const Entry& entry) { last = std::max(last, entry.remade); });
   const std::time_t next = std::max<std::time_t>(std::time(nullptr), last > 0 ? std::time_t{last} + 1 : 0);
-  return fmt::format("{:%FT%TZ}", fmt::gmtime(next));
+  return textOf(next);
 }
 
 // Of runs: a table that is taken in has no part of runs until all its other tables have one.
@@ -134,6 +137,12 @@ void Store::addEnvironment() {
 void Store::addTimes(TableRow row) {
   addEnvironment();
   row.resize(runs_.columns().size());
+  // Of times by several machines the later ones count; those of one second, by the date.
+  const auto before = runs_.find(keyNumber(row.front()));
+  auto& date = row[static_cast<std::size_t>(std::ranges::find(runs_.columns(), "date") - runs_.columns().begin())];
+  if (before && runs_.name(before->cpu_environment) != thisEnvironment().front() && secondsOf(date) <= before->date) {
+    date = textOf(std::time_t{before->date} + 1);
+  }
   runs_.append(row);
 }
 

@@ -51,6 +51,30 @@ TEST_F(SetBackClock, NewTimesCount) {
   EXPECT_EQ(reader().runs().find(key)->repetitions, 5);
 }
 
+// Two times by this machine in the second in which another machine has written three.
+TEST_F(SetBackClock, TimesOfThisMachineCountInTheSameSecond) {
+  run();
+  const Table names{{}, runColumns(), {}};
+  moveToOtherMachine("results", 9);
+  std::uint64_t key = 0;
+  reader().runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
+  changePart("results", [](Table& part) {
+    for (auto& row : part.rows) {
+      row[part.column("date")] = "2099-01-01T00:00:00Z";
+      row[part.column("cpu_runs")] = "3";
+    }
+  });
+  {
+    Store writer(folder(), "small", Use::kWrite, {}, told_);
+    TableRow row = writer.runs().row(*writer.runs().find(key));
+    setTiming(names, row, {1, 1, 0, {1, 1}});
+    writer.addTimes(row);
+  }
+  const Store store = reader();
+  EXPECT_EQ(store.runs().find(key)->repetitions, 2);
+  EXPECT_TRUE(store.timedHere(*store.runs().find(key)));
+}
+
 // The same processor with other flags.
 TEST_F(StoredRuns, TimesOfOtherFlagsAreNotJoined) {
   run();
