@@ -129,7 +129,7 @@ TEST(ErrorBarOfSmallComponents, DoesNotTakeZerosForSmallComponents) {
 TEST(ErrorWeights, AreThoseOfTheScaleThatWasGivenLast) {
   const SlowPassage problem{2};
   State<double> start(problem.sizes());
-  start.x[0] = 1;
+  start.x << 1, 0.5;
   Integrator<double> integrator(makeSystem<double>(problem, {}), makeTableau<double>("radau_iia_3"), embedded(1e-4));
   const auto steps = [&] { return integrator.integrate(start, 4).counters.steps_accepted; };
   const std::int64_t before = steps();
@@ -148,7 +148,7 @@ TEST(ErrorWeights, AreThoseOfTheScaleThatWasGivenLast) {
 TEST(ErrorWeights, HoldBackwardInTime) {
   const SlowPassage problem{2};
   State<double> start(problem.sizes());
-  start.x[0] = 1;
+  start.x << 1, 0.5;
   start.t = 4;
   Integrator<double> integrator(makeSystem<double>(problem, {}), makeTableau<double>("radau_iia_3"), embedded(1e-4));
   const auto steps = [&] { return integrator.integrate(start, 0).counters.steps_accepted; };
