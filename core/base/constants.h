@@ -73,9 +73,7 @@ inline constexpr Constant kBarLooks{1000, "bar.looks", "Points between its stage
                                     "foreign scenes: 500 leave 2 % of the bars too small, 1000 0.5 %"};
 inline constexpr Constant kBarEffort{
     20000, "bar.effort", "Steps times unknowns that the control of components below their tolerance may take.",
-    "51 foreign systems, 765 runs: 73 bars are too small without it, 1 with it; and a fast motion far "
-    "below "
-    "the tolerance would take any number"};
+    "51 foreign systems, 765 runs: 73 bars are too small without this control, 1 with it, by at most this effort"};
 inline constexpr Constant kLargestBar{1000, "bar.inaccurate", "A larger bar, in tolerances, is no success ...",
                                       "the audit's protocol"};
 inline constexpr Constant kLargestBarRoundOff{1e-9, "bar.round_off", "... beyond this error, which round-off may have.",

@@ -96,13 +96,14 @@ class SmallComponents {
   // Whether this integration has found a further one.
   bool found() const { return found_; }
 
-  // The scale that leaves them to rtol; empty if there are none. One that begins with zero has that of its first value.
+  // The scale of u, v and x that leaves them to rtol; empty if there are none. One that begins with zero has that of
+  // its first value. Without z, which the formulation of an integration may not have.
   Vec<double> relativeScale() const {
-    constexpr double nothing = 1e-100;
+    constexpr double nothing = 1e-100;  // a decay is followed down to here
     Vec<double> result;
     for (std::size_t i = 0; i < of_.size(); ++i) {
       if (!of_[i].small) continue;
-      if (result.size() == 0) result = scale_;
+      if (result.size() == 0) result = scale_.head(static_cast<Index>(of_.size()));
       result[static_cast<Index>(i)] = of_[i].starts_at_zero ? of_[i].first : nothing;
     }
     return result;
@@ -209,6 +210,21 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   return bar;
 }
 
+// Weighs the errors of an integrator by another scale as long as it lives, also if the integration throws.
+template <class Real>
+class OtherWeights {
+ public:
+  OtherWeights(Integrator<Real>& integrator, const Vec<double>& scale) : integrator_(integrator) {
+    integrator_.weighErrorsBy(scale);
+  }
+  ~OtherWeights() { integrator_.weighErrorsBy({}); }
+  OtherWeights(const OtherWeights&) = delete;
+  OtherWeights& operator=(const OtherWeights&) = delete;
+
+ private:
+  Integrator<Real>& integrator_;
+};
+
 // The same with all components under control that are found small on the way: the integration begins anew with each of
 // them. If that fails or takes too many steps, they are left as they are.
 template <class Real>
@@ -228,9 +244,10 @@ ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solut
       return of.monitor.interrupt ? of.monitor.interrupt() : Outcome::kSuccess;
     };
     small.begin(of.start);
-    second.weighErrorsBy(relative_scale);
-    const ErrorBar bar = barBy(second, of, watched, other);
-    second.weighErrorsBy({});
+    const ErrorBar bar = [&] {
+      const OtherWeights<Real> weights(second, relative_scale);
+      return barBy(second, of, watched, other);
+    }();
     if (small.found()) continue;
     if (bar.known() || relative_scale.size() == 0) return bar;
     return barBy(second, of, of.monitor, other);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "irk/error_bar.h"
 #include "tests/core/trusted.h"
@@ -114,6 +115,59 @@ TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
   EXPECT_LT(run.bar.tolerances, 1);
   EXPECT_GT(run.steps, 5000);
   EXPECT_LT(run.steps, 20000 + 1000);  // constants.h: 20 000 / unknowns
+}
+
+/// A pendulum beside a component x = 1e-9 e^(10 t): position constraints have multipliers.
+struct PendulumBesideGrowth {
+  Sizes sizes() const { return {.nu = 2, .nx = 1, .nz = 1, .constraints = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -2.0 * p.u[0] * p.z[0] - p.a[0];
+    r.u[1] = -9.81 - 2.0 * p.u[1] * p.z[0] - p.a[1];
+    r.x[0] = 10.0 * p.x[0] - p.k[0];
+    r.z[0] = p.u[0] * p.u[0] + p.u[1] * p.u[1] - 1.0;
+  }
+};
+
+// An exception leaves the integration, and the integrator weighs errors as before.
+TEST(ErrorBarOfSmallComponents, LeavesTheWeightsAfterAnException) {
+  const SlowPassage problem{0.0};
+  State<double> start(problem.sizes()), result = start;
+  start.x << 1e-9, 1e-9;
+  result.t = 6;
+  const IntegratorOptions options = embedded(1e-4);
+  Integrator<double> second(makeSystem<double>(problem, {}), makeMethods<double>("lobatto_iiic", 13, 4),
+                            independentOptions<double>(options));
+  const std::int64_t before = second.integrate(start, 6).counters.steps_accepted;
+  Monitor<double> monitor;
+  int steps = 0;
+  monitor.accepted = [&](const StepRecord<double>&) {
+    if (++steps == 20) throw std::runtime_error("enough");
+  };
+  Solution<double> other;
+  EXPECT_THROW(static_cast<void>(measureErrorBar(result, second, start, options.tolerances, {}, other, monitor)),
+               std::runtime_error);
+  EXPECT_EQ(second.integrate(start, 6).counters.steps_accepted, before);
+}
+
+// In index 1 the system has no multipliers, which the scene has.
+TEST(ErrorBarOfSmallComponents, HoldsInFormulationsWithoutMultipliers) {
+  const PendulumBesideGrowth problem;
+  State<double> start(problem.sizes());
+  start.u << 1, 0;
+  start.x[0] = 1e-9;
+  const IntegratorOptions options = embedded(1e-4);
+  for (const Formulation formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kGgl}) {
+    const auto system = makeSystem<double>(problem, {formulation});
+    Integrator<double> one(system, makeTableau<double>("radau_iia_3"), options);
+    Integrator<double> other(system, makeMethods<double>("lobatto_iiic", 13, 4), independentOptions<double>(options));
+    const Solution<double> first = one.integrate(start, 2);
+    ASSERT_EQ(first.outcome, Outcome::kSuccess) << first.detail;
+    Solution<double> second;
+    const ErrorBar bar = measureErrorBar(first.state, other, start, options.tolerances, {}, second);
+    ASSERT_TRUE(bar.known()) << bar.problem;
+    expectCovered(bar.x, first.state.x, Vec<double>{{1e-9 * std::exp(20.0)}}, 1e-4);
+  }
 }
 
 // A component that passes through zero is not small: one integration is enough.
