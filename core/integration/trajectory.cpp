@@ -67,6 +67,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   note_.clear();
   round_off_ = 0;
   last_rejection_ = nullptr;
+  failures_ = 0;
   solved_ = false;
   last_h_ = Real(0);
   earlier_.reset();
@@ -132,7 +133,17 @@ StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
 template <class Real>
 double Trajectory<Real>::shorten(double h) {
   attempt_->forget();
+  if (++failures_ > 1) solveAlgebraicUnknowns();
   return controller_->afterFailure(h);
+}
+
+template <class Real>
+void Trajectory<Real>::solveAlgebraicUnknowns() {
+  const Sizes scene = constrainedIn(system_).sizes();
+  if (scene.nz == scene.constraints) return;
+  next_ = state_;
+  const StartReport report = start_.apply(next_, StartCheck::kNone);
+  if (report.outcome == Outcome::kSuccess && report.determined) state_.w.tail(state_.z().size()) = next_.z();
 }
 
 template <class Real>
@@ -202,6 +213,7 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   const AttemptResult& attempt = step.attempt;
   std::swap(state_, next_);
   last_h_ = step.h;
+  failures_ = 0;
   ++counters_.steps_accepted;
   if (controller_) amounts_.look(next_, state_);
   round_off_ = std::max(round_off_, attempt.round_off);

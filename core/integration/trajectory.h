@@ -64,6 +64,11 @@ class Trajectory {
   std::string rejections() const;
 
  private:
+  /// Makes the algebraic unknowns of the state those that belong to (u, v, x), where they are determined. A step leaves
+  /// them with an error, which may be as large as they are; the start values of a short step, taken from them, would
+  /// not come nearer to its solution however short it is. Multipliers alone stay: those that belong to errors of stiff
+  /// positions are no better start values.
+  void solveAlgebraicUnknowns();
   bool isShortAfterLast(const Real& h) const;
   bool satisfyConstraints();
   bool passesSingularPosition();
@@ -107,6 +112,7 @@ class Trajectory {
   double round_off_ = 0;                  // of Newton's method; the largest of the accepted steps, in tolerances
   Index blamed_ = -1;                     // the switching function that caused a failure
   const char* last_rejection_ = nullptr;  // cause of the last rejection; null: there was none
+  int failures_ = 0;                      // since the last accepted step
   bool solved_ = false;                   // a step of this integration, with whose error a message may name a component
 };
 
