@@ -1,12 +1,16 @@
-// Parses problems/reference/*.csv once. The text is embedded at build time (catalogue/embedded.cpp.in).
+// Reads problems/reference/*.csv, the rows of a scene when they are first asked for. The text is embedded at build time
+// (catalogue/embedded.cpp.in).
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "irk/scene_file.h"
 #include "problems/catalogue/embedded.h"
@@ -15,11 +19,17 @@ namespace irk {
 namespace {
 
 struct Row {
-  std::string scene;
   Settings settings;
   Reference reference;
 };
-using RowsByScene = std::map<std::string, std::vector<Row>, std::less<>>;
+
+/// The rows of one scene. Most programs need those of one scene, and all together take milliseconds.
+struct SceneRows {
+  std::vector<std::string_view> lines;
+  mutable std::once_flag parsed;
+  mutable std::vector<Row> rows;  // by time, the most accurate first
+};
+using RowsByScene = std::map<std::string, SceneRows, std::less<>>;
 
 // Parses `name=value` pairs separated by blanks.
 Settings parseSettings(const std::string& text) {
@@ -41,7 +51,7 @@ Row parseRow(const std::string& line) {
   for (std::string& field : fields) {
     if (!std::getline(in, field, ',')) throw std::logic_error("reference line: " + line);
   }
-  Row row{fields[0], parseSettings(fields[1]), {}};
+  Row row{parseSettings(fields[1]), {}};
   row.reference.t = std::strtod(fields[2].c_str(), nullptr);
   row.reference.component = fields[3];
   row.reference.value = fields[4];
@@ -50,20 +60,27 @@ Row parseRow(const std::string& line) {
   return row;
 }
 
-// Each scene's rows by time, the most accurate first.
-RowsByScene parseRows() {
-  std::vector<Row> rows;
-  std::istringstream in{std::string(kEmbeddedReferences)};
-  for (std::string line; std::getline(in, line);) {
-    const bool head = line.starts_with("scene,settings,");
-    if (!line.empty() && line[0] != '#' && !head) rows.push_back(parseRow(line));
-  }
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return std::tie(a.reference.t, a.reference.accuracy) < std::tie(b.reference.t, b.reference.accuracy);
-  });
+// The lines of each scene, whose id is their first field.
+RowsByScene linesByScene() {
   RowsByScene by_scene;
-  for (Row& row : rows) by_scene[row.scene].push_back(std::move(row));
+  const std::string_view text = kEmbeddedReferences;
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (line.empty() || line[0] == '#' || line.starts_with("scene,settings,")) continue;
+    by_scene[std::string(line.substr(0, line.find(',')))].lines.push_back(line);
+  }
   return by_scene;
+}
+
+const std::vector<Row>& rowsOf(const SceneRows& scene) {
+  std::call_once(scene.parsed, [&scene] {
+    for (const std::string_view line : scene.lines) scene.rows.push_back(parseRow(std::string(line)));
+    std::stable_sort(scene.rows.begin(), scene.rows.end(), [](const Row& a, const Row& b) {
+      return std::tie(a.reference.t, a.reference.accuracy) < std::tie(b.reference.t, b.reference.accuracy);
+    });
+  });
+  return scene.rows;
 }
 
 // Compares numbers as numbers ("0.50" equals "0.5") and words as text.
@@ -78,13 +95,13 @@ bool sameValue(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::vector<Reference> references(std::string_view id, const Settings& settings) {
-  static const RowsByScene rows = parseRows();
+  static const RowsByScene scenes = linesByScene();
   const SceneEntry& entry = findScene(id);
   const Settings wanted = completedSettings(id, entry.parameters, settings);
   std::vector<Reference> found;
-  const auto of_scene = rows.find(id);
-  if (of_scene == rows.end()) return found;
-  for (const Row& row : of_scene->second) {
+  const auto scene = scenes.find(id);
+  if (scene == scenes.end()) return found;
+  for (const Row& row : rowsOf(scene->second)) {
     const Settings given = completedSettings(id, entry.parameters, row.settings);
     const bool match = std::all_of(entry.parameters.begin(), entry.parameters.end(), [&](const Parameter& p) {
       return !p.changes_solution || sameValue(wanted.at(p.name), given.at(p.name));
