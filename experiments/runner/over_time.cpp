@@ -2,11 +2,16 @@
 
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "experiments/runs/run_spec.h"
 #include "experiments/store/store.h"
+#include "irk/misuse.h"
+#include "irk/scene.h"
 
 namespace irk {
 
@@ -22,23 +27,57 @@ std::size_t differentEnds(const Study& study) {
   return ends.size();
 }
 
+/// The times at which scenes start; each is made once.
+class Starts {
+ public:
+  // A scene that cannot be made has no runs, and thus no times of them.
+  double of(const RunSpec& spec) {
+    const auto [known, is_new] = starts_.try_emplace({spec.scene, spec.settings}, kNone);
+    if (!is_new) return known->second;
+    try {
+      known->second = makeScene<double>(spec.scene, settingsAtStep(spec)).start.t;
+    } catch (const Misuse&) {
+      return kNone;
+    }
+    return known->second;
+  }
+
+ private:
+  static constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::map<std::pair<std::string, Settings>, double> starts_;
+};
+
+/// Runs that differ in t_end only: one of them, and the keys of all by their ends.
+struct Ends {
+  const RunSpec* one = nullptr;
+  std::map<double, std::uint64_t> keys;
+};
+
 }  // namespace
 
 std::unordered_set<std::uint64_t> earlierEnds(const Study& study) {
   if (differentEnds(study) < kEndsOverTime) return {};
-  std::map<std::uint64_t, std::map<double, std::uint64_t>> ends;  // of all that is equal
+  std::map<std::uint64_t, Ends> all;
   for (const Series& series : study.series) {
     for (const RunSpec& spec : series.runs) {
       if (std::isnan(spec.t_end)) continue;  // the scene's own: one end
       RunSpec endless = spec;
       endless.t_end = 1;
-      ends[store::keyNumber(specKey(endless))][spec.t_end] = store::keyNumber(specKey(spec));
+      Ends& ends = all[store::keyNumber(specKey(endless))];
+      ends.one = &spec;
+      ends.keys[spec.t_end] = store::keyNumber(specKey(spec));
     }
   }
   std::unordered_set<std::uint64_t> earlier;
-  for (const auto& [name, of_run] : ends) {
-    if (of_run.size() < kEndsOverTime) continue;
-    for (auto end = of_run.begin(); std::next(end) != of_run.end(); ++end) earlier.insert(end->second);
+  Starts starts;
+  for (const auto& [name, ends] : all) {
+    if (ends.keys.size() < kEndsOverTime) continue;
+    const double start = starts.of(*ends.one);
+    const auto first = ends.keys.begin(), last = std::prev(ends.keys.end());
+    for (auto end = first; end != ends.keys.end(); ++end) {
+      const auto farthest = end->first < start ? first : last;
+      if (end != farthest) earlier.insert(end->second);
+    }
   }
   return earlier;
 }
