@@ -274,26 +274,14 @@ template <class Real>
 void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->onSwitch(i, scene);
-  requireState("System::onSwitch", scene, inner_sizes_);
-  state.d = scene.d;
-  static_cast<void>(classify(scene));
+  takeMode("System::onSwitch", scene, state);
 }
 
 template <class Real>
 void FirstOrderForm<Real>::onTime(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->onTime(i, scene);
-  requireState("System::onTime", scene, inner_sizes_);
-  state.d = scene.d;
-  static_cast<void>(classify(scene));
-}
-
-template <class Real>
-void FirstOrderForm<Real>::jumpAtTime(Index i, State<Real>& state) const {
-  State<Real> scene = toScene(state);
-  inner_->jumpAtTime(i, scene);
-  requireState("System::jumpAtTime", scene, inner_sizes_);
-  state.x << scene.u, scene.v, scene.x;
+  takeMode("System::onTime", scene, state);
 }
 
 template <class Real>
@@ -301,6 +289,14 @@ void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
   inner_->jump(i, scene);
   requireState("System::jump", scene, inner_sizes_);
+  state.x << scene.u, scene.v, scene.x;
+}
+
+template <class Real>
+void FirstOrderForm<Real>::jumpAtTime(Index i, State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  inner_->jumpAtTime(i, scene);
+  requireState("System::jumpAtTime", scene, inner_sizes_);
   state.x << scene.u, scene.v, scene.x;
 }
 

@@ -42,6 +42,8 @@ class FirstOrderForm final : public System<Real> {
   std::vector<Real> times() const override { return inner_->times(); }
   void onTime(Index i, State<Real>& state) const override;
   void jumpAtTime(Index i, State<Real>& state) const override;
+  bool completesSteps() const override { return inner_->completesSteps(); }
+  bool completeStep(State<Real>& state) const override;
   bool nonNegative(Index i) const override { return inner_->nonNegative(i); }
   std::string switchName(Index i) const override { return inner_->switchName(i); }
   Discontinuity discontinuity() const override { return inner_->discontinuity(); }
@@ -66,6 +68,7 @@ class FirstOrderForm final : public System<Real> {
   enum class Rates { kDiagonal, kConstant, kLinear, kNonlinear };
 
   bool classify(const State<Real>& scene) const;  // false: D0 is singular
+  void takeMode(const char* function, const State<Real>& scene, State<Real>& state) const;
   Rates kindNear(const State<Real>& scene, const Vec<Real>& D0) const;
   bool isRegular() const;
   bool isDiagonal() const;

@@ -1,4 +1,4 @@
-// What D0 of a first-order form depends on.
+// What D0 of a first-order form depends on, found anew with each mode.
 #include <algorithm>
 #include <cmath>
 
@@ -6,6 +6,7 @@
 
 #include "core/derivatives/first_order.h"
 #include "irk/multiprecision.h"
+#include "irk/system_check.h"
 
 namespace irk {
 namespace {
@@ -46,6 +47,22 @@ bool FirstOrderForm<Real>::classify(const State<Real>& scene) const {
   if (rates_ == Rates::kConstant && isDiagonal()) rates_ = Rates::kDiagonal;
   if (rates_ == Rates::kConstant) factorize();
   return true;
+}
+
+template <class Real>
+bool FirstOrderForm<Real>::completeStep(State<Real>& state) const {
+  State<Real> scene = toScene(state);
+  if (!inner_->completeStep(scene)) return false;
+  takeMode("System::completeStep", scene, state);
+  state.x << scene.u, scene.v, scene.x;
+  return true;
+}
+
+template <class Real>
+void FirstOrderForm<Real>::takeMode(const char* function, const State<Real>& scene, State<Real>& state) const {
+  requireState(function, scene, inner_sizes_);
+  state.d = scene.d;
+  static_cast<void>(classify(scene));
 }
 
 template <class Real>
@@ -91,7 +108,12 @@ typename FirstOrderForm<Real>::Rates FirstOrderForm<Real>::kindNear(const State<
   return constant ? Rates::kConstant : Rates::kLinear;
 }
 
-template bool FirstOrderForm<double>::classify(const State<double>&) const;
-template bool FirstOrderForm<BigFloat>::classify(const State<BigFloat>&) const;
+#define IRK_RATES(Real)                                                   \
+  template bool FirstOrderForm<Real>::classify(const State<Real>&) const; \
+  template bool FirstOrderForm<Real>::completeStep(State<Real>&) const;   \
+  template void FirstOrderForm<Real>::takeMode(const char*, const State<Real>&, State<Real>&) const;
+IRK_RATES(double)
+IRK_RATES(BigFloat)
+#undef IRK_RATES
 
 }  // namespace irk

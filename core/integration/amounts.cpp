@@ -92,11 +92,10 @@ template <class Real>
 void Amounts<Real>::lookBelowZero(const State<Real>& from, const State<Real>& to) {
   const double t = static_cast<double>(to.t);
   const auto value = [&](Index i) { return static_cast<double>(to.x[first_x_ + i]); };
-  const auto isBelow = [&](Index i) { return value(i) < -least_[2 * sizes_.nu + first_x_ + i]; };
   for (std::size_t at = 0; at < negative_.size();) {
     Negative& found = negative_[at];
     if (value(found.i) < found.value) found.value = value(found.i), found.t = t;
-    const bool again = !found.declared && isBelow(found.i) && from.x[first_x_ + found.i] >= Real(0);
+    const bool again = !found.declared && isBelowZero(to, found.i) && from.x[first_x_ + found.i] >= Real(0);
     if (again && !cannotCross(first_x_ + found.i, from, to)) {
       dropFrom(negative_, at);
     } else {
@@ -105,7 +104,7 @@ void Amounts<Real>::lookBelowZero(const State<Real>& from, const State<Real>& to
   }
   for (std::size_t at = 0; at < never_.size();) {
     const Index i = never_[at];
-    if (!isBelow(i)) {
+    if (!isBelowZero(to, i)) {
       ++at;
       continue;
     }

@@ -26,6 +26,10 @@ class Amounts {
 
   /// Begins an integration. `norm` is left with the weights of zero: update it before its next use.
   void begin(const State<Real>& state, ErrorNorm<Real>& norm);
+  /// Begins anew at a switch: a component that jumps below zero is none that cannot cross it.
+  void restart(const State<Real>& state) {
+    std::erase_if(never_, [&](Index i) { return isBelowZero(state, i) && !system_.nonNegative(i); });
+  }
   /// Looks at an accepted step.
   void look(const State<Real>& from, const State<Real>& to);
   /// One line; empty if there is nothing to say.
@@ -38,6 +42,10 @@ class Amounts {
     bool declared = false;
   };
   Real component(const State<Real>& state, Index i) const;
+  // x_i of the scene, by more than its tolerance.
+  bool isBelowZero(const State<Real>& state, Index i) const {
+    return static_cast<double>(state.x[first_x_ + i]) < -least_[2 * sizes_.nu + first_x_ + i];
+  }
   void lookBelowZero(const State<Real>& from, const State<Real>& to);
   bool cannotCross(Index i, const State<Real>& from, const State<Real>& to);
   bool findRates(State<Real>& state);

@@ -177,7 +177,7 @@ Outcome Trajectory<Real>::commit(const AttemptResult& result, const Real& h, con
     if (!start_detail_.empty()) return Outcome::kDrift;
   }
   takeOver(step);
-  if (!step.at_switch) return Outcome::kSuccess;
+  if (!step.at_switch) return completeStep();
   ++counters_.located_events;
   if (chatter_.event(static_cast<double>(state_.t), length_, step.resolution)) {
     ++counters_.chattering;
@@ -201,10 +201,12 @@ bool Trajectory<Real>::passesSingularPosition() {
   return constraintViolation(system_, next_, norm_.weights(), kCoarsestDrift / norm_.tolerance()).empty();
 }
 
+// A step may itself ask for another mode.
 template <class Real>
-Outcome Trajectory<Real>::passTime(Index i) {
-  system_.onTime(i, state_);
-  system_.jumpAtTime(i, state_);
+Outcome Trajectory<Real>::completeStep() {
+  if (!system_.completesSteps() || !system_.completeStep(state_)) return Outcome::kSuccess;
+  ++counters_.switches;
+  tell(-1);
   return restartAtSwitch();
 }
 
@@ -229,10 +231,9 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
 // `next_` holds the start of the step.
 template <class Real>
 void Trajectory<Real>::report(const CommittedStep<Real>& step) {
-  const AttemptResult& attempt = step.attempt;
   const State<Real> scene = system_.toScene(state_);
   const bool inside = monitor_->inside && inside_.begin(next_, state_.t, scene, attempt_->pieces(next_));
-  monitor_->accepted({state_.t, static_cast<double>(step.h), attempt.error, attempt.newton_iterations, scene,
+  monitor_->accepted({state_.t, static_cast<double>(step.h), step.attempt.error, step.attempt.newton_iterations, scene,
                       inside ? &inside_ : nullptr});
 }
 
@@ -252,6 +253,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     start_detail_ = report.detail;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
     if (positions_) positions_->restart(state_);
+    amounts_.restart(state_);
     if (!report.determined) {
       norm_.update(state_);
       start_detail_ = fixedRowViolation(system_, state_, norm_.weights(), allowedInFixedRows(options_));
@@ -296,13 +298,12 @@ template <class Real>
 void Trajectory<Real>::tell(Index i) const {
   if (!monitor_->switched) return;
   const State<Real> scene = system_.toScene(state_);
-  monitor_->switched({state_.t, i, system_.switchName(i), scene});
+  monitor_->switched({state_.t, i, i < 0 ? "step" : system_.switchName(i), scene});
 }
 
 template <class Real>
 void Trajectory<Real>::noteChattering(Index i) {
-  ++counters_.chattering;
-  if (counters_.chattering > 1) return;
+  if (++counters_.chattering > 1) return;
   std::ostringstream text;
   text << "chattering: " << switches_.describe(i) << " switches in every step at t = " << sceneTime(system_, state_.t);
   addNote(text.str());
@@ -327,8 +328,7 @@ Solution<Real> Trajectory<Real>::success() {
     const EndCheck end = finish(system_, options_, norm_, state_, counters_);
     if (end.outcome != Outcome::kSuccess) return solution(end.outcome, end.detail);
   }
-  const bool solved_anew = options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0;
-  if (solved_anew) addNote(start_.applyAtEnd(state_));
+  if (options_.multipliers == Multipliers::kConsistent && system_.sizes().nz > 0) addNote(start_.applyAtEnd(state_));
   addNote(roundOffRemark(round_off_));
   if (controller_) addNote(amounts_.remark());
   return solution(Outcome::kSuccess, note_);

@@ -53,6 +53,12 @@ class CountingSystem final : public System<Real> {
     inner_.jumpAtTime(i, state);
     requireState("System::jumpAtTime", state, sizes());
   }
+  bool completesSteps() const override { return inner_.completesSteps(); }
+  bool completeStep(State<Real>& state) const override {
+    const bool asked = inner_.completeStep(state);
+    requireState("System::completeStep", state, sizes());
+    return asked;
+  }
   bool nonNegative(Index i) const override { return inner_.nonNegative(i); }
   bool usesVelocity() const override { return inner_.usesVelocity(); }
   std::string switchName(Index i) const override { return inner_.switchName(i); }

@@ -60,6 +60,14 @@ class GglSystem final : public System<Real> {
     scene_.jumpAtTime(i, scene);
     state.x << scene.u, scene.v, scene.x;
   }
+  bool completesSteps() const override { return scene_.completesSteps(); }
+  bool completeStep(State<Real>& state) const override {
+    State<Real> scene = toScene(state);
+    if (!scene_.completeStep(scene)) return false;
+    state.d = scene.d;
+    state.x << scene.u, scene.v, scene.x;
+    return true;
+  }
   bool nonNegative(Index i) const override { return scene_.nonNegative(i); }
   std::string switchName(Index i) const override { return scene_.switchName(i); }
   const std::vector<Index>& leftOut() const override { return scene_.leftOut(); }

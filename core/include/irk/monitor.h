@@ -42,8 +42,8 @@ struct StepRecord {
 template <class Real>
 struct SwitchRecord {
   Real t;
-  Index index;  ///< of the switching function
-  std::string name;
+  Index index;       ///< of the switching function; -1 where a step itself has asked for the switch
+  std::string name;  ///< of the switching function; "step" where a step has asked
   const State<Real>& state;
 };
 

@@ -55,6 +55,13 @@
 //     template <class T>
 //     void jumpAtTime(Index i, const Point<T>& p, T* u, T* v, T* x) const;
 //
+//     // Called with the end p of each accepted step that no switch has ended. Returns whether the step itself asks
+//     // for another mode; then changes d, a copy of p.d, and u, v, x where they jump. The step control chooses where
+//     // a step ends, so that the motion must not depend on it: as with a change of coordinates.
+//     template <class T>
+//     bool completeStep(const Point<T>& p, T* u, T* v, T* x, T* d) const;
+//     bool completesSteps() const;  // false: completeStep need not be called
+//
 //     // Whether x_i is never negative on an exact solution, as a concentration is. A success with x_i below zero by
 //     // more than a tolerance says so in a remark: reactions often run away from zero there.
 //     bool nonNegative(Index i) const;

@@ -116,6 +116,19 @@ class ProblemSystem final : public System<Real> {
       move(state, [&](const Point<Real>& p, Real* u, Real* v, Real* x) { problem_.jumpAtTime(own, p, u, v, x); });
     }
   }
+  bool completesSteps() const override {
+    if constexpr (requires { problem_.completesSteps(); }) return problem_.completesSteps();
+    return kHasCompleteStep;
+  }
+  bool completeStep(State<Real>& state) const override {
+    bool asked = false;
+    if constexpr (kHasCompleteStep) {
+      State<Real> next = state;
+      asked = problem_.completeStep(pointOf(state), next.u.data(), next.v.data(), next.x.data(), next.d.data());
+      if (asked) state = next;
+    }
+    return asked;
+  }
   bool nonNegative(Index i) const override {
     if constexpr (requires { problem_.nonNegative(i); }) return problem_.nonNegative(i);
     return System<Real>::nonNegative(i);
@@ -193,6 +206,9 @@ class ProblemSystem final : public System<Real> {
   };
   static constexpr bool kHasSnap = requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.snap(Index(0), p, out, out, out);
+  };
+  static constexpr bool kHasCompleteStep = requires(const P& problem, const Point<Real>& p, Real* out) {
+    problem.completeStep(p, out, out, out, out);
   };
   static constexpr bool kHasSmoothed = requires(const P& problem, const Point<Real>& p, Real* out) {
     problem.smoothed(p, out);

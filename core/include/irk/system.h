@@ -211,6 +211,15 @@ class System {
     static_cast<void>(i);
     static_cast<void>(state);
   }
+  /// Whether completeStep has to be called. A system that needs it has a discrete state.
+  virtual bool completesSteps() const { return false; }
+  /// Called with the end of each accepted step that no switch has ended. A step may itself ask for another mode, as one
+  /// of an FMU that chooses other states then: changes state.d, and u, v, x where they jump, and returns true. The
+  /// integration restarts there. Not called at the start.
+  virtual bool completeStep(State<Real>& state) const {
+    static_cast<void>(state);
+    return false;
+  }
   /// Whether x_i of the scene's unknowns is never negative on an exact solution, as a concentration is.
   virtual bool nonNegative(Index i) const {
     static_cast<void>(i);

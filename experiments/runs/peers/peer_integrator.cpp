@@ -198,9 +198,21 @@ StartReport PeerIntegrator::take(const PeerStep& step, double t_end, const Monit
     return failed(Outcome::kStalled, fmt::format("steps do not grow ({} accepted, {} switches)",
                                                  counters_.steps_accepted, counters_.switches));
   }
-  if (!switches()) return {};
-  const bool locate = system_->discontinuity() == Discontinuity::kLocate;
-  return locate ? locatedSwitch(step, monitor) : ignoredSwitches(monitor);
+  StartReport report;
+  if (switches()) {
+    const bool locate = system_->discontinuity() == Discontinuity::kLocate;
+    report = locate ? locatedSwitch(step, monitor) : ignoredSwitches(monitor);
+  }
+  if (report.outcome == Outcome::kSuccess && !restarts_) completeStep(monitor);
+  return report;
+}
+
+// A step may itself ask for another mode.
+void PeerIntegrator::completeStep(const Monitor<double>& monitor) {
+  if (!system_->completesSteps() || !system_->completeStep(state_)) return;
+  ++counters_.switches;
+  tell(-1, monitor);
+  restarts_ = true;
 }
 
 StartReport PeerIntegrator::mayGoOn(const Monitor<double>& monitor) const {
@@ -217,7 +229,7 @@ StartReport PeerIntegrator::failed(Outcome outcome, const std::string& what) con
 void PeerIntegrator::tell(Index i, const Monitor<double>& monitor) const {
   if (!monitor.switched) return;
   const auto scene = system_->toScene(state_);
-  monitor.switched({state_.t, i, system_->switchName(i), scene});
+  monitor.switched({state_.t, i, i < 0 ? "step" : system_->switchName(i), scene});
 }
 
 bool PeerIntegrator::switches() const {

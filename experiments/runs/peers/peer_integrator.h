@@ -33,6 +33,7 @@ class PeerIntegrator {
   StartReport settle(const Monitor<double>& monitor);
   StartReport locatedSwitch(const PeerStep& step, const Monitor<double>& monitor);
   StartReport ignoredSwitches(const Monitor<double>& monitor);
+  void completeStep(const Monitor<double>& monitor);
   void tell(Index i, const Monitor<double>& monitor) const;
 
   std::shared_ptr<const System<double>> system_;

@@ -126,8 +126,8 @@ inline constexpr double kManyDigits = 1e-28, kFewDigits = 1e-19;
 namespace detail {
 
 struct Names {
-  int constraints, switching, onSwitch, jump, snap, smoothed, times, onTime, jumpAtTime, nonNegative, usesVelocity,
-      start, exact, with;
+  int constraints, switching, onSwitch, jump, snap, smoothed, times, onTime, jumpAtTime, completeStep, nonNegative,
+      usesVelocity, start, exact, with;
 };
 /// A name is ambiguous in it if P has a member of this name, too.
 template <class P>
@@ -153,6 +153,8 @@ constexpr void requireForms() {
   IRK_FORM(onTime, p.onTime(Index(0), at, y), "onTime(Index i, const Point<T>& p, T* d) const");
   IRK_FORM(jumpAtTime, p.jumpAtTime(Index(0), at, y, y, y),
            "jumpAtTime(Index i, const Point<T>& p, T* u, T* v, T* x) const");
+  IRK_FORM(completeStep, bool(p.completeStep(at, y, y, y, y)),
+           "bool completeStep(const Point<T>& p, T* u, T* v, T* x, T* d) const");
   IRK_FORM(nonNegative, bool(p.nonNegative(Index(0))), "bool nonNegative(Index i) const");
   IRK_FORM(usesVelocity, bool(p.usesVelocity()), "bool usesVelocity() const");
   IRK_FORM(start, p.start(s), "start(State<Real>& s) const");

@@ -155,7 +155,7 @@ class WrongSystem final : public System<double> {
   std::vector<int> rows{0, 0};
   ErrorPowers errors{{0}, {0}, {0}, {}};
   std::vector<double> at{};
-  std::function<void(State<double>&)> from_scene, to_scene, on_switch, jumped, on_time;
+  std::function<void(State<double>&)> from_scene, to_scene, on_switch, jumped, on_time, step;
 
   Sizes sizes() const override { return n; }
   Sizes sceneSizes() const override { return scene; }
@@ -170,6 +170,8 @@ class WrongSystem final : public System<double> {
   void jump(Index, State<double>& s) const override { s = changed(jumped, s); }
   std::vector<double> times() const override { return at; }
   void onTime(Index, State<double>& s) const override { s = changed(on_time, s); }
+  bool completesSteps() const override { return step != nullptr; }
+  bool completeStep(State<double>& s) const override { return s = changed(step, s), true; }
   Discontinuity discontinuity() const override { return Discontinuity::kLocate; }
 
  private:
@@ -248,6 +250,8 @@ TEST(Misuse, SystemsMadeByHandAreChecked) {
       {"a jump", "System::jump: u: 0 numbers, 1", with([](S& s) { s.jumped = [](Changed& y) { y.u.resize(0); }; })},
       {"at a time", "System::onTime: discrete state d: 0 numbers, 1",
        with([](S& s) { s.on_time = [](Changed& y) { y.d.resize(0); }; })},
+      {"at the end of a step", "System::completeStep: x: 2 numbers, 1",
+       with([](S& s) { s.step = [](Changed& y) { y.x.setZero(2); }; })},
   });
 }
 
