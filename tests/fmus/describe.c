@@ -46,9 +46,11 @@ int main(int count, char** arguments) {
          kModelName);
   if (version == 2) {
     printf("guid=\"{test}\" numberOfEventIndicators=\"%d\">\n", kIndicators);
-    printf("  <ModelExchange modelIdentifier=\"%s\" completedIntegratorStepNotNeeded=\"true\" canGetAndSetFMUstate=\"true\"/>\n", kModelName);
+    printf("  <ModelExchange modelIdentifier=\"%s\" completedIntegratorStepNotNeeded=\"%s\" canGetAndSetFMUstate=\"true\"/>\n",
+           kModelName, completed ? "false" : "true");
   } else {
-    printf("instantiationToken=\"{test}\">\n  <ModelExchange modelIdentifier=\"%s\"/>\n", kModelName);
+    printf("instantiationToken=\"{test}\">\n  <ModelExchange modelIdentifier=\"%s\" needsCompletedIntegratorStep=\"%s\"/>\n",
+           kModelName, completed ? "true" : "false");
   }
   printf("  <DefaultExperiment startTime=\"0\" stopTime=\"%.17g\" tolerance=\"1e-6\"/>\n  <ModelVariables>\n", kStopTime);
   for (int i = 0; i < kVariableCount; ++i) variable(version, i);

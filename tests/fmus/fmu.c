@@ -59,6 +59,7 @@ static void pass(Instance* instance) {
   Model* const model = &instance->model;
   model->jumped = false;
   event(model);
+  if (damaged("time") && model->mode[0] > 0) model->next_time = 7;
 }
 
 #define NAME2(version, name) fmi##version##name
@@ -113,6 +114,8 @@ static fmiStatus getReal(fmiInstance c, const fmiReference* r, size_t n, double*
   for (size_t k = 0; k < n; ++k) values[k] = ((Instance*)c)->model.v[r[k]];
   return fmiOK;
 }
+/* What the end of a step asks for. */
+static bool asks(fmiInstance c) { return completed && completed(&((Instance*)c)->model); }
 EXPORT fmiStatus NAME(ExitInitializationMode)(fmiInstance c) { return (void)c, fmiOK; }
 EXPORT fmiStatus NAME(EnterEventMode)(fmiInstance c) { return (void)c, fmiOK; }
 #ifndef LACKS_A_FUNCTION
@@ -163,9 +166,10 @@ EXPORT fmiStatus fmi2NewDiscreteStates(fmiInstance c, fmi2EventInfo* info) {
   return fmiOK;
 }
 EXPORT fmiStatus fmi2CompletedIntegratorStep(fmiInstance c, int keep, int* enter, int* ends) {
-  (void)c, (void)keep;
-  *enter = *ends = 0;
-  return fmiOK;
+  (void)keep;
+  *enter = asks(c);
+  *ends = ((Instance*)c)->model.ends;
+  return damaged("step") ? fmiError : fmiOK;
 }
 EXPORT fmiStatus fmi2GetDerivatives(fmiInstance c, double* dx, size_t n) { return getDerivatives(c, dx, n); }
 EXPORT fmiStatus fmi2SetReal(fmiInstance c, const fmiReference* r, size_t n, const double* values) {
@@ -205,9 +209,10 @@ EXPORT fmiStatus fmi3UpdateDiscreteStates(fmiInstance c, bool* again, bool* ends
   return fmiOK;
 }
 EXPORT fmiStatus fmi3CompletedIntegratorStep(fmiInstance c, bool keep, bool* enter, bool* ends) {
-  (void)c, (void)keep;
-  *enter = *ends = false;
-  return fmiOK;
+  (void)keep;
+  *enter = asks(c);
+  *ends = ((Instance*)c)->model.ends;
+  return damaged("step") ? fmiError : fmiOK;
 }
 EXPORT fmiStatus fmi3GetContinuousStateDerivatives(fmiInstance c, double* dx, size_t n) {
   return getDerivatives(c, dx, n);

@@ -37,4 +37,7 @@ void derivatives(Model*); /* also outputs */
 void indicators(const Model*, double* z);
 void event(Model*); /* in event mode: may change states, mode and next_time */
 
+/* Null where a model has none. */
+bool completed(Model*) __attribute__((weak)); /* at the end of a step: whether it asks for an event; may set `ends` */
+
 #endif

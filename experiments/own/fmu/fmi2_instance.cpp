@@ -63,10 +63,10 @@ class Fmi2Instance final : public CommonInstance {
     require(get<fmi2EnterInitializationModeTYPE>("fmi2EnterInitializationMode")(instance_),
             "fmi2EnterInitializationMode");
   }
-  bool completeStep() override {
-    int wants_event = 0, terminates = 0;
-    require(step_(instance_, 1, &wants_event, &terminates), "fmi2CompletedIntegratorStep");
-    return terminates != 0;
+  FmuStep completeStep(bool no_former_state) override {
+    int event = 0, terminates = 0;
+    require(step_(instance_, no_former_state ? 1 : 0, &event, &terminates), "fmi2CompletedIntegratorStep");
+    return {event != 0, terminates != 0};
   }
   bool update(FmuEvent& event) override {
     fmi2EventInfo info{};

@@ -48,10 +48,10 @@ class Fmi3Instance final : public CommonInstance {
     require(get<fmi3EnterInitializationModeTYPE>("fmi3EnterInitializationMode")(instance_, false, 0, start, true, stop),
             "fmi3EnterInitializationMode");
   }
-  bool completeStep() override {
-    bool wants_event = false, terminates = false;
-    require(step_(instance_, true, &wants_event, &terminates), "fmi3CompletedIntegratorStep");
-    return terminates;
+  FmuStep completeStep(bool no_former_state) override {
+    FmuStep asked;
+    require(step_(instance_, no_former_state, &asked.event, &asked.terminates), "fmi3CompletedIntegratorStep");
+    return asked;
   }
   bool update(FmuEvent& event) override {
     bool again = false, nominals_changed = false, states_changed = false;

@@ -20,6 +20,12 @@ struct FmuEvent {
   double next_time = 0;
 };
 
+/// What the FMU asks for at the end of a step.
+struct FmuStep {
+  bool event = false;       ///< event mode
+  bool terminates = false;  ///< the end of the simulation
+};
+
 /// What all instances of an FMU have in common.
 struct FmuLibrary {
   FmuDescription description;
@@ -48,6 +54,10 @@ class FmuInstance {
 
   /// Brings the instance back to where `begin` has left it. Returns false for an FMU that cannot do this.
   virtual bool returnToStart() = 0;
+
+  /// Tells the FMU that a step has come to the point that was set last (completedIntegratorStep). To be called only of
+  /// an FMU that needs it. Throws Misuse as begin.
+  virtual FmuStep completeStep() = 0;
 
   virtual bool setPoint(double t, const double* states) = 0;
   virtual bool setInputs(const std::vector<unsigned>& references, const std::vector<double>& values) = 0;

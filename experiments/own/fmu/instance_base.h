@@ -48,12 +48,11 @@ class CommonInstance : public FmuInstance {
     return event;
   }
   FmuEvent event() final {
-    const bool terminates = fmu_.description.steps_completed && completeStep();
     require(enter_event_(instance_), prefix_ + "EnterEventMode");
-    FmuEvent event = settle();
-    event.terminates = event.terminates || terminates;
-    return event;
+    return settle();
   }
+  // Only the state at the start is ever set again.
+  FmuStep completeStep() final { return completeStep(start_ == nullptr); }
   bool returnToStart() final { return start_ && good(set_state_(instance_, start_)); }
 
   bool setPoint(double t, const double* states) final {
@@ -70,8 +69,8 @@ class CommonInstance : public FmuInstance {
  protected:
   /// Gives the values to the FMU and enters initialization mode.
   virtual void initialize(const std::vector<FmuValue>& values, double start, double stop) = 0;
-  /// Tells the FMU that a step is complete. Returns whether it ends the simulation.
-  virtual bool completeStep() = 0;
+  /// `no_former_state`: no state of the time before is set again.
+  virtual FmuStep completeStep(bool no_former_state) = 0;
   /// One pass of event mode; `event` has the result of the passes before. Returns whether another one is needed.
   virtual bool update(FmuEvent& event) = 0;
   /// To be called by destructors: while the FMU frees its memory it may use what the derived class has given to it.

@@ -20,6 +20,10 @@ double defaultOf(const FmuVariable& variable) {
   return std::strtod(variable.start.c_str(), nullptr);
 }
 
+Misuse terminated(double t) {
+  return Misuse(fmt::format("it ends the simulation at t = {:.9g} (terminateSimulation)", t));
+}
+
 }  // namespace
 
 FmuRun::FmuRun(std::shared_ptr<const FmuModel> model, const ParameterValues& values)
@@ -66,7 +70,7 @@ void FmuRun::settle(Epoch& epoch) {
   const std::vector<double> before = epoch.signs;
   setSigns(epoch);
   if (epoch.signs == before) return;
-  const FmuEvent second = instance.event();
+  const FmuEvent second = eventAt(epoch.t + ahead);
   if (second.states_changed) require(instance.states(epoch.after.data()));
   require(instance.indicators(indicators_.data()));
   setSigns(epoch);
@@ -93,14 +97,16 @@ void FmuRun::beginAnew() {
   settle(first);
   slot_->owner = this;
   slot_->epoch = 0;
-  if (epochs_.empty()) epochs_.push_back(std::move(first));
+  if (!epochs_.empty()) return;
+  if (fmu.indicators > 0 || first.event.has_next_time) switches_ = fmu.indicators + 1;
+  epochs_.push_back(std::move(first));
 }
 
 // Repeats the event with which a remembered epoch begins.
 void FmuRun::repeat(std::size_t number) {
   Epoch again = epochs_[number];
   moveTo(again.t, again.before.data());
-  again.event = slot_->instance->event();
+  again.event = eventAt(again.t);
   settle(again);
   slot_->epoch = number;
 }
@@ -139,6 +145,10 @@ bool FmuRun::setPoint(double t, const double* y) {
 // The rows of u'' are the derivatives of v.
 void FmuRun::toScene(const std::vector<double>& rates, double* f) const {
   for (std::size_t k = model_->nu; k < rates.size(); ++k) f[k - model_->nu] = rates[model_->order[k]];
+}
+
+void FmuRun::statesOf(const Epoch& epoch, double* y) const {
+  for (std::size_t k = 0; k < epoch.after.size(); ++k) y[k] = epoch.after[model_->order[k]];
 }
 
 bool FmuRun::rates(double t, const double* y, double epoch, double* f) {
@@ -191,6 +201,19 @@ void FmuRun::goBehindRoot(std::size_t i, double sign, double& t) {
   moveTo(t, states_.data());
 }
 
+// Returns whether the FMU asks for an event at the point that was set last, where a step has ended.
+bool FmuRun::tellStep(double t) {
+  if (!model_->fmu.description.steps_completed) return false;
+  const FmuStep asked = slot_->instance->completeStep();
+  if (asked.terminates) throw terminated(t);
+  return asked.event;
+}
+
+FmuEvent FmuRun::eventAt(double t) {
+  tellStep(t);
+  return slot_->instance->event();
+}
+
 double FmuRun::event(std::size_t i, double t, const double* y, double number) {
   const auto lock = enter(number);
   const auto parent = static_cast<std::size_t>(number);
@@ -198,30 +221,58 @@ double FmuRun::event(std::size_t i, double t, const double* y, double number) {
   if (i == indicators_.size()) t = epochs_[parent].event.next_time;
   if (!setPoint(t, y)) throw Misuse(fmt::format("it cannot be evaluated at its event at t = {:g}", t));
   if (i < indicators_.size()) goBehindRoot(i, epochs_[parent].signs[i], t);
-  for (std::size_t at = parent + 1; at < epochs_.size(); ++at) {  // the same event, in a run that is repeated
-    const Epoch& known = epochs_[at];
-    if (known.parent == parent && known.t == t && known.before == states_) return static_cast<double>(at);
+  const std::size_t known = repeated(parent, t);
+  return static_cast<double>(known > 0 ? known : beginEpoch(parent, t, eventAt(t)));
+}
+
+bool FmuRun::completeStep(double t, double* y, double& number) {
+  const auto lock = enter(number);
+  const auto parent = static_cast<std::size_t>(number);
+  if (!setPoint(t, y)) throw Misuse(fmt::format("it cannot be evaluated at the end of a step, t = {:g}", t));
+  std::size_t next = repeated(parent, t);
+  if (next == 0) {
+    if (!tellStep(t)) return false;
+    next = beginEpoch(parent, t, slot_->instance->event());
   }
-  Epoch next{parent, t, states_, {}, {}, slot_->instance->event()};
+  number = static_cast<double>(next);
+  if (epochs_[next].event.states_changed) statesOf(epochs_[next], y);
+  return true;
+}
+
+// The epoch that the same event has begun in a run before, at the point that was set last; 0: none.
+std::size_t FmuRun::repeated(std::size_t parent, double t) const {
+  for (std::size_t at = parent + 1; at < epochs_.size(); ++at) {
+    const Epoch& known = epochs_[at];
+    if (known.parent == parent && known.t == t && known.before == states_) return at;
+  }
+  return 0;
+}
+
+// The instance has had `event` at the point that was set last.
+std::size_t FmuRun::beginEpoch(std::size_t parent, double t, const FmuEvent& event) {
+  Epoch next{parent, t, states_, {}, {}, event};
   if (!next.event.terminates) settle(next);
-  if (next.event.terminates) {
-    throw Misuse(fmt::format("it ends the simulation at t = {:.9g} (terminateSimulation)", t));
+  if (next.event.terminates) throw terminated(t);
+  if (next.event.has_next_time && switches_ == 0) {
+    throw Misuse(fmt::format(
+        "at t = {:g} it sets an event in time, t = {:g}: an FMU without event indicators has to set its first one when "
+        "it is initialized",
+        t, next.event.next_time));
   }
   slot_->epoch = epochs_.size();
   epochs_.push_back(std::move(next));
-  return static_cast<double>(slot_->epoch);
+  return slot_->epoch;
 }
 
 void FmuRun::jump(double number, double* y) {
   const auto lock = enter(number);
   const Epoch& epoch = epochs_[static_cast<std::size_t>(number)];
-  if (!epoch.event.states_changed) return;
-  for (std::size_t k = 0; k < states_.size(); ++k) y[k] = epoch.after[model_->order[k]];
+  if (epoch.event.states_changed) statesOf(epoch, y);
 }
 
 void FmuRun::start(double* y) {
   const auto lock = enter(0);
-  for (std::size_t k = 0; k < states_.size(); ++k) y[k] = epochs_[0].after[model_->order[k]];
+  statesOf(epochs_[0], y);
 }
 
 }  // namespace irk::own

@@ -31,6 +31,7 @@ void describe(SceneFunctions& f) {
     const FmuModel& model = runOf(self).model();
     n->nu = static_cast<int>(model.nu);
     n->nx = static_cast<int>(model.nx);
+    runOf(self).begin();
     n->discrete = 1;
     n->switches = static_cast<int>(runOf(self).switches());
     n->outputs = static_cast<int>(model.fmu.description.outputs.size());
@@ -62,11 +63,11 @@ void describe(SceneFunctions& f) {
   };
 }
 
-void evaluate(SceneFunctions& f, bool has_products) {
+void evaluate(SceneFunctions& f, const FmuDescription& fmu) {
   f.rates = [](void* self, double t, const double* y, const double* d, double* to) {
     return runOf(self).rates(t, y, d[0], to) ? 0 : 1;
   };
-  if (has_products) {
+  if (fmu.directional_derivatives) {
     f.product = [](void* self, double t, const double* y, const double*, const double* d, const double* dy,
                    const double*, double* dr) { return runOf(self).product(t, y, d[0], dy, dr) ? 0 : 1; };
   }
@@ -81,6 +82,8 @@ void evaluate(SceneFunctions& f, bool has_products) {
     d[0] = runOf(self).event(static_cast<std::size_t>(i), t, y, d[0]);
   };
   f.jump = [](void* self, int, double, double* y, const double* d) { runOf(self).jump(d[0], y); };
+  if (!fmu.steps_completed) return;
+  f.complete_step = [](void* self, double t, double* y, double* d) { return runOf(self).completeStep(t, y, *d); };
 }
 
 Parameter parameterOf(const FmuVariable& v) {
@@ -100,7 +103,8 @@ ForeignSource sourceOf(const std::shared_ptr<const FmuModel>& model) {
   const FmuDescription& fmu = model->fmu.description;
   source.derivatives = "its directional derivatives are no derivatives of its rates";
   describe(source.functions);
-  evaluate(source.functions, fmu.directional_derivatives);
+  evaluate(source.functions, fmu);
+  source.kind = SceneKind::kOde;
   source.open = [model](const ParameterValues& values, void** self, char*) {
     *self = new FmuRun(model, values);  // deleted by `close`
     return 0;

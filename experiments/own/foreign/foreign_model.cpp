@@ -83,6 +83,18 @@ ForeignModel::ForeignModel(const ForeignSource& source, const ParameterValues& v
   const auto guard = std::unique_lock(*source_.one_at_a_time);
   if (source_.open) open(values);
   kinks_ = detail::kinksSoFar<double>();
+  try {
+    readSizes();
+    requireFunctions();
+    readEntries();
+  } catch (...) {
+    if (functions().close) functions().close(self_);
+    throw;
+  }
+  magnitudes_.assign(layout_.size(), 1);
+}
+
+void ForeignModel::readSizes() {
   irk_scene_sizes n{};
   functions().size(self_, &n);
   sizes_ = {
@@ -92,14 +104,6 @@ ForeignModel::ForeignModel(const ForeignSource& source, const ParameterValues& v
   algebraic_index_ = n.algebraic_index == 0 ? 1 : n.algebraic_index;
   concurrent_ = n.concurrent != 0;
   layout_ = {.y = sizes_.components(), .w = sizes_.nu + sizes_.nx};
-  try {
-    requireFunctions();
-    readEntries();
-  } catch (...) {
-    if (functions().close) functions().close(self_);
-    throw;
-  }
-  magnitudes_.assign(layout_.size(), 1);
 }
 
 ForeignModel::~ForeignModel() {

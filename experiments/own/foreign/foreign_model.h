@@ -74,6 +74,7 @@ class ForeignModel {
 
  private:
   void open(const ParameterValues& values);
+  void readSizes();
   void requireFunctions() const;
   void readEntries();
   double increment(const double* point, const double* direction) const;

@@ -71,6 +71,18 @@ void ForeignProblem<kIndex>::jumpAtTime(Index i, const Point<double>& p, double*
 }
 
 template <int kIndex>
+bool ForeignProblem<kIndex>::completeStep(const Point<double>& p, double* u, double* v, double* x, double* d) const {
+  const auto point = packed(model->layout(), p);
+  Few<double> y(model->layout().yOf(point.data()), model->layout().wOf(point.data()));
+  const auto guard = model->lock();
+  if (!model->functions().complete_step(model->self(), point[0], y.data(), d)) return false;
+  std::copy_n(y.data(), p.u.size(), u);
+  std::copy_n(y.data() + p.u.size(), p.v.size(), v);
+  std::copy_n(y.data() + 2 * p.u.size(), p.x.size(), x);
+  return true;
+}
+
+template <int kIndex>
 void JumpingForeignProblem<kIndex>::jump(Index i, const Point<double>& p, double* u, double* v, double* x) const {
   this->moveTo(this->model->functions().jump, "irk_scene_jump", i, p, u, v, x);
 }

@@ -149,6 +149,8 @@ struct ForeignProblem {
     if (model->functions().on_time) changeDiscrete(i, p, d, model->functions().on_time, "irk_scene_on_time");
   }
   void jumpAtTime(Index i, const Point<double>& p, double* u, double* v, double* x) const;
+  bool completesSteps() const { return model->functions().complete_step != nullptr; }
+  bool completeStep(const Point<double>& p, double* u, double* v, double* x, double* d) const;
   std::string switchName(Index i) const;
 
  protected:

@@ -164,8 +164,10 @@ SceneEntry foreignEntry(ForeignSource source, const std::string& id, const std::
   entry.title = title.empty() ? "a scene in a shared library" : title;
   entry.shows = "a scene behind a C interface: numbers are double";
   entry.parameters = source.parameters;
-  const Settings defaults = completedSettings(id, source.parameters, {});
-  entry.kind = kindOf(ForeignModel(source, valuesOfParameters(source, defaults)));
+  const auto kindOfDefaults = [&] {
+    return kindOf(ForeignModel(source, valuesOfParameters(source, completedSettings(id, source.parameters, {}))));
+  };
+  entry.kind = source.kind ? *source.kind : kindOfDefaults();
   entry.make = [source = std::move(source)](const Settings& settings) { return foreignScene(source, settings); };
   return entry;
 }

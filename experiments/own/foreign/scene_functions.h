@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct SceneFunctions {
   decltype(irk_scene_jump_at_time)* jump_at_time = nullptr;
   decltype(irk_scene_output)* output = nullptr;
   decltype(irk_scene_outputs)* outputs = nullptr;
+  /// Of FMUs: called with the end of each accepted step that no switch has ended. Returns whether the step asks for
+  /// another mode; then changes d, and y where it jumps (System::completeStep).
+  bool (*complete_step)(void* self, double t, double* y, double* d) = nullptr;
 };
 
 /// The values of a scene's parameters, in their order. Where one is a table, the number is its value at the first row.
@@ -52,6 +56,8 @@ struct ForeignSource {
   std::vector<Parameter> parameters;
   /// Held during each call unless the scene is concurrent.
   std::shared_ptr<std::mutex> one_at_a_time = std::make_shared<std::mutex>();
+  /// Known without opening a scene; else the sizes tell it.
+  std::optional<SceneKind> kind = {};
   /// What derivatives are called in messages.
   std::string derivatives = {};
   /// Names, units and magnitudes of v where they are not those of u' (setComponents): an FMU names its states.

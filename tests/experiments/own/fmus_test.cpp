@@ -1,39 +1,15 @@
 // FMUs as scenes. Their models are those of tests/fmus.
 #if defined(IRK_FMUS)
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
-#include "experiments/own/files.h"
 #include "experiments/runs/run.h"
-#include "experiments/runs/setup.h"
 #include "irk/scene_file.h"
-#include "tests/experiments/own/own_files.h"
+#include "tests/experiments/own/fmu_files.h"
 #include "tests/experiments/reference/own_cache.h"
 
 namespace irk {
 namespace {
-
-std::string fmu(const std::string& name, int version) {
-  return IRK_FMUS "/fmu_" + name + "_" + std::to_string(version) + ".fmu";
-}
-
-RunSpec fmuSpec(const std::string& scene, double tolerance = 1e-8) {
-  RunSpec spec;
-  spec.scene = scene;
-  spec.method = "radau_iia_3";
-  spec.options.tolerances.rtol = spec.options.tolerances.atol = tolerance;
-  return spec;
-}
-
-Solution<double> integrated(const Setup<double>& setup) {
-  auto integrator = setup.integrator();
-  return integrator.integrate(setup.scene.start, setup.scene.t_end);
-}
-Solution<double> ofFmu(const std::string& file, double tolerance = 1e-8) {
-  return integrated(makeSetup<double>(fmuSpec(own::loadFile(file), tolerance)));
-}
 
 // The models of tests/fmus in C++.
 template <class Real>
@@ -145,31 +121,6 @@ TEST_F(Fmu, ARunAgainHasTheSameBits) {
   }
 }
 
-/// FMUs that are not as they should be.
-class DamagedFmu : public OwnFiles {
- protected:
-  // An archive of the pendulum's files with one text of the description replaced.
-  void pack(const std::string& name, int version, const std::string& from, const std::string& to) {
-    const std::filesystem::path made = IRK_FMUS "/fmu_pendulum_" + std::to_string(version),
-                                here = folder_.path() / name;
-    std::filesystem::copy(made, here, std::filesystem::copy_options::recursive);
-    write(name + "/modelDescription.xml", replaced(name + "/modelDescription.xml", from, to));
-    zip(name);
-  }
-  void zip(const std::string& name) {
-    const std::string archive = (folder_.path() / (name + ".fmu")).string();
-    const std::string command =
-        "cd " + (folder_.path() / name).string() + " && " IRK_CMAKE " -E tar cf " + archive + " --format=zip *";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
-  void expectRefused(const std::string& file, const std::string& text, const std::string& environment = {}) {
-    const Ran ran = irk("solve " + file + " --method radau_iia_3 --tol 1e-6", environment);
-    EXPECT_EQ(ran.status, 2) << file << ": " << ran.text;
-    EXPECT_NE(ran.text.find(text), std::string::npos) << file << ": " << ran.text;
-    EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << file << ": " << ran.text;
-  }
-};
-
 TEST_F(DamagedFmu, AnArchiveThatIsNotAsItShouldBeIsALine) {
   write("text.fmu", "no archive");
   expectRefused("text.fmu", "text.fmu: it is no zip archive, as an FMU is");
@@ -180,12 +131,12 @@ TEST_F(DamagedFmu, AnArchiveThatIsNotAsItShouldBeIsALine) {
   expectRefused("slave.fmu", "slave.fmu: it is for co-simulation only");
   pack("broken", 3, "</ModelVariables>", "</Model>");
   expectRefused("broken.fmu", "broken.fmu: modelDescription.xml: Start-end tags mismatch");
+  pack("array", 3, "initial=\"exact\" unit=\"rad\" start=\"1\"/>", "start=\"1\"><Dimension start=\"3\"/></Float64>");
+  expectRefused("array.fmu", "array.fmu: the state phi is an array");
   pack("nameless", 3, "modelIdentifier=\"fmu_pendulum\"", "modelIdentifier=\"pump\"");
   expectRefused("nameless.fmu", "it has no library for this platform, binaries/x86_64-linux/pump.so, and no sources");
   pack("number", 2, "<Unknown index=\"2\"/>", "<Unknown index=\"99\"/>");
   expectRefused("number.fmu", "number.fmu: modelDescription.xml: there is no variable number 99");
-  pack("array", 3, "initial=\"exact\" unit=\"rad\" start=\"1\"/>", "start=\"1\"><Dimension start=\"3\"/></Float64>");
-  expectRefused("array.fmu", "array.fmu: the state phi is an array");
   std::filesystem::create_directories(folder_.path() / "empty/resources");
   write("empty/resources/a.txt", "a");
   zip("empty");
