@@ -12,6 +12,12 @@ static const char* causality(Kind kind) {
  * derivative of its state, and a state. */
 static void variable(int version, int i) {
   const Variable* const v = &kVariables[i];
+  const Array* const array = arrayOf(i);
+  if (v->kind == kSize) {
+    printf("    <UInt64 name=\"%s\" valueReference=\"%d\" causality=\"structuralParameter\" variability=\"fixed\" "
+           "start=\"%g\"/>\n", v->name, i, v->start);
+    return;
+  }
   const int has_start = v->kind != kDerivative && v->kind != kOutput;
   const int differentiates = v->kind == kDerivative || v->kind == kVelocity;
   const char* const variability = v->kind == kParameter ? "fixed" : "continuous";
@@ -19,9 +25,24 @@ static void variable(int version, int i) {
          version == 2 ? "ScalarVariable" : "Float64", v->name, i, causality(v->kind), variability,
          has_start && v->kind != kInput ? " initial=\"exact\"" : "", version == 2 ? "><Real" : "");
   if (v->unit[0]) printf(" unit=\"%s\"", v->unit);
-  if (has_start) printf(" start=\"%.17g\"", v->start);
+  if (has_start && array && array->starts) {
+    printf(" start=\"%s\"", array->starts);
+  } else if (has_start) {
+    printf(" start=\"%.17g\"", v->start);
+  }
   if (differentiates) printf(" derivative=\"%d\"", version == 2 ? v->of + 1 : v->of);
-  printf(version == 2 ? "/></ScalarVariable>\n" : "/>\n");
+  if (!array) {
+    printf(version == 2 ? "/></ScalarVariable>\n" : "/>\n");
+    return;
+  }
+  printf("><Dimension ");
+  if (array->rows_of >= 0) {
+    printf("valueReference=\"%d\"/>", array->rows_of);
+  } else {
+    printf("start=\"%d\"/>", array->rows);
+  }
+  if (array->columns) printf("<Dimension start=\"%d\"/>", array->columns);
+  printf("</Float64>\n");
 }
 
 static void structure(int version) {
@@ -49,8 +70,8 @@ int main(int count, char** arguments) {
     printf("  <ModelExchange modelIdentifier=\"%s\" completedIntegratorStepNotNeeded=\"%s\" canGetAndSetFMUstate=\"true\"/>\n",
            kModelName, completed ? "false" : "true");
   } else {
-    printf("instantiationToken=\"{test}\">\n  <ModelExchange modelIdentifier=\"%s\" needsCompletedIntegratorStep=\"%s\"/>\n",
-           kModelName, completed ? "true" : "false");
+    printf("instantiationToken=\"{test}\">\n  <ModelExchange modelIdentifier=\"%s\" needsCompletedIntegratorStep=\"%s\" "
+           "providesDirectionalDerivatives=\"%s\"/>\n", kModelName, completed ? "true" : "false", product ? "true" : "false");
   }
   printf("  <DefaultExperiment startTime=\"0\" stopTime=\"%.17g\" tolerance=\"1e-6\"/>\n  <ModelVariables>\n", kStopTime);
   for (int i = 0; i < kVariableCount; ++i) variable(version, i);

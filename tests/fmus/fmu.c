@@ -40,9 +40,26 @@ static int derivativeOf(int state) {
   return -1;
 }
 
+static int sizeOf(int i) {
+  const Array* const array = arrayOf(i);
+  return !array ? 1 : array->columns == 0 ? array->rows : array->rows * array->columns;
+}
+/* The place of a variable's first number. */
+static int placeOf(int i) {
+  int place = 0;
+  for (int k = 0; k < i; ++k) place += sizeOf(k);
+  return place;
+}
+
 static Instance* make(void) {
   Instance* instance = calloc(1, sizeof(Instance));
-  for (int i = 0; i < kVariableCount; ++i) instance->model.v[i] = kVariables[i].start;
+  for (int i = 0; i < kVariableCount; ++i) {
+    const Array* const array = arrayOf(i);
+    char* next = array ? (char*)array->starts : NULL;
+    for (int j = 0; j < sizeOf(i); ++j) {
+      instance->model.v[placeOf(i) + j] = next ? strtod(next, &next) : kVariables[i].start;
+    }
+  }
   instance->model.next_time = -1;
   return instance;
 }
@@ -73,14 +90,14 @@ EXPORT fmiStatus NAME(SetTime)(fmiInstance c, double t) {
 EXPORT fmiStatus NAME(SetContinuousStates)(fmiInstance c, const double* x, size_t n) {
   size_t k = 0;
   for (int i = 0; i < kVariableCount && k < n; ++i) {
-    if (isState(i)) ((Instance*)c)->model.v[i] = x[k++];
+    for (int j = 0; isState(i) && j < sizeOf(i); ++j) ((Instance*)c)->model.v[placeOf(i) + j] = x[k++];
   }
   return fmiOK;
 }
 EXPORT fmiStatus NAME(GetContinuousStates)(fmiInstance c, double* x, size_t n) {
   size_t k = 0;
   for (int i = 0; i < kVariableCount && k < n; ++i) {
-    if (isState(i)) x[k++] = ((Instance*)c)->model.v[i];
+    for (int j = 0; isState(i) && j < sizeOf(i); ++j) x[k++] = ((Instance*)c)->model.v[placeOf(i) + j];
   }
   return fmiOK;
 }
@@ -94,7 +111,7 @@ static fmiStatus getDerivatives(fmiInstance c, double* dx, size_t n) {
   size_t k = 0;
   derivatives(model);
   for (int i = 0; i < kVariableCount && k < n; ++i) {
-    if (isState(i)) dx[k++] = model->v[derivativeOf(i)];
+    for (int j = 0; isState(i) && j < sizeOf(i); ++j) dx[k++] = model->v[placeOf(derivativeOf(i)) + j];
   }
   if (damaged("not finite")) dx[n - 1] = NAN;
   return damaged("discards") && model->time > 0.1 ? fmiDiscard : fmiOK;
@@ -105,14 +122,24 @@ EXPORT fmiStatus NAME(GetEventIndicators)(fmiInstance c, double* z, size_t n) {
   indicators(&((Instance*)c)->model, z);
   return fmiOK;
 }
-static fmiStatus setReal(fmiInstance c, const fmiReference* r, size_t n, const double* values) {
-  for (size_t k = 0; k < n; ++k) ((Instance*)c)->model.v[r[k]] = values[k];
-  return fmiOK;
+/* The numbers of n variables: an error unless there are `count`. */
+static fmiStatus requireCount(const fmiReference* r, size_t n, size_t count) {
+  size_t numbers = 0;
+  for (size_t k = 0; k < n; ++k) numbers += (size_t)sizeOf((int)r[k]);
+  return numbers == count ? fmiOK : fmiError;
 }
-static fmiStatus getReal(fmiInstance c, const fmiReference* r, size_t n, double* values) {
+static fmiStatus setReal(fmiInstance c, const fmiReference* r, size_t n, const double* values, size_t count) {
+  for (size_t k = 0; k < n; ++k) {
+    for (int j = 0; j < sizeOf((int)r[k]); ++j) ((Instance*)c)->model.v[placeOf((int)r[k]) + j] = *values++;
+  }
+  return requireCount(r, n, count);
+}
+static fmiStatus getReal(fmiInstance c, const fmiReference* r, size_t n, double* values, size_t count) {
   derivatives(&((Instance*)c)->model);
-  for (size_t k = 0; k < n; ++k) values[k] = ((Instance*)c)->model.v[r[k]];
-  return fmiOK;
+  for (size_t k = 0; k < n; ++k) {
+    for (int j = 0; j < sizeOf((int)r[k]); ++j) *values++ = ((Instance*)c)->model.v[placeOf((int)r[k]) + j];
+  }
+  return requireCount(r, n, count);
 }
 /* What the end of a step asks for. */
 static bool asks(fmiInstance c) { return completed && completed(&((Instance*)c)->model); }
@@ -173,10 +200,10 @@ EXPORT fmiStatus fmi2CompletedIntegratorStep(fmiInstance c, int keep, int* enter
 }
 EXPORT fmiStatus fmi2GetDerivatives(fmiInstance c, double* dx, size_t n) { return getDerivatives(c, dx, n); }
 EXPORT fmiStatus fmi2SetReal(fmiInstance c, const fmiReference* r, size_t n, const double* values) {
-  return setReal(c, r, n, values);
+  return setReal(c, r, n, values, n);
 }
 EXPORT fmiStatus fmi2GetReal(fmiInstance c, const fmiReference* r, size_t n, double* values) {
-  return getReal(c, r, n, values);
+  return getReal(c, r, n, values, n);
 }
 #else
 EXPORT fmiInstance fmi3InstantiateModelExchange(const char* name, const char* token, const char* resources,
@@ -218,11 +245,17 @@ EXPORT fmiStatus fmi3GetContinuousStateDerivatives(fmiInstance c, double* dx, si
   return getDerivatives(c, dx, n);
 }
 EXPORT fmiStatus fmi3SetFloat64(fmiInstance c, const fmiReference* r, size_t n, const double* values, size_t count) {
-  (void)count;
-  return setReal(c, r, n, values);
+  return setReal(c, r, n, values, count);
 }
 EXPORT fmiStatus fmi3GetFloat64(fmiInstance c, const fmiReference* r, size_t n, double* values, size_t count) {
-  (void)count;
-  return getReal(c, r, n, values);
+  return getReal(c, r, n, values, count);
+}
+EXPORT fmiStatus fmi3GetDirectionalDerivative(fmiInstance c, const fmiReference* unknowns, size_t unknown_count,
+                                              const fmiReference* knowns, size_t known_count, const double* seed,
+                                              size_t seeds, double* derivative, size_t derivative_count) {
+  if (requireCount(unknowns, unknown_count, derivative_count) != fmiOK) return fmiError;
+  if (requireCount(knowns, known_count, seeds) != fmiOK) return fmiError;
+  product(&((Instance*)c)->model, seed, derivative);
+  return fmiOK;
 }
 #endif

@@ -1,9 +1,15 @@
 #include "experiments/own/fmu/description.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cstdlib>
+#include <functional>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <pugixml.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "irk/misuse.h"
@@ -15,6 +21,13 @@ using Node = pugi::xml_node;
 
 std::string text(const Node& node, const char* attribute) { return node.attribute(attribute).as_string(); }
 bool flag(const Node& node, const char* attribute) { return node.attribute(attribute).as_bool(); }
+
+constexpr std::size_t kMostElements = 1'000'000;
+
+std::vector<std::string> startsIn(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
 
 /// The variables of one file, by their number from 1 on (version 2) or by reference (version 3).
 class Variables {
@@ -58,7 +71,6 @@ class Variables {
   // Whether a number can be given for it; its type.
   bool isNumber(const Node& variable, FmuType& type) const {
     const std::string_view name = typed(variable).name();
-    if (variable.child("Dimension")) return false;
     const bool real = name == "Real" || name == "Float64", integer = name == "Integer" || name == "Int32";
     type = real ? FmuType::kReal : integer ? FmuType::kInteger : FmuType::kBoolean;
     return real || integer || name == "Boolean";
@@ -86,7 +98,52 @@ class Variables {
     return v;
   }
 
+  // A variable, or the elements of an array row by row.
+  std::vector<FmuVariable> elements(const Node& node) const {
+    const FmuVariable whole = read(node);
+    const std::vector<std::size_t> sizes = sizesOf(node);
+    if (sizes.empty()) return {whole};
+    const std::vector<std::string> starts = startsIn(whole.start);
+    std::vector<FmuVariable> all(countOf(sizes), whole);
+    if (starts.size() > 1 && starts.size() != all.size()) {
+      throw Misuse(fmt::format("modelDescription.xml: {} has {} elements and {} start values", whole.name, all.size(),
+                               starts.size()));
+    }
+    std::vector<std::size_t> index(sizes.size(), 1);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].name += fmt::format("[{}]", fmt::join(index, "."));
+      all[i].element = i;
+      all[i].count = all.size();
+      if (!starts.empty()) all[i].start = starts[starts.size() == 1 ? 0 : i];
+      for (std::size_t k = sizes.size(); k-- > 0 && ++index[k] > sizes[k];) index[k] = 1;
+    }
+    return all;
+  }
+  std::size_t count(const Node& node) const { return countOf(sizesOf(node)); }
+
  private:
+  // The sizes of an array; none for a number. A size is a number or a structural parameter, which keeps its start.
+  std::vector<std::size_t> sizesOf(const Node& node) const {
+    std::vector<std::size_t> sizes;
+    std::size_t all = 1;
+    for (const Node& dimension : node.children("Dimension")) {
+      const auto parameter = dimension.attribute("valueReference");
+      const std::string given = text(parameter ? referenced(parameter.as_uint()) : dimension, "start");
+      const bool whole = !given.empty() && given.size() < 9 && given.find_first_not_of("0123456789") == given.npos;
+      sizes.push_back(whole ? std::stoul(given) : 0);
+      all *= sizes.back();
+      if (sizes.back() == 0 || all > kMostElements) {
+        throw Misuse(fmt::format(
+            "modelDescription.xml: {}: a dimension has start = '{}'; arrays of 1 to {} elements are possible",
+            text(node, "name"), given, kMostElements));
+      }
+    }
+    return sizes;
+  }
+  static std::size_t countOf(const std::vector<std::size_t>& sizes) {
+    return std::accumulate(sizes.begin(), sizes.end(), std::size_t{1}, std::multiplies<>());
+  }
+
   int version_;
   std::vector<Node> nodes_;
   std::map<unsigned, Node> by_reference_;
@@ -130,10 +187,7 @@ void readStates(const Node& root, const Variables& variables, FmuDescription& fm
     }
   } else {
     for (const Node& child : structure.children("EventIndicator")) {
-      if (variables.referenced(child.attribute("valueReference").as_uint()).child("Dimension")) {
-        throw Misuse("an event indicator is an array: this is not possible here");
-      }
-      ++fmu.indicators;
+      fmu.indicators += variables.count(variables.referenced(child.attribute("valueReference").as_uint()));
     }
     for (const Node& unknown : structure.children("ContinuousStateDerivative")) {
       derivatives.push_back(variables.referenced(unknown.attribute("valueReference").as_uint()));
@@ -145,13 +199,24 @@ void readStates(const Node& root, const Variables& variables, FmuDescription& fm
       throw Misuse(fmt::format("modelDescription.xml: {} has no attribute derivative", text(derivative, "name")));
     }
     const Node state = fmu.version == 2 ? variables.numbered(of) : variables.referenced(of);
-    if (state.child("Dimension")) {
-      throw Misuse(fmt::format("the state {} is an array: this is not possible here", text(state, "name")));
+    const std::vector<FmuVariable> elements = variables.elements(state);
+    if (variables.count(derivative) != elements.size()) {
+      throw Misuse(fmt::format("modelDescription.xml: the state {} has {} elements, and its derivative {} has {}",
+                               text(state, "name"), elements.size(), text(derivative, "name"),
+                               variables.count(derivative)));
     }
-    fmu.states.push_back(variables.read(state));
-    fmu.derivatives.push_back(derivative.attribute("valueReference").as_uint());
+    fmu.states.insert(fmu.states.end(), elements.begin(), elements.end());
+    fmu.derivatives.resize(fmu.states.size(), derivative.attribute("valueReference").as_uint());
   }
   if (fmu.states.empty()) throw Misuse("it has no continuous states: there is nothing to integrate");
+}
+
+void requireNumericStart(const FmuVariable& v) {
+  char* end = nullptr;
+  std::strtod(v.start.c_str(), &end);
+  const bool truth = v.type == FmuType::kBoolean && (v.start == "true" || v.start == "false");
+  if (truth || *end == 0) return;
+  throw Misuse(fmt::format("modelDescription.xml: {} has the start value '{}': a number is expected", v.name, v.start));
 }
 
 void readOthers(const Variables& variables, FmuDescription& fmu) {
@@ -161,15 +226,16 @@ void readOthers(const Variables& variables, FmuDescription& fmu) {
     FmuType type = FmuType::kReal;
     if (!variables.isNumber(node, type)) continue;
     const std::string causality = text(node, "causality"), initial = text(node, "initial");
-    FmuVariable v = variables.read(node);
-    const bool state = is_state.contains(v.reference);
+    const bool state = is_state.contains(node.attribute("valueReference").as_uint());
     const bool exact = initial.empty() || initial == "exact";
-    v.input = causality == "input" && type == FmuType::kReal;
-    const bool can_be_set = causality == "parameter" || causality == "input" || (state && exact);
-    if (can_be_set && !v.start.empty()) {
-      fmu.settable.push_back(std::move(v));
-    } else if (causality == "output" && type == FmuType::kReal && !state) {
-      fmu.outputs.push_back(std::move(v));
+    const bool can_be_set = (causality == "parameter" || causality == "input" || (state && exact)) &&
+                            !variables.attribute(node, "start").empty();
+    const bool output = causality == "output" && type == FmuType::kReal && !state;
+    if (!can_be_set && !output) continue;
+    for (FmuVariable& v : variables.elements(node)) {
+      v.input = causality == "input" && type == FmuType::kReal;
+      if (can_be_set) requireNumericStart(v);
+      (can_be_set ? fmu.settable : fmu.outputs).push_back(std::move(v));
     }
   }
 }
@@ -214,7 +280,10 @@ std::vector<int> velocitiesOf(const FmuDescription& fmu) {
   std::vector<bool> taken(n, false);
   for (std::size_t q = 0; q < n; ++q) {
     for (std::size_t v = 0; v < n && !taken[q]; ++v) {
-      if (v == q || taken[v] || fmu.derivatives[q] != fmu.states[v].reference) continue;
+      if (v == q || taken[v] || fmu.derivatives[q] != fmu.states[v].reference ||
+          fmu.states[q].element != fmu.states[v].element) {
+        continue;
+      }
       velocity[q] = static_cast<int>(v);
       taken[q] = taken[v] = true;
     }

@@ -23,12 +23,12 @@ class Fmi2Instance final : public CommonInstance {
   ~Fmi2Instance() override { free(); }
 
   bool product(const double* seed, double* to) override {
-    return good(get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, to));
+    return good(get_product_(instance_, derivative_references_.data(), n_, references_.data(), n_, seed, to));
   }
   bool setInputs(const std::vector<unsigned>& references, const std::vector<double>& values) override {
     return good(set_real_(instance_, references.data(), references.size(), values.data()));
   }
-  bool values(const std::vector<unsigned>& references, double* to) override {
+  bool values(const std::vector<unsigned>& references, double* to, std::size_t) override {
     return good(get_real_(instance_, references.data(), references.size(), to));
   }
 
@@ -59,7 +59,7 @@ class Fmi2Instance final : public CommonInstance {
   void initialize(const std::vector<FmuValue>& values, double start, double stop) override {
     require(get<fmi2SetupExperimentTYPE>("fmi2SetupExperiment")(instance_, 0, 0, start, 1, stop),
             "fmi2SetupExperiment");
-    for (const auto& [variable, value] : values) set(*variable, value);
+    for (const auto& [variable, numbers] : values) set(*variable, numbers.front());
     require(get<fmi2EnterInitializationModeTYPE>("fmi2EnterInitializationMode")(instance_),
             "fmi2EnterInitializationMode");
   }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "experiments/own/fmu/instance_base.h"
 
 namespace irk::own {
@@ -17,34 +19,37 @@ class Fmi3Instance final : public CommonInstance {
   ~Fmi3Instance() override { free(); }
 
   bool product(const double* seed, double* to) override {
-    return good(
-        get_product_(instance_, fmu_.description.derivatives.data(), n_, references_.data(), n_, seed, n_, to, n_));
+    return good(get_product_(instance_, derivative_references_.data(), derivative_references_.size(),
+                             references_.data(), references_.size(), seed, n_, to, n_));
   }
   bool setInputs(const std::vector<unsigned>& references, const std::vector<double>& values) override {
     return good(set_real_(instance_, references.data(), references.size(), values.data(), values.size()));
   }
-  bool values(const std::vector<unsigned>& references, double* to) override {
-    return good(get_real_(instance_, references.data(), references.size(), to, references.size()));
+  bool values(const std::vector<unsigned>& references, double* to, std::size_t count) override {
+    return good(get_real_(instance_, references.data(), references.size(), to, count));
   }
 
  private:
-  void set(const FmuVariable& variable, double value) {
+  void set(const FmuVariable& variable, const std::vector<double>& numbers) {
     const unsigned reference = variable.reference;
-    const auto whole = static_cast<std::int32_t>(value);
-    const bool truth = value != 0;
+    const std::size_t count = numbers.size();
     fmiStatus status = fmiOK;
     if (variable.type == FmuType::kReal) {
-      status = set_real_(instance_, &reference, 1, &value, 1);
+      status = set_real_(instance_, &reference, 1, numbers.data(), count);
     } else if (variable.type == FmuType::kInteger) {
-      status = get<fmi3SetInt32TYPE>("fmi3SetInt32")(instance_, &reference, 1, &whole, 1);
+      std::vector<std::int32_t> whole(count);
+      std::transform(numbers.begin(), numbers.end(), whole.begin(), [](double x) { return std::int32_t(x); });
+      status = get<fmi3SetInt32TYPE>("fmi3SetInt32")(instance_, &reference, 1, whole.data(), count);
     } else {
-      status = get<fmi3SetBooleanTYPE>("fmi3SetBoolean")(instance_, &reference, 1, &truth, 1);
+      const auto truths = std::make_unique<bool[]>(count);
+      std::transform(numbers.begin(), numbers.end(), truths.get(), [](double x) { return x != 0; });
+      status = get<fmi3SetBooleanTYPE>("fmi3SetBoolean")(instance_, &reference, 1, truths.get(), count);
     }
     require(status, ("setting " + variable.name).c_str());
   }
 
   void initialize(const std::vector<FmuValue>& values, double start, double stop) override {
-    for (const auto& [variable, value] : values) set(*variable, value);
+    for (const auto& [variable, numbers] : values) set(*variable, numbers);
     require(get<fmi3EnterInitializationModeTYPE>("fmi3EnterInitializationMode")(instance_, false, 0, start, true, stop),
             "fmi3EnterInitializationMode");
   }

@@ -33,8 +33,8 @@ struct FmuLibrary {
   std::string resources;  ///< the folder
 };
 
-/// A variable and the number that is given to it.
-using FmuValue = std::pair<const FmuVariable*, double>;
+/// A variable and the number that is given to it; of an array its first element and the numbers of all.
+using FmuValue = std::pair<const FmuVariable*, std::vector<double>>;
 
 /// An instance, in continuous-time mode after `begin`. Not for two threads at a time. Functions that return bool return
 /// false where the FMU cannot compute the values.
@@ -66,7 +66,8 @@ class FmuInstance {
   virtual bool derivatives(double* to) = 0;
   virtual bool indicators(double* to) = 0;
   virtual bool product(const double* seed, double* to) = 0;  ///< the Jacobian of the derivatives times `seed`
-  virtual bool values(const std::vector<unsigned>& references, double* to) = 0;
+  /// Those of all elements, `count` numbers.
+  virtual bool values(const std::vector<unsigned>& references, double* to, std::size_t count) = 0;
 };
 
 /// Throws Misuse for an FMU that lacks a function of the standard or that cannot be instantiated.

@@ -37,7 +37,11 @@ class CommonInstance : public FmuInstance {
       set_state_ = get<fmiSetFMUStateTYPE>(prefix + "Set" + state);
       free_state_ = get<fmiFreeFMUStateTYPE>(prefix + "Free" + state);
     }
-    for (const auto& state : fmu.description.states) references_.push_back(state.reference);
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (fmu.description.states[i].element > 0) continue;
+      references_.push_back(fmu.description.states[i].reference);
+      derivative_references_.push_back(fmu.description.derivatives[i]);
+    }
   }
 
   FmuEvent begin(const std::vector<FmuValue>& values, double start, double stop) final {
@@ -105,8 +109,8 @@ class CommonInstance : public FmuInstance {
   const FmuLibrary& fmu_;
   std::size_t n_;
   fmiInstance instance_ = nullptr;
-  std::vector<unsigned> references_;  // of the states
-  std::string message_;               // the FMU's last one about a failure
+  std::vector<unsigned> references_, derivative_references_;  // of the states and their derivatives
+  std::string message_;                                       // the FMU's last one about a failure
 
  private:
   // From event mode to continuous-time mode.

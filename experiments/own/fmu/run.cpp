@@ -29,20 +29,33 @@ Misuse terminated(double t) {
 FmuRun::FmuRun(std::shared_ptr<const FmuModel> model, const ParameterValues& values)
     : model_(std::move(model)), slot_(model_->only ? model_->only : std::make_shared<FmuSlot>()) {
   const FmuDescription& fmu = model_->fmu.description;
-  for (std::size_t i = 0; i < fmu.settable.size(); ++i) {
-    const auto table = values.tables.find(i);
-    const bool is_table = table != values.tables.end();
-    const double value = is_table ? table->second(fmu.start) : values.numbers[i];
-    if (value != defaultOf(fmu.settable[i])) values_.emplace_back(&fmu.settable[i], value);
-    if (!is_table) continue;
-    inputs_.push_back(table->second);
-    input_references_.push_back(fmu.settable[i].reference);
+  for (std::size_t i = 0; i < fmu.settable.size(); i += fmu.settable[i].count) set(i, values);
+  for (const auto& output : fmu.outputs) {
+    if (output.element == 0) outputs_.push_back(output.reference);
   }
-  input_values_.resize(inputs_.size());
-  for (const auto& output : fmu.outputs) outputs_.push_back(output.reference);
   states_.resize(fmu.states.size());
   rates_.resize(fmu.states.size());
   indicators_.resize(fmu.indicators);
+}
+
+// Gives the variable i its value, or its table over time; an array with its first element at i.
+void FmuRun::set(std::size_t i, const ParameterValues& values) {
+  const FmuDescription& fmu = model_->fmu.description;
+  bool differs = false;
+  std::vector<double> numbers;
+  std::vector<std::pair<std::size_t, TimeTable<double>>> tables;
+  for (std::size_t k = i; k < i + fmu.settable[i].count; ++k) {
+    const auto table = values.tables.find(k);
+    const bool is_table = table != values.tables.end();
+    if (is_table) tables.emplace_back(input_values_.size() + numbers.size(), table->second);
+    numbers.push_back(is_table ? table->second(fmu.start) : values.numbers[k]);
+    differs = differs || numbers.back() != defaultOf(fmu.settable[k]);
+  }
+  if (differs) values_.emplace_back(&fmu.settable[i], numbers);
+  if (tables.empty()) return;
+  tables_.insert(tables_.end(), tables.begin(), tables.end());
+  input_references_.push_back(fmu.settable[i].reference);
+  input_values_.insert(input_values_.end(), numbers.begin(), numbers.end());
 }
 
 FmuRun::~FmuRun() {
@@ -133,8 +146,8 @@ std::unique_lock<std::mutex> FmuRun::enter(double number) {
 bool FmuRun::moveTo(double t, const double* states) {
   FmuInstance& instance = *slot_->instance;
   if (!instance.setPoint(t, states)) return false;
-  for (std::size_t i = 0; i < inputs_.size(); ++i) input_values_[i] = inputs_[i](t);
-  return inputs_.empty() || instance.setInputs(input_references_, input_values_);
+  for (const auto& [place, table] : tables_) input_values_[place] = table(t);
+  return tables_.empty() || instance.setInputs(input_references_, input_values_);
 }
 
 bool FmuRun::setPoint(double t, const double* y) {
@@ -169,7 +182,7 @@ bool FmuRun::product(double t, const double* y, double epoch, const double* dy, 
 
 bool FmuRun::outputs(double t, const double* y, double epoch, double* values) {
   const auto lock = enter(epoch);
-  return setPoint(t, y) && slot_->instance->values(outputs_, values);
+  return setPoint(t, y) && slot_->instance->values(outputs_, values, model_->fmu.description.outputs.size());
 }
 
 bool FmuRun::switching(double t, const double* y, double number, double* g) {

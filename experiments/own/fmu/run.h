@@ -62,6 +62,7 @@ class FmuRun {
   void repeat(std::size_t epoch);
   bool setPoint(double t, const double* y);
   bool moveTo(double t, const double* states);
+  void set(std::size_t i, const ParameterValues& values);
   void settle(Epoch& epoch);
   bool tellStep(double t);
   FmuEvent eventAt(double t);
@@ -74,8 +75,8 @@ class FmuRun {
 
   std::shared_ptr<const FmuModel> model_;
   std::vector<FmuValue> values_;
-  std::vector<TimeTable<double>> inputs_;
-  std::vector<unsigned> input_references_;
+  std::vector<std::pair<std::size_t, TimeTable<double>>> tables_;  // and their places in input_values_
+  std::vector<unsigned> input_references_;  // of the inputs with tables; an array is set as a whole
   std::vector<double> input_values_;
   std::shared_ptr<FmuSlot> slot_;
   std::vector<Epoch> epochs_;

@@ -131,8 +131,6 @@ TEST_F(DamagedFmu, AnArchiveThatIsNotAsItShouldBeIsALine) {
   expectRefused("slave.fmu", "slave.fmu: it is for co-simulation only");
   pack("broken", 3, "</ModelVariables>", "</Model>");
   expectRefused("broken.fmu", "broken.fmu: modelDescription.xml: Start-end tags mismatch");
-  pack("array", 3, "initial=\"exact\" unit=\"rad\" start=\"1\"/>", "start=\"1\"><Dimension start=\"3\"/></Float64>");
-  expectRefused("array.fmu", "array.fmu: the state phi is an array");
   pack("nameless", 3, "modelIdentifier=\"fmu_pendulum\"", "modelIdentifier=\"pump\"");
   expectRefused("nameless.fmu", "it has no library for this platform, binaries/x86_64-linux/pump.so, and no sources");
   pack("number", 2, "<Unknown index=\"2\"/>", "<Unknown index=\"99\"/>");
